@@ -1,0 +1,54 @@
+import js from '@eslint/js';
+import { defineConfig, globalIgnores } from 'eslint/config';
+import globals from 'globals';
+import tseslint from 'typescript-eslint';
+
+/** What a folder of web/ must not import: a pattern of relative paths and the reason. */
+const towards = (folders, message) => ({ regex: `^(\\.\\./)+(${folders})(/|\\.ts$|$)`, message });
+const everywhere = towards('main|tests|tools', 'main.ts, tests and tools know the app, never the reverse');
+
+/**
+ * One direction of imports: ui sees the two clients and motion, view and model see motion, audio and motion see
+ * nobody, and only main.ts knows everyone.
+ */
+const directions = {
+  motion: [towards('audio|model|view|ui', 'motion imports nothing of ours')],
+  audio: [towards('motion|model|view|ui', 'audio imports nothing of ours')],
+  model: [towards('audio|view|ui', 'model imports motion only')],
+  view: [towards('audio|model|ui', 'view imports motion only')],
+  ui: [
+    towards('view', 'main.ts hands the stage to ui'),
+    {
+      regex: '^(\\.\\./)+(audio|model)(?!/client(\\.ts)?$)(/|$)',
+      message: 'ui sees the clients of audio and model only',
+    },
+  ],
+};
+
+export default defineConfig(
+  globalIgnores(['dist', 'node_modules', '.venv', 'runs', '.scratch', 'test-results', 'playwright-report']),
+  js.configs.recommended,
+  {
+    files: ['**/*.ts'],
+    extends: [tseslint.configs.recommendedTypeChecked],
+    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    rules: {
+      '@typescript-eslint/no-floating-promises': 'error',
+      '@typescript-eslint/no-misused-promises': 'error',
+      '@typescript-eslint/switch-exhaustiveness-check': 'error',
+      '@typescript-eslint/consistent-type-imports': 'error',
+      '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true }],
+      '@typescript-eslint/no-unused-vars': ['error', { argsIgnorePattern: '^_' }],
+      eqeqeq: 'error',
+    },
+  },
+  { files: ['web/**/*.ts'], rules: { 'no-console': ['error', { allow: ['warn', 'error'] }] } },
+  ...Object.entries(directions).map(([folder, patterns]) => ({
+    files: [`web/${folder}/**/*.ts`],
+    rules: { 'no-restricted-imports': ['error', { patterns: [everywhere, ...patterns] }] },
+  })),
+  {
+    files: ['**/*.mjs', '*.js', '*.config.ts'],
+    languageOptions: { globals: globals.node },
+  },
+);

@@ -1,0 +1,1 @@
+"""From a trained checkpoint to the graphs, manifest and golden tensors that the browser runs."""

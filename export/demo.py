@@ -1,0 +1,76 @@
+"""The shipped demo's dancers, made by the model itself: a leader by role swap, and a first reaction to that leader.
+
+    python -m export.demo --model web/public/models/salsa --data ../shared/data/cmu_salsa/duets.npz --duet salsa_02
+    node tools/write-bvh.mjs runs/demo/motions.npz web/public/demo
+
+The duet only lends its reactor as the partner of the leader that is generated; nothing of it is written.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import tyro
+
+from export.runtime import open_model, react
+from training.config import FPS
+from training.data.augment import warp_factor, warp_motion
+from training.data.floor import put_on_floor
+from training.data.sources import read_duets
+from training.filmstrip import filmstrip
+from training.music.demo import Options as Song
+from training.music.features import features, load_audio
+from training.music.recipe import AudioRecipe
+from training.music.tempo import CYCLE, Tempo, duet_tempo
+
+
+@dataclass(frozen=True)
+class Options:
+    model: Path
+    data: Path
+    duet: str
+    song: Path = Path("web/public/demo/song.mp3")
+    out: Path = Path("runs/demo")
+    seconds: float = 32.0
+    skip: int = 1
+    """Eight-counts of the duet to leave out at its start, where the couple walks in."""
+    leader_seed: int = 3
+    seed: int = 1204
+
+
+def on_the_beat(motion: np.ndarray, danced: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
+    """(T, 22, 3) at the song's tempo, cut so that its cycles begin where the song's do."""
+    factor = song.bpm / danced.bpm
+    warped = warp_motion(motion, factor)
+    first = danced.first / warp_factor(len(motion), factor)
+    cycle = CYCLE * 60 / song.bpm
+    cut = (first - song.first) % cycle
+    start = round((cut + skip * cycle) * FPS)
+    return warped[start : start + round(seconds * FPS)]
+
+
+def main(options: Options) -> None:
+    duets = {duet.name: duet for duet in read_duets(options.data)}
+    duet = duets[options.duet]
+    song = Tempo(Song.bpm, 0.35)
+    partner = on_the_beat(
+        duet.reactor, duet_tempo(duet, leader_only=False), song, options.skip, options.seconds
+    )
+    recipe = AudioRecipe()
+    music = features(load_audio(options.song, recipe), recipe)[: len(partner)]
+    model = open_model(options.model, threads=1)
+    leader = put_on_floor(react(model, partner, music, options.leader_seed, role=1.0))
+    middle = leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
+    leader = (leader - middle).astype(np.float32)
+    reactor = react(model, leader, music, options.seed)
+    options.out.mkdir(parents=True, exist_ok=True)
+    np.savez(options.out / "motions.npz", leader=leader, reactor=reactor)
+    for start in range(0, int(options.seconds) - 8, 8):
+        filmstrip(leader, reactor, options.out / f"from_{start}.png", start=start)
+    print(f"{len(leader) / FPS:.1f} s in {options.out}")
+
+
+if __name__ == "__main__":
+    main(tyro.cli(Options))

@@ -1,0 +1,82 @@
+"""Golden tensors: one whole sampling of the PyTorch model, for every other runtime to be held against."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from training.config import STREAMS
+from training.data.made import made_dancer
+from training.diffusion import alphas_cumprod, ddim_steps
+from training.noise import noise
+from training.sampler import Model, condition, decode, sample
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is sampled: a made leader and made music, so that the tensors are the project's own."""
+
+    frames: int
+    steps: int
+    seed: int = 7
+    silent_from: int | None = None  # motion frame after which there is no song
+
+
+def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
+    """leader, music, music_valid, role, guidance (different for each stream and layer)."""
+    random = np.random.default_rng(scene.seed)
+    valid = np.ones(scene.frames, dtype=np.float32)
+    if scene.silent_from is not None:
+        valid[scene.silent_from :] = 0
+    guidance = np.linspace(-0.5, 1.5, len(STREAMS) * model.denoiser.layers, dtype=np.float32)
+    return {
+        "leader": made_dancer(scene.frames, scene.seed),
+        "music": random.normal(size=(scene.frames, 54)).astype(np.float32),
+        "music_valid": valid,
+        "role": np.zeros(1, dtype=np.float32),
+        "guidance": guidance.reshape(len(STREAMS), model.denoiser.layers),
+    }
+
+
+def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, np.ndarray]:
+    """Inputs and everything PyTorch makes of them: memory, initial noise, x and x0 after each step, joints.
+
+    x and x0 are (steps, L, R, C), or the last step alone when `every_step` is off; reactor and coarse are (T, 22, 3).
+    """
+    given = inputs(model, scene)
+    tensors = {name: torch.from_numpy(value) for name, value in given.items()}
+    memory = condition(model, tensors["leader"], tensors["music"], tensors["music_valid"], role=0.0)
+    layers, channels = model.denoiser.layers, model.denoiser.latent_width
+    initial = torch.from_numpy(noise(scene.seed, len(memory), layers * channels, draw=0)).reshape(
+        -1, layers, channels
+    )
+    states: list[tuple[np.ndarray, np.ndarray]] = []
+    latents = sample(
+        model.denoiser,
+        memory,
+        initial,
+        ddim_steps(alphas_cumprod(model.diffusion), scene.steps),
+        tensors["guidance"],
+        model.diffusion,
+        on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
+    )
+    only_coarse = torch.zeros(layers)
+    only_coarse[0] = 1
+    kept = states if every_step else states[-1:]
+    return given | {
+        "seed": np.array([scene.seed], dtype=np.float32),
+        "steps": np.array([scene.steps], dtype=np.float32),
+        "memory": memory.numpy(),
+        "initial": initial.numpy(),
+        "x": np.stack([x for x, _ in kept]),
+        "x0": np.stack([x0 for _, x0 in kept]),
+        "reactor": decode(model, latents, tensors["leader"]).numpy(),
+        "coarse": decode(model, latents, tensors["leader"], only_coarse).numpy(),
+    }
+
+
+def write(path: Path, tensors: dict[str, np.ndarray]) -> None:
+    np.savez_compressed(path, **{name: value.astype(np.float32) for name, value in tensors.items()})  # pyright: ignore

@@ -1,0 +1,67 @@
+"""The three graphs of the browser, as modules: condition and decode over the clip, step over blocks.
+
+They carry the maths (normalisation, frame of reference, guidance, sampler update), so that the page passes metres and
+features. Batch-free at their edges: one clip at a time.
+"""
+
+from __future__ import annotations
+
+from torch import Tensor, nn
+
+from training.frame import smoothed_heading
+from training.sampler import Model, guided_x0
+from training.streams import from_streams, leader_features
+
+
+class Condition(nn.Module):
+    """leader (T, 22, 3), music (T, 54), music_valid (T), role (1) to memory (T / 4, M)."""
+
+    def __init__(self, model: Model) -> None:
+        super().__init__()
+        self.encoder = model.denoiser.condition
+        self.frame = model.frame
+
+    def forward(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
+        features = leader_features(leader, smoothed_heading(leader, self.frame))
+        return self.encoder(features[None], music[None], music_valid[None], role)[0]
+
+
+class SamplerStep(nn.Module):
+    """One guided denoising step over B blocks; see `guided_x0` for Eq. 9.
+
+    x, x0_prev, noise (B, block, R, C), memory (B, block, M), valid (B, block), time (1), guidance (S, R),
+    coefficients (4) to x_next and x0 (B, block, R, C).
+    """
+
+    def __init__(self, model: Model) -> None:
+        super().__init__()
+        self.denoiser = model.denoiser
+
+    def forward(
+        self,
+        x: Tensor,
+        x0_prev: Tensor,
+        noise: Tensor,
+        memory: Tensor,
+        valid: Tensor,
+        time: Tensor,
+        guidance: Tensor,
+        coefficients: Tensor,
+    ) -> tuple[Tensor, Tensor]:
+        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance)
+        a, b, c, d = coefficients.unbind(0)
+        return a * x + b * x0 + c * x0_prev + d * noise, x0
+
+
+class Decode(nn.Module):
+    """latents (L, R, C) normalised, leader (4 L, 22, 3), layers (R) to reactor (4 L, 22, 3) metres."""
+
+    def __init__(self, model: Model) -> None:
+        super().__init__()
+        self.hfsq = model.hfsq
+        self.frame = model.frame
+
+    def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
+        raw = self.hfsq.denormalise(latents) * layers[:, None]
+        upper, lower, placement = (s[0] for s in self.hfsq.decode(raw[None]))
+        return from_streams(upper, lower, placement, leader, smoothed_heading(leader, self.frame))

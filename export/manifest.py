@@ -1,0 +1,96 @@
+"""The manifest: every number that the page needs, written once from the trained model's own configuration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date
+from typing import Any
+
+from training.config import FPS, STREAMS, STRIDE
+from training.diffusion import alphas_cumprod
+from training.music.recipe import AudioRecipe
+from training.sampler import Model
+from training.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
+
+FORMAT, VERSION = "reactdance-model", 1
+LAYER_NAMES = ("coarse", "fine")
+
+
+@dataclass(frozen=True)
+class Card:
+    """What a person should know about a model before using it."""
+
+    id: str
+    name: str
+    licence: str
+    data_licence: str
+    attribution: str
+    notes: tuple[str, ...]
+    reference_height: float  # metres, `body_height` of the leaders it was trained on
+
+
+def layer_names(layers: int) -> list[str]:
+    """coarse, fine; further residual layers, if a config asks for them, are fine_3, fine_4 ..."""
+    return [LAYER_NAMES[r] if r < len(LAYER_NAMES) else f"fine_{r + 1}" for r in range(layers)]
+
+
+def condition_field(model: Model) -> int:
+    """Latent frames on each side of a chunk that its memory depends on: smoothing, velocity, convolutions."""
+    return -(-(model.frame.radius + 1) // STRIDE) + model.denoiser.condition.receptive_field
+
+
+def decode_field(model: Model) -> int:
+    """The same for decoding: convolutions of the decoder, and the smoothing of the leader's heading."""
+    return max(model.hfsq.receptive_field, -(-model.frame.radius // STRIDE))
+
+
+def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golden: str) -> dict[str, Any]:
+    """The manifest as plain JSON values; `entries` are the graphs as described by `onnx_files.describe`."""
+    diffusion = model.diffusion
+    names = layer_names(model.denoiser.layers)
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "id": card.id,
+        "name": card.name,
+        "created": date.today().isoformat(),
+        "licence": {"weights": card.licence, "data": card.data_licence},
+        "attribution": card.attribution,
+        "notes": list(card.notes),
+        "skeleton": {
+            "joints": list(JOINTS),
+            "parents": list(PARENTS),
+            "upper": list(UPPER),
+            "lower": list(LOWER),
+            "feet": list(FEET),
+            "reference_height": round(card.reference_height, 4),
+        },
+        "fps": FPS,
+        "latent": {
+            "stride": STRIDE,
+            "block": model.denoiser.config.block,
+            "channels": model.denoiser.latent_width,
+            "streams": list(STREAMS),
+            "layers": names,
+            "memory_width": 2 * model.denoiser.config.width,
+            "receptive_field": {"condition": condition_field(model), "decode": decode_field(model)},
+        },
+        "diffusion": {
+            "train_steps": diffusion.train_steps,
+            "alphas_cumprod": [float(f"{a:.10g}") for a in alphas_cumprod(diffusion)],
+            "sampler": "ddim",
+            "alternating_phase": diffusion.alternating_phase,
+            "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
+        },
+        "guidance": {
+            "convention": "(1+s)*cond - s*uncond",
+            "min": -1,
+            "max": 3,
+            "step": 0.05,
+            "default": {name: diffusion.guidance[min(r, 1)] for r, name in enumerate(names)},
+        },
+        "noise": {"algorithm": "philox4x32-10"},
+        "audio": AudioRecipe().to_dict(),
+        "graphs": entries,
+        "golden": {"path": golden},
+    }

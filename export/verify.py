@@ -1,0 +1,87 @@
+"""Hold an exported model against PyTorch: every graph, every step of a full sampling, several lengths.
+
+python -m export.verify --checkpoint training/checkpoints/salsa --model web/public/models/salsa
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import tyro
+from rich.console import Console
+from rich.table import Table
+
+from export.golden import Scene, reference
+from export.runtime import Exported, open_model, plan, sample
+from training.checkpoint import load_model
+from training.sampler import Model
+
+TOLERANCE = 1e-4
+BLOCKS = (1, 2, 9, 75)
+
+
+@dataclass(frozen=True)
+class Options:
+    checkpoint: Path
+    model: Path
+    blocks: tuple[int, ...] = BLOCKS
+
+
+def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, float]:
+    """Largest absolute difference of memory, of x and x0 over all steps, and of the decoded joints in metres."""
+    truth = reference(model, scene)
+    (memory,) = exported.run(
+        "condition", **{name: truth[name] for name in ("leader", "music", "music_valid", "role")}
+    )
+    states: list[tuple[np.ndarray, np.ndarray]] = []
+    latents = sample(
+        exported,
+        truth["memory"],
+        scene.seed,
+        plan(exported.manifest, scene.steps),
+        truth["guidance"],
+        on_step=lambda _, x, x0: states.append((x.copy(), x0.copy())),
+    )
+    layers = len(exported.manifest["latent"]["layers"])
+    (reactor,) = exported.run("decode", latents=latents, leader=truth["leader"], layers=np.ones(layers))
+
+    def worst(a: np.ndarray, b: np.ndarray) -> float:
+        return float(np.abs(a - b).max())
+
+    return {
+        "memory": worst(memory, truth["memory"]),
+        "x": worst(np.stack([x for x, _ in states]), truth["x"]),
+        "x0": worst(np.stack([x0 for _, x0 in states]), truth["x0"]),
+        "reactor": worst(reactor, truth["reactor"]),
+    }
+
+
+def verify(model: Model, folder: Path, blocks: tuple[int, ...]) -> dict[int, dict[str, float]]:
+    """Differences for clips of so many blocks, the last one not full. Raises ValueError beyond the tolerance."""
+    exported = open_model(folder)
+    stride, size = exported.manifest["latent"]["stride"], exported.manifest["latent"]["block"]
+    results: dict[int, dict[str, float]] = {}
+    for count in blocks:
+        frames = stride * (count * size - size // 3)
+        steps = 10 if count < 20 else 2  # the long clip only has to prove that its length works
+        results[count] = differences(model, exported, Scene(frames, steps, silent_from=frames * 3 // 4))
+        bad = {name: value for name, value in results[count].items() if not value <= TOLERANCE}
+        if bad:
+            raise ValueError(f"{folder}: {count} blocks differ from PyTorch by more than {TOLERANCE}: {bad}")
+    return results
+
+
+def main(options: Options) -> None:
+    results = verify(load_model(options.checkpoint), options.model, options.blocks)
+    table = Table(title="largest absolute difference, onnxruntime against PyTorch")
+    for column in ("blocks", *next(iter(results.values()))):
+        table.add_column(column, justify="right")
+    for count, row in results.items():
+        table.add_row(str(count), *(f"{value:.1e}" for value in row.values()))
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    main(tyro.cli(Options))

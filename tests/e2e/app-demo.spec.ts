@@ -1,0 +1,96 @@
+import type { Page } from '@playwright/test';
+import { bvhText, wav } from './app-files';
+import { App, meanSpeed } from './app-page';
+import { expect, test } from './fixtures';
+
+/** A made demo in the place of the shipped one, with or without its ready-made reaction. */
+async function serveDemo(page: Page, settings: object | null): Promise<void> {
+  const named = (file: string, label: string): object => ({ file, name: `Made ${label}`, label });
+  const reactor = { file: 'reactor.bvh', label: 'demo reaction', settings };
+  const demo = {
+    song: named('song.wav', 'demo song'),
+    leader: named('leader.bvh', 'demo leader'),
+    ...(settings ? { reactor } : {}),
+  };
+  const files: Record<string, string | Buffer> = {
+    'demo.json': JSON.stringify(demo),
+    'song.wav': wav({ seconds: 3 }).buffer,
+    'leader.bvh': bvhText({ frames: 90 }),
+    'reactor.bvh': bvhText({ frames: 90, sway: 0.5 }),
+  };
+  await page.route('**/demo/*', (route) => {
+    const body = files[new URL(route.request().url()).pathname.split('/').at(-1) ?? ''];
+    return body === undefined ? route.fulfill({ status: 404 }) : route.fulfill({ body });
+  });
+}
+
+test('the shipped demo plays a duet on one click', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.until(({ demo, reading }) => demo !== 'loading' && !reading.song);
+  await expect(page.getByRole('button', { name: /^Song: .*demo/ })).toBeVisible();
+  await expect(page.getByRole('button', { name: /^Leader: .*demo/ })).toBeVisible();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await app.until(({ playback }) => playback.playing && playback.time > 0.5);
+  await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
+  await app.until(({ reaction, song }) => reaction && song);
+  expect(meanSpeed(await app.reactor())).toBeGreaterThan(0.02);
+});
+
+test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {
+  const settings = { guidance: { coarse: 0.5, fine: 0.25 }, steps: 3, seed: 77 };
+  await serveDemo(page, settings);
+  let release: () => void = () => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/models/tiny/*.onnx', async (route) => {
+    await held;
+    await route.continue();
+  });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await app.until(({ playback, reaction }) => playback.playing && playback.time > 0.2 && reaction);
+  expect(await app.read(({ model }) => model.phase)).toBe('loading');
+  await expect(page.getByRole('complementary')).toContainText('demo reaction');
+  await expect(page.getByRole('spinbutton', { name: 'Seed' })).toHaveValue('77');
+  release();
+  await app.settled();
+  expect(await app.read(({ reaction, job }) => [reaction?.label, job])).toEqual(['demo reaction', null]);
+  // Steering it makes a reaction of this page's own.
+  await page.getByRole('slider', { name: 'Fine guidance' }).fill('1');
+  await app.until(({ reaction }) => reaction?.label === null);
+});
+
+test('without a ready-made reaction the demo gets its partner by itself', async ({ page }) => {
+  await serveDemo(page, null);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.reaction('Made demo leader');
+});
+
+test('files of the visitor win over a demo that is still coming', async ({ page }) => {
+  await serveDemo(page, null);
+  let release: () => void = () => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/demo/leader.bvh', async (route) => {
+    await held;
+    await route.fallback();
+  });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
+  await app.reaction('mine.bvh');
+  release();
+  await app.until(({ demo }) => demo === 'ready');
+  expect(await app.read(({ leader, song }) => [leader?.name, song])).toEqual(['mine.bvh', null]);
+});
+
+test('a page without its demo says so and works', async ({ page }) => {
+  await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo is not here');
+  await expect(page.getByRole('button', { name: 'Play the demo' })).toBeHidden();
+  await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
+  await app.reaction('mine.bvh');
+});

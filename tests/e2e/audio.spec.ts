@@ -1,0 +1,239 @@
+import { dirname } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { expect, type Page, test } from '@playwright/test';
+import { servePage } from '../../tools/bench/built-page.mjs';
+import { agreement, beatAgreement, beatFrames } from '../web/audio/compare';
+import { fixture, recipe } from '../web/audio/fixtures';
+import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/audio/real-songs';
+import type { Heard, Source, Told } from './audio-page/main';
+
+/** Seconds of the ticks that tests/fixtures/make_audio.py put into the clicks. */
+const TICKS = [0.2, 0.5, 0.75, 1.1];
+
+/** The project's own song of ten seconds, at the recipe's rate. */
+const SONG = '/fixtures/drums-and-harmony.wav';
+
+let site: Awaited<ReturnType<typeof servePage>>;
+
+test.beforeAll(async () => {
+  const root = fileURLToPath(new URL('audio-page', import.meta.url));
+  site = await servePage(root, {
+    '/fixtures/': dirname(fixture('golden.json')),
+    '/songs/': realSongFolder,
+  });
+});
+test.afterAll(() => site.close());
+test.beforeEach(({ page }) => page.goto(site.url));
+
+/** Calls the page's helper. As an expression: the page's policy forbids functions made at run time. */
+function call<T>(page: Page, name: string, ...values: unknown[]): Promise<T> {
+  return page.evaluate<T>(`audio.${name}(${values.map((value) => JSON.stringify(value)).join(', ')})`);
+}
+
+async function load(page: Page, source: Source): Promise<Heard> {
+  const result = await call<Heard | { error: Told }>(page, 'load', source, recipe);
+  if ('error' in result) throw new Error(`${result.error.code}: ${result.error.message}`);
+  return result;
+}
+
+async function refusal(page: Page, source: Source, abortAt?: number): Promise<Told> {
+  const values = [source, recipe, ...(abortAt === undefined ? [] : [abortAt])];
+  const result = await call<Heard | { error: Told }>(page, 'load', ...values);
+  if (!('error' in result)) throw new Error('the song was taken');
+  return result.error;
+}
+
+test.describe('decoding', () => {
+  for (const ending of ['flac', 'mp3', 'ogg', 'opus', 'm4a']) {
+    test(`${ending}: the ticks are where they were put`, async ({ page }) => {
+      const song = await load(page, { url: `/fixtures/clicks.${ending}` });
+      expect(song.ticks).toHaveLength(TICKS.length);
+      // A frame lasts 33 ms; what encoders put before a song is 25 ms and more.
+      song.ticks.forEach((tick, index) => expect(Math.abs(tick - TICKS[index]!)).toBeLessThan(0.003));
+      expect(Math.abs(song.duration - 1.4)).toBeLessThan(0.03);
+      expect(song.frames).toBe(1 + Math.floor(song.samples / recipe.hop));
+      expect(song.columns).toBe(recipe.features);
+      // 0.8 on the left and half of it on the right, after the first quarter of a period.
+      expect(song.peak).toBeGreaterThan(0.5);
+      expect(song.peak).toBeLessThan(0.65);
+    });
+  }
+
+  test('wav: a song is heard, with progress, while the page goes on', async ({ page }) => {
+    const song = await load(page, { url: SONG });
+    expect(song.samples).toBe(10 * recipe.sample_rate);
+    expect(song.tempo).toBeCloseTo(112.5, 3);
+    expect(song.beats).toBeGreaterThan(14);
+    expect(song.silent).toBe(false);
+    expect(song.progress[0]).toBe(0);
+    expect(song.progress.at(-1)).toBe(1);
+    expect(song.progress.length).toBeGreaterThan(20);
+    expect(song.progress).toEqual(song.progress.toSorted((a, b) => a - b));
+    expect(song.longestFreeze).toBeLessThan(0.5 * song.seconds);
+  });
+
+  test('a song that was loaded before comes back at once', async ({ page }) => {
+    await load(page, { url: SONG });
+    const again = await load(page, { url: SONG });
+    expect(again.progress).toEqual([0, 1]);
+  });
+
+  test('a silent song is taken and flagged', async ({ page }) => {
+    const song = await load(page, { silentSeconds: 3, rate: 44100 });
+    expect(song).toMatchObject({ silent: true, tempo: 0, beats: 0, duration: 3, frames: 91 });
+  });
+});
+
+test.describe('a real file is heard as Python hears it', () => {
+  test.skip(absence !== null, absence ?? '');
+
+  // One at 44.1 and one at 48 kHz, so that both ways to the recipe's rate are taken.
+  for (const ending of ['.ogg', '.opus']) {
+    test(ending, async ({ page }) => {
+      test.setTimeout(300_000);
+      const name = realSongs.find((song) => song.endsWith(ending))!;
+      const [reference] = loadRealSongs([name]);
+      const heard = await load(page, { url: `/songs/${encodeURIComponent(name)}` });
+      expect(Math.abs(heard.samples - reference!.audio.length)).toBeLessThanOrEqual(1);
+      const rows = Math.min(heard.frames, reference!.features.length / recipe.features);
+      const [ours, theirs] = [await call<number[]>(page, 'features'), reference!.features].map((values) =>
+        Float32Array.from(values).subarray(0, rows * recipe.features),
+      ) as [Float32Array, Float32Array];
+      for (const { group, correlation, difference } of agreement(ours, theirs, recipe)) {
+        expect.soft(correlation, `correlation of ${group}`).toBeGreaterThanOrEqual(0.999);
+        expect.soft(difference, `difference of ${group}`).toBeLessThanOrEqual(0.01);
+      }
+      expect(beatAgreement(beatFrames(ours, recipe), beatFrames(theirs, recipe), 1)).toBeGreaterThanOrEqual(
+        0.95,
+      );
+    });
+  }
+});
+
+test.describe('refusals', () => {
+  test('an empty file', async ({ page }) => {
+    expect(await refusal(page, { text: '' })).toMatchObject({ name: 'AudioError', code: 'empty-file' });
+  });
+
+  test('a file that is no sound', async ({ page }) => {
+    const told = await refusal(page, { text: 'HIERARCHY\nROOT Hips\n' });
+    expect(told).toMatchObject({ name: 'AudioError', code: 'not-audio' });
+    expect(told.hint).toContain('WAV');
+  });
+
+  test('a WAV without samples', async ({ page }) => {
+    const told = await refusal(page, { silentSeconds: 0, rate: 44100 });
+    expect(['no-sound', 'not-audio']).toContain(told.code);
+  });
+
+  test('twenty minutes', async ({ page }) => {
+    const told = await refusal(page, { silentSeconds: 20 * 60, rate: 8000 });
+    expect(told).toMatchObject({ code: 'too-long' });
+    expect(told.message).toContain('20.0 minutes');
+  });
+
+  test('cancelling ends the analysis', async ({ page }) => {
+    expect(await refusal(page, { url: SONG }, 0.5)).toMatchObject({ name: 'AbortError' });
+    await expect.poll(() => page.workers().length).toBe(0);
+  });
+
+  test('a crashed worker, and the next song gets a new one', async ({ page }) => {
+    await page.route(/worker-.*\.js/, (route) => route.abort());
+    expect(await refusal(page, { url: SONG })).toMatchObject({ name: 'AudioError', code: 'worker-crashed' });
+    await page.unroute(/worker-.*\.js/);
+    expect((await load(page, { url: SONG })).frames).toBe(301);
+  });
+});
+
+test.describe('the player', () => {
+  /** Largest difference in seconds between the player's clock and the page's at the given speed. */
+  function drift(readings: [number, number][], speed: number): number {
+    const [first] = readings;
+    return Math.max(...readings.map(([now, time]) => Math.abs(time - first![1] - (now - first![0]) * speed)));
+  }
+
+  /** Whether the song sounds, at the time that the player shows. */
+  async function expectSound(page: Page): Promise<void> {
+    const [time, heard] = await page.evaluate<[number, number | null]>('[audio.player.time, audio.heard()]');
+    expect(heard, 'the song sounds').not.toBeNull();
+    expect(Math.abs(heard! - time)).toBeLessThan(0.12);
+  }
+
+  test.beforeEach(async ({ page }) => {
+    await page.getByRole('button').click();
+    await load(page, { url: SONG });
+  });
+
+  for (const what of ['song', 'silence'] as const) {
+    test(`keeps time with ${what}, at any speed, through pauses and jumps`, async ({ page }) => {
+      await call(page, 'hand', what, 60);
+      expect(await call(page, 'play')).toBeNull();
+      await call(page, 'watch', 0.5);
+      const readings = await call<[number, number][]>(page, 'watch', 1.5);
+      expect(readings.length).toBeGreaterThan(5);
+      expect(drift(readings, 1)).toBeLessThan(0.08);
+
+      await call(page, 'player.setSpeed', 0.5);
+      await call(page, 'watch', 0.5);
+      expect(drift(await call(page, 'watch', 1.5), 0.5)).toBeLessThan(0.08);
+
+      await call(page, 'player.seek', 7);
+      await call(page, 'watch', 0.3);
+      const [[, time]] = (await call<[number, number][]>(page, 'watch', 0.1)) as [[number, number]];
+      expect(time).toBeGreaterThan(7);
+      expect(time).toBeLessThan(8);
+      if (what === 'song') await expectSound(page);
+      else expect(await call(page, 'heard')).toBeNull();
+
+      await call(page, 'player.pause');
+      const still = await call<[number, number][]>(page, 'watch', 0.3);
+      expect(new Set(still.map(([, shown]) => shown)).size).toBe(1);
+    });
+  }
+
+  test('takes another song while it plays, at the same place', async ({ page }) => {
+    await call(page, 'hand', 'silence', 60);
+    await call(page, 'player.seek', 3);
+    await call(page, 'play');
+    await call(page, 'watch', 0.5);
+    await call(page, 'hand', 'song', 60);
+    const times = (await call<[number, number][]>(page, 'watch', 2)).map(([, time]) => time);
+    expect(times[0]).toBeGreaterThan(3.4);
+    expect(times.at(-1)! - times[0]!).toBeGreaterThan(1);
+    expect(times.at(-1)! - times[0]!).toBeLessThan(2.2);
+    await expectSound(page);
+  });
+
+  test('goes on in silence after the song and stops at the end of the dance', async ({ page }) => {
+    await call(page, 'hand', 'song', 11);
+    await call(page, 'player.seek', 9.5);
+    await call(page, 'play');
+    const readings = await call<[number, number][]>(page, 'watch', 3);
+    const times = readings.map(([, time]) => time);
+    expect(times).toEqual(times.toSorted((a, b) => a - b));
+    expect(times.at(-1)).toBe(11);
+    const steps = times.slice(1).map((time, i) => time - times[i]!);
+    expect(Math.max(...steps)).toBeLessThan(0.3);
+  });
+
+  test('says when the browser refuses to play, and stands still', async ({ page }) => {
+    await call(page, 'hand', 'nonsense', 10);
+    expect(await call(page, 'play')).toMatchObject({ name: 'AudioError', code: 'playback-refused' });
+    expect(new Set((await call<[number, number][]>(page, 'watch', 0.3)).map(([, time]) => time)).size).toBe(
+      1,
+    );
+  });
+
+  test('is silent past the end of a dance that is shorter than the song', async ({ page }) => {
+    await call(page, 'hand', 'song', 2);
+    await call(page, 'player.seek', 1);
+    await call(page, 'play');
+    expect((await call<[number, number][]>(page, 'watch', 2)).at(-1)![1]).toBe(2);
+    expect(await call(page, 'heard')).toBeNull();
+  });
+});
+
+test('the page that is tested carries the policy of the app', async ({ page }) => {
+  const response = await page.goto(site.url);
+  expect(response?.headers()['content-security-policy']).toContain("media-src 'self' blob:");
+});

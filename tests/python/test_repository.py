@@ -1,0 +1,57 @@
+"""What must be true of the files that are committed, whoever commits them."""
+
+import hashlib
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SHARED_DATA = ROOT.parent / "shared" / "data"
+LARGEST = 20 * 2**20
+"""Bytes. Larger files make every clone slow for ever."""
+
+
+@pytest.fixture(scope="module")
+def tracked() -> list[Path]:
+    names = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout
+    return [ROOT / name for name in names.split("\0") if name and (ROOT / name).is_file()]
+
+
+def digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_no_file_is_too_large(tracked: list[Path]) -> None:
+    too_large = [str(path.relative_to(ROOT)) for path in tracked if path.stat().st_size > LARGEST]
+    assert too_large == []
+
+
+def test_no_file_is_a_copy_of_data_that_is_not_ours(tracked: list[Path]) -> None:
+    if not SHARED_DATA.is_dir():
+        pytest.skip("real data not present")
+    foreign = [path for path in SHARED_DATA.rglob("*") if path.is_file() and path.stat().st_size > 0]
+    sizes = {path.stat().st_size for path in foreign}
+    suspects = {digest(path): path for path in tracked if path.stat().st_size in sizes}
+    copies = [str(suspects[hash_]) for path in foreign if (hash_ := digest(path)) in suspects]
+    assert copies == []
+
+
+def test_lock_files_hold_no_download_addresses() -> None:
+    packages = json.loads((ROOT / "package-lock.json").read_text())["packages"]
+    assert len(packages) > 100
+    assert [name for name, package in packages.items() if "resolved" in package] == []
+    pins = [
+        line for line in (ROOT / "constraints.txt").read_text().splitlines() if line and line[0] not in "# "
+    ]
+    assert len(pins) > 50
+    assert [pin for pin in pins if "==" not in pin or "://" in pin] == []
+
+
+def test_node_packages_are_pinned_exactly() -> None:
+    package = json.loads((ROOT / "package.json").read_text())
+    versions = {**package["dependencies"], **package["devDependencies"]}
+    assert [name for name, version in versions.items() if not version[0].isdigit() or " " in version] == []

@@ -1,0 +1,84 @@
+"""The frame of reference and the three streams."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import torch
+
+from training.config import FrameConfig
+from training.data.made import made_duet
+from training.frame import into_frame, out_of_frame, smoothed_heading
+from training.streams import LEADER_FEATURES, STREAM_WIDTHS, from_streams, leader_features, to_streams
+
+FRAME = FrameConfig()
+
+
+def pair(frames: int = 120) -> tuple[torch.Tensor, torch.Tensor]:
+    duet = made_duet(frames, 3)
+    return torch.from_numpy(duet.leader), torch.from_numpy(duet.reactor)
+
+
+def moved(motion: torch.Tensor, angle: float, shift: tuple[float, float]) -> torch.Tensor:
+    """Turned about the vertical by `angle` and carried over the floor."""
+    c, s = np.cos(angle), np.sin(angle)
+    turn = torch.tensor([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=torch.float32)
+    return motion @ turn.T + torch.tensor([shift[0], 0, shift[1]])
+
+
+def test_streams_come_back() -> None:
+    leader, reactor = pair()
+    heading = smoothed_heading(leader, FRAME)
+    streams = to_streams(leader, reactor, heading)
+    assert tuple(s.shape[1] for s in streams) == STREAM_WIDTHS
+    assert torch.allclose(from_streams(*streams, leader, heading), reactor, atol=1e-5)
+
+
+@pytest.mark.parametrize("angle", [0.4, 2.0, -3.0])
+def test_the_frame_does_not_see_where_the_couple_is_or_faces(angle: float) -> None:
+    leader, reactor = pair()
+    before = (*to_streams(leader, reactor, smoothed_heading(leader, FRAME)),)
+    led, reacted = moved(leader, angle, (3, -2)), moved(reactor, angle, (3, -2))
+    after = to_streams(led, reacted, smoothed_heading(led, FRAME))
+    for a, b in zip(before, after, strict=True):
+        assert torch.allclose(a, b, atol=1e-4)
+    features = leader_features(leader, smoothed_heading(leader, FRAME))
+    assert torch.allclose(features, leader_features(led, smoothed_heading(led, FRAME)), atol=2e-3)
+
+
+def test_heading_is_the_direction_the_hips_face() -> None:
+    leader = torch.zeros(200, 22, 3)
+    leader[:, 1, 0], leader[:, 2, 0] = 0.1, -0.1  # left hip at +x: the dancer faces +z
+    assert torch.allclose(smoothed_heading(leader, FRAME), torch.tensor([0.0, 1.0]).expand(200, 2), atol=1e-5)
+    turned = moved(leader, np.pi / 2, (0, 0))  # +z turns to +x
+    assert torch.allclose(smoothed_heading(turned, FRAME), torch.tensor([1.0, 0.0]).expand(200, 2), atol=1e-5)
+    vector = torch.tensor([1.0, 2.0, 3.0]).expand(200, 1, 3)
+    heading = smoothed_heading(turned, FRAME)
+    assert torch.allclose(out_of_frame(into_frame(vector, heading), heading), vector, atol=1e-5)
+
+
+def test_the_condition_knows_where_the_leader_goes() -> None:
+    """Root height, velocity and turn rate are there: without them placement would collapse to a mean distance."""
+    leader, _ = pair(200)
+    walking = leader + torch.arange(200)[:, None, None] * torch.tensor([0.02, 0.0, 0.0])
+    lifted = leader + torch.tensor([0.0, 0.3, 0.0])
+    features = {
+        name: leader_features(motion, smoothed_heading(motion, FRAME))
+        for name, motion in (("still", leader), ("walking", walking), ("lifted", lifted))
+    }
+    assert features["still"].shape == (200, LEADER_FEATURES)
+    velocity, height = slice(64, 67), 63
+    speed = (features["walking"] - features["still"])[:, velocity].norm(dim=-1)
+    assert torch.allclose(speed, torch.full_like(speed, 0.6), atol=1e-3)
+    assert torch.allclose((features["lifted"] - features["still"])[:, height], torch.tensor(0.3), atol=1e-5)
+    spin = torch.arange(200) * 0.05
+    turning = torch.stack([moved(leader[:1], float(a), (0, 0))[0] for a in spin])
+    rate = leader_features(turning, smoothed_heading(turning, FRAME))[60:140, 67]
+    assert torch.allclose(rate, torch.full_like(rate, np.sin(0.05) * 30), atol=0.02)
+
+
+def test_placement_holds_the_reactors_own_height() -> None:
+    leader, reactor = pair()
+    heading = smoothed_heading(leader, FRAME)
+    jump = leader + torch.tensor([0.0, 0.5, 0.0])
+    assert torch.equal(to_streams(leader, reactor, heading)[2], to_streams(jump, reactor, heading)[2])

@@ -1,0 +1,178 @@
+"""The training programs themselves, for a few steps on made duets: they run, resume, stay strict and stay honest."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from training import train_denoiser, train_hfsq
+from training.checkpoint import load_denoiser, load_hfsq
+from training.config import (
+    ConditionConfig,
+    DenoiserConfig,
+    DenoiserLossConfig,
+    DiffusionConfig,
+    HfsqConfig,
+    from_json,
+    to_json,
+)
+from training.data.made import made_duet
+from training.stage2_data import Augmentation
+
+HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
+DENOISER = DenoiserConfig(width=16, depths=(1, 1), mlp=2, condition=ConditionConfig(depth=1))
+NAMES = ("made_0", "made_1", "made_2")
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("data") / "duets.npz"
+    arrays = {}
+    for seed, name in enumerate(NAMES):
+        duet = made_duet(300, seed)
+        arrays |= {f"{name}/leader": duet.leader, f"{name}/follower": duet.reactor}
+    np.savez(path, **arrays)
+    return path
+
+
+def stage1(data: Path, out: Path, **changes: object) -> train_hfsq.Options:
+    base = train_hfsq.Options(
+        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=2, tempos=(1.0,), hfsq=HFSQ,
+        log_every=1, evaluate_every=2, precision="32-true",
+    )  # fmt: skip
+    return replace(base, **changes)
+
+
+def stage2(data: Path, out: Path, **changes: object) -> train_denoiser.Options:
+    base = train_denoiser.Options(
+        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=4, synths=1, pieces=0, denoiser=DENOISER,
+        diffusion=DiffusionConfig(steps=2), loss=DenoiserLossConfig(windows=2), log_every=1, evaluate_every=2,
+        augmentation=Augmentation(tempos=(1.0,), copies=1), precision="32-true",
+    )  # fmt: skip
+    return replace(base, **changes)
+
+
+@pytest.fixture(scope="module")
+def trained(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("run")
+    train_hfsq.main(stage1(data, out))
+    train_denoiser.main(stage2(data, out))
+    return out
+
+
+def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> None:
+    hfsq, frame = load_hfsq(trained)
+    denoiser, diffusion = load_denoiser(trained, hfsq)
+    assert diffusion.steps == 2
+    assert frame.sigma == 15
+    assert not any(p.requires_grad for p in hfsq.parameters())
+    assert (hfsq.latent_std != 1).all(), "the latents' statistics are measured and stored"
+    assert (denoiser.condition.leader.std != 1).any()
+    for stage in ("hfsq", "denoiser"):
+        assert (trained / stage / "curves.png").stat().st_size > 1000
+        rows = [json.loads(line) for line in (trained / stage / "journal.jsonl").read_text().splitlines()]
+        assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
+        assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
+
+
+def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: Path) -> None:
+    train_hfsq.main(stage1(data, tmp_path))
+    state = torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)
+    train_hfsq.main(stage1(data, tmp_path, steps=4, evaluate_every=4, resume=True))
+    rows = [
+        json.loads(line)["step"] for line in (tmp_path / "hfsq" / "journal.jsonl").read_text().splitlines()
+    ]
+    assert state["step"] == 2
+    assert max(rows) == 4
+    assert rows.count(1) == 1, "resumed, not begun again"
+
+
+def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> None:
+    for name in ("hfsq.json", "hfsq.safetensors"):
+        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    config = json.loads((tmp_path / "hfsq.json").read_text())
+    config["hfsq"]["depth"] = 2
+    (tmp_path / "hfsq.json").write_text(json.dumps(config))
+    with pytest.raises(RuntimeError, match="Missing key"):
+        load_hfsq(tmp_path)
+    with pytest.raises(FileNotFoundError, match="train it first"):
+        load_hfsq(tmp_path / "nowhere")
+
+
+def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:
+    hfsq, _ = load_hfsq(trained)
+    denoiser, diffusion = load_denoiser(trained, hfsq)
+    stage = train_denoiser.Stage2(denoiser, hfsq, diffusion, DenoiserLossConfig())
+    assert not any(p.requires_grad for p in stage.hfsq.parameters())
+    assert not stage.hfsq.training
+    trainable = {id(p) for p in stage.parameters() if p.requires_grad}
+    assert trainable == {id(p) for p in denoiser.parameters() if p.requires_grad}
+
+
+def test_statistics_and_weights_come_from_training_duets_alone(
+    data: Path, trained: Path, tmp_path: Path
+) -> None:
+    """Changing the test and validation dances must not change a single weight."""
+    with np.load(data) as archive:
+        arrays = {name: archive[name].copy() for name in archive.files}
+    for name in ("made_1", "made_2"):
+        duet = made_duet(300, 99)
+        arrays |= {f"{name}/leader": duet.leader, f"{name}/follower": duet.reactor}
+    other = tmp_path / "other.npz"
+    np.savez(other, **arrays)
+    train_hfsq.main(stage1(other, tmp_path))
+    train_denoiser.main(stage2(other, tmp_path))
+    for name in ("hfsq", "denoiser"):
+        assert (tmp_path / f"{name}.safetensors").read_bytes() == (
+            trained / f"{name}.safetensors"
+        ).read_bytes()
+
+
+def test_two_processes_train_together(data: Path, tmp_path: Path) -> None:
+    """The same program under torchrun: two CPU processes, two steps, one checkpoint."""
+    script = tmp_path / "two.py"
+    script.write_text(
+        "from pathlib import Path\n"
+        "from tests.python.test_training import stage1, stage2\n"
+        "from training import train_denoiser, train_hfsq\n"
+        f"data, out = Path({str(data)!r}), Path({str(tmp_path)!r})\n"
+        "train_hfsq.main(stage1(data, out, devices=2))\n"
+        "train_denoiser.main(stage2(data, out, devices=2))\n"
+    )
+    root = Path(__file__).parents[2]
+    command = [
+        sys.executable,
+        "-m",
+        "torch.distributed.run",
+        "--standalone",
+        "--nproc-per-node=2",
+        str(script),
+    ]
+    done = subprocess.run(
+        command, cwd=root, env={**os.environ, "PYTHONPATH": str(root), "OMP_NUM_THREADS": "1"},
+        capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr[-2000:]
+    hfsq, _ = load_hfsq(tmp_path)
+    load_denoiser(tmp_path, hfsq)
+    rows = (tmp_path / "denoiser" / "journal.jsonl").read_text().splitlines()
+    assert [json.loads(r)["step"] for r in rows].count(1) == 1, "one process writes the journal"
+
+
+def test_configs_survive_json_and_refuse_unknown_keys() -> None:
+    for config in (HfsqConfig(), replace(HfsqConfig(), masking=None), DenoiserConfig(), DiffusionConfig()):
+        assert from_json(type(config), json.loads(json.dumps(to_json(config)))) == config
+    with pytest.raises(ValueError, match=r"unknown keys \['widht'\]"):
+        from_json(DiffusionConfig, to_json(DiffusionConfig()) | {"widht": 3})
+    with pytest.raises(ValueError, match=r"missing keys \['steps'\]"):
+        values = to_json(DiffusionConfig())
+        del values["steps"]
+        from_json(DiffusionConfig, values)

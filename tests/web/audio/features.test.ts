@@ -1,0 +1,36 @@
+import { describe, expect, it } from 'vitest';
+import { musicFeatures } from '../../../web/audio/features';
+import { recipe, songs } from './fixtures';
+
+describe('music features of odd songs', () => {
+  it.each([1, 100, recipe.hop - 1, recipe.hop, recipe.n_fft - 1, 3 * recipe.n_fft])(
+    'silence of %i samples',
+    (length) => {
+      const { frames, features, tempo, beats } = musicFeatures(new Float32Array(length), recipe);
+      expect(frames).toBe(1 + Math.floor(length / recipe.hop));
+      expect(features).toEqual(new Float32Array(frames * recipe.features));
+      expect({ tempo, beats }).toEqual({ tempo: 0, beats: [] });
+    },
+  );
+
+  it.each([1, 100, recipe.hop, recipe.n_fft - 1, 2 * recipe.n_fft])('%i samples of music', (length) => {
+    const { frames, features } = musicFeatures(songs[0]!.audio.subarray(5000, 5000 + length), recipe);
+    expect(features.length).toBe(frames * recipe.features);
+    expect(features.every(Number.isFinite)).toBe(true);
+  });
+
+  it('a steady tone, which has no onset after its first', () => {
+    const tone = Float32Array.from({ length: 5 * recipe.sample_rate }, (_, i) => 0.5 * Math.sin(i * 0.18));
+    const { features, beats } = musicFeatures(tone, recipe);
+    expect(features.every(Number.isFinite)).toBe(true);
+    expect(beats.length).toBeLessThanOrEqual(1);
+  });
+
+  it('says how far it is, ascending to 1', () => {
+    const heard: number[] = [];
+    musicFeatures(songs[0]!.audio, recipe, (fraction) => heard.push(fraction));
+    expect(heard.length).toBeGreaterThan(20);
+    expect(heard).toEqual(heard.toSorted((a, b) => a - b));
+    expect(heard.at(-1)).toBe(1);
+  });
+});

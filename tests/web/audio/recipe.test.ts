@@ -1,0 +1,21 @@
+import { describe, expect, it } from 'vitest';
+import { readRecipe } from '../../../web/audio/recipe';
+import { recipe } from './fixtures';
+
+describe('the audio recipe', () => {
+  it('is taken as Python writes it', () => {
+    expect(readRecipe({ ...recipe })).toEqual(recipe);
+  });
+
+  it.each([
+    ['a missing number', { ...recipe, hop: undefined }, /hop/],
+    ['an even kernel', { ...recipe, hpss_kernel: 30 }, /hpss_kernel.*odd/],
+    ['a window that is no power of two', { ...recipe, n_fft: 2000 }, /n_fft.*power of two/],
+    ['columns that do not add up', { ...recipe, features: 53 }, /features/],
+    ['nothing', undefined, /audio/],
+  ])('is refused with %s', (_, block, words) => {
+    expect(() => readRecipe(block)).toThrow(
+      expect.objectContaining({ code: 'bad-recipe', message: expect.stringMatching(words) as string }),
+    );
+  });
+});

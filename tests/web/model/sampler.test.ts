@@ -1,0 +1,125 @@
+import { describe, expect, it } from 'vitest';
+import { noise } from '../../../web/model/noise';
+import { sample, type Sampling, type StepInput, type StepRunner } from '../../../web/model/sampler';
+import { ddim } from '../../../web/model/schedule';
+import { small } from './small-manifest';
+
+const { latent } = small;
+const width = latent.layers.length * latent.channels;
+
+/** Stands in for the graph: mixes each valid token with its left neighbour inside the block, the memory and the time. */
+const mixing: StepRunner = (input) => {
+  const { coefficients, time } = input;
+  const x0 = input.x.map((value, i) => {
+    const token = Math.floor(i / width);
+    if (input.valid[token] !== 1) return NaN;
+    const left = token % latent.block === 0 ? 0 : (input.x[i - width] ?? 0);
+    return 0.5 * value + 0.3 * left + (input.memory[token * latent.memory_width] ?? 0) + time;
+  });
+  const [a, b, c, d] = coefficients;
+  const x = input.x.map(
+    (value, i) => a * value + b * (x0[i] ?? 0) + c * (input.x0Prev[i] ?? 0) + d * (input.noise[i] ?? 0),
+  );
+  return Promise.resolve({ x, x0 });
+};
+
+function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
+  return {
+    latent,
+    alternatingPhase: false,
+    schedule: ddim(small.diffusion, 4),
+    latents,
+    memory: Float32Array.from({ length: latents * latent.memory_width }, (_, i) => Math.sin(i)),
+    guidance: new Float32Array(6),
+    noise: (draw) => noise(9, latents, width, draw),
+    runStep: mixing,
+    blocksPerRun: 100,
+    ...changes,
+  };
+}
+
+/** The same arithmetic frame by frame, without blocks being packed. */
+function reference(latents: number, alternating: boolean): Float32Array {
+  let x = noise(9, latents, width, 0);
+  const { memory, schedule } = sampling(latents);
+  schedule.forEach(({ time, coefficients: [a, b] }, k) => {
+    const shift = alternating && k % 2 === 1 ? latent.block / 2 : 0;
+    x = x.map((value, i) => {
+      const frame = Math.floor(i / width);
+      const first = frame === 0 || (frame - shift) % latent.block === 0;
+      const left = first ? 0 : (x[i - width] ?? 0);
+      const x0 = Math.fround(0.5 * value + 0.3 * left + (memory[frame * latent.memory_width] ?? 0) + time);
+      return a * value + b * x0;
+    });
+  });
+  return x;
+}
+
+describe('sample', () => {
+  it.each([false, true])(
+    'equals the arithmetic without blocks for every length (alternating: %s)',
+    async (alternating) => {
+      for (const latents of [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 15, 21, 30, 45, 58, 60]) {
+        const result = await sample(sampling(latents, { alternatingPhase: alternating }));
+        const expected = reference(latents, alternating);
+        expect(result.every((value, i) => Math.abs(value - (expected[i] ?? NaN)) < 1e-6)).toBe(true);
+      }
+    },
+  );
+
+  it('does not depend on how many blocks go through the graph at once', async () => {
+    const whole = await sample(sampling(50, { alternatingPhase: true }));
+    for (const blocksPerRun of [1, 2, 3]) {
+      expect(await sample(sampling(50, { alternatingPhase: true, blocksPerRun }))).toEqual(whole);
+    }
+  });
+
+  it('gives the graph the noise of each step only when the step adds noise, and the x0 of the step before', async () => {
+    const seen: StepInput[] = [];
+    const schedule = [
+      { time: 0.9, coefficients: [0.5, 0.5, 0, 0.1] as const },
+      { time: 0.4, coefficients: [0.5, 0.3, 0.2, 0] as const },
+    ];
+    const x0s: Float32Array[] = [];
+    await sample(
+      sampling(6, {
+        schedule,
+        runStep: async (input) => {
+          seen.push(input);
+          const output = await mixing(input);
+          x0s.push(output.x0);
+          return output;
+        },
+      }),
+    );
+    expect(seen[0]?.noise).toEqual(noise(9, 6, width, 1));
+    expect(seen[1]?.noise).toEqual(new Float32Array(6 * width));
+    expect(seen[0]?.x0Prev).toEqual(new Float32Array(6 * width));
+    expect(seen[1]?.x0Prev).toEqual(x0s[0]);
+  });
+
+  it('counts the blocks of all steps', async () => {
+    const calls: [number, number][] = [];
+    await sample(
+      sampling(13, {
+        alternatingPhase: true,
+        blocksPerRun: 2,
+        onProgress: (done, total) => calls.push([done, total]),
+      }),
+    );
+    expect(calls).toEqual([2, 3, 5, 6, 8, 9, 11, 12].map((done) => [done, 12]));
+  });
+
+  it('stops before the next step when a message cancels it while a step runs', async () => {
+    const controller = new AbortController();
+    let steps = 0;
+    const runStep: StepRunner = (input) => {
+      steps += 1;
+      // As a message from the page would: in a task of its own, after this run.
+      if (steps === 2) setTimeout(() => controller.abort(new Error('enough')));
+      return mixing(input);
+    };
+    await expect(sample(sampling(10, { runStep, signal: controller.signal }))).rejects.toThrow('enough');
+    expect(steps).toBe(2);
+  });
+});

@@ -1,0 +1,67 @@
+import type { Song } from '../../../web/audio/client';
+import type { LeaderFile } from '../../../web/motion/bvh-read';
+import type { SolvedMotion } from '../../../web/motion/clip';
+import { SMPL22 } from '../../../web/motion/skeleton';
+import type { LoadedLeader, LoadedSong } from '../../../web/ui/state';
+
+/** A motion of the right shape in which nobody moves. */
+export function still(frames: number): SolvedMotion {
+  return {
+    fps: 30,
+    frames,
+    offsets: new Float32Array(66),
+    root: new Float32Array(frames * 3),
+    rotations: new Float32Array(frames * 88),
+    positions: new Float32Array(frames * 66),
+    fitError: 0.002,
+  };
+}
+
+export function leaderFile(frames: number, warnings: string[] = []): LeaderFile {
+  return {
+    clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
+    report: {
+      dialect: 'Mixamo',
+      joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
+      filled: [],
+      sourceFps: 60,
+      sourceFrames: frames * 2,
+      sourceDuration: frames / 30,
+      unit: 'centimetres',
+      upAxis: 'y',
+      warnings,
+    } as unknown as LeaderFile['report'],
+  };
+}
+
+export function leader(frames: number, name = 'lead_0412.bvh', warnings: string[] = []): LoadedLeader {
+  return {
+    name,
+    label: null,
+    text: 'HIERARCHY',
+    fps: null,
+    file: leaderFile(frames, warnings),
+    motion: still(frames),
+  };
+}
+
+/** A song with a beat each half second. */
+export function heard(seconds: number, more: Partial<Song> = {}): Song {
+  const frames = Math.round(seconds * 30);
+  return {
+    duration: seconds,
+    sampleRate: 15360,
+    pcm: new Float32Array(0),
+    sound: new Blob(),
+    features: new Float32Array(frames * 54),
+    frames,
+    tempo: 120,
+    beats: Array.from({ length: Math.floor(seconds * 2) }, (_, index) => index / 2),
+    silent: false,
+    ...more,
+  };
+}
+
+export function song(seconds: number, more: Partial<Song> = {}): LoadedSong {
+  return { name: 'Descarga.mp3', label: null, data: heard(seconds, more) };
+}

@@ -1,0 +1,124 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { Player } from '../../../web/audio/client';
+import { createPlayback, type PlaybackControl } from '../../../web/ui/playback';
+import * as change from '../../../web/ui/store';
+import { leader, song } from './made';
+
+/** A player whose time the test sets. */
+class Hand implements Player {
+  time = 0;
+  playing = false;
+  duration = 0;
+  sound: Blob | null = null;
+  speed = 1;
+  refusal: Error | null = null;
+  load(sound: Blob | null, duration: number): void {
+    Object.assign(this, { sound, duration });
+  }
+  play(): Promise<void> {
+    if (this.refusal) return Promise.reject(this.refusal);
+    this.playing = true;
+    return Promise.resolve();
+  }
+  pause(): void {
+    this.playing = false;
+  }
+  seek(seconds: number): void {
+    this.time = seconds;
+  }
+  setSpeed(speed: number): void {
+    this.speed = speed;
+  }
+  dispose(): void {
+    this.playing = false;
+  }
+}
+
+describe('playback', () => {
+  let store: change.Store;
+  let hand: Hand;
+  let playback: PlaybackControl;
+  let frames: (() => void)[];
+
+  beforeEach(() => {
+    frames = [];
+    vi.stubGlobal('requestAnimationFrame', (frame: () => void) => frames.push(frame));
+    vi.stubGlobal('cancelAnimationFrame', () => (frames = []));
+    store = change.createAppStore('dark');
+    hand = new Hand();
+    playback = createPlayback(store, hand);
+  });
+  afterEach(() => {
+    playback.dispose();
+    vi.unstubAllGlobals();
+  });
+  /** Time passes for the player, then the page draws. */
+  const draw = async (time: number): Promise<void> => {
+    await Promise.resolve();
+    await Promise.resolve();
+    hand.time = time;
+    for (const frame of frames.splice(0)) frame();
+  };
+  const load = (): void => {
+    change.apply(store, change.songLoaded(song(2)));
+    change.apply(store, change.leaderLoaded(leader(90)));
+  };
+
+  it('plays nothing while nothing is loaded', () => {
+    playback.toggle();
+    expect(store.getState().playback.playing).toBe(false);
+  });
+
+  it('gives the player the song and the length of the dance', () => {
+    load();
+    expect(hand.sound).toBe(store.getState().song?.data.sound);
+    expect(hand.duration).toBe(3);
+  });
+
+  it('follows the player, ends the visit, and stops at the end', async () => {
+    load();
+    playback.toggle();
+    await draw(1.25);
+    expect(store.getState()).toMatchObject({ visiting: false, playback: { playing: true, time: 1.25 } });
+    await draw(3);
+    expect(store.getState().playback).toMatchObject({ playing: false, time: 3 });
+    expect(hand.playing).toBe(false);
+  });
+
+  it('starts over from the end, by hand or by loop', async () => {
+    load();
+    playback.seek(3);
+    playback.toggle();
+    expect(hand.time).toBe(0);
+    change.apply(store, change.playbackSet({ loop: true }));
+    await draw(3);
+    expect(store.getState().playback).toMatchObject({ playing: true, time: 0 });
+    await draw(0.5);
+    expect(store.getState().playback.time).toBe(0.5);
+  });
+
+  it('goes on playing when another song comes', async () => {
+    load();
+    playback.toggle();
+    await draw(1);
+    change.apply(store, change.songLoaded(song(5)));
+    expect(hand.playing).toBe(true);
+    expect(hand.time).toBe(1);
+  });
+
+  it('tells when the browser refuses to play', async () => {
+    load();
+    hand.refusal = new Error('no');
+    playback.toggle();
+    await draw(0);
+    expect(store.getState()).toMatchObject({
+      playback: { playing: false },
+      problem: { code: 'playback-failed' },
+    });
+  });
+
+  it('hands the speed on', () => {
+    change.apply(store, change.playbackSet({ speed: 0.25 }));
+    expect(hand.speed).toBe(0.25);
+  });
+});

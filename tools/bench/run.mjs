@@ -1,0 +1,116 @@
+/**
+ * `npm run bench`: how long a dance takes, stage by stage, in this machine's browser, against onnxruntime native and
+ * PyTorch eager in the same run. Prints a table and writes bench.json.
+ *
+ *     npm run bench -- --frames 2066 --steps 10 --threads 1,2 --repeats 3
+ */
+import { execFile } from 'node:child_process';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import os from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs, promisify } from 'node:util';
+import { chromium } from '@playwright/test';
+import { findBrowser } from '../browser.mjs';
+import { installPythonPackages } from '../install.mjs';
+import { must, python, root, runMain } from '../run.mjs';
+import { servePage } from './built-page.mjs';
+import { STAGES, table, withRatios } from './table.mjs';
+
+/** @typedef {import('./table.mjs').Row} Row */
+
+const { values: options } = parseArgs({
+  options: {
+    frames: { type: 'string', default: '2066' },
+    steps: { type: 'string', default: '10' },
+    threads: { type: 'string', default: '1,2' },
+    repeats: { type: 'string', default: '3' },
+    model: { type: 'string', default: 'web/public/models/salsa' },
+    checkpoint: { type: 'string', default: 'training/checkpoints/salsa' },
+    out: { type: 'string', default: 'bench.json' },
+  },
+});
+
+/**
+ * onnxruntime native and PyTorch eager.
+ *
+ * @param {string} folder where the scene goes
+ * @param {number} threads
+ * @returns {Promise<Row[]>}
+ */
+async function measurePython(folder, threads) {
+  const { model, checkpoint, frames, steps, repeats } = options;
+  const settings = { model, checkpoint, frames, steps, repeats, threads: String(threads), out: folder };
+  const flags = Object.entries(settings).flatMap(([name, value]) => [`--${name}`, value]);
+  await must(python, ['-m', 'export.bench', ...flags]);
+  return /** @type {Row[]} */ (JSON.parse(await readFile(path.join(folder, 'python.json'), 'utf8')));
+}
+
+/**
+ * The app's own modules in a real browser, one fresh page for each number of threads.
+ *
+ * @param {string} folder where the scene is
+ * @param {number[]} threadCounts
+ * @returns {Promise<Row[]>}
+ */
+async function measureBrowser(folder, threadCounts) {
+  const executablePath = await findBrowser();
+  if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
+  const pageFolder = fileURLToPath(new URL('page', import.meta.url));
+  const model = path.resolve(root, options.model);
+  const page = await servePage(pageFolder, { '/scene/': folder, '/model/': model });
+  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
+  try {
+    const rows = [];
+    for (const threads of threadCounts) {
+      const tab = await browser.newPage();
+      await tab.goto(page.url);
+      const call = `measure(${threads}, ${Number(options.steps)}, ${Number(options.repeats)})`;
+      const measured = /** @type {import('./page/main').Measured} */ (await tab.evaluate(call));
+      if (measured.backend !== 'wasm' || measured.threads !== threads) {
+        throw new Error(`Asked for wasm with ${threads} threads, got ${JSON.stringify(measured)}`);
+      }
+      rows.push({ ...measured, backend: 'browser wasm' });
+      await tab.close();
+    }
+    return rows;
+  } finally {
+    await browser.close();
+    await page.close();
+  }
+}
+
+await runMain(async () => {
+  await installPythonPackages();
+  const folder = await mkdtemp(path.join(os.tmpdir(), 'reactdance-bench-'));
+  try {
+    const threadCounts = options.threads.split(',').map(Number);
+    const references = await measurePython(folder, Math.max(...threadCounts));
+    const rows = withRatios([...(await measureBrowser(folder, threadCounts)), ...references]);
+    const [processor] = os.cpus();
+    const { stdout: commit } = await promisify(execFile)('git', ['rev-parse', '--short', 'HEAD'], {
+      cwd: root,
+    });
+    const report = {
+      machine: {
+        processor: processor?.model.trim() ?? 'unknown',
+        cores: os.availableParallelism(),
+        memory: Math.round(os.totalmem() / 2 ** 30),
+        system: `${os.type()} ${os.release()}`,
+        load: os.loadavg()[0],
+      },
+      commit: commit.trim(),
+      model: options.model,
+      frames: Number(options.frames),
+      steps: Number(options.steps),
+      stages: STAGES,
+      rows,
+    };
+    await writeFile(path.resolve(root, options.out), `${JSON.stringify(report, null, 2)}\n`);
+    console.log(`\n${report.frames} frames, ${report.steps} steps, seconds (${report.machine.processor}):\n`);
+    console.log(table(rows));
+    console.log(`\nWritten to ${options.out}.`);
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+});

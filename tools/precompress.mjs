@@ -1,0 +1,38 @@
+import { readdir, readFile, writeFile } from 'node:fs/promises';
+import path from 'node:path';
+import { promisify } from 'node:util';
+import { brotliCompress, constants } from 'node:zlib';
+
+const compress = promisify(brotliCompress);
+const textual = new Set(['.css', '.html', '.js', '.json', '.md', '.mjs', '.svg', '.txt', '.webmanifest']);
+const binary = new Set(['.onnx', '.wasm']);
+
+/** A .br file has to save this share of the original, or it's only a second copy on the disk. */
+const WORTHWHILE = 0.05;
+
+/**
+ * Writes FILE.br beside every file below `folder` that brotli makes clearly smaller.
+ * Quality 6 takes a second for the 27 MB of onnxruntime's wasm, and is 3 % larger than quality 9 in five.
+ *
+ * @param {string} folder
+ */
+export async function precompress(folder) {
+  const entries = await readdir(folder, { recursive: true, withFileTypes: true });
+  for (const entry of entries) {
+    const extension = path.extname(entry.name);
+    if (!entry.isFile() || !(textual.has(extension) || binary.has(extension))) continue;
+    const file = path.join(entry.parentPath, entry.name);
+    const original = await readFile(file);
+    const smaller = await compress(original, {
+      params: {
+        [constants.BROTLI_PARAM_QUALITY]: 6,
+        [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
+        [constants.BROTLI_PARAM_SIZE_HINT]: original.length,
+        [constants.BROTLI_PARAM_MODE]: textual.has(extension)
+          ? constants.BROTLI_MODE_TEXT
+          : constants.BROTLI_MODE_GENERIC,
+      },
+    });
+    if (smaller.length <= original.length * (1 - WORTHWHILE)) await writeFile(`${file}.br`, smaller);
+  }
+}

@@ -1,0 +1,104 @@
+import { spawn } from 'node:child_process';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+/** The folder of the project. */
+export const root = fileURLToPath(new URL('..', import.meta.url));
+
+const windows = process.platform === 'win32';
+
+/** The project's own interpreter. */
+export const python = path.join(root, '.venv', windows ? 'Scripts/python.exe' : 'bin/python');
+
+/**
+ * Runs a program in the project's folder, its output shown as it comes. Programs of node_modules are found.
+ *
+ * @param {string} program
+ * @param {string[]} args
+ * @param {Record<string, string>} [env] further environment variables
+ * @returns {Promise<number>} its exit code; 127 when it can't be started
+ */
+export function run(program, args, env = {}) {
+  const search = [path.join(root, 'node_modules', '.bin'), process.env['PATH'] ?? ''].join(path.delimiter);
+  return new Promise((resolve) => {
+    const child = spawn(program, args, {
+      cwd: root,
+      stdio: ['ignore', 'inherit', 'inherit'],
+      env: { ...process.env, ...env, PATH: search },
+      shell: windows,
+    });
+    child.on('error', () => resolve(127));
+    child.on('close', (code) => resolve(code ?? 1));
+  });
+}
+
+/**
+ * Runs a program and throws when it fails.
+ *
+ * @param {string} program
+ * @param {string[]} args
+ * @param {Record<string, string>} [env]
+ */
+export async function must(program, args, env) {
+  const code = await run(program, args, env);
+  if (code !== 0) throw new Error(`${[program, ...args].join(' ')} ended with ${code}`);
+}
+
+/**
+ * Runs a program silently.
+ *
+ * @param {string} program
+ * @param {string[]} args
+ * @returns {Promise<string | undefined>} what it printed, or undefined when it failed or isn't there
+ */
+export function ask(program, args) {
+  return new Promise((resolve) => {
+    let output = '';
+    const child = spawn(program, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], shell: windows });
+    child.stdout.on('data', (chunk) => (output += String(chunk)));
+    child.on('error', () => resolve(undefined));
+    child.on('close', (code) => resolve(code === 0 ? output.trim() : undefined));
+  });
+}
+
+/**
+ * Does a piece of work, saying its name before and its seconds after. An error ends the program.
+ *
+ * @param {string} name
+ * @param {() => Promise<void>} work
+ */
+export async function step(name, work) {
+  console.log(`\n== ${name}`);
+  const start = performance.now();
+  try {
+    await work();
+  } catch (error) {
+    console.error(
+      `== ${name}: failed after ${seconds(start)} s: ${error instanceof Error ? error.message : error}`,
+    );
+    throw new StepFailed(name);
+  }
+  console.log(`== ${name}: ${seconds(start)} s`);
+}
+
+/** A step has failed and has said so already. */
+export class StepFailed extends Error {}
+
+/** @param {number} start */
+function seconds(start) {
+  return ((performance.now() - start) / 1000).toFixed(1);
+}
+
+/**
+ * Runs a program's main function: a failed step or an error ends it with exit code 1.
+ *
+ * @param {() => Promise<void>} main
+ */
+export async function runMain(main) {
+  try {
+    await main();
+  } catch (error) {
+    if (!(error instanceof StepFailed)) console.error(error instanceof Error ? error.message : error);
+    process.exitCode = 1;
+  }
+}

@@ -1,0 +1,27 @@
+/**
+ * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
+ *
+ *     node tools/solve.mjs positions.f32 solved.f32
+ *
+ * Both files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
+ */
+import { readFileSync, writeFileSync } from 'node:fs';
+import { runnerImport } from 'vite';
+
+const [from, to] = process.argv.slice(2);
+if (from === undefined || to === undefined) {
+  console.error('Usage: node tools/solve.mjs positions.f32 solved.f32');
+  process.exit(2);
+}
+const bytes = new Uint8Array(readFileSync(from));
+if (bytes.length === 0 || bytes.length % (22 * 3 * 4) !== 0) {
+  console.error(`${from} holds ${bytes.length} bytes, which are no whole frames of 22 joints.`);
+  process.exit(2);
+}
+const positions = new Float32Array(bytes.buffer);
+
+/** @type {{ module: typeof import('../web/motion/solve') }} */
+const { module } = await runnerImport(new URL('../web/motion/solve.ts', import.meta.url).pathname);
+const motion = module.solve({ fps: 30, frames: positions.length / 66, positions });
+writeFileSync(to, new Uint8Array(motion.positions.buffer));
+console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

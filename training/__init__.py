@@ -1,0 +1,3 @@
+"""Training of reactive dance models: data, HFSQ, denoiser, diffusion, metrics and the programs that run
+them.
+"""

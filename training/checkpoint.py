@@ -1,0 +1,101 @@
+"""Checkpoints: weights as safetensors beside their JSON config; loading is strict and rebuilds the module
+from it.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from safetensors.torch import load_model as load_weights
+from safetensors.torch import save_file
+from torch import nn
+
+from training.config import (
+    DenoiserConfig,
+    DiffusionConfig,
+    FrameConfig,
+    HfsqConfig,
+    from_json,
+    to_json,
+    write_json,
+)
+from training.denoiser.denoiser import Denoiser
+from training.hfsq.autoencoder import Autoencoder
+from training.sampler import Model
+
+
+def save_weights(folder: Path, name: str, module: nn.Module, config: dict) -> None:
+    """Write NAME.safetensors and NAME.json into `folder`.
+
+    Weights are kept in half precision, which halves the checkpoint and, since it is what gets exported, the
+    graphs; everything computes in single precision on those values. Statistics in buffers stay as they are.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    write_json(folder / f"{name}.json", config)
+    trained = {key for key, _ in module.named_parameters()}
+    state = {key: value.half() if key in trained else value for key, value in module.state_dict().items()}
+    save_file({key: value.contiguous() for key, value in state.items()}, str(folder / f"{name}.safetensors"))
+
+
+def save_hfsq(folder: Path, model: Autoencoder, frame: FrameConfig, provenance: dict) -> None:
+    config = {"hfsq": to_json(model.config), "frame": to_json(frame), "provenance": provenance}
+    save_weights(folder, "hfsq", model, config)
+
+
+def save_denoiser(folder: Path, model: Denoiser, diffusion: DiffusionConfig, provenance: dict) -> None:
+    config = {"denoiser": to_json(model.config), "diffusion": to_json(diffusion), "provenance": provenance}
+    save_weights(folder, "denoiser", model, config)
+
+
+def read_config(folder: Path, name: str) -> dict:
+    path = folder / f"{name}.json"
+    if not path.exists():
+        raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
+    return json.loads(path.read_text())
+
+
+def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:
+    """The stage-1 model, frozen and in evaluation mode."""
+    config = read_config(folder, "hfsq")
+    model = Autoencoder(from_json(HfsqConfig, config["hfsq"]))
+    load_weights(model, str(folder / "hfsq.safetensors"), strict=True)
+    return model.eval().requires_grad_(False), from_json(FrameConfig, config["frame"])
+
+
+def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionConfig]:
+    config = read_config(folder, "denoiser")
+    model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
+    load_weights(model, str(folder / "denoiser.safetensors"), strict=True)
+    return model.eval(), from_json(DiffusionConfig, config["diffusion"])
+
+
+def load_model(folder: Path) -> Model:
+    """Both stages of a checkpoint, ready to sample."""
+    hfsq, frame = load_hfsq(folder)
+    denoiser, diffusion = load_denoiser(folder, hfsq)
+    return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion)
+
+
+def read_card(folder: Path) -> dict:
+    """What a person should know about the model: the fields of the manifest's head, from card.json."""
+    return read_config(folder, "card")
+
+
+def write_first_card(folder: Path, reference_height: float) -> None:
+    """A card to be filled in by whoever trained the model; one that is there is left alone.
+
+    reference_height: metres, the mean `body_height` of the leaders it was trained on.
+    """
+    if (folder / "card.json").exists():
+        return
+    card = {
+        "id": folder.resolve().name,
+        "name": folder.resolve().name,
+        "licence": "not stated",
+        "data_licence": "not stated",
+        "attribution": "not stated",
+        "notes": [],
+        "reference_height": round(reference_height, 4),
+    }
+    write_json(folder / "card.json", card)

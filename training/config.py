@@ -1,0 +1,132 @@
+"""Every model and training constant as frozen dataclasses: JSON beside weights, source of the manifest."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+FPS = 30
+STRIDE = 4  # motion frames per latent frame (paper 3.2: n = N/4)
+STREAMS: tuple[str, ...] = ("upper", "lower", "placement")
+
+
+@dataclass(frozen=True)
+class FrameConfig:
+    """The frame of reference: the leader's heading, smoothed over time on the whole clip."""
+
+    sigma: float = 15.0  # frames
+    radius: int = 45  # frames; the Gaussian is cut at three sigma
+
+
+@dataclass(frozen=True)
+class MaskingConfig:
+    """Progressive masking (paper 3.2): residual masking and code masking, both only while training."""
+
+    residual: float = 0.25  # share of windows whose layers above the base are hidden
+    base_noise: float = 0.1  # std of the noise on the base layer of those windows, in units of the code range
+    code: float = 0.15  # share of windows with code masking
+    code_rate: float = 0.1  # share of code dimensions masked in those windows
+
+
+@dataclass(frozen=True)
+class HfsqConfig:
+    quantiser: Literal["hfsq", "rvq", "kl"] = "hfsq"
+    groups: int = 8
+    layers: int = 2
+    levels: tuple[int, ...] = (8, 5, 5, 5)  # 2^10 codes per group
+    scales: tuple[float, ...] = (1.0, 0.25)  # s_r of Eq. 1
+    group_width: int = 16
+    codebook: int = 1024  # residual VQ only
+    widths: tuple[int, int, int] = (192, 192, 96)  # per stream
+    depth: int = 3
+    refine_width: int = 64
+    masking: MaskingConfig | None = field(default_factory=MaskingConfig)
+    weight_position: float = 1.0
+    weight_velocity: float = 5.0
+    weight_acceleration: float = 5.0
+    weight_latent: float = 0.02
+    beta: float = 0.25  # Eq. 5
+    weight_kl: float = 1e-4
+
+
+@dataclass(frozen=True)
+class ConditionConfig:
+    leader: bool = True
+    music: bool = True
+    depth: int = 2  # residual blocks with kernel 3 at the latent rate
+    drop_layer: float = 0.2  # independent per residual layer (paper 3.5)
+    drop_all: float = 0.1
+    drop_leader: float = 0.1
+    drop_music: float = 0.1
+    jitter: int = 3  # frames; the leader is moved against the music by up to this much in training
+
+
+@dataclass(frozen=True)
+class DenoiserConfig:
+    width: int = 256
+    heads: int = 4
+    mlp: int = 3
+    depths: tuple[int, ...] = (4, 2)  # transformer layers of the coarse trunk and of the fine head
+    slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, logits lost per latent frame of distance
+    block: int = 60  # latent frames
+    dropout: float = 0.1
+    condition: ConditionConfig = field(default_factory=ConditionConfig)
+
+
+@dataclass(frozen=True)
+class DiffusionConfig:
+    train_steps: int = 1000
+    schedule: Literal["cosine"] = "cosine"
+    steps: int = 10
+    max_steps: int = 50
+    alternating_phase: bool = False
+    stitching: bool = False
+    guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
+
+
+@dataclass(frozen=True)
+class DenoiserLossConfig:
+    layers: tuple[float, ...] = (1.0, 0.5)  # lambda^r of Eq. 6
+    kinematic: float = 0.02
+    velocity: float = 5.0
+    acceleration: float = 5.0
+    contact: float = 0.05
+    orientation: float = 0.05
+    windows: int = 16  # the windows with least noise in the batch, the only ones that are decoded
+
+
+def to_json(config: Any) -> dict[str, Any]:
+    return dataclasses.asdict(config)
+
+
+def from_json(cls: type, values: dict[str, Any]) -> Any:
+    """Rebuild a (nested) config; an unknown or missing key is an error, never ignored."""
+    fields = {f.name: f for f in dataclasses.fields(cls)}
+    unknown = set(values) - set(fields)
+    missing = set(fields) - set(values)
+    if unknown or missing:
+        raise ValueError(f"{cls.__name__}: unknown keys {sorted(unknown)}, missing keys {sorted(missing)}")
+    out: dict[str, Any] = {}
+    for name, value in values.items():
+        nested = _NESTED.get((cls.__name__, name))
+        if nested and value is not None:
+            out[name] = from_json(nested, value)
+        elif isinstance(value, list):
+            out[name] = tuple(value)
+        else:
+            out[name] = value
+    return cls(**out)
+
+
+_NESTED: dict[tuple[str, str], type] = {
+    ("HfsqConfig", "masking"): MaskingConfig,
+    ("DenoiserConfig", "condition"): ConditionConfig,
+}
+
+
+def write_json(path: Path, values: dict[str, Any]) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(values, indent=2) + "\n")

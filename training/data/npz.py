@@ -1,0 +1,49 @@
+"""Readers of npz archives of joint positions: duets as NAME/leader with NAME/follower, solos as NAME."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from training.data.duet import FPS, Duet, Solo
+from training.data.floor import put_on_floor
+from training.skeleton import JOINTS
+
+
+def _check_header(archive: np.lib.npyio.NpzFile, path: Path) -> None:
+    if "fps" in archive and float(archive["fps"]) != FPS:
+        raise ValueError(f"{path}: {float(archive['fps'])} fps, expected {FPS}; resample it first")
+    if "joints" in archive and tuple(str(name) for name in archive["joints"]) != JOINTS:
+        raise ValueError(f"{path}: its joints are not the {len(JOINTS)} SMPL joints in SMPL order")
+
+
+def read_npz(path: Path | str) -> list[Duet]:
+    """Duets of an archive with keys NAME/leader and NAME/follower, (T, 22, 3) metres, y up; sorted by name.
+
+    Each dancer's floor is put at 0. Raises ValueError when a partner is missing or the archive holds no duet.
+    """
+    path = Path(path)
+    with np.load(path) as archive:
+        _check_header(archive, path)
+        roles = ("leader", "follower")
+        names = sorted({key.rpartition("/")[0] for key in archive.files if key.rpartition("/")[2] in roles})
+        if not names:
+            raise ValueError(f"{path}: no NAME/leader and NAME/follower in it")
+        duets = []
+        for name in names:
+            for role in roles:
+                if f"{name}/{role}" not in archive:
+                    raise ValueError(f"{path}: {name} has no {role}")
+            leader, reactor = (put_on_floor(archive[f"{name}/{role}"]) for role in roles)
+            duets.append(Duet(name, leader, reactor))
+    return duets
+
+
+def read_solo(path: Path | str) -> list[Solo]:
+    """Solo dances of an archive with keys NAME: (T, 22, 3) metres, y up; sorted by name, floors put at 0."""
+    path = Path(path)
+    with np.load(path) as archive:
+        _check_header(archive, path)
+        names = sorted(key for key in archive.files if key not in ("fps", "joints"))
+        return [Solo(name, put_on_floor(archive[name])) for name in names]

@@ -1,0 +1,31 @@
+"""Where duets come from: one entrance for the three layouts that can be read."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from training.data.bvh import read_bvh_folder
+from training.data.dd100 import read_dd100, split_dd100
+from training.data.duet import Duet
+from training.data.npz import read_npz
+from training.data.splits import Split, split
+
+
+def read_duets(source: Path | str) -> list[Duet]:
+    """An .npz archive, a DD100 root (it has motion/pos3d), or a folder of NAME_leader.bvh and NAME_reactor.bvh."""
+    source = Path(source)
+    if source.suffix == ".npz":
+        return read_npz(source)
+    if (source / "motion" / "pos3d").is_dir():
+        return read_dd100(source)
+    return read_bvh_folder(source)
+
+
+def read_split(source: Path | str, val: Collection[str], test: Collection[str]) -> Split:
+    """Duets of a source, split by name; DD100 without names for a test part gets the benchmark's own."""
+    source = Path(source)
+    duets = read_duets(source)
+    if (source / "motion" / "pos3d").is_dir() and not test:
+        return split_dd100(duets, tuple(val))
+    return split(duets, val, test)

@@ -1,0 +1,1 @@
+"""The stage-2 network: condition encoder, coarse trunk and fine heads (paper 3.3)."""

@@ -1,0 +1,97 @@
+"""Leader and music to one memory vector per latent frame; computed once per input, shared by all steps and layers."""
+
+from __future__ import annotations
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from training.config import STRIDE, ConditionConfig
+from training.streams import LEADER_FEATURES
+
+MUSIC_FEATURES = 54
+
+
+class MaskedBlock(nn.Module):
+    """Residual convolution over time that sees zeros outside the clip.
+
+    A window cut from a clip with enough margin gives the same result as the whole clip: `inside` zeroes at every
+    layer what the zero padding of the whole clip would.
+    """
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.first = nn.Conv1d(width, width, 3, padding=1)
+        self.second = nn.Conv1d(width, width, 3, padding=1)
+        for parameter in self.second.parameters():
+            nn.init.zeros_(parameter)
+
+    def forward(self, x: Tensor, inside: Tensor | None) -> Tensor:
+        h = F.silu(x)
+        h = F.silu(self.first(h if inside is None else h * inside))
+        return x + self.second(h if inside is None else h * inside)
+
+
+class Patches(nn.Module):
+    """Four motion frames to one token, then short context: (N, T, c) to (N, width, L)."""
+
+    mean: Tensor
+    std: Tensor
+
+    def __init__(self, channels: int, width: int, depth: int) -> None:
+        super().__init__()
+        self.register_buffer("mean", torch.zeros(channels))
+        self.register_buffer("std", torch.ones(channels))
+        self.patch = nn.Conv1d(channels, width, STRIDE, stride=STRIDE)
+        self.blocks = nn.ModuleList(MaskedBlock(width) for _ in range(depth))
+
+    def embed(self, x: Tensor) -> Tensor:
+        # The convolution as a product, which it is, since patches do not overlap: the WebGPU convolution of
+        # onnxruntime-web 1.30 is wrong when four does not divide its channels, as with the 54 of music.
+        patches = ((x - self.mean) / self.std).reshape(len(x), -1, STRIDE * x.shape[-1])
+        weight = self.patch.weight.transpose(1, 2).flatten(1)
+        return F.linear(patches, weight, self.patch.bias).transpose(1, 2)
+
+    def context(self, tokens: Tensor, inside: Tensor | None) -> Tensor:
+        for block in self.blocks:
+            tokens = block(tokens, inside)
+        return tokens
+
+
+class ConditionEncoder(nn.Module):
+    """Leader features (N, T, 68), music (N, T, 54), its validity (N, T) and role (N,) to memory (N, L, 2 D).
+
+    The first half of the memory is the leader's, the second the music's. Where the music is not valid (no song, or
+    after its end) a learned vector stands for silence. role 0 asks for a reactor, 1 for a leader as the partner.
+    No attention over time: only convolutions of `receptive_field` latent frames.
+    """
+
+    def __init__(self, width: int, config: ConditionConfig) -> None:
+        super().__init__()
+        self.config = config
+        self.leader = Patches(LEADER_FEATURES, width, config.depth)
+        self.music = Patches(MUSIC_FEATURES, width, config.depth)
+        self.role = nn.Parameter(torch.zeros(width))
+        self.silence = nn.Parameter(torch.zeros(width))
+
+    @property
+    def receptive_field(self) -> int:
+        return 2 * self.config.depth
+
+    def forward(
+        self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None
+    ) -> Tensor:
+        """inside: (N, L) 1 where the latent frame belongs to the clip; None when the input is the whole clip."""
+        mask = None if inside is None else inside[:, None]
+        led = self.leader.embed(leader) + (2 * role - 1)[:, None, None] * self.role[None, :, None]
+        led = self.leader.context(led, mask)
+        valid = F.avg_pool1d(music_valid[:, None], STRIDE)
+        # The mask goes onto the input too: where there is no song its features may be anything.
+        heard = self.music.embed(torch.where(music_valid[..., None] > 0.5, music, self.music.mean))
+        heard = heard * valid + self.silence[None, :, None] * (1 - valid)
+        heard = self.music.context(heard, mask)
+        if not self.config.leader:
+            led = torch.zeros_like(led)
+        if not self.config.music:
+            heard = torch.zeros_like(heard)
+        return torch.cat([led, heard], dim=1).transpose(1, 2)

@@ -1,0 +1,80 @@
+"""Dance with a checkpoint: the reactor for a leader and a song.
+
+python -m training.generate --checkpoint training/checkpoints/salsa --leader lead.bvh --song song.mp3 --out
+runs/dance
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import tyro
+
+from training.checkpoint import load_model, read_config
+from training.config import STREAMS
+from training.data.bvh import read_bvh
+from training.data.sources import read_duets
+from training.filmstrip import filmstrip
+from training.music.features import features, load_audio
+from training.music.recipe import AudioRecipe
+from training.sampler import react
+from training.skeleton import body_height
+
+
+@dataclass(frozen=True)
+class Options:
+    checkpoint: Path
+    leader: Path
+    """A BVH file, or any source of duets (then name the duet)."""
+    out: Path
+    """Folder for reactor.npz and the filmstrip."""
+    duet: str | None = None
+    song: Path | None = None
+    seeds: tuple[int, ...] = (1204,)
+    steps: int | None = None
+    coarse: float | None = None
+    """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
+    fine: float | None = None
+    fps: float | None = None
+    """Frame rate of the BVH file where its header is wrong."""
+
+
+def read_leader(options: Options) -> np.ndarray:
+    """(T, 22, 3) metres, 30 fps."""
+    if options.leader.suffix.lower() == ".bvh":
+        return read_bvh(options.leader, fps=options.fps).motion
+    duets = {duet.name: duet for duet in read_duets(options.leader)}
+    if options.duet not in duets:
+        raise SystemExit(f"name one of the duets in {options.leader} with --duet: {', '.join(duets)}")
+    return duets[options.duet].leader
+
+
+def main(options: Options) -> None:
+    model = load_model(options.checkpoint)
+    leader = read_leader(options)
+    height = read_config(options.checkpoint, "card")["reference_height"]
+    scale = np.float32(height / body_height(leader))
+    recipe = AudioRecipe()
+    music = features(load_audio(options.song, recipe), recipe) if options.song else None
+    default = model.diffusion.guidance
+    row = [
+        default[0] if options.coarse is None else options.coarse,
+        default[1] if options.fine is None else options.fine,
+    ]
+    guidance = np.tile(np.array(row, dtype=np.float32), (len(STREAMS), 1))
+
+    options.out.mkdir(parents=True, exist_ok=True)
+    made: dict[str, np.ndarray] = {}
+    for seed in options.seeds:
+        reactor = react(model, leader * scale, music, seed, options.steps, guidance) / scale
+        made[f"seed_{seed}/leader"], made[f"seed_{seed}/follower"] = leader, reactor
+        filmstrip(leader, reactor, options.out / f"seed_{seed}.png")
+        print(f"seed {seed}: {len(reactor) / 30:.1f} s", flush=True)
+    np.savez_compressed(options.out / "reactor.npz", **made)  # pyright: ignore[reportArgumentType]
+    print(f"wrote {options.out / 'reactor.npz'} and a filmstrip for each seed")
+
+
+if __name__ == "__main__":
+    main(tyro.cli(Options))

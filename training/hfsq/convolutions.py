@@ -1,0 +1,66 @@
+"""The temporal encoder and decoder: convolutions only, so that a long clip can be decoded in overlapping chunks."""
+
+from __future__ import annotations
+
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from training.config import STRIDE
+
+DILATIONS = (1, 3)
+
+
+class ResidualBlock(nn.Module):
+    def __init__(self, width: int, dilation: int) -> None:
+        super().__init__()
+        self.wide = nn.Conv1d(width, width, 3, padding=dilation, dilation=dilation)
+        self.out = nn.Conv1d(width, width, 3, padding=1)
+        for parameter in self.out.parameters():
+            nn.init.zeros_(parameter)
+
+    def forward(self, x: Tensor) -> Tensor:
+        return x + self.out(F.silu(self.wide(F.silu(x))))
+
+
+def _stack(width: int, depth: int) -> nn.Sequential:
+    return nn.Sequential(*(ResidualBlock(width, DILATIONS[i % len(DILATIONS)]) for i in range(depth)))
+
+
+class Encoder(nn.Module):
+    """(N, c, T) to (N, latent, T / 4). One convolution takes the stride, the rest runs at the latent rate."""
+
+    def __init__(self, channels: int, width: int, depth: int, latent: int) -> None:
+        super().__init__()
+        self.layers = nn.Sequential(
+            nn.Conv1d(channels, width, 3 * STRIDE, stride=STRIDE, padding=STRIDE),
+            _stack(width, depth),
+            nn.Conv1d(width, latent, 1),
+        )
+
+    def forward(self, x: Tensor) -> Tensor:
+        return self.layers(x)
+
+
+class Decoder(nn.Module):
+    """(N, latent, L) to (N, c, 4 L). Works at the latent rate, then refines at the frame rate in a narrow width."""
+
+    def __init__(self, channels: int, width: int, depth: int, latent: int, refine: int) -> None:
+        super().__init__()
+        self.layers = nn.Sequential(
+            nn.Conv1d(latent, width, 3, padding=1),
+            _stack(width, depth),
+            nn.ConvTranspose1d(width, refine, 3 * STRIDE, stride=STRIDE, padding=STRIDE),
+            ResidualBlock(refine, 1),
+            ResidualBlock(refine, 3),
+            nn.Conv1d(refine, channels, 5, padding=2),
+        )
+
+    def forward(self, x: Tensor) -> Tensor:
+        return self.layers(x)
+
+    @staticmethod
+    def receptive_field(depth: int) -> int:
+        """Latent frames on each side that one latent frame's motion depends on."""
+        latent_rate = 1 + sum(DILATIONS[i % len(DILATIONS)] + 1 for i in range(depth))
+        frame_rate = (1 + 1) + (3 + 1) + 2
+        return latent_rate + 1 + -(-frame_rate // STRIDE) + 1

@@ -1,0 +1,28 @@
+"""Progressive masking (paper 3.2, Figure 3): makes the decoder robust and the layers a hierarchy."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from training.config import MaskingConfig
+
+
+def progressive_masking(codes: Tensor, config: MaskingConfig) -> Tensor:
+    """Corrupt codes (N, L, R, C), each window by its own draw.
+
+    Residual masking hides a random depth of layers above the base and adds scaled Gaussian noise to the base layer, so
+    that the coarse layer alone decodes to a body. Code masking zeroes single dimensions of the codes.
+    """
+    n, _, layers, _ = codes.shape
+    draw = lambda *shape: torch.rand(*shape, device=codes.device)  # noqa: E731
+    hidden = draw(n) < config.residual
+    if layers > 1:
+        kept = 1 + (draw(n) * (layers - 1)).floor()  # 1 .. layers - 1 layers survive in a hidden window
+        order = torch.arange(layers, device=codes.device)
+        keep = (order[None] < torch.where(hidden, kept, layers)[:, None]).to(codes.dtype)
+        codes = codes * keep[:, None, :, None]
+    noise = torch.randn_like(codes[:, :, :1]) * config.base_noise * hidden[:, None, None, None]
+    codes = torch.cat([codes[:, :, :1] + noise, codes[:, :, 1:]], dim=2)
+    masked = (draw(n) < config.code)[:, None, None, None] & (draw(*codes.shape) < config.code_rate)
+    return codes * (~masked).to(codes.dtype)

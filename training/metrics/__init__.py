@@ -1,0 +1,29 @@
+"""Measures of generated duets, each in a module of its own; `quick_report` is the handful watched during
+training.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from training.metrics.distance import root_distance
+from training.metrics.errors import mpjpe, root_error
+from training.metrics.speed import joint_speed
+
+
+def quick_report(
+    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, fps: float = 30.0
+) -> dict[str, float]:
+    """The numbers that select a model while it trains; all motions (T, 22, 3) metres.
+
+    mpjpe_mm and root_error_mm are errors; speed_ratio (mean joint speed) and distance_ratio (median
+    distance of the roots) are generated over true, 1 is right.
+    """
+    return {
+        "mpjpe_mm": mpjpe(truth, generated),
+        "root_error_mm": root_error(leader, truth, generated),
+        "speed_ratio": joint_speed(generated, fps) / joint_speed(truth, fps),
+        "distance_ratio": float(
+            np.median(root_distance(leader, generated)) / np.median(root_distance(leader, truth))
+        ),
+    }

@@ -1,0 +1,81 @@
+"""Beats of a motion, and how well they fall on the music's (BAS) or on the partner's (BED).
+
+A motion beat is a moment of least speed. Extra minima raise a score, so the number of beats and the chance
+level, the score after sliding the reactor's beats round the clip, belong beside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import argrelmin
+
+SMOOTHING = 5.0  # frames, standard deviation of the filter on the speed
+TOLERANCE = 3.0  # frames, standard deviation of the score
+
+
+def motion_beats(motion: np.ndarray) -> np.ndarray:
+    """Frames at which the smoothed mean joint speed of (T, J, 3) has a strict local minimum, (K,) int."""
+    speed = np.linalg.norm(np.diff(motion.astype(np.float64), axis=0), axis=-1).mean(axis=-1)
+    return argrelmin(gaussian_filter1d(speed, SMOOTHING))[0]
+
+
+def music_beats(features: np.ndarray) -> np.ndarray:
+    """Frames of the beats in music features (T, 54), column 53 is 1 at a beat."""
+    return np.flatnonzero(features[:, 53] > 0.5)
+
+
+def beat_scores(reference: np.ndarray, beats: np.ndarray) -> np.ndarray:
+    """exp(-d^2 / (2 * 3^2)) for every reference beat, d the frames to the nearest beat; zeros where there
+    is none.
+    """
+    if len(beats) == 0:
+        return np.zeros(len(reference))
+    distance = np.abs(reference[:, None] - beats[None]).min(axis=1)
+    return np.exp(-(distance**2) / (2 * TOLERANCE**2))
+
+
+def beat_alignment(reference: np.ndarray, beats: np.ndarray) -> float:
+    """Mean beat score: BAS with music beats as reference, BED with the leader's; NaN without a reference
+    beat.
+    """
+    return float(beat_scores(reference, beats).mean()) if len(reference) else float("nan")
+
+
+def chance_alignment(reference: np.ndarray, beats: np.ndarray, frames: int) -> float:
+    """Mean of `beat_alignment` over all circular shifts of the beats within a clip of `frames`."""
+    if len(reference) == 0 or len(beats) == 0:
+        return beat_alignment(reference, beats)
+    shifts = [beat_alignment(reference, (beats + shift) % frames) for shift in range(1, frames)]
+    return float(np.mean(shifts))
+
+
+def bed(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
+    """Beat echo of two motions (T, J, 3): forward (leader's beats answered), backward, chance of both, beat
+    counts.
+    """
+    first, second = motion_beats(leader), motion_beats(reactor)
+    frames = len(leader)
+    return {
+        "forward": beat_alignment(first, second),
+        "backward": beat_alignment(second, first),
+        "forward_chance": chance_alignment(first, second, frames),
+        "backward_chance": chance_alignment(second, first, frames),
+        "leader_beats": float(len(first)),
+        "reactor_beats": float(len(second)),
+    }
+
+
+def bas(music: np.ndarray, reactor: np.ndarray, resamples: int = 1000, seed: int = 0) -> dict[str, float]:
+    """Beat alignment to the music beats (K,) frames, with chance and a 95 % bootstrap interval over the
+    beats.
+    """
+    beats = motion_beats(reactor)
+    scores = beat_scores(music, beats)
+    if len(scores) == 0:
+        return {"value": float("nan"), "chance": float("nan"), "low": float("nan"), "high": float("nan")}
+    random = np.random.default_rng(seed)
+    means = scores[random.integers(len(scores), size=(resamples, len(scores)))].mean(axis=1)
+    low, high = np.percentile(means, [2.5, 97.5])
+    chance = chance_alignment(music, beats, len(reactor))
+    return {"value": float(scores.mean()), "chance": chance, "low": float(low), "high": float(high)}

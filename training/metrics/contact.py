@@ -1,0 +1,39 @@
+"""Foot skating: how much planted feet slide, and how often feet are planted at all."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from training.skeleton import FEET
+
+HEIGHT = 0.03  # metres above a foot joint's own 5th percentile of height
+VERTICAL_SPEED = 0.1  # m/s, a planted foot is slower
+SLIDE_SPEED = 0.2  # m/s, a planted foot that is faster skates
+
+
+def contacts(motion: np.ndarray, fps: float = 30.0) -> tuple[np.ndarray, np.ndarray]:
+    """Contact (T-1, 4) bool and horizontal speed (T-1, 4) m/s of both ankles and feet of (T, 22, 3), y up.
+
+    Measured against each joint's own 5th percentile of height, so neither the floor nor the foot's
+    thickness matters.
+    """
+    feet = motion[:, list(FEET)].astype(np.float64)
+    velocity = np.diff(feet, axis=0) * fps
+    low = feet[:-1, :, 1] < np.percentile(feet[:, :, 1], 5, axis=0) + HEIGHT
+    planted = low & (np.abs(velocity[..., 1]) < VERTICAL_SPEED)
+    return planted, np.linalg.norm(velocity[..., [0, 2]], axis=-1)
+
+
+def foot_skating(motion: np.ndarray, fps: float = 30.0) -> dict[str, float]:
+    """skate_share of contact samples that slide faster than 0.2 m/s, mean slide in contact (m/s),
+    contact_share.
+
+    Without any contact there is nothing to slide: both slides are NaN, and contact_share says why.
+    """
+    planted, speed = contacts(motion, fps)
+    sliding = speed[planted]
+    return {
+        "skate_share": float((sliding > SLIDE_SPEED).mean()) if len(sliding) else float("nan"),
+        "slide_speed": float(sliding.mean()) if len(sliding) else float("nan"),
+        "contact_share": float(planted.mean()),
+    }

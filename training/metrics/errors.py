@@ -1,0 +1,78 @@
+"""How far a generated reactor is from the true one: pose, velocity and place beside the leader.
+
+Every motion is (T, J, 3) in metres at 30 fps with joint 0 the root. MPJPE and MPJVE compare bodies whose
+roots were put on top of each other, so they say nothing of where the reactor stands; the relative-root
+error is the one that does.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+# Edges of the bins of true distance between the roots, metres: in hold, at arm's length, just apart,
+# walking in.
+DISTANCE_EDGES: tuple[float, ...] = (0.0, 0.4, 0.8, 1.2, float("inf"))
+
+
+def _same_length(*motions: np.ndarray) -> None:
+    lengths = {len(m) for m in motions}
+    if len(lengths) != 1:
+        raise ValueError(f"motions must have the same number of frames, got {sorted(lengths)}")
+
+
+def root_relative(motion: np.ndarray) -> np.ndarray:
+    """Positions of (T, J, 3) seen from the root of the same frame."""
+    return motion - motion[:, :1]
+
+
+def mpjpe(truth: np.ndarray, generated: np.ndarray) -> float:
+    """Mean per-joint position error, root-relative in every frame, all joints, in mm."""
+    _same_length(truth, generated)
+    return float(np.linalg.norm(root_relative(generated) - root_relative(truth), axis=-1).mean() * 1000)
+
+
+def mpjve(truth: np.ndarray, generated: np.ndarray) -> float:
+    """Mean per-joint velocity error, root-relative, in mm per frame (not per second)."""
+    _same_length(truth, generated)
+    difference = np.diff(root_relative(generated), axis=0) - np.diff(root_relative(truth), axis=0)
+    return float(np.linalg.norm(difference, axis=-1).mean() * 1000)
+
+
+def root_error_per_frame(
+    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, generated_leader: np.ndarray | None = None
+) -> np.ndarray:
+    """Distance in metres between the true and the generated root as seen from the leader's root, (T,).
+
+    generated_leader is the leader that the generated reactor dances with, where it is not the true one.
+    """
+    _same_length(leader, truth, generated)
+    other = leader if generated_leader is None else generated_leader
+    offset = generated[:, 0] - other[:, 0]
+    return np.linalg.norm(offset - (truth[:, 0] - leader[:, 0]), axis=-1)
+
+
+def root_error(
+    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, generated_leader: np.ndarray | None = None
+) -> float:
+    """Relative-root error: mean over frames of ||(rootR - rootL) - (rootR - rootL)_true||, in mm."""
+    return float(root_error_per_frame(leader, truth, generated, generated_leader).mean() * 1000)
+
+
+def root_error_by_distance(
+    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, edges: tuple[float, ...] = DISTANCE_EDGES
+) -> dict[str, float]:
+    """Relative-root error in mm for each bin of the true distance between the roots.
+
+    A model whose placement collapsed to one common distance shows an error that grows away from it. Bins
+    without a frame are NaN.
+    """
+    error = root_error_per_frame(leader, truth, generated) * 1000
+    distance = np.linalg.norm(truth[:, 0] - leader[:, 0], axis=-1)
+    result: dict[str, float] = {}
+    for low, high in pairwise(edges):
+        inside = (distance >= low) & (distance < high)
+        name = f">{low:g} m" if np.isinf(high) else f"{low:g}-{high:g} m"
+        result[name] = float(error[inside].mean()) if inside.any() else float("nan")
+    return result

@@ -1,0 +1,1 @@
+"""Songs: loading, the 54 features, tempo, synthesis and pairing with dances."""

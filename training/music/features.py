@@ -1,0 +1,190 @@
+"""The music features of a song, by librosa 0.11: the reference that the browser's extractor is held to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import librosa
+import numpy as np
+import soundfile
+
+from training.music.recipe import AudioRecipe
+
+
+def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
+    """Reads a sound file as the mean of its channels at the recipe's rate.
+
+    Returns
+    -------
+    (N,) float32, N = ceil(seconds * recipe.sample_rate).
+
+    Raises
+    ------
+    soundfile.LibsndfileError
+        When the file is not one of wav, flac, ogg, opus, mp3 (libsndfile's formats).
+    """
+    channels, rate = soundfile.read(path, dtype="float32", always_2d=True)
+    return librosa.resample(
+        channels.mean(axis=1), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
+    )
+
+
+def frame_count(samples: int, recipe: AudioRecipe) -> int:
+    """Feature frames of a signal of so many samples."""
+    return 1 + samples // recipe.hop
+
+
+def features(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """MFCC, MFCC deltas, chroma, onset strength and beats, one row per motion frame.
+
+    Digital silence gives zeros. The whole song is needed at once: the decibel reference is its loudest value.
+
+    Parameters
+    ----------
+    audio : (N,) mono samples in [-1, 1] at `recipe.sample_rate`, N >= 1.
+
+    Returns
+    -------
+    (1 + N // recipe.hop, recipe.features) float32.
+
+    Raises
+    ------
+    ValueError
+        For an empty signal, more than one dimension, or samples that are not finite.
+    """
+    if audio.ndim != 1 or audio.size == 0:
+        raise ValueError(f"features need a non-empty mono signal of shape (N,), got {audio.shape}")
+    if not np.isfinite(audio).all():
+        raise ValueError("the audio holds samples that are not finite")
+    spectrum = _magnitude(audio.astype(np.float32, copy=False), recipe)
+    mfcc = _mfcc(spectrum, recipe)
+    harmonic, percussive = _separate(spectrum, recipe)
+    onset = _onset(percussive, recipe)
+    columns = [
+        mfcc,
+        _delta(mfcc, recipe),
+        _chroma(harmonic, recipe),
+        onset[None],
+        _beats(onset, recipe)[None],
+    ]
+    return np.ascontiguousarray(np.concatenate(columns).T, dtype=np.float32)
+
+
+def _magnitude(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(n_fft / 2 + 1, frames) magnitude spectrogram.
+
+    A signal shorter than the window is extended by zeros, which is what centring pads with anyway; the frames
+    that this adds are cut off again.
+    """
+    padded = np.pad(audio, (0, max(0, recipe.n_fft - audio.size)))
+    stft = librosa.stft(
+        padded, n_fft=recipe.n_fft, hop_length=recipe.hop, window="hann", center=True, pad_mode="constant"
+    )
+    return np.abs(stft)[:, : frame_count(audio.size, recipe)]
+
+
+def _separate(magnitude: np.ndarray, recipe: AudioRecipe) -> tuple[np.ndarray, np.ndarray]:
+    """Harmonic and percussive magnitude spectrograms, both shaped like the input.
+
+    The frames are mirrored at the ends here and not by scipy's median filter, which does the same but reads
+    memory that was never written when there are two frames (scipy 1.17).
+    """
+    margin = recipe.hpss_kernel // 2
+    mirrored = np.pad(magnitude, ((0, 0), (margin, margin)), mode="symmetric")
+    harmonic, percussive = librosa.decompose.hpss(
+        mirrored, kernel_size=recipe.hpss_kernel, power=recipe.hpss_power
+    )
+    return harmonic[:, margin:-margin], percussive[:, margin:-margin]
+
+
+def _mel(magnitude: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(mels, frames) power in the Slaney mel bands."""
+    return librosa.feature.melspectrogram(
+        S=magnitude**2,
+        sr=recipe.sample_rate,
+        n_fft=recipe.n_fft,
+        n_mels=recipe.mels,
+        fmin=recipe.mel_fmin,
+        fmax=recipe.mel_fmax,
+    )
+
+
+def _mfcc(magnitude: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(mfcc, frames) cepstrum of the mel spectrogram in decibels below the loudest value of the song."""
+    decibels = librosa.power_to_db(
+        _mel(magnitude, recipe), ref=np.max, amin=recipe.amin, top_db=recipe.top_db
+    )
+    return librosa.feature.mfcc(S=decibels, n_mfcc=recipe.mfcc, dct_type=2, norm="ortho")
+
+
+def _delta(mfcc: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(mfcc, frames) slope of each coefficient per frame; zero when there are too few frames for the fit."""
+    if mfcc.shape[1] < recipe.delta_width:
+        return np.zeros_like(mfcc)
+    return librosa.feature.delta(mfcc, width=recipe.delta_width, order=1, mode="interp")
+
+
+def _chroma(harmonic: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(chroma, frames) power of each pitch class, the strongest of a frame being 1."""
+    return librosa.feature.chroma_stft(
+        S=harmonic**2,
+        sr=recipe.sample_rate,
+        n_fft=recipe.n_fft,
+        n_chroma=recipe.chroma,
+        tuning=recipe.chroma_tuning,
+        ctroct=recipe.chroma_octave,
+        octwidth=recipe.chroma_octave_width,
+        norm=np.inf,
+    )
+
+
+def _onset(percussive: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(frames,) median over the mel bands of the rise in decibels since the frame before."""
+    decibels = librosa.power_to_db(_mel(percussive, recipe), ref=1.0, amin=recipe.amin, top_db=recipe.top_db)
+    return librosa.onset.onset_strength(
+        S=decibels,
+        sr=recipe.sample_rate,
+        n_fft=recipe.n_fft,
+        hop_length=recipe.hop,
+        lag=recipe.onset_lag,
+        aggregate=np.median,
+        center=True,
+    )
+
+
+def _beats(onset: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
+    """(frames,) 1 at the frames that hold a beat, else 0."""
+    beats = np.zeros(onset.shape)
+    if onset.any():
+        # In doubles: librosa's dynamic program keeps the precision of its input, and ties decided by float32
+        # rounding could not be reproduced elsewhere.
+        _, frames = librosa.beat.beat_track(
+            onset_envelope=onset.astype(np.float64),
+            sr=recipe.sample_rate,
+            hop_length=recipe.hop,
+            bpm=tempo(onset, recipe),
+            tightness=recipe.tightness,
+        )
+        beats[frames] = 1
+    return beats
+
+
+def tempo(onset: np.ndarray, recipe: AudioRecipe) -> float:
+    """The one tempo of a song in beats per minute, 0 when no onset was heard.
+
+    Parameters
+    ----------
+    onset : (frames,) onset strength, a column of `features`.
+    """
+    if not onset.any():
+        return 0.0
+    estimate = librosa.feature.tempo(
+        onset_envelope=onset.astype(np.float64),
+        sr=recipe.sample_rate,
+        hop_length=recipe.hop,
+        start_bpm=recipe.start_bpm,
+        std_bpm=recipe.tempo_std,
+        ac_size=recipe.tempo_window,
+        max_tempo=recipe.max_tempo,
+    )
+    return float(estimate[0])

@@ -1,0 +1,197 @@
+"""Blockwise local context (paper 3.4) and layer-decoupled guidance (3.5): latents of any length from a
+denoiser.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig
+from training.denoiser.denoiser import Denoiser
+from training.diffusion import Step, alphas_cumprod, ddim_steps
+from training.frame import smoothed_heading
+from training.hfsq.autoencoder import Autoencoder
+from training.noise import noise
+from training.streams import from_streams, leader_features
+
+
+@dataclass(frozen=True)
+class Block:
+    """Latent frames [start, start + length) at positions 0 .. length - 1 of a block, the rest is padding."""
+
+    start: int
+    length: int
+
+
+def partition(frames: int, block: int, shifted: bool = False) -> list[Block]:
+    """Blocks that tile `frames` latent frames; a shifted partition begins with half a block."""
+    first = block // 2 if shifted else block
+    blocks = [Block(0, min(first, frames))]
+    while (start := blocks[-1].start + blocks[-1].length) < frames:
+        blocks.append(Block(start, min(block, frames - start)))
+    return blocks
+
+
+def overlapping(frames: int, block: int) -> list[Block]:
+    """Windows half a block apart, for latent stitching (the paper's Table 3, after EDGE)."""
+    starts = range(0, max(frames - block // 2, 1), block // 2)
+    return [Block(start, min(block, frames - start)) for start in starts]
+
+
+def gather(values: Tensor, blocks: list[Block], block: int) -> Tensor:
+    """(L, ...) to (B, block, ...), padded with zeros."""
+    out = values.new_zeros(len(blocks), block, *values.shape[1:])
+    for i, b in enumerate(blocks):
+        out[i, : b.length] = values[b.start : b.start + b.length]
+    return out
+
+
+def scatter(values: Tensor, blocks: list[Block], frames: int) -> Tensor:
+    """Inverse of `gather`; where blocks overlap, a cross-fade."""
+    out = values.new_zeros(frames, *values.shape[2:])
+    total = values.new_zeros(frames)
+    extra = (1,) * (values.dim() - 2)
+    for i, b in enumerate(blocks):
+        ramp = torch.minimum(torch.arange(1, b.length + 1), torch.arange(b.length, 0, -1)).to(values.dtype)
+        out[b.start : b.start + b.length] += values[i, : b.length] * ramp.view(-1, *extra)
+        total[b.start : b.start + b.length] += ramp
+    return out / total.view(-1, *extra)
+
+
+def guided_x0(
+    denoiser: Denoiser, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor, guidance: Tensor
+) -> Tensor:
+    """Eq. 9 per stream and layer: (1 + s) G(x, c) - s G(x, null).
+
+    x (B, block, R, C), time (1,), memory (B, block, M), valid (B, block), guidance (S, R). Coarse sees no
+    fine weight: the network's coarse trunk never reads the fine layer and each layer is combined with its
+    own s.
+    """
+    kept = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
+    keep = torch.cat([kept, kept * 0])
+    both = denoiser(
+        torch.cat([x, x]), time, torch.cat([memory, memory]), torch.cat([valid, valid]), keep, keep
+    )
+    # Conditional half first; written so that the exported graph needs no shape arithmetic.
+    conditional, unconditional = both.reshape(2, -1, *both.shape[1:]).unbind(0)
+    s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
+    return (1 + s) * conditional - s * unconditional
+
+
+Progress = Callable[[int, Tensor, Tensor], None]
+
+
+@torch.no_grad()
+def sample(
+    denoiser: Denoiser,
+    memory: Tensor,
+    initial: Tensor,
+    steps: list[Step],
+    guidance: Tensor,
+    config: DiffusionConfig,
+    on_step: Progress | None = None,
+) -> Tensor:
+    """Clean normalised latents (L, R, C) for memory (L, M) from noise (L, R, C); guidance (S, R).
+
+    All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
+    """
+    frames, size = len(memory), denoiser.config.block
+    x = initial
+    x0_before = torch.zeros_like(x)
+    for k, step in enumerate(steps):
+        if config.stitching:
+            blocks = overlapping(frames, size)
+        else:
+            blocks = partition(frames, size, shifted=config.alternating_phase and k % 2 == 1)
+        valid = gather(torch.ones(frames), blocks, size)
+        x0 = guided_x0(
+            denoiser, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
+            gather(memory, blocks, size), valid, guidance,
+        )  # fmt: skip
+        x0 = scatter(x0, blocks, frames)
+        x = step.a * x + step.b * x0 + step.c * x0_before
+        x0_before = x0
+        if on_step is not None:
+            on_step(k, x, x0)
+    return x
+
+
+@dataclass(frozen=True)
+class Model:
+    """A trained pair of stages, ready to dance."""
+
+    hfsq: Autoencoder
+    frame: FrameConfig
+    denoiser: Denoiser
+    diffusion: DiffusionConfig
+
+
+@torch.no_grad()
+def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, role: float = 0.0) -> Tensor:
+    """Memory (L, M) of a whole clip: leader (T, 22, 3) metres, music (T, 54), music_valid (T); T a multiple
+    of 4.
+    """
+    features = leader_features(leader, smoothed_heading(leader, model.frame))
+    encoder = model.denoiser.condition
+    return encoder(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
+
+
+@torch.no_grad()
+def decode(model: Model, latents: Tensor, leader: Tensor, layers: Tensor | None = None) -> Tensor:
+    """Normalised latents (L, R, C) to reactor joints (T, 22, 3); `layers` (R,) multiplies each residual
+    layer.
+    """
+    raw = model.hfsq.denormalise(latents)
+    if layers is not None:
+        raw = raw * layers[:, None]
+    upper, lower, placement = (s[0] for s in model.hfsq.decode(raw[None]))
+    return from_streams(upper, lower, placement, leader, smoothed_heading(leader, model.frame))
+
+
+def pad_to_stride(motion: np.ndarray) -> np.ndarray:
+    """Repeat the last frame until the length is a multiple of 4."""
+    missing = -len(motion) % STRIDE
+    return np.concatenate([motion, np.repeat(motion[-1:], missing, axis=0)]) if missing else motion
+
+
+@torch.no_grad()
+def react(
+    model: Model,
+    leader: np.ndarray,
+    music: np.ndarray | None,
+    seed: int,
+    steps: int | None = None,
+    guidance: np.ndarray | None = None,
+    role: float = 0.0,
+) -> np.ndarray:
+    """The reactor (T, 22, 3) for a leader (T, 22, 3) at the model's reference height and music (T', 54) or
+    None.
+
+    guidance: (S, R), Eq. 9's s; None takes the model's default. Where the music is shorter than the dance
+    there is silence.
+    """
+    frames = len(leader)
+    padded = torch.from_numpy(pad_to_stride(leader)).float()
+    heard, valid = torch.zeros(len(padded), 54), torch.zeros(len(padded))
+    if music is not None:
+        n = min(len(music), len(padded))
+        heard[:n], valid[:n] = torch.from_numpy(music[:n]).float(), 1.0
+    memory = condition(model, padded, heard, valid, role)
+    layers, width = model.denoiser.layers, model.denoiser.latent_width
+    initial = (
+        torch.from_numpy(noise(seed, len(memory), layers * width, draw=0))
+        .float()
+        .unflatten(1, (layers, width))
+    )
+    if guidance is None:
+        guidance = np.tile(np.array(model.diffusion.guidance, dtype=np.float32), (len(STREAMS), 1))
+    plan = ddim_steps(alphas_cumprod(model.diffusion), steps or model.diffusion.steps)
+    latents = sample(
+        model.denoiser, memory, initial, plan, torch.from_numpy(guidance).float(), model.diffusion
+    )
+    return decode(model, latents, padded)[:frames].numpy()

@@ -1,0 +1,181 @@
+"""Windows for stage 2: latents of the frozen HFSQ with leader and music around them, from augmented duets."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from training.config import STRIDE, ConditionConfig, FrameConfig
+from training.data.augment import mirror, scale_leader, swap_roles, tempo_warp
+from training.data.duet import Duet
+from training.frame import smoothed_heading
+from training.hfsq.autoencoder import Autoencoder
+from training.music.pairing import MusicBank
+from training.streams import leader_features, to_streams
+
+
+@dataclass(frozen=True)
+class Augmentation:
+    tempos: tuple[float, ...] = (0.9, 1.0, 1.1)
+    mirror: bool = True
+    roles: bool = True
+    scales: tuple[float, float] = (0.94, 1.06)  # leaders of other sizes
+    copies: int = 2  # of every combination, each with its own grid offset and leader scale
+
+
+@dataclass(frozen=True)
+class Clip:
+    """One augmented duet, everything on its own time axis; T = 4 L."""
+
+    latents: Tensor  # (L, R, C) normalised
+    features: Tensor  # (T, 68) of the leader
+    music: list[Tensor]  # several pieces (T, 54)
+    leader: Tensor  # (T, 22, 3)
+    reactor: Tensor  # (T, 22, 3)
+    heading: Tensor  # (T, 2)
+    role: float  # 0 reactor wanted, 1 leader wanted
+
+    def __len__(self) -> int:
+        return len(self.latents)
+
+
+class Batch(NamedTuple):
+    """N windows of one block. Context arrays have a margin of latent frames on both sides, zero outside the
+    clip.
+    """
+
+    latents: Tensor  # (N, block, R, C)
+    valid: Tensor  # (N, block)
+    features: Tensor  # (N, 4 (block + 2 margin), 68)
+    music: Tensor  # (N, 4 (block + 2 margin), 54)
+    music_valid: Tensor  # (N, 4 (block + 2 margin))
+    inside: Tensor  # (N, block + 2 margin)
+    role: Tensor  # (N,)
+    leader: Tensor  # (N, 4 block, 22, 3)
+    reactor: Tensor  # (N, 4 block, 22, 3)
+    heading: Tensor  # (N, 4 block, 2)
+
+
+@torch.no_grad()
+def make_clip(
+    duet: Duet, music: Sequence[np.ndarray], role: float, hfsq: Autoencoder, frame: FrameConfig
+) -> Clip:
+    """Encode a duet; its length is cut to a multiple of 4."""
+    frames = len(duet) // STRIDE * STRIDE
+    leader = torch.from_numpy(duet.leader[:frames])
+    reactor = torch.from_numpy(duet.reactor[:frames])
+    heading = smoothed_heading(leader, frame)
+    latents = hfsq.encode([s[None] for s in to_streams(leader, reactor, heading)])
+    return Clip(
+        latents=hfsq.normalise(latents)[0],
+        features=leader_features(leader, heading),
+        music=[torch.from_numpy(m[:frames]).float() for m in music],
+        leader=leader,
+        reactor=reactor,
+        heading=heading,
+        role=role,
+    )
+
+
+def augmented_clips(
+    duets: Sequence[Duet],
+    bank: MusicBank,
+    hfsq: Autoencoder,
+    frame: FrameConfig,
+    options: Augmentation,
+    seed: int,
+) -> list[Clip]:
+    """Every duet at every tempo, mirrored or not, in both roles; the music of a tempo is shared by all of
+    them.
+    """
+    random = np.random.default_rng(seed)
+    clips: list[Clip] = []
+    for duet in duets:
+        for tempo in options.tempos:
+            music = [m for variant, m in bank[duet.name].items() if variant.warp == tempo]
+            warped = tempo_warp(duet, tempo)
+            for mirrored in (False, True) if options.mirror else (False,):
+                for role in (0.0, 1.0) if options.roles else (0.0,):
+                    for _ in range(options.copies):
+                        made = mirror(warped) if mirrored else warped
+                        made = scale_leader(
+                            swap_roles(made) if role else made, random.uniform(*options.scales)
+                        )
+                        cut = int(random.integers(STRIDE))
+                        made = Duet(made.name, made.leader[cut:], made.reactor[cut:])
+                        clips.append(make_clip(made, [m[cut:] for m in music], role, hfsq, frame))
+    return clips
+
+
+def slice_padded(values: Tensor, start: int, stop: int) -> Tensor:
+    """values[start:stop] with zeros where the indices lie outside."""
+    inner = values[max(start, 0) : max(min(stop, len(values)), 0)]
+    out = values.new_zeros(stop - start, *values.shape[1:])
+    first = max(-start, 0)
+    out[first : first + len(inner)] = inner
+    return out
+
+
+class Windows:
+    """Dense sliding windows (stride of one latent frame = 4 frames by default), some cut short at either
+    end.
+    """
+
+    def __init__(
+        self, clips: Sequence[Clip], block: int, margin: int, stride: int, config: ConditionConfig, seed: int
+    ) -> None:
+        self.clips, self.block, self.margin, self.config = clips, block, margin, config
+        self.starts: list[tuple[int, int]] = [
+            (i, s)
+            for i, clip in enumerate(clips)
+            for s in range(0, max(len(clip) - block, 0) + 1, max(stride // STRIDE, 1))
+        ]
+        self.random = np.random.default_rng(seed)
+
+    def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05) -> Batch:
+        chosen = self.random.integers(len(self.starts), size=n)
+        windows = [
+            self._window(index, start, short, song_ends) for index, start in (self.starts[i] for i in chosen)
+        ]
+        stacked = [torch.stack([w[k] for w in windows]) for k in range(10)]
+        return Batch(*stacked)
+
+    def _window(self, index: int, start: int, short: float, song_ends: float) -> tuple[Tensor, ...]:
+        clip, block, margin = self.clips[index], self.block, self.margin
+        stop = min(start + block, len(clip))
+        first, last = 0, len(clip)  # where this window's world begins and ends, in latent frames
+        if self.random.random() < short:
+            last = stop = start + int(self.random.integers(8, block + 1)) if stop - start == block else stop
+        if self.random.random() < short:
+            first = start
+        low, high = start - margin, start + block + margin
+        rows = torch.arange(low, high)
+        inside = ((rows >= first) & (rows < last)).float()
+        by_frame = inside.repeat_interleave(STRIDE)
+        jitter = int(self.random.integers(-self.config.jitter, self.config.jitter + 1))
+        music = clip.music[int(self.random.integers(len(clip.music)))]
+        heard = by_frame.clone()
+        if self.random.random() < self.config.drop_music:
+            heard.zero_()
+        elif self.random.random() < song_ends:
+            heard[int(self.random.integers(len(heard))) :] = 0
+        valid = torch.zeros(block)
+        valid[: stop - start] = 1
+        frames = (STRIDE * start, STRIDE * (start + block))
+        return (
+            slice_padded(clip.latents, start, start + block) * valid[:, None, None],
+            valid,
+            slice_padded(clip.features, STRIDE * low, STRIDE * high),
+            slice_padded(music, STRIDE * low + jitter, STRIDE * high + jitter),
+            heard,
+            inside,
+            torch.tensor(clip.role),
+            slice_padded(clip.leader, *frames),
+            slice_padded(clip.reactor, *frames),
+            slice_padded(clip.heading, *frames),
+        )

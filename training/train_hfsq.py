@@ -1,0 +1,264 @@
+"""Stage 1: train the HFSQ autoencoder (paper 3.2).
+
+python -m training.train_hfsq --data ../shared/data/cmu_salsa/duets.npz --out runs/salsa
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import torch
+import tyro
+from lightning_fabric import Fabric
+from lion_pytorch import Lion
+from torch import Tensor, nn
+
+from training.checkpoint import save_hfsq
+from training.config import STRIDE, FrameConfig, HfsqConfig
+from training.data.augment import mirror, swap_roles, tempo_warp
+from training.data.duet import Duet
+from training.data.npz import read_solo
+from training.data.sources import read_split
+from training.data.splits import Split
+from training.frame import smoothed_heading
+from training.hfsq.autoencoder import Autoencoder
+from training.hfsq.losses import stage1_loss
+from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
+from training.metrics import quick_report
+from training.streams import from_streams, to_streams
+
+Streams = tuple[Tensor, Tensor, Tensor]
+
+
+@dataclass(frozen=True)
+class Options:
+    data: Path
+    """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
+    out: Path
+    """Folder of this run: checkpoint, journal, curves."""
+    solo: Path | None = None
+    """npz archive of solo dances whose bodies join the training of the upper and lower streams."""
+    solo_prefixes: tuple[str, ...] = ("indian", "modern")
+    val: tuple[str, ...] = ("salsa_03",)
+    test: tuple[str, ...] = ("salsa_05", "salsa_11")
+    steps: int = 4000
+    minutes: float | None = None
+    """Stop after this time even if the steps are not done; the learning rate follows whichever comes first.
+    """
+    batch: int = 48
+    window: int = 240
+    learning_rate: float = 3e-4
+    weight_decay: float = 1e-3
+    average: float = 0.998
+    tempos: tuple[float, ...] = (0.9, 1.0, 1.1)
+    seed: int = 0
+    devices: int = 1
+    threads: int = 0
+    """CPU threads for torch, 0 leaves its default."""
+    precision: Literal["32-true", "bf16-mixed", "16-mixed"] = "bf16-mixed"
+    log_every: int = 50
+    evaluate_every: int = 500
+    resume: bool = False
+    hfsq: HfsqConfig = field(default_factory=HfsqConfig)
+    frame: FrameConfig = field(default_factory=FrameConfig)
+
+
+def streams_of(duet: Duet, frame: FrameConfig) -> Streams:
+    leader, reactor = torch.from_numpy(duet.leader), torch.from_numpy(duet.reactor)
+    return to_streams(leader, reactor, smoothed_heading(leader, frame))
+
+
+def training_clips(options: Options, duets: Split) -> list[Streams]:
+    """Every training duet and solo, also mirrored, role-swapped and at other tempos, as streams of (T, c)."""
+    clips: list[Streams] = []
+    for duet in duets.train:
+        for tempo in options.tempos:
+            warped = tempo_warp(duet, tempo)
+            for variant in (warped, mirror(warped)):
+                clips += [streams_of(variant, options.frame), streams_of(swap_roles(variant), options.frame)]
+    if options.solo is not None:
+        for solo in read_solo(options.solo):
+            if solo.name.startswith(options.solo_prefixes):
+                # A soloist dances with themselves: bodies are real, the placement stream sees its own
+                # height only.
+                alone = Duet(solo.name, solo.motion, solo.motion)
+                clips += [streams_of(variant, options.frame) for variant in (alone, mirror(alone))]
+    return [clip for clip in clips if len(clip[0]) >= options.window]
+
+
+class Windows:
+    """Random windows of the clips, turned by a random angle about the vertical in half of the cases."""
+
+    def __init__(self, clips: list[Streams], size: int, seed: int) -> None:
+        self.clips, self.size = clips, size
+        starts = np.array([len(c[0]) - size + 1 for c in clips], dtype=np.float64)
+        self.shares = starts / starts.sum()
+        self.random = np.random.default_rng(seed)
+
+    def batch(self, n: int) -> Streams:
+        """Three tensors (n, size, c)."""
+        chosen = self.random.choice(len(self.clips), n, p=self.shares)
+        parts: list[Streams] = []
+        for index in chosen:
+            clip = self.clips[index]
+            start = int(self.random.integers(0, len(clip[0]) - self.size + 1))
+            parts.append(tuple(s[start : start + self.size] for s in clip))
+        upper, lower, placement = (torch.stack([p[i] for p in parts]) for i in range(3))
+        angle = self.random.uniform(-np.pi, np.pi, n) * (self.random.random(n) < 0.5)
+        angles = torch.from_numpy(angle).float()
+        return turn(upper, angles), turn(lower, angles), placement
+
+
+def turn(stream: Tensor, angle: Tensor) -> Tensor:
+    """Turn joint positions (N, T, 3 k) about the vertical by (N,) radians."""
+    joints = stream.unflatten(-1, (-1, 3))
+    c, s = angle.cos()[:, None, None], angle.sin()[:, None, None]
+    x, y, z = joints.unbind(-1)
+    return torch.stack([c * x + s * z, y, c * z - s * x], dim=-1).flatten(-2)
+
+
+def set_input_statistics(model: Autoencoder, clips: list[Streams]) -> None:
+    """Mean per dimension and one standard deviation per stream, from training clips."""
+    for i, stream in enumerate(model.each):
+        values = torch.cat([clip[i] for clip in clips])
+        stream.mean.copy_(values.mean(0))
+        stream.std.copy_(values.std(0).mean())
+
+
+@torch.no_grad()
+def set_latent_statistics(model: Autoencoder, clips: list[Streams]) -> None:
+    latents = torch.cat([encode_clip(model, clip)[0] for clip in clips])
+    model.latent_mean.copy_(latents.mean(0))
+    model.latent_std.copy_(latents.std(0).clamp_min(1e-3))
+
+
+def encode_clip(model: Autoencoder, clip: Streams) -> Tensor:
+    """Latents (1, L, R, C) of a whole clip; up to 3 frames at its end are left out."""
+    frames = len(clip[0]) // STRIDE * STRIDE
+    return model.encode([s[None, :frames] for s in clip])
+
+
+@torch.no_grad()
+def reconstruct(model: Autoencoder, duet: Duet, frame: FrameConfig, layers: int | None = None) -> np.ndarray:
+    """The reactor (T, 22, 3) after encoding and decoding, from the first `layers` layers if given."""
+    frames = len(duet) // STRIDE * STRIDE
+    leader = torch.from_numpy(duet.leader[:frames])
+    heading = smoothed_heading(leader, frame)
+    streams = to_streams(leader, torch.from_numpy(duet.reactor[:frames]), heading)
+    latents = model.encode([s[None] for s in streams])
+    if layers is not None:
+        latents[:, :, layers:] = 0
+    upper, lower, placement = (s[0] for s in model.decode(latents))
+    return from_streams(upper, lower, placement, leader, heading).numpy()
+
+
+def evaluate(model: Autoencoder, duets: tuple[Duet, ...], options: Options) -> dict[str, float]:
+    """Mean reconstruction errors over duets, of all layers and of the coarse layer alone."""
+    rows: list[dict[str, float]] = []
+    for duet in duets:
+        frames = len(duet) // STRIDE * STRIDE
+        row: dict[str, float] = {}
+        for name, layers in (("all", None), ("coarse", 1)):
+            motion = reconstruct(model, duet, options.frame, layers)
+            report = quick_report(duet.leader[:frames], duet.reactor[:frames], motion)
+            row |= {f"val/{name}/{k}": report[k] for k in ("mpjpe_mm", "root_error_mm", "speed_ratio")}
+        rows.append(row)
+    return {k: float(np.mean([row[k] for row in rows])) for k in rows[0]}
+
+
+@torch.no_grad()
+def bins_used(model: Autoencoder, clips: list[Streams]) -> list[float]:
+    """Share of FSQ bins that training data uses, per residual layer (fault: an undivided residual rounds to
+    zero).
+    """
+    latents = torch.cat([encode_clip(model, clip)[0] for clip in clips[: len(clips) // 4 + 1]])
+    levels = torch.tensor(model.config.levels * (model.latent_width // len(model.config.levels)))
+    shares = []
+    for layer in range(model.layers):
+        used = [len(latents[:, layer, c].mul(1000).round().unique()) for c in range(model.latent_width)]
+        shares.append(float((torch.tensor(used) / levels).mean()))
+    return shares
+
+
+class Stage1(nn.Module):
+    """The loss as a module, so that distributed training sees one forward pass."""
+
+    def __init__(self, model: Autoencoder, config: HfsqConfig) -> None:
+        super().__init__()
+        self.model, self.config = model, config
+
+    def forward(self, motions: Streams) -> tuple[Tensor, dict[str, Tensor]]:
+        return stage1_loss(self.model, motions, self.config)
+
+
+def main(options: Options) -> None:
+    if options.threads:
+        torch.set_num_threads(options.threads)
+    fabric = Fabric(accelerator="auto", devices=options.devices, precision=options.precision)
+    fabric.launch()
+    fabric.seed_everything(options.seed, verbose=False)
+
+    duets = read_split(options.data, options.val, options.test)
+    clips = training_clips(options, duets)
+    windows = Windows(clips, options.window, options.seed * 1000 + fabric.global_rank)
+    autoencoder = Autoencoder(options.hfsq)
+    set_input_statistics(autoencoder, clips)
+
+    stage = Stage1(autoencoder, options.hfsq)
+    optimizer = Lion(stage.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay)
+    average = Average(autoencoder, options.average)
+    average.module.to(fabric.device)
+    stage, optimizer = fabric.setup(stage, optimizer)
+    budget = Budget(options.steps, options.minutes)
+    journal = Journal(options.out / "hfsq", fabric.is_global_zero)
+    state = options.out / "hfsq" / "state.ckpt"
+    if options.resume:
+        load_state(fabric, state, stage, optimizer, average, budget)
+
+    while budget.progress < 1:
+        stage.train()
+        for group in optimizer.param_groups:
+            group["lr"] = learning_rate(options.learning_rate, budget, warmup=100)
+        motions = tuple(fabric.to_device(m) for m in windows.batch(options.batch))
+        loss, parts = stage(motions)
+        fabric.backward(loss)
+        fabric.clip_gradients(stage, optimizer, max_norm=1.0)
+        optimizer.step()
+        optimizer.zero_grad()
+        average.update(autoencoder)
+        budget.tick()
+        budget.spent = fabric.broadcast(budget.spent)  # one clock for all ranks: it sets the learning rate
+        journal.add(parts)
+        if budget.step % options.log_every == 0:
+            journal.write(budget)
+        if budget.step % options.evaluate_every == 0:
+            save_state(fabric, state, stage, optimizer, average, budget)
+            if fabric.is_global_zero:
+                journal.write(budget, evaluate(average.module.cpu(), duets.val, options))
+                journal.draw()
+                average.module.to(fabric.device)
+
+    if fabric.is_global_zero:
+        final = average.module.cpu()
+        set_latent_statistics(final, clips)
+        report = evaluate(final, duets.val, options)
+        if options.hfsq.quantiser == "hfsq":
+            report |= {f"bins/{i}": share for i, share in enumerate(bins_used(final, clips))}
+        journal.write(budget, report)
+        journal.draw()
+        provenance = {
+            "program": "training.train_hfsq",
+            "steps": budget.step,
+            "minutes": round(budget.spent / 60, 1),
+            "options": {k: str(v) for k, v in asdict(options).items() if k not in ("hfsq", "frame")},
+            "validation": report,
+        }
+        save_hfsq(options.out, final, options.frame, provenance)
+    fabric.barrier()
+
+
+if __name__ == "__main__":
+    main(tyro.cli(Options))

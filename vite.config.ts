@@ -1,0 +1,48 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig, type Plugin } from 'vite';
+import { precompress } from './tools/precompress.mjs';
+import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
+
+const dist = fileURLToPath(new URL('dist', import.meta.url));
+
+/** The built page carries its own policy. In development Vite's injected <style> elements would break on it. */
+const policyInPage: Plugin = {
+  name: 'content-security-policy',
+  apply: 'build',
+  transformIndexHtml: () => [
+    {
+      tag: 'meta',
+      attrs: { 'http-equiv': 'Content-Security-Policy', content: contentSecurityPolicy },
+      injectTo: 'head-prepend',
+    },
+  ],
+};
+
+const brotli: Plugin = {
+  name: 'brotli',
+  apply: 'build',
+  enforce: 'post',
+  closeBundle: () => precompress(dist),
+};
+
+export default defineConfig({
+  root: 'web',
+  base: './',
+  plugins: [policyInPage, brotli],
+  // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
+  optimizeDeps: { exclude: ['onnxruntime-web'] },
+  worker: { format: 'es' },
+  server: { headers: isolationHeaders },
+  preview: { headers: securityHeaders },
+  build: {
+    outDir: dist,
+    emptyOutDir: true,
+    target: 'es2023',
+    // The time that brotli takes is no news.
+    rolldownOptions: { checks: { pluginTimings: false } },
+    // data: addresses would need a hole in the policy.
+    assetsInlineLimit: 0,
+    // three and onnxruntime are this large; both are needed before anything is seen.
+    chunkSizeWarningLimit: 1500,
+  },
+});

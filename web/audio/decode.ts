@@ -1,0 +1,109 @@
+import { AudioError } from './errors';
+
+/**
+ * Hz at which songs are decoded and played: common, and far enough above the recipe's rate that the browser's own
+ * resampling leaves what is analysed untouched.
+ */
+const DECODING_RATE = 48000;
+
+/** Longest song that is taken, seconds: decoded sound needs 23 MB a minute. */
+const LONGEST = 15 * 60;
+
+/** How long to wait for a file's header to tell its duration, milliseconds. */
+const PROBE_PATIENCE = 5000;
+
+/** A song as the browser decodes it. */
+export interface DecodedSong {
+  /** Samples of each channel, all of one length. */
+  readonly channels: Float32Array<ArrayBuffer>[];
+  /** Hz */
+  readonly sampleRate: number;
+  /** Seconds. */
+  readonly duration: number;
+}
+
+/**
+ * Decodes any sound file that the browser knows; the sound of a film too. Needs a window: workers have no decoder.
+ *
+ * Encoders put silence before an MP3, M4A or Opus song. Chromium removes it where the file says how much (measured:
+ * no offset against the same song as WAV); an MP3 without a LAME header stays about 25 ms late, less than one frame.
+ *
+ * @throws AudioError empty-file, unreadable-file, too-long, not-audio, no-sound
+ */
+export async function decodeSong(file: Blob): Promise<DecodedSong> {
+  if (file.size === 0) {
+    throw new AudioError(
+      'empty-file',
+      'The song file is empty.',
+      'Choose another file, or copy this one again.',
+    );
+  }
+  refuseLong(await probeDuration(file));
+  const buffer = await decode(await readBytes(file));
+  if (buffer.length === 0) {
+    throw new AudioError(
+      'no-sound',
+      'The song file holds no sound.',
+      'Choose a file that plays in a music player.',
+    );
+  }
+  refuseLong(buffer.duration);
+  const channels = Array.from({ length: buffer.numberOfChannels }, (_, index) =>
+    buffer.getChannelData(index).slice(),
+  );
+  return { channels, sampleRate: buffer.sampleRate, duration: buffer.duration };
+}
+
+function refuseLong(duration: number): void {
+  if (duration <= LONGEST) return;
+  const minutes = (duration / 60).toFixed(1);
+  throw new AudioError(
+    'too-long',
+    `The song lasts ${minutes} minutes; songs of up to ${LONGEST / 60} minutes are taken.`,
+    'Cut out the part to dance to with a sound editor and load that.',
+  );
+}
+
+/** Seconds that the file's header claims, without decoding it; 0 when it doesn't say. */
+async function probeDuration(file: Blob): Promise<number> {
+  const address = URL.createObjectURL(file);
+  const element = new Audio();
+  element.preload = 'metadata';
+  try {
+    return await new Promise<number>((resolve) => {
+      setTimeout(resolve, PROBE_PATIENCE, 0);
+      element.onerror = () => resolve(0);
+      element.onloadedmetadata = () => resolve(Number.isFinite(element.duration) ? element.duration : 0);
+      element.src = address;
+    });
+  } finally {
+    element.removeAttribute('src');
+    URL.revokeObjectURL(address);
+  }
+}
+
+async function readBytes(file: Blob): Promise<ArrayBuffer> {
+  try {
+    return await file.arrayBuffer();
+  } catch (cause) {
+    throw new AudioError(
+      'unreadable-file',
+      'The song file could not be read.',
+      'Check that it has not been moved or changed since it was chosen, and choose it again.',
+      { cause },
+    );
+  }
+}
+
+async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
+  try {
+    return await new OfflineAudioContext(1, 1, DECODING_RATE).decodeAudioData(bytes);
+  } catch (cause) {
+    throw new AudioError(
+      'not-audio',
+      'The file is not a sound that this browser can decode.',
+      'Use a WAV, MP3, OGG, FLAC, M4A or Opus file.',
+      { cause },
+    );
+  }
+}

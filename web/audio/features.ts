@@ -1,0 +1,105 @@
+import { trackBeats } from './beats';
+import { chromaFilters, normalizeRow } from './chroma';
+import { delta } from './delta';
+import { applyToPower } from './filters';
+import { separate } from './hpss';
+import { melFilters } from './mel';
+import { cepstrum } from './mfcc';
+import { onsetStrength } from './onset';
+import { type AudioRecipe, frameCount } from './recipe';
+import { magnitudes } from './stft';
+import { beatPeriod } from './tempo';
+
+/** What a song tells the model, and what the page shows of it. */
+export interface MusicFeatures {
+  readonly frames: number;
+  /** frames x recipe.features: MFCC, their deltas, chroma, onset strength, beat */
+  readonly features: Float32Array;
+  /** Beats per minute; 0 when no onset was heard. */
+  readonly tempo: number;
+  /** Seconds of the beats, ascending. */
+  readonly beats: number[];
+}
+
+/** Shares of the running time, measured on a three-minute song; only the progress depends on them. */
+const SPECTRUM_SHARE = 0.25;
+const SEPARATION_SHARE = 0.7;
+
+/**
+ * The music features of a whole song, as training/music/features.py computes them with librosa 0.11.
+ *
+ * @param audio mono samples at the recipe's rate; may be shorter than a window, digital silence gives zeros
+ * @param onProgress hears fractions of the work done, about a hundred times, the last one 1
+ */
+export function musicFeatures(
+  audio: Float32Array,
+  recipe: AudioRecipe,
+  onProgress: (fraction: number) => void = () => undefined,
+): MusicFeatures {
+  const { mels, mfcc, chroma } = recipe;
+  const frames = frameCount(audio.length, recipe);
+  const report = (base: number, share: number) => (done: number, total: number) => {
+    if (done % Math.ceil(total / 50) === 0) onProgress(base + (share * done) / total);
+  };
+
+  const spectrogram = magnitudes(audio, recipe, report(0, SPECTRUM_SHARE));
+  const melBank = melFilters(recipe);
+  const chromaBank = chromaFilters(recipe);
+  const mel = new Float64Array(frames * mels);
+  const percussiveMel = new Float64Array(frames * mels);
+  const pitches = new Float64Array(frames * chroma);
+  separate(
+    spectrogram,
+    recipe,
+    (frame, harmonic, percussive) => {
+      applyToPower(melBank, spectrogram.values, frame * spectrogram.bins, mel, frame * mels);
+      applyToPower(melBank, percussive, 0, percussiveMel, frame * mels);
+      applyToPower(chromaBank, harmonic, 0, pitches, frame * chroma);
+      normalizeRow(pitches, frame * chroma, chroma);
+    },
+    report(SPECTRUM_SHARE, SEPARATION_SHARE),
+  );
+
+  const cepstra = cepstrum(mel, recipe);
+  const onset = onsetStrength(percussiveMel, recipe);
+  const heard = onset.some((value) => value !== 0);
+  const period = heard ? beatPeriod(onset, recipe) : 0;
+  const beatFrames = heard ? trackBeats(onset, period, recipe.tightness) : [];
+  const beats = new Float64Array(frames);
+  for (const frame of beatFrames) beats[frame] = 1;
+
+  const framesPerSecond = recipe.sample_rate / recipe.hop;
+  const features = interleave(frames, recipe.features, [
+    { values: cepstra, columns: mfcc },
+    { values: delta(cepstra, mfcc, recipe.delta_width), columns: mfcc },
+    { values: pitches, columns: chroma },
+    { values: onset, columns: 1 },
+    { values: beats, columns: 1 },
+  ]);
+  onProgress(1);
+  return {
+    frames,
+    features,
+    tempo: heard ? (60 * framesPerSecond) / period : 0,
+    beats: beatFrames.map((frame) => frame / framesPerSecond),
+  };
+}
+
+/** Puts blocks of columns side by side: frames x width. */
+function interleave(
+  frames: number,
+  width: number,
+  blocks: readonly { values: Float64Array; columns: number }[],
+): Float32Array {
+  const out = new Float32Array(frames * width);
+  let first = 0;
+  for (const { values, columns } of blocks) {
+    for (let frame = 0; frame < frames; frame++) {
+      out.set(values.subarray(frame * columns, (frame + 1) * columns), frame * width + first);
+    }
+    first += columns;
+  }
+  if (first !== width)
+    throw new RangeError(`the recipe promises ${width} feature columns and makes ${first}`);
+  return out;
+}

@@ -1,0 +1,84 @@
+import * as v from 'valibot';
+import { AudioError } from './errors';
+
+const positive = v.pipe(v.number(), v.finite(), v.gtValue(0));
+const count = v.pipe(v.number(), v.integer(), v.minValue(1));
+const odd = v.pipe(
+  count,
+  v.check((value) => value % 2 === 1, 'Expected an odd number'),
+);
+
+/** The manifest's `audio` block. Authored in training/music/recipe.py, which says what each number is for. */
+const schema = v.pipe(
+  v.object({
+    /** Hz of the mono signal that is analysed. */
+    sample_rate: count,
+    /** Samples between two frames. */
+    hop: count,
+    /** Samples under the Hann window of one frame. */
+    n_fft: v.pipe(
+      count,
+      v.check((value) => Number.isInteger(Math.log2(value)), 'Expected a power of two'),
+    ),
+    mels: count,
+    /** Hz. */
+    mel_fmin: v.pipe(v.number(), v.minValue(0)),
+    /** Hz. */
+    mel_fmax: positive,
+    amin: positive,
+    top_db: positive,
+    mfcc: count,
+    /** Frames. */
+    delta_width: odd,
+    /** Frames and bins. */
+    hpss_kernel: odd,
+    hpss_power: positive,
+    chroma: count,
+    /** Fractions of a pitch class. */
+    chroma_tuning: v.pipe(v.number(), v.finite()),
+    chroma_octave: positive,
+    /** Octaves. */
+    chroma_octave_width: positive,
+    /** Frames. */
+    onset_lag: count,
+    /** Beats per minute. */
+    start_bpm: positive,
+    /** Octaves. */
+    tempo_std: positive,
+    /** Seconds. */
+    tempo_window: positive,
+    /** Beats per minute. */
+    max_tempo: positive,
+    tightness: positive,
+    /** Columns of a feature row. */
+    features: count,
+  }),
+  v.check(
+    ({ features, mfcc, chroma }) => features === 2 * mfcc + chroma + 2,
+    'Expected 2 mfcc + chroma + 2 features',
+  ),
+);
+
+/** Every constant of the music features; nothing in this folder repeats a value. */
+export type AudioRecipe = Readonly<v.InferOutput<typeof schema>>;
+
+/**
+ * Checks the manifest's `audio` block.
+ *
+ * @throws AudioError bad-recipe
+ */
+export function readRecipe(block: unknown): AudioRecipe {
+  const result = v.safeParse(schema, block);
+  if (result.success) return result.output;
+  const [issue] = result.issues;
+  throw new AudioError(
+    'bad-recipe',
+    `The model's audio recipe cannot be used: ${v.getDotPath(issue) ?? 'audio'}: ${issue.message}.`,
+    'Export the model again with this version of the project.',
+  );
+}
+
+/** Feature frames of a signal of so many samples: frames are centred, the first one on sample 0. */
+export function frameCount(samples: number, recipe: AudioRecipe): number {
+  return 1 + Math.floor(samples / recipe.hop);
+}

@@ -1,0 +1,179 @@
+import { proxy, type Remote, wrap } from 'comlink';
+import type { Backend, Preference } from './backend';
+import { ModelError } from './error';
+import type { GenerateRequest } from './inputs';
+import type { Status } from './load';
+import type { Manifest } from './manifest';
+import type { GenerateOptions, GenerateResult, Progress } from './pipeline';
+import type { Failure, ModelWorker, Outcome, WorkerEvent } from './protocol';
+
+export type {
+  Backend,
+  GenerateOptions,
+  GenerateRequest,
+  GenerateResult,
+  Manifest,
+  Preference,
+  Progress,
+  Status,
+};
+export { ModelError };
+
+export interface GeneratorOptions {
+  /** Address of the model's manifest.json. */
+  readonly manifestUrl: string;
+  /** Where to compute; 'auto' when not given. */
+  readonly backend?: Preference | undefined;
+  /** At most this many wasm threads; for measuring. */
+  readonly threads?: number | undefined;
+  readonly onStatus?: ((status: Status) => void) | undefined;
+}
+
+/** The page's way to the model: one worker with one model, replaced by a fresh one after a crash. */
+export interface Generator {
+  readonly manifest: Manifest;
+  /** Where the present worker computes, and why. */
+  readonly backend: Backend;
+  /**
+   * Compute the partner of a dancer.
+   * @throws {ModelError}
+   * @throws the signal's reason, soon after it is aborted
+   */
+  generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
+  /** Ends the worker; calls under way are rejected. */
+  dispose(): void;
+}
+
+/** A worker with a loaded model. */
+interface Running {
+  readonly remote: Remote<ModelWorker>;
+  readonly manifest: Manifest;
+  readonly backend: Backend;
+  /** Is rejected when the worker dies, so that nobody waits for its answer for ever. */
+  readonly death: Promise<never>;
+  /** Where the progress of each call under way goes. */
+  readonly listeners: Map<number, (progress: Progress) => void>;
+  end(error: Error): void;
+}
+
+function crashed(message: string): ModelError {
+  return new ModelError(
+    'worker-crashed',
+    `The model stopped unexpectedly: ${message}`,
+    'Try again, it starts afresh; if it stops again, use a shorter clip or the processor instead of WebGPU.',
+  );
+}
+
+function toError(failure: Failure): Error {
+  if (failure.kind === 'model') return new ModelError(failure.code, failure.message, failure.hint);
+  if (failure.kind === 'crash') return crashed(failure.message);
+  return new DOMException('Cancelled.', 'AbortError');
+}
+
+async function start(options: GeneratorOptions): Promise<Running> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'model' });
+  const remote = wrap<ModelWorker>(worker);
+  const listeners: Running['listeners'] = new Map();
+  let reject: (error: Error) => void = () => undefined;
+  const death = new Promise<never>((_, fail) => (reject = fail));
+  // Whoever waits races against it; when nobody does, a death is noticed at the next call.
+  death.catch(() => undefined);
+  const end = (error: Error): void => {
+    worker.terminate();
+    reject(error);
+  };
+  worker.addEventListener('error', (event) => {
+    end(crashed(event.message || 'its script could not be loaded'));
+  });
+  worker.addEventListener('messageerror', () => {
+    end(crashed('a message could not be read'));
+  });
+  const onEvent = (event: WorkerEvent): void => {
+    if (event.kind === 'status') options.onStatus?.(event.status);
+    else listeners.get(event.id)?.(event.progress);
+  };
+  const { backend = 'auto', threads } = options;
+  const manifestUrl = new URL(options.manifestUrl, document.baseURI).href;
+  const loaded = await Promise.race([remote.load({ manifestUrl, backend, threads }, proxy(onEvent)), death]);
+  if (!loaded.ok) {
+    const error = toError(loaded.failure);
+    end(error);
+    throw error;
+  }
+  return { remote, ...loaded.value, death, listeners, end };
+}
+
+/**
+ * Start the model's worker and load the model into it.
+ * @throws {ModelError}
+ */
+export async function createGenerator(options: GeneratorOptions): Promise<Generator> {
+  let latest = await start(options);
+  let current: Promise<Running> | undefined;
+  let calls = 0;
+  let disposed = false;
+
+  const use = (running: Running): void => {
+    latest = running;
+    running.death.catch(() => {
+      if (latest === running) current = undefined;
+    });
+  };
+  /** The present worker, or a fresh one after a crash. */
+  const ready = (): Promise<Running> => {
+    current ??= start(options).then(
+      (running) => {
+        use(running);
+        return running;
+      },
+      (error: unknown) => {
+        current = undefined;
+        throw error;
+      },
+    );
+    return current;
+  };
+  current = Promise.resolve(latest);
+  use(latest);
+
+  return {
+    get manifest() {
+      return latest.manifest;
+    },
+    get backend() {
+      return latest.backend;
+    },
+    async generate(request, { signal, onProgress } = {}) {
+      if (disposed) throw new DOMException('The generator was disposed.', 'AbortError');
+      signal?.throwIfAborted();
+      const running = await ready();
+      signal?.throwIfAborted();
+      const id = ++calls;
+      if (onProgress) running.listeners.set(id, onProgress);
+      let cancel: () => void = () => undefined;
+      // The caller hears at once; the worker stops when its present graph run is over.
+      const cancelled = new Promise<never>((_, fail) => {
+        cancel = () => {
+          void running.remote.cancel(id);
+          fail(signal?.reason as Error);
+        };
+      });
+      signal?.addEventListener('abort', cancel);
+      let result: Outcome<GenerateResult>;
+      try {
+        result = await Promise.race([running.remote.generate(id, request), running.death, cancelled]);
+      } finally {
+        signal?.removeEventListener('abort', cancel);
+        running.listeners.delete(id);
+      }
+      if (result.ok) return result.value;
+      const error = toError(result.failure);
+      if (result.failure.kind === 'crash') running.end(error);
+      throw error;
+    },
+    dispose() {
+      disposed = true;
+      latest.end(new DOMException('The generator was disposed.', 'AbortError'));
+    },
+  };
+}

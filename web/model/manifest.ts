@@ -1,0 +1,149 @@
+import * as v from 'valibot';
+import { PARENTS, SMPL22 } from '../motion/skeleton';
+import { ModelError } from './error';
+
+const count = v.pipe(v.number(), v.integer(), v.minValue(1));
+const natural = v.pipe(v.number(), v.integer(), v.minValue(0));
+
+const file = v.object({
+  path: v.pipe(v.string(), v.minLength(1)),
+  bytes: count,
+  sha256: v.pipe(v.string(), v.regex(/^[0-9a-f]{64}$/, 'Expected 64 hexadecimal digits')),
+});
+
+const graph = v.object({
+  inputs: v.record(v.string(), v.array(v.union([v.string(), v.number()]))),
+  outputs: v.record(v.string(), v.array(v.union([v.string(), v.number()]))),
+  files: v.object({ wasm: file, webgpu: file }),
+});
+
+const schema = v.object({
+  format: v.literal('reactdance-model'),
+  version: v.literal(1),
+  id: v.pipe(v.string(), v.minLength(1)),
+  name: v.string(),
+  created: v.string(),
+  licence: v.record(v.string(), v.string()),
+  attribution: v.string(),
+  notes: v.array(v.string()),
+  skeleton: v.object({
+    joints: v.array(v.string()),
+    parents: v.array(v.number()),
+    upper: v.array(natural),
+    lower: v.array(natural),
+    feet: v.array(natural),
+    /** Metres; the body height (motion/scale.ts) that every leader is scaled to. */
+    reference_height: v.pipe(v.number(), v.minValue(0.1)),
+  }),
+  fps: v.pipe(v.number(), v.minValue(1)),
+  latent: v.object({
+    /** Motion frames per latent frame. */
+    stride: count,
+    /** Latent frames per block. */
+    block: count,
+    /** Channels of one residual layer, all streams together. */
+    channels: count,
+    streams: v.pipe(v.array(v.string()), v.minLength(1)),
+    layers: v.pipe(v.array(v.string()), v.minLength(1)),
+    memory_width: count,
+    /** Latent frames needed on each side of a piece of clip for an exact result inside it. */
+    receptive_field: v.object({ condition: natural, decode: natural }),
+  }),
+  diffusion: v.object({
+    train_steps: count,
+    /** The signal's share of variance after each of the train_steps noising steps. */
+    alphas_cumprod: v.pipe(v.array(v.pipe(v.number(), v.minValue(0), v.maxValue(1))), v.minLength(1)),
+    sampler: v.literal('ddim'),
+    /** On odd steps, blocks begin half a block later. */
+    alternating_phase: v.boolean(),
+    steps: v.object({ default: count, min: count, max: count }),
+  }),
+  guidance: v.object({
+    convention: v.string(),
+    min: v.number(),
+    max: v.number(),
+    step: v.number(),
+    default: v.record(v.string(), v.number()),
+  }),
+  noise: v.object({ algorithm: v.literal('philox4x32-10') }),
+  /** The feature recipe; its other keys are checked by the audio side, which reads them. */
+  audio: v.looseObject({ sample_rate: count, hop: count, features: count }),
+  graphs: v.object({ condition: graph, step: graph, decode: graph }),
+  /** Inputs and results of one small sampling, as Python computed it. */
+  golden: v.optional(v.object({ path: v.pipe(v.string(), v.minLength(1)) })),
+});
+
+/** Every number about a model that the page knows; written by export, checked here. */
+export type Manifest = v.InferOutput<typeof schema>;
+export type GraphName = keyof Manifest['graphs'];
+export type ManifestFile = v.InferOutput<typeof file>;
+
+export const GRAPHS: readonly GraphName[] = ['condition', 'step', 'decode'];
+
+const REEXPORT = 'Export the model again with this version of the project, or use the model it ships with.';
+
+function invalid(message: string): ModelError {
+  return new ModelError('manifest-invalid', message, REEXPORT);
+}
+
+/** Says which field is wrong and how, in one sentence. */
+function describe(issue: v.BaseIssue<unknown>): string {
+  const path = v.getDotPath(issue);
+  if (path === null) return "The model's manifest is not a JSON object.";
+  if (issue.received === 'undefined') return `The model's manifest has no field "${path}".`;
+  return `The model's manifest has a wrong field "${path}": ${issue.message}.`;
+}
+
+/** Statements that tie fields to each other and to what this page can draw. */
+function check(manifest: Manifest): void {
+  const { skeleton, latent, diffusion, guidance } = manifest;
+  const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
+    a.length === b.length && a.every((value, i) => value === b[i]);
+  if (!same(skeleton.joints, SMPL22) || !same(skeleton.parents, PARENTS)) {
+    throw new ModelError(
+      'model-unsupported',
+      "The model's skeleton is not the 22-joint SMPL body that this page draws.",
+      REEXPORT,
+    );
+  }
+  if (diffusion.alphas_cumprod.length !== diffusion.train_steps) {
+    throw invalid(
+      `The model's manifest lists ${diffusion.alphas_cumprod.length} values in "diffusion.alphas_cumprod" ` +
+        `for ${diffusion.train_steps} train steps.`,
+    );
+  }
+  if (latent.channels % latent.streams.length !== 0) {
+    throw invalid(
+      `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
+    );
+  }
+  const { min, max, default: preset } = diffusion.steps;
+  if (!(min <= preset && preset <= max && max <= diffusion.train_steps)) {
+    throw invalid('The model\'s manifest has a "diffusion.steps" that is not in order: min, default, max.');
+  }
+  const missing = latent.layers.find((layer) => guidance.default[layer] === undefined);
+  if (missing !== undefined)
+    throw invalid(`The model's manifest has no field "guidance.default.${missing}".`);
+}
+
+/**
+ * Check a parsed manifest.
+ * @throws {ModelError} `manifest-invalid` naming the first wrong field, `model-unsupported` for another format,
+ * version or skeleton
+ */
+export function parseManifest(json: unknown): Manifest {
+  const head = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);
+  const expected = { format: schema.entries.format.literal, version: schema.entries.version.literal };
+  if (head.success && (head.output.format !== expected.format || head.output.version !== expected.version)) {
+    throw new ModelError(
+      'model-unsupported',
+      `The model has format "${head.output.format}" version ${head.output.version}; ` +
+        `this page reads "${expected.format}" version ${expected.version}.`,
+      REEXPORT,
+    );
+  }
+  const result = v.safeParse(schema, json);
+  if (!result.success) throw invalid(describe(result.issues[0]));
+  check(result.output);
+  return result.output;
+}

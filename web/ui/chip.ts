@@ -1,0 +1,88 @@
+import { duration, tempo } from './format';
+import { el, setText, setVariable, together } from './dom';
+import { icon } from './icons';
+import { rateWords } from './selectors';
+import type { Services } from './services';
+import type { AppState, Side } from './state';
+import { watchAll, type Store } from './store';
+
+const NAMES = { song: 'Song', leader: 'Leader' } as const;
+const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
+
+/** The song's or the leader's place in the bar: its name, what it is, and the way to another one. */
+export function mountChip(root: HTMLElement, store: Store, services: Services, side: Side): () => void {
+  const name = el('b');
+  const short = el('span');
+  const long = el('span', { class: 'long' });
+  const foot = el('span', { class: 'foot', attributes: { 'aria-hidden': 'true' } });
+  const sign = el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(side));
+  const chip = el(
+    'button',
+    {
+      class: 'chip',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.choose(side);
+        },
+      },
+    },
+    sign,
+    name,
+    el('span', { class: 'm' }, short, long),
+    foot,
+  );
+  root.append(chip);
+
+  const show = (state: AppState): void => {
+    const words = describe(state, side);
+    chip.classList.toggle('refused', words.refused);
+    chip.classList.toggle('empty', words.name === null);
+    setText(name, words.name ?? ASK[side]);
+    setText(short, words.short);
+    setText(long, words.long);
+    foot.hidden = words.fraction === null;
+    setVariable(foot, '--part', words.fraction ?? 0);
+    chip.title = words.name ?? '';
+    const what = words.name ? `${NAMES[side]}: ${words.name}, ${words.short}` : `No ${side} yet`;
+    chip.setAttribute('aria-label', `${what}. Choose ${words.name ? 'another' : 'one'}`);
+  };
+  return together(
+    watchAll(store, (state) => [state[side], state.reading[side], state.problem], show),
+    () => {
+      chip.remove();
+    },
+  );
+}
+
+interface Words {
+  readonly name: string | null;
+  readonly short: string;
+  readonly long: string;
+  readonly refused: boolean;
+  readonly fraction: number | null;
+}
+
+function describe(state: AppState, side: Side): Words {
+  const reading = state.reading[side];
+  if (reading)
+    return { name: reading.name, short: 'reading', long: '', refused: false, fraction: reading.fraction };
+  const refused = state.problem?.refused;
+  if (refused?.side === side)
+    return { name: refused.name, short: 'not used', long: '', refused: true, fraction: null };
+  const plain = { refused: false, fraction: null };
+  if (side === 'song' && state.song) {
+    const { name, label, data } = state.song;
+    const facts = `${duration(data.duration)} · ${tempo(data.tempo)}`;
+    return label ? { name, short: label, long: '', ...plain } : { name, short: facts, long: '', ...plain };
+  }
+  if (side === 'leader' && state.leader) {
+    const { name, label, file } = state.leader;
+    if (label) return { name, short: label, long: '', ...plain };
+    const { clip, report } = file;
+    const joints = Object.values(report.joints).filter((source) => source !== null).length;
+    const long = ` · ${joints} joints · ${rateWords(report.sourceFps, clip.fps)}`;
+    return { name, short: duration(clip.frames / clip.fps), long, ...plain };
+  }
+  return { name: null, short: '', long: '', ...plain };
+}

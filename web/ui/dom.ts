@@ -1,0 +1,65 @@
+type Child = Node | string | null;
+
+interface Properties {
+  readonly class?: string;
+  readonly text?: string;
+  /** Attributes; `true` is an empty attribute, `false` and `undefined` leave it out. */
+  readonly attributes?: Readonly<Record<string, string | number | boolean | undefined>>;
+  readonly on?: { readonly [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void };
+}
+
+/** Makes an element. No markup strings anywhere, so nothing a file name contains can become markup. */
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  properties: Properties = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  if (properties.class) element.className = properties.class;
+  if (properties.text !== undefined) element.textContent = properties.text;
+  for (const [name, value] of Object.entries(properties.attributes ?? {})) setAttribute(element, name, value);
+  for (const [type, listener] of Object.entries(properties.on ?? {}))
+    element.addEventListener(type, listener as EventListener);
+  element.append(...children.filter((child) => child !== null));
+  return element;
+}
+
+/** Sets, or with `false` and `undefined` removes, an attribute. */
+export function setAttribute(
+  element: Element,
+  name: string,
+  value: string | number | boolean | undefined,
+): void {
+  if (value === undefined || value === false) element.removeAttribute(name);
+  else element.setAttribute(name, value === true ? '' : String(value));
+}
+
+/** Sets the text only when it differs, so that a clock does not make work sixty times a second. */
+export function setText(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** Sets a CSS custom property, the one way in which numbers reach the style sheets. */
+export function setVariable(element: HTMLElement, name: `--${string}`, value: number): void {
+  element.style.setProperty(name, String(Math.round(value * 1e5) / 1e5));
+}
+
+/** A group of undo functions that is itself one. */
+export function together(...disposers: (() => void)[]): () => void {
+  return () => {
+    for (const dispose of disposers) dispose();
+  };
+}
+
+/** Adds a listener and returns its removal. */
+export function listen<K extends keyof WindowEventMap>(
+  target: Window,
+  type: K,
+  listener: (event: WindowEventMap[K]) => void,
+  options?: AddEventListenerOptions,
+): () => void {
+  target.addEventListener(type, listener, options);
+  return () => {
+    target.removeEventListener(type, listener, options);
+  };
+}

@@ -1,0 +1,155 @@
+import type { Song } from '../audio/client';
+import type { Manifest } from '../model/client';
+import type { LeaderQuestion, ReadLeader } from './leader-reader';
+import { emptyFileProblem, fileProblem, isAbort, otherMotionProblem, unknownFileProblem } from './problems';
+import { HEAD_BYTES, kindOf } from './sniff';
+import type { LoadedLeader, LoadedSong, Side } from './state';
+import {
+  apply,
+  leaderLoaded,
+  told,
+  dismissed,
+  readingSet,
+  songLoaded,
+  type Store,
+  visitEnded,
+} from './store';
+
+/** The readers, so that this file can be tested without a browser. */
+export interface Readers {
+  readonly loadSong: (
+    file: Blob,
+    recipe: Manifest['audio'],
+    options: { signal: AbortSignal; onProgress: (progress: { readonly fraction: number }) => void },
+  ) => Promise<Song>;
+  readonly readLeader: (question: LeaderQuestion, signal: AbortSignal) => Promise<ReadLeader>;
+  /** Songs are heard as the model's recipe says. */
+  readonly manifest: () => Promise<Manifest>;
+}
+
+export interface Files {
+  /** Reads files that the visitor gave. */
+  readonly open: (files: readonly File[]) => Promise<void>;
+  /** Reads one song; the label says where it comes from when not from the visitor. */
+  readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
+  readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
+  readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
+}
+
+/**
+ * Reading songs and leaders. A newer file of a kind drops the older one that is still being read; a file that
+ * fails leaves what was loaded before as it is and becomes a sentence.
+ */
+export function createFiles(store: Store, readers: Readers): Files {
+  const running: Record<Side, AbortController | null> = { song: null, leader: null };
+
+  async function read<T>(
+    side: Side,
+    name: string,
+    work: (signal: AbortSignal, progress: (fraction: number) => void) => Promise<T>,
+    done: (value: T) => void,
+  ): Promise<T | null> {
+    running[side]?.abort();
+    const controller = new AbortController();
+    running[side] = controller;
+    apply(store, readingSet(side, { name, fraction: 0 }));
+    try {
+      const value = await work(controller.signal, (fraction) => {
+        // Progress crosses from a worker and may arrive after the result.
+        if (running[side] === controller) apply(store, readingSet(side, { name, fraction }));
+      });
+      if (controller.signal.aborted) return null;
+      running[side] = null;
+      done(value);
+      return value;
+    } catch (error) {
+      if (controller.signal.aborted || isAbort(error)) return null;
+      running[side] = null;
+      apply(store, readingSet(side, null));
+      apply(store, told(fileProblem(error, side, name)));
+      return null;
+    }
+  }
+
+  const openSong: Files['openSong'] = (blob, name, label) =>
+    read(
+      'song',
+      name,
+      async (signal, progress): Promise<LoadedSong> => {
+        const { audio } = await readers.manifest();
+        const data = await readers.loadSong(blob, audio, {
+          signal,
+          onProgress: ({ fraction }) => {
+            progress(fraction);
+          },
+        });
+        return { name, label, data };
+      },
+      (song) => {
+        apply(store, songLoaded(song));
+      },
+    );
+
+  const readLeader = (
+    text: string,
+    name: string,
+    label: string | null,
+    fps: number | null,
+  ): Promise<LoadedLeader | null> =>
+    read(
+      'leader',
+      name,
+      async (signal): Promise<LoadedLeader> => {
+        const { file, motion } = await readers.readLeader({ text, fps }, signal);
+        return { name, label, text, fps, file, motion };
+      },
+      (leader) => {
+        apply(store, leaderLoaded(leader));
+      },
+    );
+
+  async function openOne(file: File): Promise<void> {
+    if (file.size === 0) {
+      apply(store, told(emptyFileProblem(file.name)));
+      return;
+    }
+    const head = new Uint8Array(await file.slice(0, HEAD_BYTES).arrayBuffer());
+    switch (kindOf(head, file.name, file.type)) {
+      case 'song':
+        apply(store, visitEnded());
+        await openSong(file, file.name, null);
+        return;
+      case 'leader':
+        apply(store, visitEnded());
+        await readLeader(await file.text(), file.name, null, null);
+        return;
+      case 'other-motion':
+        apply(store, told(otherMotionProblem(file.name)));
+        return;
+      case 'unknown':
+        apply(store, told(unknownFileProblem(file.name)));
+    }
+  }
+
+  return {
+    open: async (files) => {
+      apply(store, dismissed());
+      await Promise.all(
+        files.map(async (file) => {
+          try {
+            await openOne(file);
+          } catch (error) {
+            // A folder, or a file that vanished between choosing and reading.
+            apply(store, told(fileProblem(error, 'leader', file.name)));
+          }
+        }),
+      );
+    },
+    openSong,
+    openLeader: (text, name, label) => readLeader(text, name, label, null),
+    rereadLeader: async (fps) => {
+      const { leader } = store.getState();
+      return leader ? readLeader(leader.text, leader.name, leader.label, fps) : null;
+    },
+  };
+}

@@ -1,0 +1,138 @@
+import { listen, together } from './dom';
+import { rolledSeed } from './options';
+import { danceDuration } from './selectors';
+import type { Services } from './services';
+import type { Camera } from './state';
+import {
+  apply,
+  cameraSet,
+  guidanceReset,
+  opened,
+  playbackSet,
+  dismissed,
+  seedSet,
+  SPEEDS,
+  type Store,
+} from './store';
+
+/**
+ * The keys of the page. Letters rest while someone types; arrows, Home and End rest on sliders of their own;
+ * Space on a control that was reached by keyboard presses that control.
+ */
+export function mountKeyboard(store: Store, services: Services): () => void {
+  let byPointer = true;
+  const onKey = (event: KeyboardEvent): void => {
+    if (event.key === 'Tab') byPointer = false;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target instanceof HTMLElement ? event.target : document.body;
+    if (event.key === 'Escape') {
+      if (escape(store, services)) event.preventDefault();
+      return;
+    }
+    if (target.matches('input[type="number"], input[type="text"], select, textarea')) return;
+    const ownsArrows = target.matches('input[type="range"], [role="radio"]');
+    if (/^(Arrow|Home|End|Page)/.test(event.key) && ownsArrows) return;
+    if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
+    if (press(event, store, services)) event.preventDefault();
+  };
+  // A button that was clicked keeps the focus and would be pressed again by the release of Space.
+  const onRelease = (event: KeyboardEvent): void => {
+    if (event.key === ' ' && byPointer && event.target instanceof HTMLButtonElement) event.preventDefault();
+  };
+  return together(
+    listen(window, 'keydown', onKey),
+    listen(window, 'keyup', onRelease),
+    listen(
+      window,
+      'pointerdown',
+      () => {
+        byPointer = true;
+      },
+      { capture: true },
+    ),
+  );
+}
+
+/** Closes or cancels the one thing in front; true if there was one. */
+function escape(store: Store, services: Services): boolean {
+  const { problem, open, job } = store.getState();
+  if (problem) apply(store, dismissed());
+  else if (open) apply(store, opened(open));
+  else if (job) services.cancel();
+  else return false;
+  return true;
+}
+
+function press(event: KeyboardEvent, store: Store, services: Services): boolean {
+  const state = store.getState();
+  const { time, speed, loop } = state.playback;
+  const frame = 1 / (state.leader?.file.clip.fps ?? 30);
+  const hop = event.shiftKey ? 1 : frame;
+  switch (event.key) {
+    case ' ':
+      services.togglePlay();
+      return true;
+    case 'ArrowLeft':
+      services.seek(time - hop);
+      return true;
+    case 'ArrowRight':
+      services.seek(time + hop);
+      return true;
+    case 'Home':
+      services.seek(0);
+      return true;
+    case 'End':
+      services.seek(danceDuration(state));
+      return true;
+    case '[':
+      apply(store, playbackSet({ speed: beside(speed, -1) }));
+      return true;
+    case ']':
+      apply(store, playbackSet({ speed: beside(speed, 1) }));
+      return true;
+    case '?':
+      apply(store, opened('keys'));
+      return true;
+  }
+  switch (event.key.toLowerCase()) {
+    case 'l':
+      apply(store, playbackSet({ loop: !loop }));
+      return true;
+    case 'c':
+      focusFader('Coarse guidance');
+      return true;
+    case 'v':
+      focusFader('Fine guidance');
+      return true;
+    case 'r':
+      apply(store, guidanceReset());
+      return true;
+    case 'd':
+      apply(store, seedSet(rolledSeed()));
+      return true;
+    case 'f':
+      toggleCamera(store, 'follow');
+      return true;
+    case 't':
+      toggleCamera(store, 'top');
+      return true;
+    case 'e':
+      if (state.reaction) apply(store, opened('download'));
+      return true;
+  }
+  return false;
+}
+
+/** The next slower or faster of the offered speeds. */
+function beside(speed: number, by: 1 | -1): number {
+  const at = SPEEDS.findIndex((value) => value === speed);
+  return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + by))] ?? 1;
+}
+
+function focusFader(label: string): void {
+  document.querySelector<HTMLInputElement>(`input[aria-label="${label}"]`)?.focus();
+}
+
+function toggleCamera(store: Store, camera: Camera): void {
+  apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
+}

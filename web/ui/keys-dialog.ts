@@ -1,0 +1,65 @@
+import { el, together } from './dom';
+import { icon } from './icons';
+import type { Mount } from './services';
+import { apply, opened, watch } from './store';
+
+const KEYS: readonly (readonly [readonly string[], string])[] = [
+  [['Space'], 'Play or pause'],
+  [['←', '→'], 'One frame back or on'],
+  [['Shift ←', 'Shift →'], 'One second back or on'],
+  [['Home', 'End'], 'Start, end'],
+  [['[', ']'], 'Slower, faster'],
+  [['L'], 'Loop'],
+  [['C', 'V'], 'Coarse, fine; then the arrows'],
+  [['R'], 'Guidance back to its default'],
+  [['D'], 'Another seed'],
+  [['F', 'T'], 'Follow, top view; again for orbit'],
+  [['E'], 'Download'],
+  [['Esc'], 'Cancel, or close what is open'],
+  [['?'], 'This list'],
+];
+
+/** The list of keys. */
+export const mountKeysDialog: Mount = (root, store) => {
+  const close = el(
+    'button',
+    {
+      class: 'icon',
+      attributes: { type: 'button', 'aria-label': 'Close' },
+      on: {
+        click: () => {
+          apply(store, opened('keys'));
+        },
+      },
+    },
+    icon('close'),
+  );
+  const rows = KEYS.flatMap(([keys, what]) => [
+    el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
+    el('dd', { text: what }),
+  ]);
+  const dialog = el(
+    'section',
+    { class: 'float keys', attributes: { role: 'dialog', 'aria-label': 'Keyboard shortcuts' } },
+    el('div', { class: 'head' }, el('h2', { text: 'Keyboard' }), close),
+    el('dl', {}, ...rows),
+  );
+  dialog.hidden = true;
+  root.append(dialog);
+  let before: Element | null = null;
+  return together(
+    watch(
+      store,
+      (state) => state.open === 'keys',
+      (open) => {
+        if (open) before = document.activeElement;
+        dialog.hidden = !open;
+        if (open) close.focus();
+        else if (before instanceof HTMLElement) before.focus();
+      },
+    ),
+    () => {
+      dialog.remove();
+    },
+  );
+};

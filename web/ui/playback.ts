@@ -1,0 +1,94 @@
+import type { Player } from '../audio/client';
+import { isAbort, playbackProblem } from './problems';
+import { danceDuration } from './selectors';
+import { apply, playbackSet, told, type Store, visitEnded, watch, watchAll } from './store';
+import { together } from './dom';
+
+export interface PlaybackControl {
+  readonly toggle: () => void;
+  readonly seek: (seconds: number) => void;
+  readonly playFromStart: () => void;
+  readonly dispose: () => void;
+}
+
+/** Ties player and store together: the audio is the clock, the store follows it once per drawn frame. */
+export function createPlayback(store: Store, player: Player): PlaybackControl {
+  let frame = 0;
+
+  const seek = (seconds: number): void => {
+    const to = Math.min(danceDuration(store.getState()), Math.max(0, seconds));
+    player.seek(to);
+    apply(store, playbackSet({ time: to }));
+  };
+  const follow = (): void => {
+    const whole = danceDuration(store.getState());
+    if (player.time >= whole) {
+      if (store.getState().playback.loop) seek(0);
+      else {
+        apply(store, playbackSet({ playing: false, time: whole }));
+        return;
+      }
+    } else apply(store, playbackSet({ time: player.time }));
+    frame = requestAnimationFrame(follow);
+  };
+  const start = (): void => {
+    const state = store.getState();
+    if (danceDuration(state) === 0) return;
+    if (state.playback.time >= danceDuration(state) - 1e-3) seek(0);
+    apply(store, visitEnded());
+    apply(store, playbackSet({ playing: true }));
+  };
+
+  const disposers = together(
+    watchAll(
+      store,
+      (state) => [state.song, state.leader],
+      (state) => {
+        player.load(state.song?.data.sound ?? null, danceDuration(state));
+        player.seek(state.playback.time);
+      },
+    ),
+    watch(
+      store,
+      (state) => state.playback.playing,
+      (playing) => {
+        cancelAnimationFrame(frame);
+        if (!playing) {
+          player.pause();
+          return;
+        }
+        player.play().then(
+          () => {
+            if (store.getState().playback.playing) frame = requestAnimationFrame(follow);
+          },
+          (error: unknown) => {
+            apply(store, playbackSet({ playing: false }));
+            if (!isAbort(error)) apply(store, told(playbackProblem(error)));
+          },
+        );
+      },
+    ),
+    watch(
+      store,
+      (state) => state.playback.speed,
+      (speed) => {
+        player.setSpeed(speed);
+      },
+    ),
+  );
+  return {
+    toggle: () => {
+      if (store.getState().playback.playing) apply(store, playbackSet({ playing: false }));
+      else start();
+    },
+    seek,
+    playFromStart: () => {
+      seek(0);
+      start();
+    },
+    dispose: () => {
+      cancelAnimationFrame(frame);
+      disposers();
+    },
+  };
+}

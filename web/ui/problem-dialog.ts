@@ -1,0 +1,100 @@
+import { el, together } from './dom';
+import type { Mount, Services } from './services';
+import type { AppState, Problem } from './state';
+import { apply, dismissed, watch, type Store } from './store';
+
+/** A failure in words over the stage: what is wrong, what to do. Everything loaded before stays loaded. */
+export const mountProblemDialog: Mount = (root, store, services) => {
+  let dialog: HTMLElement | null = null;
+  let before: Element | null = null;
+
+  const close = (): void => {
+    if (!dialog) return;
+    const inside = dialog.contains(document.activeElement);
+    dialog.remove();
+    dialog = null;
+    root.classList.remove('dimmed');
+    if (inside && before instanceof HTMLElement && before.isConnected) before.focus();
+  };
+  const show = (problem: Problem | null, state: AppState): void => {
+    if (problem && !dialog) before = document.activeElement;
+    if (dialog) close();
+    if (!problem) return;
+    dialog = build(problem, state, store, services);
+    root.append(dialog);
+    root.classList.add('dimmed');
+    dialog.querySelector('button')?.focus();
+  };
+  return together(
+    watch(store, (state) => state.problem, show),
+    close,
+  );
+};
+
+function build(problem: Problem, state: AppState, store: Store, services: Services): HTMLElement {
+  const dismiss = (): void => {
+    apply(store, dismissed());
+  };
+  const action = (text: string, kind: string, run: () => void): HTMLElement =>
+    el('button', {
+      class: `btn ${kind}`,
+      text,
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          dismiss();
+          run();
+        },
+      },
+    });
+  const remedy = remedyOf(problem, services);
+  return el(
+    'section',
+    {
+      class: 'float err',
+      attributes: {
+        role: 'alertdialog',
+        'aria-labelledby': 'problem-title',
+        'aria-describedby': 'problem-hint',
+        'data-code': problem.code,
+      },
+    },
+    el('h1', { text: problem.title, attributes: { id: 'problem-title' } }),
+    el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
+    el(
+      'div',
+      { class: 'acts' },
+      remedy && action(remedy.text, 'primary', remedy.run),
+      action(keepWords(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
+    ),
+  );
+}
+
+function remedyOf(problem: Problem, services: Services): { text: string; run: () => void } | null {
+  switch (problem.remedy) {
+    case 'song':
+    case 'leader':
+    case 'any-file': {
+      const side = problem.remedy === 'any-file' ? 'any' : problem.remedy;
+      return {
+        text: 'Choose another file',
+        run: () => {
+          services.choose(side);
+        },
+      };
+    }
+    case 'model':
+      return { text: 'Try again', run: services.retryModel };
+    case 'generate':
+      return { text: 'Try again', run: services.generate };
+    case 'none':
+      return null;
+  }
+}
+
+/** The way back names what stays: "Keep lead_0412.bvh". */
+function keepWords(problem: Problem, state: AppState): string {
+  const side = problem.refused?.side;
+  const kept = side ? state[side]?.name : undefined;
+  return kept ? `Keep ${kept}` : 'Close';
+}

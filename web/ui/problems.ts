@@ -1,0 +1,122 @@
+import type { Problem, Side } from './state';
+
+/** What our own errors have in common: a sentence, and what to do about it. */
+interface Told {
+  readonly code: string;
+  readonly message: string;
+  readonly hint: string;
+}
+
+function isTold(error: unknown): error is Told {
+  return (
+    error instanceof Error &&
+    'code' in error &&
+    'hint' in error &&
+    typeof error.hint === 'string' &&
+    error.hint !== ''
+  );
+}
+
+/** True for the error that an abort signal leaves behind, which is nobody's problem. */
+export function isAbort(error: unknown): boolean {
+  return error instanceof Error && error.name === 'AbortError';
+}
+
+/** A failure while a file was read. */
+export function fileProblem(error: unknown, side: Side, name: string): Problem {
+  const refused = { side, name };
+  if (isTold(error))
+    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: side, refused };
+  return {
+    code: 'unreadable-file',
+    title: `${name} could not be read.`,
+    hint: 'Choose it again, or try another file. Everything loaded before is unchanged.',
+    remedy: side,
+    refused,
+  };
+}
+
+/** Error sentences speak of "the file" or not at all of it; the page's names it. */
+function named(name: string, sentence: string): string {
+  return sentence.includes(name) ? sentence : `${name}: ${sentence}`;
+}
+
+/** A failure while the model was loaded. */
+export function modelProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'model-failed',
+    title: told ? error.message : 'The model could not be started.',
+    hint: told ? error.hint : 'Reload the page; if it happens again, try another browser.',
+    remedy: 'model',
+    refused: null,
+  };
+}
+
+/** A failure while a reaction was made. */
+export function generationProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'generation-failed',
+    title: told ? error.message : 'The reactor could not be made.',
+    hint: told ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+    remedy: 'generate',
+    refused: null,
+  };
+}
+
+/** A failure to play. */
+export function playbackProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'playback-failed',
+    title: told ? error.message : 'The song could not be played.',
+    hint: told ? error.hint : 'Press play again.',
+    remedy: 'none',
+    refused: null,
+  };
+}
+
+/** A failure of the picture; all else goes on working. */
+export function stageProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'stage-failed',
+    title: told ? error.message : 'The 3D picture could not be started.',
+    hint: told
+      ? error.hint
+      : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
+    remedy: 'none',
+    refused: null,
+  };
+}
+
+export function otherMotionProblem(name: string): Problem {
+  return {
+    code: 'other-motion',
+    title: `${name} is a motion in a format that cannot be read here.`,
+    hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
+    remedy: 'leader',
+    refused: { side: null, name },
+  };
+}
+
+export function unknownFileProblem(name: string): Problem {
+  return {
+    code: 'unknown-file',
+    title: `${name} is neither a song nor a motion.`,
+    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
+    remedy: 'any-file',
+    refused: { side: null, name },
+  };
+}
+
+export function emptyFileProblem(name: string): Problem {
+  return {
+    code: 'empty-file',
+    title: `${name} is empty.`,
+    hint: 'The file has no bytes; the copy or download may have failed. Choose it again from its source.',
+    remedy: 'any-file',
+    refused: { side: null, name },
+  };
+}

@@ -1,0 +1,12 @@
+/** Hands a text to the browser's downloads under a name. */
+export function saveText(text: string, fileName: string): void {
+  const address = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = fileName;
+  link.click();
+  // The browser reads the address after this task; a minute is more than it needs.
+  setTimeout(() => {
+    URL.revokeObjectURL(address);
+  }, 60_000);
+}

@@ -1,0 +1,126 @@
+import { bytesOf, duration, rate, slug } from './format';
+import type { AppState, Inputs, Job, Settings } from './state';
+
+/** Length of what plays, seconds: the leader rules it; a song alone plays for itself. */
+export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number {
+  if (state.leader) return state.leader.file.clip.frames / state.leader.file.clip.fps;
+  return state.song?.data.duration ?? 0;
+}
+
+/** What a reaction would be made from now, or null while something is missing or still being read. */
+export function wantedInputs(state: AppState): Inputs | null {
+  const { leader, song, settings, reading } = state;
+  if (!leader || !settings || reading.song || reading.leader) return null;
+  return { leader, song, settings };
+}
+
+export function sameSettings(a: Settings, b: Settings): boolean {
+  return (
+    a.seed === b.seed &&
+    a.steps === b.steps &&
+    a.guidance.coarse === b.guidance.coarse &&
+    a.guidance.fine === b.guidance.fine
+  );
+}
+
+export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
+  if (!a || !b) return a === b;
+  return a.leader === b.leader && a.song === b.song && sameSettings(a.settings, b.settings);
+}
+
+/** Whether the reaction on the stage is the one that files and settings ask for. */
+export function upToDate(state: AppState): boolean {
+  return state.reaction !== null && sameInputs(state.reaction.inputs, wantedInputs(state));
+}
+
+/** Guidance as the model takes it: streams x layers in the manifest's order, row-major, alike in every stream. */
+export function guidanceMatrix(
+  settings: Settings,
+  latent: { readonly streams: readonly string[]; readonly layers: readonly string[] },
+): Float32Array {
+  const values: Readonly<Record<string, number>> = settings.guidance;
+  return Float32Array.from(latent.streams.flatMap(() => latent.layers.map((layer) => values[layer] ?? 0)));
+}
+
+/** Bar and count, both from 1, counted in four from the first beat found; null before it or without beats. */
+export function barAt(beats: readonly number[], time: number): { bar: number; count: number } | null {
+  let low = 0;
+  let high = beats.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((beats[middle] ?? Infinity) <= time + 1e-6) low = middle + 1;
+    else high = middle;
+  }
+  return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
+}
+
+/** `song_leader_s1204_c1.20-f0.60_reactor.bvh`, after what the reaction was made from. */
+export function reactorFileName({ song, leader, settings }: Inputs): string {
+  const { coarse, fine } = settings.guidance;
+  return [
+    song ? slug(song.name, 'song') : 'no-song',
+    slug(leader.name, 'leader'),
+    `s${settings.seed}`,
+    `c${coarse.toFixed(2)}-f${fine.toFixed(2)}`,
+    'reactor.bvh',
+  ].join('_');
+}
+
+/** The stage a job is in, in words. */
+export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
+  switch (job.stage) {
+    case 'waiting':
+      return model.phase === 'loading' && model.total > 0
+        ? `waiting for the model, ${bytesOf(model.received, model.total)}`
+        : 'waiting for the model';
+    case 'condition':
+      return 'listening and watching';
+    case 'step':
+      return stepWords(job, settings?.steps ?? job.total);
+    case 'decode':
+      return 'shaping the dance';
+    case 'solve':
+      return 'setting the bones';
+  }
+}
+
+/** A step may run in several pieces; what is counted are the steps that were asked for. */
+function stepWords({ done, total }: Job, steps: number): string {
+  return `step ${Math.min(steps, Math.floor((done / Math.max(1, total)) * steps) + 1)} of ${steps}`;
+}
+
+/** How the song and the leader's length relate, said on the page; null when they match within a frame. */
+export function lengthNote({
+  song,
+  leader,
+  reading,
+}: Pick<AppState, 'song' | 'leader' | 'reading'>): string | null {
+  if (!leader || reading.song) return null;
+  const dance = leader.file.clip.frames / leader.file.clip.fps;
+  if (!song) return 'No song: the reactor dances to silence.';
+  const rest = dance - song.data.duration;
+  if (rest > 0.5)
+    return `The song ends at ${duration(song.data.duration)}; silence follows to the end of the dance.`;
+  if (rest < -0.5) return `The dance ends at ${duration(dance)}; the rest of the song is not used.`;
+  return null;
+}
+
+/** Sentences worth reading before trusting the result; `look` marks the ones that may change it. */
+export function notes(state: AppState): { text: string; look: boolean }[] {
+  const { song, leader } = state;
+  const list: { text: string; look: boolean }[] = [];
+  const length = lengthNote(state);
+  if (length) list.push({ text: length, look: false });
+  if (song?.data.silent)
+    list.push({ text: 'The song is silent: it carries no beat to dance to.', look: true });
+  else if (song && song.data.beats.length === 0)
+    list.push({ text: 'No steady beat was found in the song.', look: true });
+  for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
+  for (const remark of state.remarks) list.push({ text: remark, look: true });
+  return list;
+}
+
+/** `60 to 30 fps`, or `30 fps` when nothing is resampled. */
+export function rateWords(sourceFps: number, fps: number): string {
+  return Math.abs(sourceFps - fps) < 0.01 ? `${rate(fps)} fps` : `${rate(sourceFps)} to ${rate(fps)} fps`;
+}

@@ -1,0 +1,37 @@
+/** What a file is, judged by its first bytes; the name decides only where the bytes do not. */
+export type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
+
+/** Bytes that `kindOf` wants to see. */
+export const HEAD_BYTES = 512;
+
+const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
+const BVH_NAME = /\.bvh$/i;
+
+/**
+ * @param head the first `HEAD_BYTES` bytes, or all of a shorter file
+ * @param name the file's name
+ * @param type the browser's guess of its media type
+ */
+export function kindOf(head: Uint8Array, name: string, type: string): FileKind {
+  const text = String.fromCharCode(...head);
+  if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
+  if (isMotionWeCannotRead(text)) return 'other-motion';
+  if (isSound(text, head)) return 'song';
+  // The bytes say nothing: let the reader that the name asks for explain what is wrong with them.
+  if (BVH_NAME.test(name)) return 'leader';
+  if (type.startsWith('audio/') || AUDIO_NAME.test(name)) return 'song';
+  return 'unknown';
+}
+
+function isMotionWeCannotRead(text: string): boolean {
+  return text.startsWith('Kaydara FBX Binary') || text.startsWith('glTF') || text.startsWith('; FBX');
+}
+
+function isSound(text: string, head: Uint8Array): boolean {
+  if (/^(ID3|OggS|fLaC)/.test(text)) return true;
+  if (text.startsWith('RIFF') && text.slice(8, 12) === 'WAVE') return true;
+  if (text.startsWith('FORM') && text.slice(8, 11) === 'AIF') return true;
+  if (text.slice(4, 8) === 'ftyp' || text.startsWith('\u001aE\u00df\u00a3')) return true;
+  // MPEG audio and ADTS start with eleven set bits; 0xff 0xfe is a UTF-16 byte order mark instead.
+  return head[0] === 0xff && ((head[1] ?? 0) & 0xe0) === 0xe0 && (head[1] ?? 0) < 0xfe;
+}

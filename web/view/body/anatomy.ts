@@ -1,0 +1,50 @@
+import type { BindPose } from './bind-pose';
+import { forearm, hand, upperArm } from './arm';
+import { buttock, foot, shin, thigh } from './leg';
+import { pair, type Build, type Part, type Plan, type Shape, type Side } from './part';
+import { head, neck, shoulderSlope, torso } from './trunk';
+
+/** The body of a dancer in the bind pose. */
+export interface Anatomy {
+  /** What it is melted together from, in this order. */
+  readonly shapes: readonly Shape[];
+  /** The solids that know their joints. */
+  readonly parts: readonly Part[];
+}
+
+/** Parts of both sides, in the order in which they melt, and how far left and right melt into each other, metres. */
+const LIMBS: readonly (readonly [make: (plan: Plan, side: Side) => Part, between: number])[] = [
+  [buttock, 0.03],
+  [thigh, 0.006],
+  [shin, 0.002],
+  [foot, 0.002],
+  [shoulderSlope, 0.05],
+];
+const ARMS: readonly ((plan: Plan, side: Side) => Part[])[] = [
+  (plan, side) => [upperArm(plan, side)],
+  (plan, side) => [forearm(plan, side)],
+  hand,
+];
+
+/** The solids of one body in the bind pose. */
+export function anatomy(pose: BindPose, build: Build): Anatomy {
+  const plan = { at: pose.joints, build };
+  const shapes: Shape[] = [];
+  const parts: Part[] = [];
+  const single = (part: Part): void => {
+    shapes.push(part);
+    if (!part.cut) parts.push(part);
+  };
+  const both = (left: Part, right: Part, between: number): void => {
+    shapes.push(pair(left, right, between));
+    parts.push(left, right);
+  };
+  single(torso(plan));
+  for (const [make, between] of LIMBS) both(make(plan, 1), make(plan, -1), between);
+  [neck(plan), ...head(plan)].forEach(single);
+  for (const make of ARMS) {
+    const right = make(plan, -1);
+    make(plan, 1).forEach((left, i) => both(left, right[i]!, 0.002));
+  }
+  return { shapes, parts };
+}

@@ -1,0 +1,163 @@
+import { J } from '../../motion/skeleton';
+import { anatomy } from './anatomy';
+import { bindPose } from './bind-pose';
+import { meltCut, meltUnion, ramp } from './field';
+import { near, type Build, type Shape } from './part';
+import { skinTo, type Skin } from './skin';
+import { surfaceNets, triangulate, type Grid, type Net } from './surface-nets';
+
+/** A body in the bind pose, ready to be skinned. */
+export interface BodyMesh extends Skin {
+  /** vertices x 3, metres, pelvis at the origin. */
+  readonly positions: Float32Array;
+  /** vertices x 3, unit length, from the field. */
+  readonly normals: Float32Array;
+  /** triangles x 3. */
+  readonly indices: Uint32Array;
+  /** Per vertex: 1 on the body, less on the shoes (a factor on the linear colour). */
+  readonly shade: Float32Array;
+}
+
+/** Spacing of the meshing grid, metres. */
+export const CELL = 0.018;
+/** Nodes a side of the blocks in which the grid is filled: blocks away from the body are skipped. */
+const BLOCK = 4;
+const SHOE_SHADE = 0.38;
+
+/** Distance to the body made of `shapes`, melting in order. */
+function distance(shapes: readonly Shape[], x: number, y: number, z: number): number {
+  let d = 1;
+  for (const shape of shapes) {
+    const own = shape.field(x, y, z);
+    const k = shape.melt(x, y, z);
+    d = shape.cut ? meltCut(d, own, k) : k > 0 ? meltUnion(d, own, k) : Math.min(d, own);
+  }
+  return d;
+}
+
+/** Meshes a body for a skeleton: field, surface, normals, skin. Pure and deterministic. */
+export function buildBody(offsets: ArrayLike<number>, build: Build): BodyMesh {
+  const pose = bindPose(offsets);
+  const { shapes, parts } = anatomy(pose, build);
+  const net = surfaceNets(sample(shapes));
+  const normals = settle(net, shapes);
+  const skin = skinTo(net, parts, CELL);
+  const shade = new Float32Array(net.positions.length / 3);
+  const ankle = (pose.joints[J.left_ankle]![1] + pose.joints[J.right_ankle]![1]) / 2;
+  for (let v = 0; v < shade.length; v++)
+    shade[v] = SHOE_SHADE + (1 - SHOE_SHADE) * ramp(-0.008, 0.022, net.positions[v * 3 + 1]! - ankle);
+  return { positions: net.positions, indices: triangulate(net), normals, ...skin, shade };
+}
+
+/** Distances on the grid, exact near the surface and only right in sign elsewhere. */
+function sample(shapes: readonly Shape[]): Grid {
+  const balls = shapes.flatMap((shape) => shape.bounds);
+  const low = [0, 1, 2].map((axis) => Math.min(...balls.map((b) => b.centre[axis]! - b.reach)) - 2 * CELL);
+  const high = [0, 1, 2].map((axis) => Math.max(...balls.map((b) => b.centre[axis]! + b.reach)) + 2 * CELL);
+  // Node planes mirror at x = 0, so that a symmetric skeleton gets a symmetric body.
+  const half = Math.ceil(Math.max(high[0]!, -low[0]!) / CELL);
+  const size = [
+    2 * half + 1,
+    Math.ceil((high[1]! - low[1]!) / CELL) + 1,
+    Math.ceil((high[2]! - low[2]!) / CELL) + 1,
+  ] as const;
+  const origin = [-half * CELL, low[1]!, low[2]!] as const;
+  const values = new Float32Array(size[0] * size[1] * size[2]).fill(1);
+  const radius = (BLOCK * CELL * Math.sqrt(3)) / 2;
+
+  for (let bz = 0; bz < size[2]; bz += BLOCK)
+    for (let by = 0; by < size[1]; by += BLOCK)
+      for (let bx = 0; bx < size[0]; bx += BLOCK) {
+        const x = origin[0] + (bx + (BLOCK - 1) / 2) * CELL;
+        const y = origin[1] + (by + (BLOCK - 1) / 2) * CELL;
+        const z = origin[2] + (bz + (BLOCK - 1) / 2) * CELL;
+        const local = near(shapes, x, y, z, radius);
+        if (local.length === 0) continue;
+        // Distances to stretched solids are bounds; the factor keeps blocks that they might misjudge.
+        if (distance(local, x, y, z) > 1.6 * radius) continue;
+        for (let k = bz; k < Math.min(bz + BLOCK, size[2]); k++)
+          for (let j = by; j < Math.min(by + BLOCK, size[1]); j++)
+            for (let i = bx; i < Math.min(bx + BLOCK, size[0]); i++)
+              values[i + size[0] * (j + size[1] * k)] = distance(
+                local,
+                origin[0] + i * CELL,
+                origin[1] + j * CELL,
+                origin[2] + k * CELL,
+              );
+      }
+  return { values, size, origin, cell: CELL };
+}
+
+/** Rounds of evening the vertices out before they are left on the surface. */
+const ROUNDS = 4;
+/** How far apart the field is sampled for its gradient: to find the surface, and for soft normals, metres. */
+const FINE = 0.002;
+const SOFT = 0.005;
+
+/**
+ * Spreads the vertices evenly over the surface and pulls them onto it (in place); returns the normals of the field
+ * there. Evening first is what keeps thin parts, such as hands, free of the steps of the grid.
+ */
+function settle(net: Net, shapes: readonly Shape[]): Float32Array {
+  const { positions, quads } = net;
+  const count = positions.length / 3;
+  const normals = new Float32Array(positions.length);
+  const gradient = new Float64Array(4);
+  const mean = new Float32Array(positions.length);
+  const links = new Float32Array(count);
+  const close = Array.from({ length: count }, (_, v) =>
+    near(shapes, positions[v * 3]!, positions[v * 3 + 1]!, positions[v * 3 + 2]!, 2 * CELL),
+  );
+  for (const from of quads) links[from]!++;
+
+  for (let round = 0; round <= ROUNDS; round++) {
+    const last = round === ROUNDS;
+    if (!last) {
+      mean.fill(0);
+      for (let side = 0; side < quads.length; side++) {
+        const from = quads[side]! * 3;
+        const to = quads[side % 4 === 3 ? side - 3 : side + 1]! * 3;
+        for (let axis = 0; axis < 3; axis++) mean[from + axis]! += positions[to + axis]!;
+      }
+      for (let i = 0; i < positions.length; i++)
+        positions[i]! += 0.5 * (mean[i]! / links[Math.floor(i / 3)]! - positions[i]!);
+    }
+    for (let v = 0; v < positions.length; v += 3) {
+      const reach = last ? SOFT : FINE;
+      slope(close[v / 3]!, reach, positions[v]!, positions[v + 1]!, positions[v + 2]!, gradient);
+      const [gx, gy, gz, off] = [gradient[0]!, gradient[1]!, gradient[2]!, gradient[3]!];
+      const steep = Math.max(gx * gx + gy * gy + gz * gz, 1e-6);
+      if (last) {
+        const norm = 1 / Math.sqrt(steep);
+        normals[v] = gx * norm;
+        normals[v + 1] = gy * norm;
+        normals[v + 2] = gz * norm;
+        continue;
+      }
+      const step = Math.max(-0.5 * CELL, Math.min(0.5 * CELL, off)) / steep;
+      positions[v]! -= gx * step;
+      positions[v + 1]! -= gy * step;
+      positions[v + 2]! -= gz * step;
+    }
+  }
+  return normals;
+}
+
+/** Gradient of the field and its value, from the corners of a small tetrahedron: four samples instead of seven. */
+function slope(
+  shapes: readonly Shape[],
+  e: number,
+  x: number,
+  y: number,
+  z: number,
+  out: Float64Array,
+): void {
+  const a = distance(shapes, x + e, y - e, z - e);
+  const b = distance(shapes, x - e, y - e, z + e);
+  const c = distance(shapes, x - e, y + e, z - e);
+  const d = distance(shapes, x + e, y + e, z + e);
+  out[0] = (a - b - c + d) / (4 * e);
+  out[1] = (-a - b + c + d) / (4 * e);
+  out[2] = (-a + b - c + d) / (4 * e);
+  out[3] = (a + b + c + d) / 4;
+}

@@ -1,0 +1,80 @@
+import { JOINT_COUNT } from '../../motion/skeleton';
+import { near, type Part } from './part';
+import type { Net } from './surface-nets';
+
+/** Which joints move which vertex. */
+export interface Skin {
+  /** vertices x 4, joints that move the vertex. */
+  readonly skinJoints: Uint8Array;
+  /** vertices x 4, their shares; they sum to 1. */
+  readonly skinWeights: Float32Array;
+}
+
+/** How fast the hold of a part fades with its distance beyond the nearest part, metres. */
+const HOLD = 0.014;
+const SMOOTHING = 3;
+
+/**
+ * Four joints and shares per vertex: those of the nearest parts, evened out over the surface.
+ *
+ * @param cell spacing of the mesh, metres.
+ */
+export function skinTo(net: Net, parts: readonly Part[], cell: number): Skin {
+  const count = net.positions.length / 3;
+  let shares = new Float32Array(count * JOINT_COUNT);
+  for (let v = 0; v < count; v++) {
+    const [x, y, z] = [net.positions[v * 3]!, net.positions[v * 3 + 1]!, net.positions[v * 3 + 2]!];
+    const local = near(parts, x, y, z, cell);
+    const distances = local.map((part) => part.field(x, y, z));
+    const least = Math.min(...distances);
+    let total = 0;
+    local.forEach((part, i) => {
+      const hold = Math.exp(-(distances[i]! - least) / HOLD);
+      if (hold < 0.01) return;
+      total += hold;
+      for (const [joint, share] of part.weights(x, y, z)) shares[v * JOINT_COUNT + joint]! += hold * share;
+    });
+    for (let j = 0; j < JOINT_COUNT; j++) shares[v * JOINT_COUNT + j]! /= total;
+  }
+  for (let pass = 0; pass < SMOOTHING; pass++) shares = evened(shares, net.quads, count);
+  return strongest(shares, count);
+}
+
+/** One step of averaging with the neighbours. */
+function evened(shares: Float32Array, quads: Uint32Array, count: number): Float32Array<ArrayBuffer> {
+  const out = new Float32Array(shares.length);
+  const links = new Float32Array(count);
+  // Every side is met once in each direction, so one direction here links both ends.
+  for (let side = 0; side < quads.length; side++) {
+    const from = quads[side]!;
+    const to = quads[side % 4 === 3 ? side - 3 : side + 1]!;
+    links[from]!++;
+    for (let j = 0; j < JOINT_COUNT; j++) out[from * JOINT_COUNT + j]! += shares[to * JOINT_COUNT + j]!;
+  }
+  for (let v = 0; v < count; v++)
+    for (let j = 0; j < JOINT_COUNT; j++) {
+      const at = v * JOINT_COUNT + j;
+      out[at] = 0.5 * shares[at]! + (0.5 * out[at]!) / links[v]!;
+    }
+  return out;
+}
+
+/** Keeps the four largest shares of each vertex and makes them sum to 1. */
+function strongest(shares: Float32Array, count: number): Skin {
+  const skinJoints = new Uint8Array(count * 4);
+  const skinWeights = new Float32Array(count * 4);
+  for (let v = 0; v < count; v++) {
+    const row = shares.subarray(v * JOINT_COUNT, (v + 1) * JOINT_COUNT);
+    let total = 0;
+    for (let slot = 0; slot < 4; slot++) {
+      let best = 0;
+      for (let j = 1; j < JOINT_COUNT; j++) if (row[j]! > row[best]!) best = j;
+      skinJoints[v * 4 + slot] = best;
+      skinWeights[v * 4 + slot] = row[best]!;
+      total += row[best]!;
+      row[best] = 0;
+    }
+    for (let slot = 0; slot < 4; slot++) skinWeights[v * 4 + slot]! /= total;
+  }
+  return { skinJoints, skinWeights };
+}

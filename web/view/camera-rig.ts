@@ -1,0 +1,195 @@
+import { PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import {
+  easing,
+  FIELD_OF_VIEW,
+  fitDistance,
+  measureCouple,
+  nearestTurn,
+  shotOf,
+  type Couple,
+  type Shot,
+  type View,
+} from './framing';
+
+/** The camera: the person's hand on it, the views, and how it keeps the couple in the picture. */
+export interface CameraRig {
+  readonly camera: PerspectiveCamera;
+  /** Where the eye stands around the target, radians about y. */
+  readonly heading: number;
+  resize(width: number, height: number): void;
+  /** Goes to a view's first shot. */
+  setView(view: View, couple: Couple): void;
+  /** Returns to the couple, both in the picture, from the side it is seen now. */
+  frame(couple: Couple): void;
+  /** Shows dancers who have just come on: the first at once, a partner with a move, unless the person moved it. */
+  introduce(couple: Couple, atOnce: boolean): void;
+  /**
+   * Moves on by `dt` seconds; true while it is still moving.
+   *
+   * @param danced whether the couple moved since the last frame.
+   */
+  update(dt: number, couple: Couple, danced: boolean): boolean;
+  dispose(): void;
+}
+
+const MOVE_SECONDS = 0.6;
+/** How far the couple may stray in the orbit view before the camera goes along, metres. */
+const SLACK = 0.4;
+const TRACK_TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
+const BACK_TAU = 1;
+const CLOSER_TAU = 4;
+const STILL = 5e-4;
+
+const inOut = (t: number): number => (t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2);
+
+/**
+ * @param surface element that takes the pointer.
+ * @param onChange called when the person moves the camera.
+ */
+export function createCameraRig(surface: HTMLElement, onChange: () => void): CameraRig {
+  const camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 80);
+  const controls = new OrbitControls(camera, surface);
+  controls.enableDamping = true;
+  controls.dampingFactor = 0.12;
+  controls.minDistance = 1.2;
+  controls.maxDistance = 16;
+  controls.maxPolarAngle = Math.PI / 2 + 0.06;
+  controls.zoomSpeed = 0.8;
+  controls.addEventListener('change', onChange);
+
+  let view: View = 'orbit';
+  let move: { from: Shot; to: Shot; done: number } | null = null;
+  let touched = false;
+  /** The person has chosen a distance, which is then left alone. */
+  let ownDistance = false;
+  /** Where the couple was when the camera last went along; what the person panned stays beside it. */
+  const tracked = new Vector3();
+  const spherical = new Spherical();
+  const offset = new Vector3();
+  const still = matchMedia('(prefers-reduced-motion: reduce)');
+
+  const current = (): Shot => {
+    spherical.setFromVector3(offset.copy(camera.position).sub(controls.target));
+    return {
+      target: [controls.target.x, controls.target.y, controls.target.z],
+      distance: spherical.radius,
+      heading: spherical.theta,
+      elevation: Math.PI / 2 - spherical.phi,
+    };
+  };
+  const stand = (shot: Shot): void => {
+    controls.target.set(...shot.target);
+    spherical.set(shot.distance, Math.PI / 2 - shot.elevation, shot.heading);
+    camera.position.setFromSpherical(spherical).add(controls.target);
+    camera.lookAt(controls.target);
+  };
+  const go = (shot: Shot): void => {
+    ownDistance = false;
+    tracked.set(...shot.target);
+    const from = current();
+    const to = { ...shot, heading: nearestTurn(shot.heading, from.heading) };
+    if (still.matches) {
+      move = null;
+      stand(to);
+    } else move = { from, to, done: 0 };
+    onChange();
+  };
+
+  stand(shotOf(view, measureCouple([]), camera.aspect, 0));
+
+  // Dollying and panning are told apart from turning by what they change.
+  let held: Shot | null = null;
+  controls.addEventListener('start', () => {
+    move = null;
+    touched = true;
+    held = current();
+  });
+  controls.addEventListener('end', () => {
+    const now = current();
+    if (held === null) return;
+    if (Math.abs(now.distance - held.distance) > 0.01) ownDistance = true;
+    held = null;
+  });
+
+  return {
+    camera,
+    get heading() {
+      return current().heading;
+    },
+    resize(width, height) {
+      camera.aspect = width / height;
+      camera.updateProjectionMatrix();
+    },
+    setView(next, couple) {
+      view = next;
+      go(shotOf(next, couple, camera.aspect, view === 'top' ? couple.square : current().heading));
+    },
+    frame(couple) {
+      go({ ...shotOf(view, couple, camera.aspect, current().heading) });
+    },
+    introduce(couple, atOnce) {
+      if (touched) return;
+      const shot = shotOf(view, couple, camera.aspect, couple.square);
+      go(shot);
+      if (!atOnce) return;
+      move = null;
+      stand(shot);
+    },
+    update(dt, couple, danced) {
+      let moving = true;
+      if (move !== null) {
+        move.done = Math.min(1, move.done + dt / MOVE_SECONDS);
+        const t = inOut(move.done);
+        const { from, to } = move;
+        const between = (a: number, b: number): number => a + (b - a) * t;
+        stand({
+          target: [
+            between(from.target[0], to.target[0]),
+            between(from.target[1], to.target[1]),
+            between(from.target[2], to.target[2]),
+          ],
+          distance: between(from.distance, to.distance),
+          heading: between(from.heading, to.heading),
+          elevation: between(from.elevation, to.elevation),
+        });
+        if (move.done === 1) move = null;
+      } else moving = track(dt, couple, danced);
+      return controls.update(dt) || moving;
+    },
+    dispose() {
+      controls.dispose();
+    },
+  };
+
+  /** Goes along with the couple; true while it moves. */
+  function track(dt: number, couple: Couple, danced: boolean): boolean {
+    let [dx, dz] = [couple.x - tracked.x, couple.z - tracked.z];
+    if (view === 'orbit') {
+      const away = Math.hypot(dx, dz);
+      const beyond = away > SLACK ? (away - SLACK) / away : 0;
+      dx *= beyond;
+      dz *= beyond;
+    }
+    const share = easing(dt, TRACK_TAU[view]);
+    let moving = false;
+    if (Math.hypot(dx, dz) > STILL) {
+      offset.set(dx * share, 0, dz * share);
+      tracked.add(offset);
+      controls.target.add(offset);
+      camera.position.add(offset);
+      moving = true;
+    }
+    const shot = current();
+    const goal = fitDistance(couple, camera.aspect);
+    // Stepping back is quick, nobody may be cut off; coming closer again takes its time, and waits while they rest.
+    const off = goal / shot.distance - 1;
+    const wanted = off > 0.002 || (off < -0.03 && danced);
+    if (wanted && !ownDistance && held === null && view !== 'top') {
+      const share = easing(dt, off > 0 ? BACK_TAU : CLOSER_TAU);
+      stand({ ...shot, distance: shot.distance + (goal - shot.distance) * share });
+      moving ||= off > 0;
+    }
+    return moving;
+  }
+}

@@ -1,0 +1,100 @@
+import {
+  DynamicDrawUsage,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  PlaneGeometry,
+  ShaderMaterial,
+} from 'three';
+import { J } from '../motion/skeleton';
+import { SOLE } from './body/leg';
+import { ramp } from './body/field';
+import type { Look } from './theme';
+
+/** Dark spots under feet that are close to the floor: what makes them stand instead of hover. */
+export interface Contacts {
+  readonly object: InstancedMesh;
+  /** @param dancers joint positions (22 x 3, metres) of whoever is on the stage, at most two. */
+  update(dancers: readonly Float32Array[]): void;
+  setLook(look: Look): void;
+  dispose(): void;
+}
+
+const FEET = [
+  [J.left_ankle, J.left_foot],
+  [J.right_ankle, J.right_foot],
+] as const;
+const MOST_FEET = 4;
+/** Size of a spot, metres. */
+const LONG = 0.4;
+const WIDE = 0.24;
+/** A foot this high has no spot left, metres above where it stands. */
+const LIFTED = 0.16;
+
+const VERTEX = /* glsl */ `
+attribute float strength;
+varying vec2 vAt;
+varying float vStrength;
+void main() {
+  vAt = uv * 2.0 - 1.0;
+  vStrength = strength;
+  gl_Position = projectionMatrix * modelViewMatrix * instanceMatrix * vec4(position, 1.0);
+}`;
+const FRAGMENT = /* glsl */ `
+uniform float opacity;
+varying vec2 vAt;
+varying float vStrength;
+void main() {
+  float fade = max(0.0, 1.0 - dot(vAt, vAt));
+  gl_FragColor = vec4(0.0, 0.0, 0.0, fade * fade * vStrength * opacity);
+}`;
+
+export function createContacts(): Contacts {
+  const plane = new PlaneGeometry(WIDE, LONG).rotateX(-Math.PI / 2);
+  const strength = new InstancedBufferAttribute(new Float32Array(MOST_FEET), 1).setUsage(DynamicDrawUsage);
+  plane.setAttribute('strength', strength);
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: { opacity: { value: 0 } },
+    transparent: true,
+    depthWrite: false,
+  });
+  const object = new InstancedMesh(plane, material, MOST_FEET);
+  object.instanceMatrix.setUsage(DynamicDrawUsage);
+  object.frustumCulled = false;
+  object.count = 0;
+  object.renderOrder = 1;
+  const place = new Matrix4();
+  return {
+    object,
+    update(dancers) {
+      let count = 0;
+      for (const joints of dancers)
+        for (const [ankle, toe] of FEET) {
+          const at = (joint: number, axis: number): number => joints[joint * 3 + axis]!;
+          const angle = Math.atan2(at(toe, 0) - at(ankle, 0), at(toe, 2) - at(ankle, 2));
+          place.makeRotationY(angle);
+          place.setPosition(
+            (at(toe, 0) + at(ankle, 0)) / 2 + Math.sin(angle) * 0.02,
+            -SOLE + 0.003,
+            (at(toe, 2) + at(ankle, 2)) / 2 + Math.cos(angle) * 0.02,
+          );
+          object.setMatrixAt(count, place);
+          strength.setX(count, 1 - ramp(0, LIFTED, Math.min(at(toe, 1), at(ankle, 1) - 0.05)));
+          count++;
+        }
+      object.count = count;
+      object.instanceMatrix.needsUpdate = true;
+      strength.needsUpdate = true;
+    },
+    setLook(look) {
+      material.uniforms['opacity']!.value = look.contact;
+    },
+    dispose() {
+      plane.dispose();
+      material.dispose();
+      object.dispose();
+    },
+  };
+}

@@ -1,0 +1,54 @@
+/** Frames on demand: nothing is drawn while nothing moves. */
+export interface Loop {
+  /** Asks for a frame. */
+  invalidate(): void;
+  /** Draws now, for when waiting would show an empty canvas. */
+  flush(): void;
+  /** Median main-thread milliseconds of the last frames. */
+  readonly frameMs: number;
+  dispose(): void;
+}
+
+const KEPT = 60;
+/** Longest step that easing may take, seconds: after a pause the camera goes on instead of jumping. */
+const LONGEST = 0.25;
+
+/** @param draw draws a frame, `dt` seconds after the last one; true asks for another. */
+export function createLoop(draw: (dt: number) => boolean): Loop {
+  let request = 0;
+  let before = 0;
+  let running = false;
+  let disposed = false;
+  const times: number[] = [];
+
+  function frame(now: number): void {
+    request = 0;
+    const dt = running ? Math.min(LONGEST, Math.max(0, (now - before) / 1000)) : 1 / 60;
+    before = now;
+    const start = performance.now();
+    running = draw(dt);
+    times.push(performance.now() - start);
+    if (times.length > KEPT) times.shift();
+    if (running) invalidate();
+  }
+  function invalidate(): void {
+    if (request === 0 && !disposed) request = requestAnimationFrame(frame);
+  }
+  return {
+    invalidate,
+    flush() {
+      if (disposed) return;
+      if (request !== 0) cancelAnimationFrame(request);
+      frame(performance.now());
+    },
+    get frameMs() {
+      const sorted = [...times].sort((a, b) => a - b);
+      return sorted[Math.floor(sorted.length / 2)] ?? 0;
+    },
+    dispose() {
+      disposed = true;
+      if (request !== 0) cancelAnimationFrame(request);
+      request = 0;
+    },
+  };
+}

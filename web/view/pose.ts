@@ -1,0 +1,67 @@
+import { JOINT_COUNT } from '../motion/skeleton';
+import type { SolvedMotion } from '../motion/clip';
+
+/** One pose of a dancer: what a motion says at one moment. */
+export interface Pose {
+  /** x, y, z in metres. */
+  readonly root: Float32Array;
+  /** 22 x 4 local rotations, xyzw. */
+  readonly rotations: Float32Array;
+}
+
+export const createPose = (): Pose => ({
+  root: new Float32Array(3),
+  rotations: new Float32Array(JOINT_COUNT * 4),
+});
+
+/** Length of a motion in seconds, from its first frame to its last. */
+export const lastMoment = (motion: SolvedMotion): number => Math.max(0, motion.frames - 1) / motion.fps;
+
+/**
+ * Writes the pose of `motion` at `seconds` into `out`, between frames by lerp of the root and slerp of the joints.
+ * Moments before the first and after the last frame hold that frame.
+ */
+export function samplePose(motion: SolvedMotion, seconds: number, out: Pose): void {
+  const at = Math.min(Math.max(0, seconds * motion.fps), motion.frames - 1);
+  const frame = Math.floor(at);
+  const next = Math.min(frame + 1, motion.frames - 1);
+  const t = at - frame;
+  for (let axis = 0; axis < 3; axis++) {
+    const a = motion.root[frame * 3 + axis]!;
+    out.root[axis] = a + (motion.root[next * 3 + axis]! - a) * t;
+  }
+  const width = JOINT_COUNT * 4;
+  for (let joint = 0; joint < JOINT_COUNT; joint++)
+    slerp(motion.rotations, frame * width + joint * 4, next * width + joint * 4, t, out.rotations, joint * 4);
+}
+
+/** Shortest-arc spherical interpolation between two quaternions of `source`, written to `out`. */
+function slerp(
+  source: Float32Array,
+  from: number,
+  to: number,
+  t: number,
+  out: Float32Array,
+  target: number,
+): void {
+  let cos = 0;
+  for (let i = 0; i < 4; i++) cos += source[from + i]! * source[to + i]!;
+  const sign = cos < 0 ? -1 : 1;
+  cos = Math.min(1, cos * sign);
+  let a = 1 - t;
+  let b = t;
+  if (cos < 0.9999) {
+    const angle = Math.acos(cos);
+    const sin = Math.sin(angle);
+    a = Math.sin(a * angle) / sin;
+    b = Math.sin(b * angle) / sin;
+  }
+  let norm = 0;
+  for (let i = 0; i < 4; i++) {
+    const value = a * source[from + i]! + sign * b * source[to + i]!;
+    out[target + i] = value;
+    norm += value * value;
+  }
+  const unit = 1 / Math.sqrt(norm);
+  for (let i = 0; i < 4; i++) out[target + i]! *= unit;
+}

@@ -1,0 +1,58 @@
+export type Theme = 'dark' | 'light';
+export type Role = 'leader' | 'reactor';
+export const ROLES = ['leader', 'reactor'] as const satisfies readonly Role[];
+
+/** Everything on the stage that differs between the dark and the light studio. */
+export interface Look {
+  readonly leader: number;
+  readonly reactor: number;
+  readonly background: number;
+  /** Colour of the lit floor in the middle. */
+  readonly pool: number;
+  readonly line: number;
+  readonly lineOpacity: number;
+  readonly fill: number;
+  readonly sky: number;
+  readonly ground: number;
+  readonly hemisphere: number;
+  readonly key: number;
+  readonly rim: number;
+  readonly shadow: number;
+  /** Opacity of the dark spot under a planted foot. */
+  readonly contact: number;
+}
+
+export const LOOKS: Readonly<Record<Theme, Look>> = {
+  dark: {
+    leader: 0x4b9bd4,
+    reactor: 0xf08a4b,
+    background: 0x121417,
+    pool: 0x1e2226,
+    line: 0xffffff,
+    lineOpacity: 0.17,
+    fill: 0.75,
+    sky: 0xdfe8f2,
+    ground: 0x5a5f68,
+    hemisphere: 1.5,
+    key: 2.7,
+    rim: 1.4,
+    shadow: 0.62,
+    contact: 0.55,
+  },
+  light: {
+    leader: 0x3d8fca,
+    reactor: 0xe97e42,
+    background: 0xe9ebed,
+    pool: 0xf6f7f8,
+    line: 0x5c646d,
+    lineOpacity: 0.2,
+    fill: 1,
+    sky: 0xffffff,
+    ground: 0xb9bec5,
+    hemisphere: 2.05,
+    key: 2.6,
+    rim: 0.5,
+    shadow: 0.3,
+    contact: 0.3,
+  },
+};
