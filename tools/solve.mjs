@@ -6,7 +6,7 @@
  * Both files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
-import { runnerImport } from 'vite';
+import { loadWeb } from './load-web.mjs';
 
 const [from, to] = process.argv.slice(2);
 if (from === undefined || to === undefined) {
@@ -20,8 +20,8 @@ if (bytes.length === 0 || bytes.length % (22 * 3 * 4) !== 0) {
 }
 const positions = new Float32Array(bytes.buffer);
 
-/** @type {{ module: typeof import('../web/motion/solve') }} */
-const { module } = await runnerImport(new URL('../web/motion/solve.ts', import.meta.url).pathname);
-const motion = module.solve({ fps: 30, frames: positions.length / 66, positions });
+/** @type {typeof import('../web/motion/solve')} */
+const { solve } = await loadWeb('motion/solve.ts');
+const motion = solve({ fps: 30, frames: positions.length / 66, positions });
 writeFileSync(to, new Uint8Array(motion.positions.buffer));
 console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

@@ -1,5 +1,5 @@
 import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './app-files';
-import { App } from './app-page';
+import { App, SHIPPED } from './app-page';
 import { expect, test } from './fixtures';
 
 /** Every failure is a sentence with a hint, in a dialog that Esc closes; what was loaded before stays. */
@@ -145,9 +145,10 @@ test.describe('the model', () => {
 
   test('crashing while it works is said, and the next attempt starts afresh', async ({ page }) => {
     const app = new App(page);
-    await app.openWithoutPicture();
+    // The real model: its steps take seconds, so that the crash comes in the middle of them on any machine.
+    await app.openWithoutPicture(SHIPPED);
     await app.settled();
-    await app.chooseLeader(bvh({ frames: 3000, name: 'unlucky.bvh' }));
+    await app.chooseLeader(bvh({ frames: 1200, name: 'unlucky.bvh' }));
     await app.until(({ job }) => job?.stage === 'step');
     const worker = page.workers().find((one) => /worker/.test(one.url()) && !/leader-worker/.test(one.url()));
     await worker?.evaluate('setTimeout(() => { throw new Error("out of luck"); })');

@@ -31,8 +31,9 @@ export function analyse(
   recipe: AudioRecipe,
   onProgress: (fraction: number) => void,
 ): Analysis {
-  const pcm = resample(mixDown(channels), sampleRate, recipe.sample_rate);
-  onProgress(RESAMPLING_SHARE);
+  const pcm = resample(mixDown(channels), sampleRate, recipe.sample_rate, (fraction) =>
+    onProgress(RESAMPLING_SHARE * fraction),
+  );
   const music = musicFeatures(pcm, recipe, (fraction) =>
     onProgress(RESAMPLING_SHARE + (1 - RESAMPLING_SHARE) * fraction),
   );

@@ -58,13 +58,14 @@ export function createPlayer(): Player {
   /** Whether the song is what runs; not before it may start, and no more at its end. */
   const sounds = (): boolean => playing && !element.paused && !element.ended;
 
-  /** The song's clock moves in steps in some browsers: between two steps its time is guessed. */
+  /** The song's clock moves in steps in some browsers: between two steps its time is guessed, within the song. */
   const songTime = (): number => {
     const { currentTime } = element;
     if (currentTime !== reading.position) {
       reading = { position: currentTime, since: reading.position < 0 ? -1 : performance.now() };
     }
-    return currentTime + (reading.since < 0 ? 0 : Math.min(advance(reading.since), LONGEST_GUESS));
+    const guess = reading.since < 0 ? 0 : Math.min(advance(reading.since), LONGEST_GUESS);
+    return Math.min(currentTime + guess, element.duration);
   };
 
   const time = (): number => {

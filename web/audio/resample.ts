@@ -22,12 +22,18 @@ type Filter = typeof SOXR;
  *
  * @param from Hz, whole
  * @param to Hz, whole, at most `from`
+ * @param onProgress hears ascending fractions of the work done
  * @returns ceil(samples * to / from) samples
  */
-export function resample(audio: Float32Array, from: number, to: number): Float32Array {
+export function resample(
+  audio: Float32Array,
+  from: number,
+  to: number,
+  onProgress: (fraction: number) => void = () => undefined,
+): Float32Array {
   if (from === to) return audio;
   const length = Math.ceil((audio.length * to) / from);
-  if (from < 3 * to || from % 2 === 1) return convert(audio, length, from, to, SOXR);
+  if (from < 3 * to || from % 2 === 1) return convert(audio, length, from, to, SOXR, onProgress);
   // Far above the wanted rate a short filter is enough to halve it: half the work for the long one. The zeros at both
   // ends, a whole number of samples at either rate, keep what the short filter spreads over the ends.
   const divisor = greatestCommonDivisor(from, to);
@@ -37,7 +43,7 @@ export function resample(audio: Float32Array, from: number, to: number): Float32
   padded.set(audio, lead);
   const halved = convert(padded, Math.ceil(padded.length / 2), from, from / 2, HALVING);
   const start = (blocks * to) / divisor;
-  return convert(halved, start + length, from / 2, to, SOXR).slice(start);
+  return convert(halved, start + length, from / 2, to, SOXR, onProgress).slice(start);
 }
 
 /** Filters and resamples by a rational factor, one precomputed filter for each position between two samples. */
@@ -47,6 +53,7 @@ function convert(
   from: number,
   to: number,
   filter: Filter,
+  onProgress: (fraction: number) => void = () => undefined,
 ): Float32Array {
   const divisor = greatestCommonDivisor(from, to);
   const [up, down] = [to / divisor, from / divisor];
@@ -58,10 +65,14 @@ function convert(
   const padded = new Float64Array(signal.length + taps + 1);
   padded.set(signal, half);
   const out = new Float32Array(length);
-  for (let i = 0; i < length; i++) {
-    const position = i * down;
-    const start = Math.floor(position / up);
-    out[i] = start < signal.length ? dot(phases[position % up]!, padded, start) : 0;
+  // Where an output lies beyond the signal it is zero.
+  const inside = Math.min(length, Math.ceil((signal.length * up) / down));
+  for (let first = 0; first < up; first++) {
+    onProgress(first / up);
+    const weights = phases[(first * down) % up]!;
+    let i = first;
+    for (; i + 3 * up < inside; i += 4 * up) dot4(weights, padded, i, up, down, out);
+    for (; i < inside; i += up) out[i] = dot(weights, padded, Math.floor((i * down) / up));
   }
   return out;
 }
@@ -86,18 +97,37 @@ function bessel(x: number): number {
   return sum;
 }
 
-/** Scalar product of all weights with as many values from index `start` on; four sums keep the processor busy. */
+/** Scalar product of all weights with as many values from index `start` on. */
 function dot(weights: Float64Array, values: Float64Array, start: number): number {
-  const whole = weights.length - (weights.length % 4);
+  let sum = 0;
+  for (let i = 0; i < weights.length; i++) sum += weights[i]! * values[start + i]!;
+  return sum;
+}
+
+/** Outputs `first`, `first + up` ..., four in all: they share their weights, which halves what is read. */
+function dot4(
+  weights: Float64Array,
+  values: Float64Array,
+  first: number,
+  up: number,
+  down: number,
+  out: Float32Array,
+): void {
+  const start = Math.floor((first * down) / up);
+  const taps = weights.length;
+  const [second, third, fourth] = [start + down, start + 2 * down, start + 3 * down];
   let [a, b, c, d] = [0, 0, 0, 0];
-  for (let i = 0; i < whole; i += 4) {
-    a += weights[i]! * values[start + i]!;
-    b += weights[i + 1]! * values[start + i + 1]!;
-    c += weights[i + 2]! * values[start + i + 2]!;
-    d += weights[i + 3]! * values[start + i + 3]!;
+  for (let i = 0; i < taps; i++) {
+    const weight = weights[i]!;
+    a += weight * values[start + i]!;
+    b += weight * values[second + i]!;
+    c += weight * values[third + i]!;
+    d += weight * values[fourth + i]!;
   }
-  for (let i = whole; i < weights.length; i++) a += weights[i]! * values[start + i]!;
-  return a + b + c + d;
+  out[first] = a;
+  out[first + up] = b;
+  out[first + 2 * up] = c;
+  out[first + 3 * up] = d;
 }
 
 function greatestCommonDivisor(a: number, b: number): number {

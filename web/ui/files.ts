@@ -15,6 +15,12 @@ import {
   visitEnded,
 } from './store';
 
+/**
+ * Least time between two changes of a progress line, milliseconds: where the processor draws the picture, each of
+ * them takes time from the work.
+ */
+const BETWEEN_REPORTS = 200;
+
 /** The readers, so that this file can be tested without a browser. */
 export interface Readers {
   readonly loadSong: (
@@ -53,10 +59,13 @@ export function createFiles(store: Store, readers: Readers): Files {
     const controller = new AbortController();
     running[side] = controller;
     apply(store, readingSet(side, { name, fraction: 0 }));
+    let shown = performance.now();
     try {
       const value = await work(controller.signal, (fraction) => {
         // Progress crosses from a worker and may arrive after the result.
-        if (running[side] === controller) apply(store, readingSet(side, { name, fraction }));
+        if (running[side] !== controller || performance.now() - shown < BETWEEN_REPORTS) return;
+        shown = performance.now();
+        apply(store, readingSet(side, { name, fraction }));
       });
       if (controller.signal.aborted) return null;
       running[side] = null;

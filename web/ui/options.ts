@@ -1,6 +1,6 @@
 import { el, setText, together } from './dom';
 import { icon } from './icons';
-import { upToDate } from './selectors';
+import { beingRead, upToDate } from './selectors';
 import type { Mount } from './services';
 import type { AppState } from './state';
 import { apply, seedSet, stepsSet, watchAll } from './store';
@@ -91,7 +91,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.leader,
         state.song,
         state.reaction,
-        state.reading,
+        ...beingRead(state),
         state.job !== null,
       ],
       show,

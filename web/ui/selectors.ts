@@ -105,6 +105,11 @@ export function lengthNote({
   return null;
 }
 
+/** Whether a song and whether a leader is being read; unlike the progress, this seldom changes. */
+export function beingRead({ reading }: Pick<AppState, 'reading'>): [boolean, boolean] {
+  return [reading.song !== null, reading.leader !== null];
+}
+
 /** Sentences worth reading before trusting the result; `look` marks the ones that may change it. */
 export function notes(state: AppState): { text: string; look: boolean }[] {
   const { song, leader } = state;

@@ -4,7 +4,7 @@ import { clockTime } from './format';
 import { drawBeats, drawCurve, drawWave, surface, token } from './lane-canvas';
 import { mountPlayhead } from './playhead';
 import { rulerMarks } from './ruler';
-import { danceDuration, jobWords, upToDate } from './selectors';
+import { beingRead, danceDuration, jobWords, upToDate } from './selectors';
 import type { Mount } from './services';
 import type { AppState } from './state';
 import { watch, watchAll } from './store';
@@ -158,7 +158,7 @@ export const mountTimeline: Mount = (root, store, services) => {
     watchAll(store, (state) => [state.leader, state.song, state.manifest], drawBlocks),
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.reaction, state.reading, state.theme],
+      (state) => [state.leader, state.song, state.reaction, ...beingRead(state), state.theme],
       redraw,
     ),
     watchAll(

@@ -1,7 +1,7 @@
 import { el, setText, together } from './dom';
 import { clockTime } from './format';
 import { icon, type IconName } from './icons';
-import { barAt, danceDuration, lengthNote } from './selectors';
+import { barAt, beingRead, danceDuration, lengthNote } from './selectors';
 import type { Mount } from './services';
 import { apply, playbackSet, SPEEDS, watch, watchAll } from './store';
 
@@ -61,7 +61,7 @@ export const mountTransport: Mount = (root, store, services) => {
   return together(
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.reading],
+      (state) => [state.leader, state.song, ...beingRead(state)],
       (state) => {
         const whole = danceDuration(state);
         for (const control of [start, play, end, loop]) control.disabled = whole === 0;

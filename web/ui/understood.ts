@@ -1,7 +1,7 @@
 import type { Manifest } from '../model/client';
 import { el, together } from './dom';
 import { clockTime, rate, tempo } from './format';
-import { notes } from './selectors';
+import { beingRead, notes } from './selectors';
 import type { Mount, Services } from './services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from './state';
 import { watchAll } from './store';
@@ -45,8 +45,7 @@ export const mountUnderstood: Mount = (root, store, services) => {
       (state) => [
         state.song,
         state.leader,
-        state.reading.song !== null,
-        state.reading.leader !== null,
+        ...beingRead(state),
         state.reaction,
         state.manifest,
         state.model,

@@ -18,6 +18,8 @@ export interface CameraRig {
   /** Where the eye stands around the target, radians about y. */
   readonly heading: number;
   resize(width: number, height: number): void;
+  /** Moves the middle of the picture to the right by `pixels`. */
+  shift(pixels: number): void;
   /** Goes to a view's first shot. */
   setView(view: View, couple: Couple): void;
   /** Returns to the couple, both in the picture, from the side it is seen now. */
@@ -69,6 +71,12 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
   const offset = new Vector3();
   const still = matchMedia('(prefers-reduced-motion: reduce)');
 
+  let size = { width: 1, height: 1 };
+  let aside = 0;
+  const project = (): void => {
+    camera.setViewOffset(size.width, size.height, -aside, 0, size.width, size.height);
+  };
+
   const current = (): Shot => {
     spherical.setFromVector3(offset.copy(camera.position).sub(controls.target));
     return {
@@ -119,7 +127,13 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
     },
     resize(width, height) {
       camera.aspect = width / height;
-      camera.updateProjectionMatrix();
+      size = { width, height };
+      project();
+    },
+    shift(pixels) {
+      aside = pixels;
+      project();
+      onChange();
     },
     setView(next, couple) {
       view = next;

@@ -30,6 +30,8 @@ export interface Stage {
   setTime(seconds: number): void;
   setTheme(theme: Theme): void;
   setCamera(view: View): void;
+  /** Moves the couple to the right by CSS pixels, out from under what lies over the picture. */
+  standAside(pixels: number): void;
   /** Brings both dancers into the picture. */
   frameBoth(): void;
   /** Calls `listener` after every drawn frame; returns how to stop that. */
@@ -196,6 +198,9 @@ export function createStage(host: HTMLElement): Stage {
     setCamera(view) {
       pose();
       rig.setView(view, couple);
+    },
+    standAside(pixels) {
+      rig.shift(pixels);
     },
     frameBoth() {
       pose();
