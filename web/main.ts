@@ -5,6 +5,7 @@ import { mountBar } from './ui/bar';
 import { createChooser } from './ui/chooser';
 import { loadDemo } from './ui/demo';
 import { mountDropTarget } from './ui/drop-target';
+import { type DroppedFile, modelAmong } from './ui/dropped';
 import { createFiles } from './ui/files';
 import { mountFirstVisit } from './ui/first-visit';
 import { createGeneration } from './ui/generation';
@@ -41,7 +42,9 @@ function place(id: string): HTMLElement {
 
 const store = createAppStore(firstTheme());
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
-const model = createModelLink(store, (onStatus) => createGenerator({ manifestUrl, backend, onStatus }));
+const model = createModelLink(store, (onStatus, folder) =>
+  createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
+);
 const files = createFiles(store, { loadSong, readLeader, manifest: model.manifest });
 const generation = createGeneration(store, model.generator);
 const playback = createPlayback(store, createPlayer());
@@ -86,7 +89,7 @@ followSystemTheme((theme) => {
 
 const choose = createChooser(document.body, (chosen) => void files.open(chosen));
 const services: Services = {
-  openFiles: (dropped) => void files.open(dropped),
+  openDropped: (coming) => void openDropped(coming),
   choose,
   rereadLeader: (fps) => void files.rereadLeader(fps),
   playDemo: playback.playFromStart,
@@ -103,6 +106,13 @@ const services: Services = {
     apply(store, opened(null));
   },
 };
+
+async function openDropped(coming: Promise<readonly DroppedFile[]>): Promise<void> {
+  const dropped = await coming;
+  const folder = modelAmong(dropped);
+  if (!folder) await files.open(dropped.map(({ file }) => file));
+  else if (await model.open(folder)) generation.generate();
+}
 
 // ---- panels ----
 
@@ -142,6 +152,15 @@ watch(
   (state) => state.camera,
   (camera) => stage?.setCamera(camera),
 );
+/** The couple stands beside the words of the first visit, where there is room beside them. */
+const roomBeside = matchMedia('(min-width: 761px)');
+const ASIDE = 200;
+watch(
+  store,
+  (state) => state.visiting,
+  (visiting) => stage?.standAside(visiting && roomBeside.matches ? ASIDE : 0),
+);
+
 // ---- what is there from the start ----
 
 void loadDemo(store, files, new URL('demo/', document.baseURI), {

@@ -24,6 +24,13 @@ const file = (from: string) => ({
   buffer: readFileSync(from),
 });
 
+/** The files of the tiny model: its manifest first, then everything that it lists. */
+function modelFiles() {
+  const folder = path.resolve(import.meta.dirname, '../fixtures/tiny-model');
+  const others = readdirSync(folder).filter((name) => name !== 'manifest.json');
+  return ['manifest.json', ...others].map((name) => file(path.join(folder, name)));
+}
+
 // A small picture is drawn as truly as a large one, and sooner.
 test.use({ viewport: { width: 800, height: 600 } });
 
@@ -207,4 +214,34 @@ test.describe('real files', () => {
     await app.reaction(path.basename(leaders[0] ?? ''));
     expect(await app.read((state) => state.song?.data.beats.length)).toBeGreaterThan(8);
   });
+});
+
+test('a model of one’s own is dropped as a folder and dances at once', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  const before = await app.reactor();
+
+  const [manifest, ...graphs] = modelFiles();
+  const renamed = JSON.parse(manifest!.buffer.toString()) as { name: string; guidance: { default: object } };
+  renamed.name = 'My own duets';
+  renamed.guidance.default = { coarse: 2, fine: 2 };
+  const own = { ...manifest!, buffer: Buffer.from(JSON.stringify(renamed)) };
+
+  await app.drop(own, ...graphs.slice(1));
+  await expect(app.alert.getByRole('heading')).toContainText(graphs[0]!.name);
+  await page.keyboard.press('Escape');
+  expect(farthest(before, await app.reactor())).toBe(0);
+
+  await app.drop(own, ...graphs);
+  await app.until(({ manifest }) => manifest?.name === 'My own duets');
+  await app.until(({ settings, reaction, job }) => !job && settings?.seed === reaction?.inputs.settings.seed);
+  expect(await app.read(({ reaction }) => reaction?.inputs.settings.guidance)).toEqual({
+    coarse: 2,
+    fine: 2,
+  });
+  expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-4);
+  await expect(page.getByRole('list', { name: 'Notes' })).toContainText('My own duets');
 });

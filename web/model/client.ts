@@ -1,6 +1,7 @@
 import { proxy, type Remote, wrap } from 'comlink';
 import type { Backend, Preference } from './backend';
 import { ModelError } from './error';
+import type { ModelFolder } from './folder';
 import type { GenerateRequest } from './inputs';
 import type { Status } from './load';
 import type { Manifest } from './manifest';
@@ -13,6 +14,7 @@ export type {
   GenerateRequest,
   GenerateResult,
   Manifest,
+  ModelFolder,
   Preference,
   Progress,
   Status,
@@ -22,6 +24,8 @@ export { ModelError };
 export interface GeneratorOptions {
   /** Address of the model's manifest.json. */
   readonly manifestUrl: string;
+  /** The model's files, where they come from the visitor and not from the address. */
+  readonly folder?: ModelFolder | undefined;
   /** Where to compute; 'auto' when not given. */
   readonly backend?: Preference | undefined;
   /** At most this many wasm threads; for measuring. */
@@ -92,9 +96,12 @@ async function start(options: GeneratorOptions): Promise<Running> {
     if (event.kind === 'status') options.onStatus?.(event.status);
     else listeners.get(event.id)?.(event.progress);
   };
-  const { backend = 'auto', threads } = options;
+  const { folder, backend = 'auto', threads } = options;
   const manifestUrl = new URL(options.manifestUrl, document.baseURI).href;
-  const loaded = await Promise.race([remote.load({ manifestUrl, backend, threads }, proxy(onEvent)), death]);
+  const loaded = await Promise.race([
+    remote.load({ manifestUrl, folder, backend, threads }, proxy(onEvent)),
+    death,
+  ]);
   if (!loaded.ok) {
     const error = toError(loaded.failure);
     end(error);

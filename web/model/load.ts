@@ -2,6 +2,7 @@ import { type Backend, chooseBackend, demote, type Preference, surroundings } fr
 import { conditionClip } from './chunks';
 import { download, fetchFile } from './download';
 import { ModelError } from './error';
+import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile, parseManifest } from './manifest';
 import { Pipeline } from './pipeline';
@@ -13,6 +14,8 @@ import { cacheStore } from './store';
 export interface LoadOptions {
   /** Absolute address of manifest.json; the graphs' paths are relative to it. */
   readonly manifestUrl: string;
+  /** The model's files, where they come from the visitor and not from the address. */
+  readonly folder?: ModelFolder | undefined;
   readonly backend: Preference;
   /** At most this many wasm threads. */
   readonly threads?: number | undefined;
@@ -37,8 +40,8 @@ export interface LoadedModel {
 // Metres. fp32 on another device differs by rounding only, which is far below; a broken driver is far above.
 const GOLDEN_TOLERANCE = 1e-3;
 
-async function fetchManifest(url: string): Promise<Manifest> {
-  const response = await fetchFile(url, fetch);
+async function fetchManifest(url: string, get: typeof fetch): Promise<Manifest> {
+  const response = await fetchFile(url, get);
   let json: unknown;
   try {
     json = await response.json();
@@ -46,7 +49,7 @@ async function fetchManifest(url: string): Promise<Manifest> {
     throw new ModelError(
       'manifest-invalid',
       `The model's manifest ${url} is not JSON.`,
-      'Copy the whole model folder to the server anew.',
+      'Export the model again and take its whole folder.',
       { cause: error },
     );
   }
@@ -58,9 +61,10 @@ async function checkGolden(
   manifest: Manifest,
   session: ModelSession,
   url: string,
+  get: typeof fetch,
 ): Promise<number | undefined> {
   if (manifest.golden === undefined) return undefined;
-  const response = await fetchFile(new URL(manifest.golden.path, url).href, fetch);
+  const response = await fetchFile(new URL(manifest.golden.path, url).href, get);
   return goldenError(manifest, session, readGolden(new Uint8Array(await response.arrayBuffer())));
 }
 
@@ -94,19 +98,21 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
  * @throws {ModelError}
  */
 export async function loadModel(
-  { manifestUrl, backend: preference, threads }: LoadOptions,
+  { manifestUrl, folder, backend: preference, threads }: LoadOptions,
   scope: typeof globalThis,
   onStatus: (status: Status) => void,
 ): Promise<LoadedModel> {
-  const manifest = await fetchManifest(manifestUrl);
+  const get = folder ? folderFetch(folder, manifestUrl) : fetch;
+  const manifest = await fetchManifest(manifestUrl, get);
   onStatus({ kind: 'manifest', manifest });
   let backend = await chooseBackend(preference, surroundings(scope), threads);
 
   const open = async (provider: Provider): Promise<ModelSession> => {
     const files: ManifestFile[] = GRAPHS.map((name) => manifest.graphs[name].files[provider]);
     const bytes = await download(manifestUrl, files, {
-      fetch,
-      store: cacheStore(scope, manifest.id),
+      fetch: get,
+      // The visitor's own files need no second copy.
+      store: folder ? undefined : cacheStore(scope, manifest.id),
       onProgress: (loaded, total) => {
         onStatus({ kind: 'download', loaded, total });
       },
@@ -133,7 +139,7 @@ export async function loadModel(
     try {
       session = await open('webgpu');
       onStatus({ kind: 'check' });
-      const error = await checkGolden(manifest, session, manifestUrl);
+      const error = await checkGolden(manifest, session, manifestUrl, get);
       if (error !== undefined) onStatus({ kind: 'checked', error });
       // Written so that an error which is not a number is a doubt too.
       if (error !== undefined && !(error <= GOLDEN_TOLERANCE)) {

@@ -1,4 +1,5 @@
 import { el, listen, together } from './dom';
+import { droppedFiles } from './dropped';
 import type { Mount } from './services';
 
 /** The whole page takes files; while one hovers, the stage says so. */
@@ -7,7 +8,7 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     'div',
     { class: 'landing', attributes: { 'aria-hidden': 'true' } },
     el('b', { text: 'Drop it anywhere' }),
-    el('span', { text: 'A song, a leader as BVH, or both at once' }),
+    el('span', { text: 'A song, a leader as BVH, or both at once; a model as a folder' }),
   );
   landing.hidden = true;
   root.append(landing);
@@ -33,7 +34,7 @@ export const mountDropTarget: Mount = (root, _store, services) => {
       if (!carriesFiles(event)) return;
       event.preventDefault();
       show(-inside);
-      services.openFiles([...(event.dataTransfer?.files ?? [])]);
+      if (event.dataTransfer) services.openDropped(droppedFiles(event.dataTransfer));
     }),
     () => {
       landing.remove();

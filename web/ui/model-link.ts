@@ -1,8 +1,8 @@
-import type { Generator, Manifest, Status } from '../model/client';
+import type { Generator, Manifest, ModelFolder, Status } from '../model/client';
 import { rolledSeed } from './options';
 import { modelProblem } from './problems';
 import type { ModelState } from './state';
-import { apply, manifestArrived, modelChanged, told, remarked, type Store } from './store';
+import { apply, manifestArrived, modelChanged, modelOpened, told, remarked, type Store } from './store';
 
 export interface ModelLink {
   /** The model when it is ready; rejects when this attempt to load it has failed. */
@@ -11,15 +11,17 @@ export interface ModelLink {
   readonly manifest: () => Promise<Manifest>;
   /** Loads again after a failure. */
   readonly retry: () => void;
+  /** Takes the visitor's own model instead; when it can't be had, that is told and the present one stays. */
+  readonly open: (folder: ModelFolder) => Promise<boolean>;
 }
 
 /**
- * Loads the model once for the page and tells the store how that goes.
- * @param create begins to load; told about everything that happens
+ * Loads the page's model, or one that the visitor opens, and tells the store how that goes.
+ * @param create begins to load, from a folder or from where the page's model lies; told about everything that happens
  */
 export function createModelLink(
   store: Store,
-  create: (onStatus: (status: Status) => void) => Promise<Generator>,
+  create: (onStatus: (status: Status) => void, folder: ModelFolder | null) => Promise<Generator>,
 ): ModelLink {
   let tell: (manifest: Manifest) => void = () => undefined;
   const manifest = new Promise<Manifest>((resolve) => {
@@ -36,7 +38,7 @@ export function createModelLink(
   const load = async (): Promise<Generator> => {
     apply(store, modelChanged({ phase: 'loading', label: 'Model', received: 0, total: 0 }));
     try {
-      return await create(onStatus);
+      return await create(onStatus, null);
     } catch (error) {
       const problem = modelProblem(error);
       apply(store, modelChanged({ phase: 'failed', problem }));
@@ -54,9 +56,29 @@ export function createModelLink(
   let current = begin();
   return {
     generator: () => current,
-    manifest: () => manifest,
+    manifest: () => Promise.resolve(store.getState().manifest ?? manifest),
     retry: () => {
       if (store.getState().model.phase === 'failed') current = begin();
+    },
+    open: async (folder) => {
+      const before = current;
+      const shown = store.getState().model;
+      try {
+        // The present model's manifest stays until the other one can dance.
+        const made = await create((status) => status.kind !== 'manifest' && onStatus(status), folder);
+        current = Promise.resolve(made);
+        apply(store, modelOpened(made.manifest, rolledSeed()));
+        tell(made.manifest);
+        before.then(
+          (old) => old.dispose(),
+          () => undefined,
+        );
+        return true;
+      } catch (error) {
+        apply(store, modelChanged(shown));
+        apply(store, told(modelProblem(error)));
+        return false;
+      }
     },
   };
 }

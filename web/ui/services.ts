@@ -1,10 +1,11 @@
+import type { DroppedFile } from './dropped';
 import type { Side } from './state';
 import type { Store } from './store';
 
 /** What panels may ask for. They change settings through the store and everything with effects through here. */
 export interface Services {
-  /** Reads files of either kind; what each is, its content says. */
-  readonly openFiles: (files: readonly File[]) => void;
+  /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
+  readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
   readonly choose: (side: Side | 'any') => void;
   /** Reads the leader again at this frame rate; null is the file's own. */

@@ -104,6 +104,21 @@ export function manifestArrived(manifest: Manifest, seed: number): Change {
   });
 }
 
+/** Another model takes over: its own defaults, and no song that was heard in a way it does not know. */
+export function modelOpened(manifest: Manifest, seed: number): Change {
+  return (state) => {
+    const before = state.manifest;
+    const hearsAlike = before && JSON.stringify(before.audio) === JSON.stringify(manifest.audio);
+    const lost =
+      state.song && !hearsAlike ? ` It hears songs in another way: drop ${state.song.name} again.` : '';
+    return {
+      ...manifestArrived(manifest, seed)(state),
+      ...(lost && { song: null }),
+      remarks: [...state.remarks, `The partner is danced by your model “${manifest.name}”.${lost}`],
+    };
+  };
+}
+
 /** The manifest's own choice for a layer; 0, the plain condition, for a layer that it does not name. */
 function preset(manifest: Manifest, layer: Layer): number {
   return manifest.guidance.default[layer] ?? 0;

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { ModelError, type Generator, type Status } from '../../../web/model/client';
+import { ModelError, type Generator, type ModelFolder, type Status } from '../../../web/model/client';
 import { createModelLink } from '../../../web/ui/model-link';
+import type { LoadedSong } from '../../../web/ui/state';
 import { createAppStore } from '../../../web/ui/store';
 import { small } from '../model/small-manifest';
 
@@ -13,10 +14,11 @@ function loading() {
     tell: (status: Status) => void;
     succeed: (made: Generator) => void;
     fail: (error: Error) => void;
+    folder: ModelFolder | null;
   }[] = [];
   const link = createModelLink(
     store,
-    (tell) => new Promise((succeed, fail) => attempts.push({ tell, succeed, fail })),
+    (tell, folder) => new Promise((succeed, fail) => attempts.push({ tell, succeed, fail, folder })),
   );
   return { store, link, attempts };
 }
@@ -70,5 +72,68 @@ describe('loading the model', () => {
     attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
     expect(store.getState().remarks).toEqual(['Not kept. Free some space.']);
     expect(store.getState().problem).toBeNull();
+  });
+});
+
+describe('opening a model of the visitor', () => {
+  const folder = { 'manifest.json': new Blob(['{}']) };
+  const other = { ...small, id: 'other', name: 'Tango' };
+
+  async function danced() {
+    const all = loading();
+    let disposed = false;
+    all.attempts[0]?.tell({ kind: 'manifest', manifest: small });
+    all.attempts[0]?.tell({ kind: 'ready', backend });
+    const present = { manifest: small, dispose: () => void (disposed = true) } as Generator;
+    all.attempts[0]?.succeed(present);
+    await all.link.generator();
+    return { ...all, present, isDisposed: () => disposed };
+  }
+
+  it('takes over when it can dance, and not before', async () => {
+    const { store, link, attempts, present, isDisposed } = await danced();
+    const opened = link.open(folder);
+    expect(attempts[1]?.folder).toBe(folder);
+    attempts[1]?.tell({ kind: 'manifest', manifest: other });
+    expect(store.getState().manifest).toBe(small);
+    expect(await link.generator()).toBe(present);
+    attempts[1]?.tell({ kind: 'ready', backend });
+    const made = { manifest: other } as Generator;
+    attempts[1]?.succeed(made);
+    expect(await opened).toBe(true);
+    expect(store.getState().manifest).toBe(other);
+    expect(await link.manifest()).toBe(other);
+    expect(await link.generator()).toBe(made);
+    expect(isDisposed()).toBe(true);
+    expect(store.getState().remarks.join()).toContain('Tango');
+  });
+
+  it('leaves everything as it was when it fails, and says why', async () => {
+    const { store, link, attempts, present, isDisposed } = await danced();
+    const before = store.getState();
+    const opened = link.open(folder);
+    attempts[1]?.tell({ kind: 'download', loaded: 1, total: 2 });
+    attempts[1]?.fail(new ModelError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
+    expect(await opened).toBe(false);
+    const { problem, ...after } = store.getState();
+    expect(problem).toMatchObject({ code: 'model-missing' });
+    expect({ ...after, problem: null }).toEqual(before);
+    expect(await link.generator()).toBe(present);
+    expect(isDisposed()).toBe(false);
+  });
+
+  it('lets go of a song that it would hear in another way', async () => {
+    for (const [audio, kept] of [
+      [small.audio, true],
+      [{ ...small.audio, hop: 2 * small.audio.hop }, false],
+    ] as const) {
+      const { store, link, attempts } = await danced();
+      store.setState({ song: { name: 'a.mp3' } as LoadedSong });
+      const opened = link.open(folder);
+      attempts[1]?.succeed({ manifest: { ...other, audio } } as Generator);
+      await opened;
+      expect(store.getState().song !== null).toBe(kept);
+      expect(store.getState().remarks.join().includes('a.mp3')).toBe(!kept);
+    }
   });
 });
