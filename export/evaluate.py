@@ -1,7 +1,9 @@
 """Measure a model on held-out duets: exported graphs under onnxruntime, or a checkpoint under PyTorch.
 
     python -m export.evaluate --model web/public/models/salsa --checkpoint training/checkpoints/salsa \
-        --data ../shared/data/cmu_salsa/duets.npz --test salsa_05 salsa_11 --out runs/evaluation
+        --data ../shared/data/cmu_salsa/duets.npz --test salsa_05 salsa_11 --out runs/evaluation \
+        --elsewhere ../shared/data/cmu_solo/solo.npz --solve \
+        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2
 
 With a model folder the graphs dance, and the checkpoint, if given, adds the rows of its autoencoder; with a
 checkpoint alone PyTorch dances.
@@ -27,6 +29,7 @@ from training.dancer import Dancer, Motions, Settings, Trial
 from training.data.sources import read_split
 from training.data.splits import Split
 from training.diffusion import alphas_cumprod, ddim_steps
+from training.elsewhere import read_leaders
 from training.evaluate import evaluate
 from training.music.pairing import Variant, build_music_bank
 from training.noise import noise
@@ -44,7 +47,7 @@ class Options:
     data: Path
     """npz archive of duets, a folder of BVH pairs, or a DD100 root."""
     out: Path
-    """Folder for metrics.json, report.md and pictures."""
+    """Folder for metrics.json, report.md, pictures and videos."""
     model: Path | None = None
     """Folder with manifest.json and graphs."""
     checkpoint: Path | None = None
@@ -57,11 +60,16 @@ class Options:
     """Folder of songs; the held-out ones among them are paired with the trials instead of the synthesiser."""
     music: bool = True
     music_cache: Path | None = None
+    elsewhere: tuple[Path, ...] = ()
+    """Leaders from elsewhere: npz archives of solo dances, single BVH files."""
     steps: int | None = None
     guidance: tuple[float, float] | None = None
     """Coarse and fine, Eq. 9's s; the model's default when left out."""
     threads: int = 0
     pictures: bool = True
+    """Spectra and filmstrips."""
+    videos: bool = True
+    """True and generated couple of every trial side by side, WebM."""
     solve: bool = False
     """Measure the solved skeleton too, by the page's own solver under Node."""
     settings: Settings = field(default_factory=Settings)
@@ -99,9 +107,12 @@ def exported_dancer(model: Exported, steps: int | None, default: tuple[float, fl
         heard_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
         coarse_only: bool = False,
+        role: float = 0.0,
     ) -> np.ndarray:
         padded, heard, features, valid, scale = condition_inputs(leader, music, heard_leader, height)
-        (memory,) = model.run("condition", leader=heard, music=features, music_valid=valid, role=np.zeros(1))
+        (memory,) = model.run(
+            "condition", leader=heard, music=features, music_valid=valid, role=np.array([role])
+        )
         chosen = guidance or default
         weights = (
             default_guidance(manifest) if chosen is None else np.tile(np.array(chosen), (len(STREAMS), 1))
@@ -128,10 +139,11 @@ def torch_dancer(
         heard_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
         coarse_only: bool = False,
+        role: float = 0.0,
     ) -> np.ndarray:
         padded, heard, features, valid, scale = condition_inputs(leader, music, heard_leader, height)
         memory = condition(
-            model, torch.from_numpy(heard), torch.from_numpy(features), torch.from_numpy(valid)
+            model, torch.from_numpy(heard), torch.from_numpy(features), torch.from_numpy(valid), role
         )
         initial = torch.from_numpy(noise(seed, len(memory), layers * width, draw=0)).float()
         weights = torch.tensor(guidance or default or model.diffusion.guidance).repeat(len(STREAMS), 1)
@@ -226,9 +238,11 @@ def main(options: Options) -> None:
         settings,
         given,
         solve_with_node if options.solve else None,
+        read_leaders(options.elsewhere),
         console.print,
     )
-    bars = write_report(evaluation, trials, options.out, f"{name}, measured", facts, options.pictures)
+    title = f"{name}, measured"
+    bars = write_report(evaluation, trials, options.out, title, facts, options.pictures, options.videos)
     console.print(
         f"wrote {options.out / 'report.md'}; {sum(b.passed for b in bars)} of {len(bars)} bars reached"
     )

@@ -10,7 +10,7 @@ from torch import Tensor, nn
 
 from training.frame import smoothed_heading
 from training.sampler import Model, guided_x0
-from training.streams import from_streams, leader_features
+from training.streams import leader_features, reactor_motion
 
 
 class Condition(nn.Module):
@@ -63,5 +63,5 @@ class Decode(nn.Module):
 
     def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
         raw = self.hfsq.denormalise(latents) * layers[:, None]
-        upper, lower, placement = (s[0] for s in self.hfsq.decode(raw[None]))
-        return from_streams(upper, lower, placement, leader, smoothed_heading(leader, self.frame))
+        streams = [s[0] for s in self.hfsq.decode(raw[None])]
+        return reactor_motion(streams, leader, smoothed_heading(leader, self.frame))

@@ -7,6 +7,7 @@ from datetime import date
 from typing import Any
 
 from training.config import FPS, STREAMS, STRIDE
+from training.data.floor import TOE_PERCENTILE, TOE_REST
 from training.diffusion import alphas_cumprod
 from training.music.recipe import AudioRecipe
 from training.sampler import Model
@@ -39,11 +40,6 @@ def condition_field(model: Model) -> int:
     return -(-(model.frame.radius + 1) // STRIDE) + model.denoiser.condition.receptive_field
 
 
-def decode_field(model: Model) -> int:
-    """The same for decoding: convolutions of the decoder, and the smoothing of the leader's heading."""
-    return max(model.hfsq.receptive_field, -(-model.frame.radius // STRIDE))
-
-
 def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golden: str) -> dict[str, Any]:
     """The manifest as plain JSON values; `entries` are the graphs as described by `onnx_files.describe`."""
     diffusion = model.diffusion
@@ -64,6 +60,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "lower": list(LOWER),
             "feet": list(FEET),
             "reference_height": round(card.reference_height, 4),
+            "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },
         "fps": FPS,
         "latent": {
@@ -73,7 +70,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "streams": list(STREAMS),
             "layers": names,
             "memory_width": 2 * model.denoiser.config.width,
-            "receptive_field": {"condition": condition_field(model), "decode": decode_field(model)},
+            "receptive_field": {"condition": condition_field(model)},
         },
         "diffusion": {
             "train_steps": diffusion.train_steps,

@@ -1,16 +1,22 @@
 /**
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
- *     node tools/solve.mjs positions.f32 solved.f32
+ *     node tools/solve.mjs [--foot-lock] positions.f32 solved.f32
  *
  * Both files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
+ * With --foot-lock planted feet are kept from sliding, as by the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
+import { parseArgs } from 'node:util';
 import { loadWeb } from './load-web.mjs';
 
-const [from, to] = process.argv.slice(2);
+const { values, positionals } = parseArgs({
+  options: { 'foot-lock': { type: 'boolean', default: false } },
+  allowPositionals: true,
+});
+const [from, to] = positionals;
 if (from === undefined || to === undefined) {
-  console.error('Usage: node tools/solve.mjs positions.f32 solved.f32');
+  console.error('Usage: node tools/solve.mjs [--foot-lock] positions.f32 solved.f32');
   process.exit(2);
 }
 const bytes = new Uint8Array(readFileSync(from));
@@ -22,6 +28,9 @@ const positions = new Float32Array(bytes.buffer);
 
 /** @type {typeof import('../web/motion/solve')} */
 const { solve } = await loadWeb('motion/solve.ts');
-const motion = solve({ fps: 30, frames: positions.length / 66, positions });
+/** @type {typeof import('../web/motion/foot-lock')} */
+const { lockFeet } = await loadWeb('motion/foot-lock.ts');
+const solved = solve({ fps: 30, frames: positions.length / 66, positions });
+const motion = values['foot-lock'] ? lockFeet(solved) : solved;
 writeFileSync(to, new Uint8Array(motion.positions.buffer));
 console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

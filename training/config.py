@@ -25,7 +25,8 @@ class FrameConfig:
 class MaskingConfig:
     """Progressive masking (paper 3.2): residual masking and code masking, both only while training."""
 
-    residual: float = 0.25  # share of windows whose layers above the base are hidden
+    residual: float = 0.35  # share of windows whose layers above the base are hidden
+    cutoff: float | None = 2.25  # Hz; those windows decode to the motion below it, None to all of it
     base_noise: float = 0.1  # std of the noise on the base layer of those windows, in units of the code range
     code: float = 0.15  # share of windows with code masking
     code_rate: float = 0.1  # share of code dimensions masked in those windows
@@ -61,7 +62,10 @@ class ConditionConfig:
     drop_all: float = 0.1
     drop_leader: float = 0.1
     drop_music: float = 0.1
-    jitter: int = 3  # frames; the leader is moved against the music by up to this much in training
+    # What makes the music worth hearing: in training the leader alone does not always tell the beat.
+    leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
+    leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
+    blurred: float = 0.25  # share of windows with a blurred leader
 
 
 @dataclass(frozen=True)
@@ -72,7 +76,7 @@ class DenoiserConfig:
     depths: tuple[int, ...] = (4, 2)  # transformer layers of the coarse trunk and of the fine head
     slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, logits lost per latent frame of distance
     block: int = 60  # latent frames
-    dropout: float = 0.1
+    dropout: float = 0.15  # of channels, for a whole window at once
     condition: ConditionConfig = field(default_factory=ConditionConfig)
 
 
@@ -90,12 +94,14 @@ class DiffusionConfig:
 @dataclass(frozen=True)
 class DenoiserLossConfig:
     layers: tuple[float, ...] = (1.0, 0.5)  # lambda^r of Eq. 6
+    snr: float = 0.5  # share of Eq. 6's weight that follows the signal-to-noise ratio
     kinematic: float = 0.02
     velocity: float = 5.0
     acceleration: float = 5.0
-    contact: float = 0.05
+    contact: float = 0.5
+    energy: float = 0.2
     orientation: float = 0.05
-    windows: int = 16  # the windows with least noise in the batch, the only ones that are decoded
+    windows: int = 8  # the windows with least noise in the batch, the only ones that are decoded
 
 
 def to_json(config: Any) -> dict[str, Any]:

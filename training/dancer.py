@@ -21,13 +21,14 @@ class Dancer(Protocol):
         heard_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
         coarse_only: bool = False,
+        role: float = 0.0,
     ) -> np.ndarray:
         """The reactor (T, 22, 3) metres, at the leader's own size, to a leader (T, 22, 3) and music (T',
         54) or None.
 
         heard_leader: (T, 22, 3), what the condition is made of where that is not the leader it dances with.
         guidance: coarse and fine for all streams, None for the default. coarse_only: decoded without the
-        fine layer.
+        fine layer. role: 0 dances the reactor, 1 the leader, to a partner in the leader's place.
         """
         ...
 

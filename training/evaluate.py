@@ -15,11 +15,15 @@ import numpy as np
 
 from training.baselines import mean_pose, median_distance, mirrored_leader, nearest_neighbour
 from training.dancer import Dancer, Motions, Settings, Trial
-from training.data.duet import Duet
+from training.data.duet import Duet, Solo
+from training.elsewhere import Elsewhere, measure_elsewhere
 from training.metrics.duet import CLIP, HOP, clip_count, duet_metrics, set_metrics
 from training.metrics.modes import MODES
 from training.metrics.twosample import truth_against_truth, two_sample_accuracy
 from training.probes import measure_beat_following, measure_guidance, measure_responses, measure_seams
+from training.role_swap import measure_role_swap
+from training.separability import separability
+from training.spectra import COARSE
 
 Log = Callable[[str], None]
 
@@ -30,6 +34,10 @@ class Evaluation:
 
     numbers: dict[str, Any]
     motions: dict[str, Motions] = field(repr=False)
+    """By row; also the first seed's dances decoded without the fine layer, which are drawn, not measured."""
+    swapped: Motions = field(default_factory=dict, repr=False)
+    """Leaders that were generated for the trials' reactors, one per seed."""
+    elsewhere: list[Elsewhere] = field(default_factory=list, repr=False)
 
 
 def generate(dancer: Dancer, trials: Sequence[Trial], seeds: Sequence[int]) -> tuple[Motions, list[float]]:
@@ -63,7 +71,8 @@ def _known_mean(values: Sequence[float]) -> float:
 
 
 def measure_row(trials: Sequence[Trial], motions: Motions) -> dict[str, Any]:
-    """One row of the table: every measure per trial and seed, their mean, and the mean over trials of those.
+    """One row of the table: every measure per trial and seed, the mean over trials of each seed (`per_seed`),
+    and the mean over both.
 
     Also FID and Div of the clips of all trials, for each seed, in both modes.
     """
@@ -93,7 +102,7 @@ def measure_row(trials: Sequence[Trial], motions: Motions) -> dict[str, Any]:
     interval = {key: _interval([n[key] for n in numbers]) for key in numbers[0]}
     for key in sets[0]:  # clips, not seeds, are what FID and Div depend on most
         interval[key] = (float(np.mean([s[key][1] for s in sets])), float(np.mean([s[key][2] for s in sets])))
-    return {"mean": mean, "interval": interval, "trials": by_trial}
+    return {"mean": mean, "interval": interval, "per_seed": numbers, "trials": by_trial}
 
 
 def _set_row(trials: Sequence[Trial], motions: Motions, seed: int) -> dict[str, tuple[float, float, float]]:
@@ -140,12 +149,14 @@ def evaluate(
     settings: Settings | None = None,
     given: Mapping[str, Motions] | None = None,
     solve: Callable[[np.ndarray], np.ndarray] | None = None,
+    elsewhere: Sequence[Solo] = (),
     log: Log = lambda _: None,
 ) -> Evaluation:
     """Everything in one run.
 
     given: further rows whose motions exist already, such as reconstructions. solve: puts a motion (T, 22,
-    3) on a skeleton of constant bone lengths, for a row `solved` of what is drawn and exported.
+    3) on a skeleton of constant bone lengths, for a row `solved` of what is drawn and exported. elsewhere:
+    leaders of other dances, without a partner.
     """
     settings = settings or Settings()
     if not trials:
@@ -185,4 +196,14 @@ def evaluate(
     if settings.guidance_grid:
         log("guidance")
         numbers["guidance"] = measure_guidance(dancer, trials, settings)
-    return Evaluation(numbers, rows)
+        numbers["separability"] = separability(numbers["guidance"])
+    log("role swap")
+    numbers["role_swap"], swapped = measure_role_swap(dancer, trials, train, settings.seeds)
+    strangers: list[Elsewhere] = []
+    if elsewhere:
+        log("leaders from elsewhere")
+        numbers["elsewhere"], strangers = measure_elsewhere(dancer, elsewhere, trials, settings.seeds[0])
+    coarse = {
+        t.duet.name: [dancer(t.duet.leader, t.music, settings.seeds[0], coarse_only=True)] for t in trials
+    }
+    return Evaluation(numbers, {**rows, COARSE: coarse}, swapped, strangers)

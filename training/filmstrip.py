@@ -54,7 +54,7 @@ def views(leader: np.ndarray, reactor: np.ndarray) -> tuple[View, View, View]:
     )
 
 
-def _shade(colour: str, amount: float) -> tuple[float, float, float]:
+def shade(colour: str, amount: float) -> tuple[float, float, float]:
     """The colour mixed with white (amount > 0) or black (amount < 0)."""
     red, green, blue = to_rgb(colour)
     target, share = (1.0, amount) if amount > 0 else (0.0, -amount)
@@ -76,7 +76,7 @@ def draw_body(
         return behind + (0.0 if ghost else depth)
 
     trunk = [JOINTS.index(name) for name in TRUNK]
-    flat = _shade(colour, 0.45)
+    flat = shade(colour, 0.45)
     axes.add_patch(
         Polygon(
             np.stack([x[trunk], y[trunk]], axis=-1),
@@ -92,7 +92,7 @@ def draw_body(
         if parent < 0:
             continue
         name = JOINTS[joint]
-        tone = _shade(colour, -0.3) if name.startswith("right") else to_rgb(colour)
+        tone = shade(colour, -0.3) if name.startswith("right") else to_rgb(colour)
         axes.plot(
             [x[parent], x[joint]],
             [y[parent], y[joint]],

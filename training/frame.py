@@ -15,21 +15,37 @@ from training.config import FrameConfig
 LEFT_HIP, RIGHT_HIP = 1, 2
 
 
+def hip_facing(leader: Tensor) -> Tensor:
+    """(T, 2): unit x and z of the direction the hips of (T, 22, 3) face."""
+    across = leader[:, LEFT_HIP] - leader[:, RIGHT_HIP]
+    facing = torch.stack([-across[:, 2], across[:, 0]], dim=-1)  # across x up
+    # Not a sum with a small number: the ONNX exporter takes that for zero and leaves it out.
+    return facing / facing.square().sum(-1, keepdim=True).clamp_min(1e-8).sqrt()
+
+
 def smoothed_heading(leader: Tensor, config: FrameConfig) -> Tensor:
     """Unit heading of the leader in the floor plane.
 
-    leader: (T, 22, 3) metres, y up. Returns (T, 2): x and z of the direction the hips face, smoothed with a
-    Gaussian. Ends are padded with zeros, which weighs the frames that exist: only the direction of the sum
-    matters.
+    leader: (T, 22, 3) metres, y up. Returns (T, 2): x and z of the direction the hips face, its angle
+    smoothed with a Gaussian. The angle is unwrapped first, so that a leader who spins turns the frame
+    evenly: an average of directions would pass through zero and flip. At the ends the Gaussian weighs the
+    frames that exist.
     """
-    across = leader[:, LEFT_HIP] - leader[:, RIGHT_HIP]
-    facing = torch.stack([-across[:, 2], across[:, 0]], dim=0)  # across x up
-    facing = facing / (facing.square().sum(0, keepdim=True) + 1e-8).sqrt()
+    facing = hip_facing(leader)
+    before, after = facing[:-1], facing[1:]
+    cross = before[:, 1] * after[:, 0] - before[:, 0] * after[:, 1]
+    dot = (before * after).sum(-1)
+    # Half the angle, since graphs know atan alone: exact for anything short of half a turn per frame.
+    turns = 2 * torch.atan(cross / (1 + dot).clamp_min(1e-6))
+    angle = torch.cat([turns.new_zeros(1), turns]).cumsum(0)
+
     offsets = torch.arange(-config.radius, config.radius + 1, dtype=leader.dtype, device=leader.device)
-    kernel = torch.exp(-0.5 * (offsets / config.sigma) ** 2)
-    kernel = (kernel / kernel.sum())[None, None]
-    smooth = F.conv1d(facing[:, None], kernel, padding=config.radius)[:, 0]
-    return (smooth / (smooth.square().sum(0, keepdim=True) + 1e-8).sqrt()).T
+    kernel = torch.exp(-0.5 * (offsets / config.sigma) ** 2)[None, None]
+    sums = F.conv1d(torch.stack([angle, torch.ones_like(angle)])[:, None], kernel, padding=config.radius)
+    ahead = sums[0, 0] / sums[1, 0] - angle
+    c, s = ahead.cos(), ahead.sin()
+    x, z = facing.unbind(-1)
+    return torch.stack([c * x + s * z, c * z - s * x], dim=-1)
 
 
 def into_frame(vectors: Tensor, heading: Tensor) -> Tensor:

@@ -15,14 +15,27 @@ CONTACT_STEP = 0.01  # metres per frame; a foot that moves less stands (EDGE)
 LEFT_HIP, RIGHT_HIP = 1, 2
 
 
+SNR_CAP = 5.0  # Hang et al. 2023, Efficient Diffusion Training via Min-SNR Weighting Strategy
+
+
+def noise_weights(alpha_bar: Tensor, share: float) -> Tensor:
+    """(N,) weights with mean 1 for windows of that alpha bar: a `share` of them grows with signal over noise.
+
+    Predicting x0 from much noise has the largest error, so an unweighted loss is spent there; what little
+    noise hides, the detail of a motion, would stay blurred.
+    """
+    snr = (alpha_bar / (1 - alpha_bar)).clamp_max(SNR_CAP)
+    return 1 - share + share * snr / snr.mean()
+
+
 def simple_loss(
-    truth: Tensor, predicted: Tensor, valid: Tensor, weights: tuple[float, ...]
+    truth: Tensor, predicted: Tensor, valid: Tensor, weights: tuple[float, ...], windows: Tensor
 ) -> tuple[Tensor, Tensor]:
-    """Eq. 6. truth, predicted (N, L, R, C) normalised; valid (N, L). Returns the loss and the layers'
-    errors (R,).
+    """Eq. 6. truth, predicted (N, L, R, C) normalised; valid (N, L); weights of the layers and of the windows
+    (N,). Returns the loss and the layers' errors (R,).
     """
     error = (truth - predicted).square().mean(-1) * valid[..., None]
-    layers = error.sum((0, 1)) / valid.sum()
+    layers = (error * windows[:, None, None]).sum((0, 1)) / valid.sum()
     return (layers * layers.new_tensor(weights)).sum(), layers.detach()
 
 
@@ -60,6 +73,19 @@ def contact_loss(truth: Tensor, predicted: Tensor) -> Tensor:
     return (speed * stands).sum((1, 2)) / stands.sum((1, 2)).clamp_min(1)
 
 
+def energy_loss(truth: Tensor, predicted: Tensor) -> Tensor:
+    """(N,) squared logarithm of predicted over true mean speed and acceleration, mean over joints.
+
+    L1 terms are content with a motion that moves too little; a dance is not. motions: (N, T, 22, 3) metres.
+    """
+    total = truth.new_zeros(len(truth))
+    for _ in range(2):
+        truth, predicted = truth.diff(dim=1), predicted.diff(dim=1)
+        true_pace, pace = ((m.square().sum(-1) + 1e-8).sqrt().mean(1) for m in (truth, predicted))
+        total = total + (pace / true_pace).log().square().mean(-1)
+    return total
+
+
 def motion_loss(
     leader: Tensor, truth: Tensor, predicted: Tensor, signal: Tensor, config: DenoiserLossConfig
 ) -> dict[str, Tensor]:
@@ -75,5 +101,6 @@ def motion_loss(
     return {
         "kinematic": config.kinematic * (per_window * signal).mean(),
         "contact": config.contact * (contact_loss(truth, predicted) * signal).mean(),
+        "energy": config.energy * (energy_loss(truth, predicted) * signal).mean(),
         "orientation": config.orientation * (orientation_loss(leader, truth, predicted) * signal).mean(),
     }

@@ -17,7 +17,7 @@ from training.diffusion import Step, alphas_cumprod, ddim_steps
 from training.frame import smoothed_heading
 from training.hfsq.autoencoder import Autoencoder
 from training.noise import noise
-from training.streams import from_streams, leader_features
+from training.streams import leader_features, reactor_motion
 
 
 @dataclass(frozen=True)
@@ -149,8 +149,8 @@ def decode(model: Model, latents: Tensor, leader: Tensor, layers: Tensor | None 
     raw = model.hfsq.denormalise(latents)
     if layers is not None:
         raw = raw * layers[:, None]
-    upper, lower, placement = (s[0] for s in model.hfsq.decode(raw[None]))
-    return from_streams(upper, lower, placement, leader, smoothed_heading(leader, model.frame))
+    streams = [s[0] for s in model.hfsq.decode(raw[None])]
+    return reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
 
 
 def pad_to_stride(motion: np.ndarray) -> np.ndarray:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import torch
+from torch import Tensor
 
 JOINTS: tuple[str, ...] = (
     "pelvis",
@@ -56,3 +58,31 @@ def body_height(motion: np.ndarray) -> float:
     legs = sum(length(a, b) for a, b in _LEGS) / 2
     spine = sum(length(a, b) for a, b in _SPINE)
     return float(np.median(legs + spine))
+
+
+def _descent() -> Tensor:
+    """(22, 22): 1 where the bone that ends in the column's joint lies between the pelvis and the row's."""
+    table = torch.zeros(len(PARENTS), len(PARENTS))
+    for joint in range(1, len(PARENTS)):
+        above = joint
+        while above > 0:
+            table[joint, above] = 1
+            above = PARENTS[above]
+    return table
+
+
+_DESCENT = _descent()
+
+
+def constant_bones(motion: Tensor) -> Tensor:
+    """The same directions on bones that keep their mean length. motion: (..., T, 22, 3) metres.
+
+    A decoder that is unsure of a direction shortens the bone; a body cannot.
+    """
+    parents = motion.index_select(
+        -2, torch.tensor([max(parent, 0) for parent in PARENTS], device=motion.device)
+    )
+    bones = motion - parents
+    lengths = bones.square().sum(-1, keepdim=True).clamp_min(1e-10).sqrt()
+    bones = bones / lengths * lengths.mean(-3, keepdim=True)
+    return motion[..., :1, :] + _DESCENT.to(motion) @ bones

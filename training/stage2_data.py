@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
 from training.config import STRIDE, ConditionConfig, FrameConfig
@@ -25,7 +26,8 @@ class Augmentation:
     mirror: bool = True
     roles: bool = True
     scales: tuple[float, float] = (0.94, 1.06)  # leaders of other sizes
-    copies: int = 2  # of every combination, each with its own grid offset and leader scale
+    yaw: float = 20.0  # degrees; the frame of reference is turned by up to this much
+    copies: int = 3  # of every combination, each with its own grid offset, leader scale and yaw
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,7 @@ class Clip:
 
     latents: Tensor  # (L, R, C) normalised
     features: Tensor  # (T, 68) of the leader
+    blurred: Tensor  # (T, 68) the same without its beat
     music: list[Tensor]  # several pieces (T, 54)
     leader: Tensor  # (T, 22, 3)
     reactor: Tensor  # (T, 22, 3)
@@ -63,17 +66,25 @@ class Batch(NamedTuple):
 
 @torch.no_grad()
 def make_clip(
-    duet: Duet, music: Sequence[np.ndarray], role: float, hfsq: Autoencoder, frame: FrameConfig
+    duet: Duet,
+    music: Sequence[np.ndarray],
+    role: float,
+    hfsq: Autoencoder,
+    frame: FrameConfig,
+    blur: float,
+    yaw: float = 0.0,
 ) -> Clip:
-    """Encode a duet; its length is cut to a multiple of 4."""
+    """Encode a duet; its length is cut to a multiple of 4. yaw: radians that the frame is turned by."""
     frames = len(duet) // STRIDE * STRIDE
     leader = torch.from_numpy(duet.leader[:frames])
     reactor = torch.from_numpy(duet.reactor[:frames])
-    heading = smoothed_heading(leader, frame)
+    heading = turned(smoothed_heading(leader, frame), yaw)
     latents = hfsq.encode([s[None] for s in to_streams(leader, reactor, heading)])
+    features = leader_features(leader, heading)
     return Clip(
         latents=hfsq.normalise(latents)[0],
-        features=leader_features(leader, heading),
+        features=features,
+        blurred=torch.from_numpy(gaussian_filter1d(features.numpy(), blur, axis=0, mode="nearest")),
         music=[torch.from_numpy(m[:frames]).float() for m in music],
         leader=leader,
         reactor=reactor,
@@ -82,12 +93,20 @@ def make_clip(
     )
 
 
+def turned(heading: Tensor, yaw: float) -> Tensor:
+    """Headings (T, 2) turned by yaw radians."""
+    x, z = heading.unbind(-1)
+    c, s = np.cos(yaw), np.sin(yaw)
+    return torch.stack([c * x + s * z, c * z - s * x], dim=-1)
+
+
 def augmented_clips(
     duets: Sequence[Duet],
     bank: MusicBank,
     hfsq: Autoencoder,
     frame: FrameConfig,
     options: Augmentation,
+    config: ConditionConfig,
     seed: int,
 ) -> list[Clip]:
     """Every duet at every tempo, mirrored or not, in both roles; the music of a tempo is shared by all of
@@ -108,7 +127,9 @@ def augmented_clips(
                         )
                         cut = int(random.integers(STRIDE))
                         made = Duet(made.name, made.leader[cut:], made.reactor[cut:])
-                        clips.append(make_clip(made, [m[cut:] for m in music], role, hfsq, frame))
+                        cut_music = [m[cut:] for m in music]
+                        yaw = np.radians(random.uniform(-options.yaw, options.yaw))
+                        clips.append(make_clip(made, cut_music, role, hfsq, frame, config.leader_blur, yaw))
     return clips
 
 
@@ -157,7 +178,9 @@ class Windows:
         rows = torch.arange(low, high)
         inside = ((rows >= first) & (rows < last)).float()
         by_frame = inside.repeat_interleave(STRIDE)
-        jitter = int(self.random.integers(-self.config.jitter, self.config.jitter + 1))
+        shift = int(self.random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
+        shift *= int(self.random.integers(2))
+        features = clip.blurred if self.random.random() < self.config.blurred else clip.features
         music = clip.music[int(self.random.integers(len(clip.music)))]
         heard = by_frame.clone()
         if self.random.random() < self.config.drop_music:
@@ -170,8 +193,8 @@ class Windows:
         return (
             slice_padded(clip.latents, start, start + block) * valid[:, None, None],
             valid,
-            slice_padded(clip.features, STRIDE * low, STRIDE * high),
-            slice_padded(music, STRIDE * low + jitter, STRIDE * high + jitter),
+            slice_padded(features, STRIDE * low + shift, STRIDE * high + shift),
+            slice_padded(music, STRIDE * low, STRIDE * high),
             heard,
             inside,
             torch.tensor(clip.role),

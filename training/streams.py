@@ -4,12 +4,14 @@ streams.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import torch
 from torch import Tensor
 
 from training.config import FPS
 from training.frame import into_frame, out_of_frame
-from training.skeleton import LOWER, UPPER
+from training.skeleton import LOWER, UPPER, constant_bones
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
 STREAM_WIDTHS: tuple[int, int, int] = (UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH)
@@ -40,9 +42,8 @@ def to_streams(leader: Tensor, reactor: Tensor, heading: Tensor) -> tuple[Tensor
 
 def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor, heading: Tensor) -> Tensor:
     """Inverse of `to_streams`: reactor joints (T, 22, 3) in the world."""
-    local = torch.cat([torch.zeros_like(upper[:, :3]), upper, lower], dim=-1).unflatten(-1, (22, 3))[
-        :, list(_INVERSE)
-    ]
+    ordered = torch.cat([torch.zeros_like(upper[:, :3]), upper, lower], dim=-1).unflatten(-1, (22, 3))
+    local = ordered.index_select(1, torch.tensor(_INVERSE, device=upper.device))
     floor = torch.stack([placement[:, 0], torch.zeros_like(placement[:, 0]), placement[:, 2]], dim=-1)
     shift = out_of_frame(floor[:, None], heading)
     ground = torch.stack([leader[:, 0, 0], torch.zeros_like(leader[:, 0, 0]), leader[:, 0, 2]], dim=-1)
@@ -50,6 +51,12 @@ def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor
         [torch.zeros_like(placement[:, 1]), placement[:, 1], torch.zeros_like(placement[:, 1])], dim=-1
     )
     return out_of_frame(local, heading) + shift + ground[:, None] + height[:, None]
+
+
+def reactor_motion(streams: Sequence[Tensor], leader: Tensor, heading: Tensor) -> Tensor:
+    """What is danced: decoded streams (T, c) as a body of constant bones (T, 22, 3) in the world."""
+    upper, lower, placement = streams
+    return constant_bones(from_streams(upper, lower, placement, leader, heading))
 
 
 def leader_features(leader: Tensor, heading: Tensor) -> Tensor:

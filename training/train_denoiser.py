@@ -22,11 +22,11 @@ from training.denoiser.denoiser import Denoiser
 from training.diffusion import add_noise, alphas_cumprod, training_times
 from training.hfsq.autoencoder import Autoencoder
 from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
-from training.losses import motion_loss, simple_loss
+from training.losses import motion_loss, noise_weights, simple_loss
 from training.metrics import quick_report
 from training.music.pairing import MusicBank, build_music_bank, variants
 from training.sampler import Model, react
-from training.skeleton import body_height
+from training.skeleton import body_height, constant_bones
 from training.stage2_data import Augmentation, Batch, Windows, augmented_clips
 from training.streams import from_streams
 
@@ -48,7 +48,7 @@ class Options:
     minutes: float | None = None
     """Stop after this time even if the steps are not done; the learning rate follows whichever comes first.
     """
-    batch: int = 64
+    batch: int = 32
     stride: int = 4
     """Frames between training windows (the paper's Table 6)."""
     learning_rate: float = 5e-4
@@ -63,7 +63,7 @@ class Options:
     """CPU threads for torch, 0 leaves its default."""
     precision: Literal["32-true", "bf16-mixed", "16-mixed"] = "bf16-mixed"
     log_every: int = 50
-    evaluate_every: int = 300
+    evaluate_every: int = 600
     resume: bool = False
     denoiser: DenoiserConfig = field(default_factory=DenoiserConfig)
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
@@ -121,7 +121,9 @@ class Stage2(nn.Module):
             keep_leader,
             keep_music,
         ).float()
-        total, by_layer = simple_loss(truth, predicted, batch.valid, self.loss.layers)
+        total, by_layer = simple_loss(
+            truth, predicted, batch.valid, self.loss.layers, noise_weights(signal, self.loss.snr)
+        )
         parts = {f"simple/{r}": value for r, value in enumerate(by_layer)}
         # training_times is sorted: the first windows have the least noise. Short windows have no motion to
         # compare.
@@ -144,7 +146,7 @@ class Stage2(nn.Module):
         upper, lower, placement = (s.float().flatten(0, 1) for s in decoded)
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
-        return joints.unflatten(0, (len(rows), -1))
+        return constant_bones(joints.unflatten(0, (len(rows), -1)))
 
 
 def validate(
@@ -182,7 +184,9 @@ def main(options: Options) -> None:
     duets = read_split(options.data, options.val, options.test)
     wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
     bank = build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
-    clips = augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, options.seed)
+    clips = augmented_clips(
+        duets.train, bank, hfsq, frame, options.augmentation, options.denoiser.condition, options.seed
+    )
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)

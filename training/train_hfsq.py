@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 import torch
@@ -26,11 +26,21 @@ from training.data.splits import Split
 from training.frame import smoothed_heading
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import stage1_loss
+from training.hfsq.masking import slow_motion
 from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
 from training.metrics import quick_report
-from training.streams import from_streams, to_streams
+from training.streams import reactor_motion, to_streams
 
 Streams = tuple[Tensor, Tensor, Tensor]
+
+
+@dataclass(frozen=True)
+class Clip:
+    streams: Streams  # (T, c) each
+    slow: Streams  # the same below the masking's cutoff
+
+    def __len__(self) -> int:
+        return len(self.streams[0])
 
 
 @dataclass(frozen=True)
@@ -71,8 +81,8 @@ def streams_of(duet: Duet, frame: FrameConfig) -> Streams:
     return to_streams(leader, reactor, smoothed_heading(leader, frame))
 
 
-def training_clips(options: Options, duets: Split) -> list[Streams]:
-    """Every training duet and solo, also mirrored, role-swapped and at other tempos, as streams of (T, c)."""
+def training_clips(options: Options, duets: Split) -> list[Clip]:
+    """Every training duet and solo, also mirrored, role-swapped and at other tempos."""
     clips: list[Streams] = []
     for duet in duets.train:
         for tempo in options.tempos:
@@ -86,30 +96,38 @@ def training_clips(options: Options, duets: Split) -> list[Streams]:
                 # height only.
                 alone = Duet(solo.name, solo.motion, solo.motion)
                 clips += [streams_of(variant, options.frame) for variant in (alone, mirror(alone))]
-    return [clip for clip in clips if len(clip[0]) >= options.window]
+    cutoff = options.hfsq.masking.cutoff if options.hfsq.masking else None
+    return [
+        Clip(streams, cast(Streams, tuple(slow_motion(stream, cutoff) for stream in streams)))
+        for streams in clips
+        if len(streams[0]) >= options.window
+    ]
 
 
 class Windows:
     """Random windows of the clips, turned by a random angle about the vertical in half of the cases."""
 
-    def __init__(self, clips: list[Streams], size: int, seed: int) -> None:
+    def __init__(self, clips: list[Clip], size: int, seed: int) -> None:
         self.clips, self.size = clips, size
-        starts = np.array([len(c[0]) - size + 1 for c in clips], dtype=np.float64)
+        starts = np.array([len(c) - size + 1 for c in clips], dtype=np.float64)
         self.shares = starts / starts.sum()
         self.random = np.random.default_rng(seed)
 
-    def batch(self, n: int) -> Streams:
-        """Three tensors (n, size, c)."""
-        chosen = self.random.choice(len(self.clips), n, p=self.shares)
-        parts: list[Streams] = []
-        for index in chosen:
-            clip = self.clips[index]
-            start = int(self.random.integers(0, len(clip[0]) - self.size + 1))
-            parts.append(tuple(s[start : start + self.size] for s in clip))
-        upper, lower, placement = (torch.stack([p[i] for p in parts]) for i in range(3))
+    def batch(self, n: int) -> tuple[Streams, Streams]:
+        """Three tensors (n, size, c), and the same three of the slow motion."""
+        chosen = [self.clips[i] for i in self.random.choice(len(self.clips), n, p=self.shares)]
+        starts = [int(self.random.integers(0, len(clip) - self.size + 1)) for clip in chosen]
         angle = self.random.uniform(-np.pi, np.pi, n) * (self.random.random(n) < 0.5)
         angles = torch.from_numpy(angle).float()
-        return turn(upper, angles), turn(lower, angles), placement
+
+        def cut(streams: list[Streams]) -> Streams:
+            upper, lower, placement = (
+                torch.stack([each[i][at : at + self.size] for each, at in zip(streams, starts, strict=True)])
+                for i in range(3)
+            )
+            return turn(upper, angles), turn(lower, angles), placement
+
+        return cut([clip.streams for clip in chosen]), cut([clip.slow for clip in chosen])
 
 
 def turn(stream: Tensor, angle: Tensor) -> Tensor:
@@ -120,25 +138,25 @@ def turn(stream: Tensor, angle: Tensor) -> Tensor:
     return torch.stack([c * x + s * z, y, c * z - s * x], dim=-1).flatten(-2)
 
 
-def set_input_statistics(model: Autoencoder, clips: list[Streams]) -> None:
+def set_input_statistics(model: Autoencoder, clips: list[Clip]) -> None:
     """Mean per dimension and one standard deviation per stream, from training clips."""
     for i, stream in enumerate(model.each):
-        values = torch.cat([clip[i] for clip in clips])
+        values = torch.cat([clip.streams[i] for clip in clips])
         stream.mean.copy_(values.mean(0))
         stream.std.copy_(values.std(0).mean())
 
 
 @torch.no_grad()
-def set_latent_statistics(model: Autoencoder, clips: list[Streams]) -> None:
+def set_latent_statistics(model: Autoencoder, clips: list[Clip]) -> None:
     latents = torch.cat([encode_clip(model, clip)[0] for clip in clips])
     model.latent_mean.copy_(latents.mean(0))
     model.latent_std.copy_(latents.std(0).clamp_min(1e-3))
 
 
-def encode_clip(model: Autoencoder, clip: Streams) -> Tensor:
+def encode_clip(model: Autoencoder, clip: Clip) -> Tensor:
     """Latents (1, L, R, C) of a whole clip; up to 3 frames at its end are left out."""
-    frames = len(clip[0]) // STRIDE * STRIDE
-    return model.encode([s[None, :frames] for s in clip])
+    frames = len(clip) // STRIDE * STRIDE
+    return model.encode([s[None, :frames] for s in clip.streams])
 
 
 @torch.no_grad()
@@ -151,8 +169,7 @@ def reconstruct(model: Autoencoder, duet: Duet, frame: FrameConfig, layers: int 
     latents = model.encode([s[None] for s in streams])
     if layers is not None:
         latents[:, :, layers:] = 0
-    upper, lower, placement = (s[0] for s in model.decode(latents))
-    return from_streams(upper, lower, placement, leader, heading).numpy()
+    return reactor_motion([s[0] for s in model.decode(latents)], leader, heading).numpy()
 
 
 def evaluate(model: Autoencoder, duets: tuple[Duet, ...], options: Options) -> dict[str, float]:
@@ -170,7 +187,7 @@ def evaluate(model: Autoencoder, duets: tuple[Duet, ...], options: Options) -> d
 
 
 @torch.no_grad()
-def bins_used(model: Autoencoder, clips: list[Streams]) -> list[float]:
+def bins_used(model: Autoencoder, clips: list[Clip]) -> list[float]:
     """Share of FSQ bins that training data uses, per residual layer (fault: an undivided residual rounds to
     zero).
     """
@@ -190,8 +207,8 @@ class Stage1(nn.Module):
         super().__init__()
         self.model, self.config = model, config
 
-    def forward(self, motions: Streams) -> tuple[Tensor, dict[str, Tensor]]:
-        return stage1_loss(self.model, motions, self.config)
+    def forward(self, motions: Streams, slow: Streams) -> tuple[Tensor, dict[str, Tensor]]:
+        return stage1_loss(self.model, motions, slow, self.config)
 
 
 def main(options: Options) -> None:
@@ -222,8 +239,7 @@ def main(options: Options) -> None:
         stage.train()
         for group in optimizer.param_groups:
             group["lr"] = learning_rate(options.learning_rate, budget, warmup=100)
-        motions = tuple(fabric.to_device(m) for m in windows.batch(options.batch))
-        loss, parts = stage(motions)
+        loss, parts = stage(*fabric.to_device(windows.batch(options.batch)))
         fabric.backward(loss)
         fabric.clip_gradients(stage, optimizer, max_norm=1.0)
         optimizer.step()

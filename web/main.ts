@@ -8,6 +8,7 @@ import { mountDropTarget } from './ui/drop-target';
 import { type DroppedFile, modelAmong } from './ui/dropped';
 import { createFiles } from './ui/files';
 import { mountFirstVisit } from './ui/first-visit';
+import { mountFootLock } from './ui/foot-lock';
 import { createGeneration } from './ui/generation';
 import { mountGuidance } from './ui/guidance';
 import { mountKeyboard } from './ui/keyboard';
@@ -20,6 +21,7 @@ import { createPlayback } from './ui/playback';
 import { mountProblemDialog } from './ui/problem-dialog';
 import { stageProblem } from './ui/problems';
 import { mountProgress } from './ui/progress';
+import { reactorMotion } from './ui/reactor-motion';
 import { saveText } from './ui/save';
 import { reactorFileName } from './ui/selectors';
 import type { Services } from './ui/services';
@@ -101,8 +103,9 @@ const services: Services = {
   frameBoth: () => stage?.frameBoth(),
   saveReactor: () => {
     const { reaction } = store.getState();
-    if (!reaction) return;
-    saveText(writeBvh(reaction.motion), reactorFileName(reaction.inputs));
+    const motion = reactorMotion(store.getState());
+    if (!reaction || !motion) return;
+    saveText(writeBvh(motion), reactorFileName(reaction.inputs));
     apply(store, opened(null));
   },
 };
@@ -126,6 +129,7 @@ mountTransport(place('time'), store, services);
 mountTimeline(place('time'), store, services);
 mountGuidance(place('panel'), store, services);
 mountOptions(place('panel'), store, services);
+mountFootLock(place('panel'), store, services);
 mountUnderstood(place('panel'), store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
@@ -137,11 +141,7 @@ watch(
   (state) => state.leader?.motion ?? null,
   (leader) => stage?.setDancers({ leader }),
 );
-watch(
-  store,
-  (state) => state.reaction?.motion ?? null,
-  (reactor) => stage?.setDancers({ reactor }),
-);
+watch(store, reactorMotion, (reactor) => stage?.setDancers({ reactor }));
 watch(
   store,
   (state) => state.playback.time,

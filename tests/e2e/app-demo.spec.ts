@@ -1,6 +1,8 @@
+import { readFileSync } from 'node:fs';
 import type { Page } from '@playwright/test';
+import { readBvh } from '../../web/motion/bvh-read';
 import { bvhText, wav } from './app-files';
-import { App, meanSpeed } from './app-page';
+import { App, farthest, meanSpeed } from './app-page';
 import { expect, test } from './fixtures';
 
 /** A made demo in the place of the shipped one, with or without its ready-made reaction. */
@@ -35,6 +37,34 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
   await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
   await app.until(({ reaction, song }) => reaction && song);
   expect(meanSpeed(await app.reactor())).toBeGreaterThan(0.02);
+});
+
+test('the foot lock is switched by key, and stage and file follow at once', async ({ page }) => {
+  const app = new App(page);
+  await app.open();
+  await app.settled();
+  const lock = page.getByRole('switch', { name: 'Foot lock' });
+  await expect(lock).toBeChecked();
+  await expect(lock).toHaveAccessibleDescription('Keeps planted feet from sliding');
+  const locked = await app.onScreen();
+  await page.getByRole('button', { name: 'Generate' }).focus();
+  await page.keyboard.press('Tab');
+  await expect(lock).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect(lock).not.toBeChecked();
+  const free = await app.onScreen();
+  expect(farthest(locked, free)).toBeGreaterThan(0.005);
+  expect(await app.read(({ reaction, job }) => [reaction?.label, job])).toEqual(['demo reaction', null]);
+  const frame = Math.round(30 * (await app.read(({ playback }) => playback.time)));
+  for (const shown of [free, locked]) {
+    const coming = page.waitForEvent('download');
+    await page.getByRole('button', { name: 'Download', exact: true }).click();
+    await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
+    const { clip } = readBvh(readFileSync(await (await coming).path(), 'utf8'));
+    const saved = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
+    expect(farthest(shown, saved)).toBeLessThan(0.001);
+    await lock.click();
+  }
 });
 
 test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {

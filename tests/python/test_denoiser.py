@@ -11,7 +11,7 @@ from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder
 from training.denoiser.denoiser import Denoiser
-from training.denoiser.transformer import phase
+from training.denoiser.transformer import ChannelDropout, phase
 from training.sampler import Model
 from training.train_denoiser import condition_keeps
 
@@ -199,3 +199,15 @@ def test_a_model_with_three_layers_and_its_own_depths() -> None:
     assert out.shape == (1, BLOCK, 3, 12)
     with pytest.raises(ValueError, match="3 residual layers need 3 depths"):
         Denoiser(12, 3, DenoiserConfig(width=16))
+
+
+def test_dropout_takes_channels_from_a_whole_window() -> None:
+    torch.manual_seed(0)
+    dropout = ChannelDropout(0.25)
+    x = torch.ones(40, 10, 64)
+    dropped = dropout.train()(x)
+    assert (dropped == dropped[:, :1]).all(), "the same channels at every moment"
+    assert (dropped[0] != dropped[1]).any(), "others in another window"
+    assert dropped.unique().tolist() == pytest.approx([0, 1 / 0.75])
+    assert float(dropped.mean()) == pytest.approx(1, abs=0.05)
+    assert torch.equal(dropout.eval()(x), x)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 import torch
 
-from training.config import STRIDE, HfsqConfig, MaskingConfig
+from training.config import HfsqConfig, MaskingConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import kinematic, stage1_loss
-from training.hfsq.masking import progressive_masking
+from training.hfsq.masking import progressive_masking, slow_motion
 from training.hfsq.quantisers import Hfsq, fsq
 from training.streams import STREAM_WIDTHS
 
@@ -70,49 +70,25 @@ def test_residual_masking_hides_upper_layers_and_perturbs_the_base() -> None:
     torch.manual_seed(0)
     codes = torch.ones(200, 6, 3, 8)
     config = MaskingConfig(residual=1.0, base_noise=0.1, code=0.0)
-    masked = progressive_masking(codes, config)
+    masked, hidden = progressive_masking(codes, config)
+    assert hidden.all()
     kept = (masked[:, 0, :, 0] != 0).sum(1)
     assert set(kept.tolist()) == {1, 2}, "one or two of three layers survive"
     assert (masked[:, :, 0] - 1).std() == pytest.approx(0.1, rel=0.05)
     assert torch.equal(masked[kept == 2][:, :, 1], codes[kept == 2][:, :, 1])
-    untouched = progressive_masking(codes, MaskingConfig(residual=0.0, code=0.0))
+    untouched, hidden = progressive_masking(codes, MaskingConfig(residual=0.0, code=0.0))
+    assert not hidden.any()
     assert torch.equal(untouched, codes)
 
 
 def test_code_masking_zeroes_the_asked_share_of_dimensions() -> None:
     torch.manual_seed(0)
     config = MaskingConfig(residual=0.0, code=0.5, code_rate=0.2)
-    masked = progressive_masking(torch.ones(400, 10, 2, 8), config)
+    masked, _ = progressive_masking(torch.ones(400, 10, 2, 8), config)
     share = (masked == 0).float().mean((1, 2, 3))
     touched = share > 0
     assert touched.float().mean() == pytest.approx(0.5, abs=0.08)
     assert share[touched].mean() == pytest.approx(0.2, abs=0.01)
-
-
-def test_decoding_in_overlapping_chunks_equals_decoding_in_one_piece() -> None:
-    torch.manual_seed(0)
-    model = Autoencoder(SMALL).eval()
-    for parameter in model.parameters():
-        if parameter.abs().max() == 0:
-            torch.nn.init.normal_(parameter, std=0.3)
-    length, field = 60, model.receptive_field
-    latents = torch.randn(1, length, model.layers, model.latent_width)
-    whole = model.decode(latents)
-    start, stop = 20, 30
-    chunk = model.decode(latents[:, start - field : stop + field])
-    short = model.decode(latents[:, start - field + 2 : stop + field - 2])
-    inner = slice(STRIDE * start, STRIDE * stop)
-    for all_at_once, part, clipped in zip(whole, chunk, short, strict=True):
-        count = STRIDE * (stop - start)
-        assert torch.allclose(all_at_once[:, inner], part[:, STRIDE * field :][:, :count], atol=1e-5)
-        assert clipped.shape[1] == part.shape[1] - 16
-    # The field is not generous beyond reason: three latent frames less on each side already differ.
-    less = field - 3
-    starved = model.decode(latents[:, start - less : stop + less])
-    assert any(
-        not torch.allclose(w[:, inner], s[:, STRIDE * less :][:, : STRIDE * (stop - start)], atol=1e-5)
-        for w, s in zip(whole, starved, strict=True)
-    )
 
 
 def test_normalised_latents_have_unit_variance_and_come_back() -> None:
@@ -149,7 +125,7 @@ def test_every_row_of_the_papers_tables_learns(config: HfsqConfig) -> None:
     optimizer = torch.optim.Adam(model.parameters(), lr=3e-3)
     losses = []
     for _ in range(30):
-        loss, _ = stage1_loss(model, batch, config)
+        loss, _ = stage1_loss(model, batch, batch, config)
         optimizer.zero_grad()
         loss.backward()
         optimizer.step()
@@ -172,3 +148,28 @@ def test_kinematic_loss_by_hand() -> None:
 def test_scales_must_match_layers() -> None:
     with pytest.raises(ValueError, match="3 residual layers need 3 scales"):
         Hfsq(HfsqConfig(layers=3))
+
+
+def test_slow_motion_keeps_what_is_below_the_cutoff() -> None:
+    seconds = torch.arange(600) / 30
+    slow, quick = torch.sin(2 * torch.pi * 0.8 * seconds), torch.sin(2 * torch.pi * 5 * seconds)
+    filtered = slow_motion((slow + quick)[:, None], 2.25)[60:-60, 0]
+    assert torch.allclose(filtered, slow[60:-60], atol=0.02)
+    assert torch.equal(slow_motion(quick[:, None], None), quick[:, None])
+
+
+def test_a_window_with_hidden_layers_is_held_to_the_slow_motion() -> None:
+    torch.manual_seed(0)
+    config = HfsqConfig(
+        groups=2, widths=(16, 16, 8), depth=1, refine_width=8,
+        masking=MaskingConfig(residual=1.0, base_noise=0.0, code=0.0),
+    )  # fmt: skip
+    model = Autoencoder(config).train()
+    batch = motions(2, 32)
+    near, _ = stage1_loss(model, batch, batch, config)
+    far, _ = stage1_loss(model, batch, tuple(m + 10 for m in batch), config)
+    assert float(far) > float(near) + 1000
+    model.eval()
+    assert torch.equal(
+        *(stage1_loss(model, batch, slow, config)[0] for slow in (batch, tuple(m + 10 for m in batch)))
+    )

@@ -8,7 +8,15 @@ import torch
 
 from training.config import DenoiserLossConfig
 from training.data.made import made_dancer
-from training.losses import contact_loss, facing, motion_loss, orientation_loss, simple_loss
+from training.losses import (
+    contact_loss,
+    energy_loss,
+    facing,
+    motion_loss,
+    noise_weights,
+    orientation_loss,
+    simple_loss,
+)
 
 
 def turned(motion: torch.Tensor, angle: float) -> torch.Tensor:
@@ -70,9 +78,9 @@ def test_layer_weights_reach_their_layers() -> None:
     predicted = truth.clone()
     predicted[:, :, 0], predicted[:, :, 1] = 1.0, 3.0
     valid = torch.ones(2, 5)
-    assert float(simple_loss(truth, predicted, valid, (1.0, 0.0))[0]) == pytest.approx(1)
-    assert float(simple_loss(truth, predicted, valid, (0.0, 1.0))[0]) == pytest.approx(9)
-    total, layers = simple_loss(truth, predicted, valid, (2.0, 0.5))
+    assert float(simple_loss(truth, predicted, valid, (1.0, 0.0), torch.ones(2))[0]) == pytest.approx(1)
+    assert float(simple_loss(truth, predicted, valid, (0.0, 1.0), torch.ones(2))[0]) == pytest.approx(9)
+    total, layers = simple_loss(truth, predicted, valid, (2.0, 0.5), torch.ones(2))
     assert float(total) == pytest.approx(2 + 4.5)
     assert layers.tolist() == [1.0, 9.0]
 
@@ -82,7 +90,7 @@ def test_padding_does_not_count() -> None:
     predicted = truth.clone()
     predicted[:, 3:] = 100
     valid = torch.tensor([[1.0, 1, 1, 0, 0, 0]])
-    assert float(simple_loss(truth, predicted, valid, (1.0, 1.0))[0]) == 0
+    assert float(simple_loss(truth, predicted, valid, (1.0, 1.0), torch.ones(1))[0]) == 0
 
 
 def test_decoded_losses_fade_with_noise() -> None:
@@ -96,3 +104,27 @@ def test_decoded_losses_fade_with_noise() -> None:
         assert float(value) > 0, name
         assert float(half[name]) == pytest.approx(float(value) / 2, rel=1e-4)
         assert float(none[name]) == 0
+
+
+def test_energy_loss_speaks_of_pace_not_of_place() -> None:
+    truth = dancer(1, 60)
+    assert float(energy_loss(truth, truth)) == 0
+    assert float(energy_loss(truth, truth + 1)) == pytest.approx(0, abs=1e-6)
+    assert float(energy_loss(truth, turned(truth, 1.0))) == pytest.approx(0, abs=1e-4)
+    # Half the pace in speed and in acceleration: twice the square of log 2.
+    assert float(energy_loss(truth, truth / 2)) == pytest.approx(2 * np.log(2) ** 2, rel=0.1)
+
+
+def test_noise_weights_turn_from_noise_to_detail() -> None:
+    signal = torch.linspace(0.01, 0.99, 50)
+    assert torch.equal(noise_weights(signal, 0.0), torch.ones(50))
+    weights = noise_weights(signal, 0.5)
+    assert float(weights.mean()) == pytest.approx(1)
+    assert (weights.diff() >= 0).all()
+    assert float(weights[0]) == pytest.approx(0.5, abs=0.01), "noisy windows keep their share"
+    assert weights[-1] == weights[-5], "capped: the least noise does not rule alone"
+    truth, valid = torch.zeros(2, 5, 1, 4), torch.ones(2, 5)
+    predicted = torch.stack([torch.zeros(5, 1, 4), torch.ones(5, 1, 4)])
+    assert float(simple_loss(truth, predicted, valid, (1.0,), torch.tensor([0.5, 1.5]))[0]) == pytest.approx(
+        0.75
+    )

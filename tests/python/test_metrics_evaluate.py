@@ -18,14 +18,17 @@ from export.runtime import open_model
 from training.bars import Bar, check
 from training.baselines import mirrored_leader
 from training.dancer import Settings, Trial, fit_length
-from training.data.duet import Duet
+from training.data.duet import Duet, Solo
 from training.data.made import made_duet
 from training.data.sources import read_split
 from training.evaluate import evaluate
 from training.metrics.bones import bone_variation
 from training.metrics.duet import duet_metrics
 from training.probes import measure_beat_following, measure_seams
-from training.report import draw, markdown, write_report
+from training.report import draw, film, write_report
+from training.report_text import markdown
+from training.spectra import COARSE
+from training.video import write_video
 
 TINY = Path(__file__).parents[1] / "fixtures/tiny-model"
 SHIPPED = Path(__file__).parents[2] / "web/public/models/salsa"
@@ -38,7 +41,7 @@ def made_music(frames: int, period: int, first: int = 0) -> np.ndarray:
     return features
 
 
-def mirror_dancer(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+def mirror_dancer(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
     """Mirrors the leader it hears, but for a lean that depends on the seed and a nod on every beat of the
     music.
     """
@@ -78,6 +81,7 @@ def test_evaluation_of_a_known_dancer(trials: list[Trial], train: list[Duet], tm
         replace(QUICK, two_sample=True),
         given,
         solve=lambda motion: motion + 0.001,
+        elsewhere=[Solo("martial_1", made_duet(300, 5).leader), Solo("martial_2", made_duet(90, 6).leader)],
     )
     numbers = result.numbers
     rows = numbers["rows"]
@@ -97,6 +101,18 @@ def test_evaluation_of_a_known_dancer(trials: list[Trial], train: list[Duet], tm
     assert rows["generated"]["mean"]["mpjpe_mm"] == pytest.approx(by_hand)
     low, high = rows["generated"]["interval"]["mpjpe_mm"]
     assert low < by_hand < high
+    seeds = rows["generated"]["per_seed"]
+    assert [seed["mpjpe_mm"] for seed in seeds] == pytest.approx(
+        [
+            np.mean([rows["generated"]["trials"][n]["seeds"][i]["mpjpe_mm"] for n in ("one", "two")])
+            for i in (0, 1)
+        ]
+    )
+    assert seeds[0]["mpjpe_mm"] != seeds[1]["mpjpe_mm"]
+    assert list(numbers["elsewhere"]) == ["martial_1", "martial_2"]
+    assert numbers["role_swap"]["generated"]["mean"]["mpjpe_mm"] > 0
+    # Drawn without the fine layer, not measured: to this dancer all is the same.
+    assert np.array_equal(result.motions[COARSE]["one"][0], result.motions["generated"]["one"][0])
     told = numbers["two_sample"]
     assert list(told) == list(rows)
     assert told["mean pose"] > 0.75
@@ -110,15 +126,37 @@ def test_evaluation_of_a_known_dancer(trials: list[Trial], train: list[Duet], tm
     assert heard["seeds_apart_pose_mm"] > 0
     assert heard["seeds_apart_place_mm"] == pytest.approx(0.0, abs=1e-3)
 
-    bars = write_report(result, trials, tmp_path, "made", {"model": "formula"}, pictures=False)
+    bars = write_report(result, trials, tmp_path, "made", {"model": "formula"}, pictures=False, videos=False)
     stored = json.loads((tmp_path / "metrics.json").read_text())
     assert stored["model"] == "formula"
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] == pytest.approx(by_hand)
     assert [b["name"] for b in stored["bars"]] == [b.name for b in bars]
-    assert "reconstruction" in (tmp_path / "report.md").read_text()
-    drawn = draw(trials[:1], result.motions, tmp_path, ["generated"])
-    assert [p.name for p in drawn] == ["spectra.png", "one-generated-0s.png", "one-generated-5s.png"]
-    assert all(p.exists() and f"]({p.name})" in markdown(numbers, "made", drawn) for p in drawn)
+    assert "solved: MPJPE, mm" in {bar["name"] for bar in stored["quality"]}
+    text = (tmp_path / "report.md").read_text()
+    for part in (
+        "reconstruction",
+        "| generated, seed 1 |",
+        "| two, nearest neighbour |",
+        "| martial_2 | 90 |",
+    ):
+        assert part in text
+    drawn = draw(trials[:1], result, tmp_path, ["generated"])
+    assert [p.name for p in drawn] == [
+        "spectra.png", "one-generated-0s.png", "one-generated-5s.png", "one-role-swap.png", "elsewhere-martial_1.png"
+    ]  # fmt: skip
+    film = [tmp_path / "one.webm"]
+    linked = markdown(numbers, "made", drawn, film)
+    assert all(p.exists() and f"]({p.name})" in linked for p in drawn)
+    assert "](one.webm)" in linked
+
+
+def test_the_report_films_the_first_seed(tmp_path: Path):
+    duet = made_duet(8, 1, "one")
+    made = [duet.reactor + np.float32(0.1 * seed) for seed in (1, 2)]
+    (path,) = film([Trial(duet, None)], {"one": made}, tmp_path)
+    assert path.name == "one.webm"
+    alone = write_video(duet.leader, duet.reactor, made[0], tmp_path / "alone.webm")
+    assert path.read_bytes() == alone.read_bytes()
 
 
 def test_bars_are_held(trials: list[Trial], train: list[Duet]):
@@ -131,13 +169,13 @@ def test_bars_are_held(trials: list[Trial], train: list[Duet]):
     numbers["rows"]["generated"]["mean"]["mpjpe_mm"] = 126.0
     assert not {b.name: b for b in check(numbers)}["MPJPE, mm"].passed
     assert not Bar("unknown", float("nan"), 0.0, 1.0).passed
-    assert "**no**" in markdown(numbers, "made", [])
+    assert "**no**" in markdown(numbers, "made", [], [])
 
 
 def test_seams_are_found_where_the_blocks_meet(trials: list[Trial]):
     """A dancer that jumps at every 240th frame of what it is given, wherever that was cut out."""
 
-    def jumping(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+    def jumping(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
         reactor = next(
             t.duet.reactor[-len(leader) :] for t in trials if np.array_equal(t.duet.leader[-1], leader[-1])
         )
@@ -150,7 +188,7 @@ def test_seams_are_found_where_the_blocks_meet(trials: list[Trial]):
     assert found["ratio"] > 3
     assert found["paper_jitter_mm"] > found["paper_jitter_truth_mm"]
 
-    def true(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+    def true(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
         return next(
             t.duet.reactor[-len(leader) :] for t in trials if np.array_equal(t.duet.leader[-1], leader[-1])
         )
@@ -165,7 +203,7 @@ def test_seams_are_found_where_the_blocks_meet(trials: list[Trial]):
 def test_beat_following(trials: list[Trial]):
     """A body that slows down on the beat of what it hears is told from one that does so at its own times."""
 
-    def pulsing(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+    def pulsing(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
         beats = np.flatnonzero(music[:, 53])
         phase = (np.arange(len(leader)) - beats[0]) / 20
         speed = (
@@ -173,7 +211,7 @@ def test_beat_following(trials: list[Trial]):
         )
         return (np.cumsum(speed) * 0.01)[:, None, None] * np.ones((1, 22, 3))
 
-    def deaf(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+    def deaf(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
         return pulsing(leader, trials[0].music, seed)
 
     assert measure_beat_following(pulsing, trials[:1], 12)["one"]["p"] < 0.01
@@ -181,7 +219,7 @@ def test_beat_following(trials: list[Trial]):
 
 
 def test_guidance_grid(trials: list[Trial], train: list[Duet]):
-    def louder(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False):
+    def louder(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
         coarse, fine = guidance or (0.0, 0.0)
         time = np.arange(len(leader))[:, None, None] / 30
         slow, quick = np.sin(2 * np.pi * 0.5 * time), 0.1 * np.sin(2 * np.pi * 6 * time)
@@ -217,7 +255,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     main(
         Options(
             data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, val=("val",), test=("one", "two"),
-            pictures=False, music=False, settings=replace(QUICK, seam_starts=(0,), response_seeds=1),
+            pictures=False, videos=False, music=False, settings=replace(QUICK, seam_starts=(0,), response_seeds=1),
         )
     )  # fmt: skip
     stored = json.loads((tmp_path / "out/metrics.json").read_text())

@@ -9,6 +9,7 @@ import torch
 from training.config import FrameConfig
 from training.data.made import made_duet
 from training.frame import into_frame, out_of_frame, smoothed_heading
+from training.skeleton import PARENTS, constant_bones
 from training.streams import LEADER_FEATURES, STREAM_WIDTHS, from_streams, leader_features, to_streams
 
 FRAME = FrameConfig()
@@ -82,3 +83,44 @@ def test_placement_holds_the_reactors_own_height() -> None:
     heading = smoothed_heading(leader, FRAME)
     jump = leader + torch.tensor([0.0, 0.5, 0.0])
     assert torch.equal(to_streams(leader, reactor, heading)[2], to_streams(jump, reactor, heading)[2])
+
+
+def test_the_frame_turns_evenly_with_a_leader_who_spins() -> None:
+    """Two turns a second are more than the Gaussian sees of one direction: their average has none."""
+    pace = 2 * np.pi * 2 / 30
+    still = torch.zeros(1, 22, 3)
+    still[:, 1, 0], still[:, 2, 0] = 0.1, -0.1
+    spinning = torch.cat([moved(still, pace * frame, (0, 0)) for frame in range(150)])
+    heading = smoothed_heading(spinning, FRAME)[45:-45]
+    assert torch.allclose(heading.norm(dim=-1), torch.ones(60), atol=1e-5)
+    cross = heading[:-1, 1] * heading[1:, 0] - heading[:-1, 0] * heading[1:, 1]
+    assert torch.allclose(cross, torch.full_like(cross, np.sin(pace)), atol=1e-4)
+    angles = pace * torch.arange(45, 105)
+    assert torch.allclose(heading, torch.stack([angles.sin(), angles.cos()], dim=-1), atol=1e-3)
+
+
+def test_the_frame_leaves_out_the_swing_of_the_hips() -> None:
+    swing = 0.5 * torch.sin(2 * np.pi * 1.5 * torch.arange(240) / 30)
+    still = torch.zeros(1, 22, 3)
+    still[:, 1, 0], still[:, 2, 0] = 0.1, -0.1
+    swinging = torch.cat([moved(still, float(angle), (0, 0)) for angle in swing])
+    heading = smoothed_heading(swinging, FRAME)[45:-45]
+    assert torch.allclose(heading, torch.tensor([0.0, 1.0]).expand_as(heading), atol=0.02)
+
+
+def test_bones_keep_their_length_and_direction() -> None:
+    _, reactor = pair(60)
+    stretched = reactor * (1 + 0.2 * torch.sin(torch.arange(60.0) / 5))[:, None, None]
+    made = constant_bones(stretched)
+    parents = list(PARENTS[1:])
+
+    def bones(motion: torch.Tensor) -> torch.Tensor:
+        return motion[:, 1:] - motion[:, parents]
+
+    lengths = bones(made).norm(dim=-1)
+    assert torch.allclose(lengths, lengths[:1].expand_as(lengths), atol=1e-5)
+    assert torch.allclose(lengths[0], bones(stretched).norm(dim=-1).mean(0), atol=1e-4)
+    cosine = torch.cosine_similarity(bones(made), bones(stretched), dim=-1)
+    assert torch.allclose(cosine, torch.ones_like(cosine), atol=1e-4)
+    assert torch.equal(made[:, 0], stretched[:, 0])
+    assert torch.allclose(constant_bones(made), made, atol=1e-5)

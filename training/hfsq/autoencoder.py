@@ -65,10 +65,6 @@ class Autoencoder(nn.Module):
         """Upper, lower, placement."""
         return cast(list[Stream], list(self.streams))
 
-    @property
-    def receptive_field(self) -> int:
-        return Decoder.receptive_field(self.config.depth)
-
     def encode(self, motions: Sequence[Tensor]) -> Tensor:
         """Dequantised codes (N, L, R, C) of streams in metres; T must be a multiple of 4."""
         codes = [s.quantiser(s.features(m)) for s, m in zip(self.each, motions, strict=True)]

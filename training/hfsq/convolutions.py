@@ -1,4 +1,4 @@
-"""The temporal encoder and decoder: convolutions only, so that a long clip can be decoded in overlapping chunks."""
+"""The temporal encoder and decoder: convolutions alone, so any length goes through them."""
 
 from __future__ import annotations
 
@@ -57,10 +57,3 @@ class Decoder(nn.Module):
 
     def forward(self, x: Tensor) -> Tensor:
         return self.layers(x)
-
-    @staticmethod
-    def receptive_field(depth: int) -> int:
-        """Latent frames on each side that one latent frame's motion depends on."""
-        latent_rate = 1 + sum(DILATIONS[i % len(DILATIONS)] + 1 for i in range(depth))
-        frame_rate = (1 + 1) + (3 + 1) + 2
-        return latent_rate + 1 + -(-frame_rate // STRIDE) + 1

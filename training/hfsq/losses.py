@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import torch
 import torch.nn.functional as F
 from torch import Tensor
 
@@ -22,21 +23,31 @@ def kinematic(truth: Tensor, predicted: Tensor, weights: tuple[float, float, flo
 
 
 def stage1_loss(
-    model: Autoencoder, motions: Sequence[Tensor], config: HfsqConfig
+    model: Autoencoder, motions: Sequence[Tensor], slow: Sequence[Tensor], config: HfsqConfig
 ) -> tuple[Tensor, dict[str, Tensor]]:
-    """Eq. 3 summed over the streams. motions: (N, T, c) metres each. Returns the loss and its parts, detached."""
+    """Eq. 3 summed over the streams. Returns the loss and its parts, detached.
+
+    motions: (N, T, c) metres each; slow: the same without what is above the masking's cutoff, the target of
+    windows whose upper layers are hidden. So the base layer learns the slow motion and leaves the quick one
+    to the layers above: a hierarchy of frequency, which Eq. 9 can then guide apart.
+    """
     weights = (config.weight_position, config.weight_velocity, config.weight_acceleration)
     parts: dict[str, Tensor] = {}
     total = motions[0].new_zeros(())
-    for name, stream, motion in zip(("upper", "lower", "placement"), model.each, motions, strict=True):
+    for name, stream, motion, low in zip(
+        ("upper", "lower", "placement"), model.each, motions, slow, strict=True
+    ):
         v = stream.features(motion)
         codes = stream.quantiser(v)
         combined = stream.quantiser.combine(codes)
         # Eq. 5; its two terms have the same value and pull the encoder and the codes towards each other.
         latent = F.mse_loss(v, combined.detach()) + config.beta * F.mse_loss(v.detach(), combined)
+        target = motion
         if model.training and config.masking is not None:
-            combined = stream.quantiser.combine(progressive_masking(codes, config.masking))
-        kin = kinematic(motion, stream.decode(combined), weights)
+            masked, hidden = progressive_masking(codes, config.masking)
+            combined = stream.quantiser.combine(masked)
+            target = torch.where(hidden[:, None, None], low, motion)
+        kin = kinematic(target, stream.decode(combined), weights)
         total = total + kin + config.weight_latent * latent + stream.quantiser.penalty()
         parts[f"kinematic/{name}"] = kin.detach()
         parts[f"latent/{name}"] = latent.detach()

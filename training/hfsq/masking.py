@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import torch
+from scipy.signal import butter, sosfiltfilt
 from torch import Tensor
 
-from training.config import MaskingConfig
+from training.config import FPS, MaskingConfig
 
 
-def progressive_masking(codes: Tensor, config: MaskingConfig) -> Tensor:
+def slow_motion(motion: Tensor, cutoff: float | None) -> Tensor:
+    """Motion (T, c) without what is above `cutoff` Hz, in time with it; all of it where the cutoff is None."""
+    if cutoff is None:
+        return motion
+    filtered = sosfiltfilt(butter(4, cutoff, fs=FPS, output="sos"), motion.numpy(), axis=0)
+    return torch.from_numpy(filtered.copy()).to(motion)
+
+
+def progressive_masking(codes: Tensor, config: MaskingConfig) -> tuple[Tensor, Tensor]:
     """Corrupt codes (N, L, R, C), each window by its own draw.
 
     Residual masking hides a random depth of layers above the base and adds scaled Gaussian noise to the base layer, so
     that the coarse layer alone decodes to a body. Code masking zeroes single dimensions of the codes.
+    Returns the codes and (N,) whether layers of the window are hidden.
     """
     n, _, layers, _ = codes.shape
     draw = lambda *shape: torch.rand(*shape, device=codes.device)  # noqa: E731
@@ -25,4 +35,4 @@ def progressive_masking(codes: Tensor, config: MaskingConfig) -> Tensor:
     noise = torch.randn_like(codes[:, :, :1]) * config.base_noise * hidden[:, None, None, None]
     codes = torch.cat([codes[:, :, :1] + noise, codes[:, :, 1:]], dim=2)
     masked = (draw(n) < config.code)[:, None, None, None] & (draw(*codes.shape) < config.code_rate)
-    return codes * (~masked).to(codes.dtype)
+    return codes * (~masked).to(codes.dtype), hidden

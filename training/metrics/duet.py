@@ -32,8 +32,9 @@ def duet_metrics(
     """Every measure of one generated reactor `made` against the true one, all (T, 22, 3) metres, y up, 30
     fps.
 
-    music: (T, 54) features for BAS. Names end in their unit; `_ratio` is generated over true, `_w1` a
-    Wasserstein distance to the true distribution over frames. PFC depends on T.
+    music: (T, 54) features for BAS; bas_low and bas_high are its 95 % interval over the beats. Names end in
+    their unit; `_ratio` is generated over true, `_w1` a Wasserstein distance to the true distribution over
+    frames. PFC depends on T.
     """
     feet, echo, real_echo = foot_skating(made), bed(leader, made), bed(leader, truth)
     row = {
@@ -67,7 +68,12 @@ def duet_metrics(
         row |= repetition(made)
     if music is not None:
         aligned = bas(music_beats(music), made)
-        row |= {"bas": aligned["value"], "bas_chance": aligned["chance"]}
+        row |= {
+            "bas": aligned["value"],
+            "bas_chance": aligned["chance"],
+            "bas_low": aligned["low"],
+            "bas_high": aligned["high"],
+        }
     return row
 
 

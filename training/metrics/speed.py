@@ -45,6 +45,10 @@ def band_power(
     )
 
 
+def band_name(low: float, high: float) -> str:
+    return f"{low:g}-{high:g} Hz"
+
+
 def band_decibels(
     truth: np.ndarray,
     generated: np.ndarray,
@@ -54,6 +58,6 @@ def band_decibels(
     """Energy of the generated motion against the true one in each band, dB."""
     ratio = band_power(generated, bands, fps) / band_power(truth, bands, fps)
     return {
-        f"{low:g}-{high:g} Hz": float(10 * np.log10(max(value, 1e-12)))
+        band_name(low, high): float(10 * np.log10(max(value, 1e-12)))
         for (low, high), value in zip(bands, ratio, strict=True)
     }

@@ -65,7 +65,8 @@ export function createPlayer(): Player {
       reading = { position: currentTime, since: reading.position < 0 ? -1 : performance.now() };
     }
     const guess = reading.since < 0 ? 0 : Math.min(advance(reading.since), LONGEST_GUESS);
-    return Math.min(currentTime + guess, element.duration);
+    // A song whose header has not been read yet has no duration: NaN.
+    return Math.min(currentTime + guess, element.duration || Infinity);
   };
 
   const time = (): number => {

@@ -44,7 +44,7 @@ export interface DecodeInput {
 
 /** Returns latents x memory width. */
 export type ConditionRunner = (input: ConditionInput) => Promise<Float32Array>;
-/** Returns T x 22 x 3 metres. */
+/** Returns T x 22 x 3 metres. Takes a clip in one piece: bones have their mean length over all of it. */
 export type DecodeRunner = (input: DecodeInput) => Promise<Float32Array>;
 
 interface Pieces {
@@ -96,32 +96,6 @@ export function conditionClip(
         music: cut(input.music, chunk, latent.stride * frame.music),
         musicValid: cut(input.musicValid, chunk, latent.stride),
         role: input.role,
-      }),
-    pieces,
-  );
-}
-
-/** Joints of a whole clip (T x 22 x 3 metres), at most `size` latent frames at a time. */
-export function decodeClip(
-  run: DecodeRunner,
-  input: DecodeInput,
-  manifest: Manifest,
-  size: number,
-  pieces: Pieces = {},
-): Promise<Float32Array> {
-  const { latent, skeleton } = manifest;
-  const width = latent.layers.length * latent.channels;
-  const frame = latent.stride * skeleton.joints.length * 3;
-  const latents = input.latents.length / width;
-  return inChunks(
-    new Float32Array(latents * frame),
-    frame,
-    chunks(latents, size, latent.receptive_field.decode),
-    (chunk) =>
-      run({
-        latents: cut(input.latents, chunk, width),
-        leader: cut(input.leader, chunk, frame),
-        layers: input.layers,
       }),
     pieces,
   );

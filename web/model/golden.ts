@@ -1,4 +1,4 @@
-import { conditionClip, decodeClip } from './chunks';
+import { conditionClip } from './chunks';
 import type { Manifest } from './manifest';
 import { noise } from './noise';
 import { type NpzArray, readNpz } from './npz';
@@ -65,8 +65,7 @@ export async function goldenError(
     blocksPerRun: latents,
   });
   const layers = new Float32Array(latent.layers.length).fill(1);
-  const input = { latents: sampled, leader: golden.leader, layers };
-  const reactor = await decodeClip(session.decode, input, manifest, latents);
+  const reactor = await session.decode({ latents: sampled, leader: golden.leader, layers });
   let worst = 0;
   for (let i = 0; i < golden.reactor.length; i += 3) {
     const [x, y, z] = [0, 1, 2].map((axis) => (reactor[i + axis] ?? NaN) - (golden.reactor[i + axis] ?? NaN));

@@ -1,4 +1,5 @@
 import * as v from 'valibot';
+import { FLOOR } from '../motion/axes-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton';
 import { ModelError } from './error';
 
@@ -34,6 +35,8 @@ const schema = v.object({
     feet: v.array(natural),
     /** Metres; the body height (motion/scale.ts) that every leader is scaled to. */
     reference_height: v.pipe(v.number(), v.minValue(0.1)),
+    /** See FLOOR in motion/axes-units.ts. */
+    floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   fps: v.pipe(v.number(), v.minValue(1)),
   latent: v.object({
@@ -46,8 +49,8 @@ const schema = v.object({
     streams: v.pipe(v.array(v.string()), v.minLength(1)),
     layers: v.pipe(v.array(v.string()), v.minLength(1)),
     memory_width: count,
-    /** Latent frames needed on each side of a piece of clip for an exact result inside it. */
-    receptive_field: v.object({ condition: natural, decode: natural }),
+    /** Latent frames that a graph needs on each side of a piece of clip for an exact result inside it. */
+    receptive_field: v.object({ condition: natural }),
   }),
   diffusion: v.object({
     train_steps: count,
@@ -103,6 +106,13 @@ function check(manifest: Manifest): void {
     throw new ModelError(
       'model-unsupported',
       "The model's skeleton is not the 22-joint SMPL body that this page draws.",
+      REEXPORT,
+    );
+  }
+  if (skeleton.floor.toe_rest !== FLOOR.toe_rest || skeleton.floor.percentile !== FLOOR.percentile) {
+    throw new ModelError(
+      'model-unsupported',
+      'The model was trained on dancers whose floor was found in another way than this page finds it.',
       REEXPORT,
     );
   }

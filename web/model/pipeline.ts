@@ -1,6 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../motion/clip';
 import { solve } from '../motion/solve';
-import { type ConditionInput, conditionClip, decodeClip } from './chunks';
+import { type ConditionInput, conditionClip } from './chunks';
 import { ModelError } from './error';
 import { checkRequest, type GenerateRequest, prepareInput } from './inputs';
 import type { Manifest } from './manifest';
@@ -135,14 +135,10 @@ export class Pipeline {
     options: GenerateOptions,
   ): Promise<MotionClip> {
     const { latent, skeleton } = this.manifest;
+    await nextTurn(options.signal);
     const layers = new Float32Array(latent.layers.length).fill(1);
-    const decoded = await decodeClip(
-      this.session.decode,
-      { latents, leader, layers },
-      this.manifest,
-      LATENTS_PER_RUN,
-      { signal: options.signal, onProgress: tell(options, 'decode') },
-    );
+    const decoded = await this.session.decode({ latents, leader, layers });
+    tell(options, 'decode')(1, 1);
     const positions = decoded.slice(0, frames * skeleton.joints.length * 3).map((value) => value / scale);
     if (!positions.every(Number.isFinite)) {
       throw new ModelError(

@@ -57,15 +57,18 @@ export function findUnit(size: number): { name: string; metres: number; known: b
   return { name: 'unknown unit', metres: GROWN / size, known: false };
 }
 
-/** Height of the toe joint (ball of the foot) of a planted foot; the training side's floor uses the same number. */
-const TOE_REST = 0.03;
-/** Share of frames whose lower toe may lie below a planted one: noise and glitches, not the floor. */
-const TOE_PERCENTILE = 10;
+/** How the floor is found; a model whose training data stood on another floor is refused (model/manifest.ts). */
+export const FLOOR = {
+  /** Height of the toe joint (ball of the foot) of a planted foot, metres. */
+  toe_rest: 0.03,
+  /** Share of frames whose lower toe may lie below a planted one, in percent: noise and glitches. */
+  percentile: 10,
+} as const;
 
 /**
  * Height of the floor under a dancer in metres, from the lower toe of every frame: in almost every frame of a dance
  * one foot stands.
  */
 export function floorHeight(lowerToes: ArrayLike<number>): number {
-  return percentile(lowerToes, TOE_PERCENTILE) - TOE_REST;
+  return percentile(lowerToes, FLOOR.percentile) - FLOOR.toe_rest;
 }

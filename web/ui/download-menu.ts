@@ -2,10 +2,11 @@ import { writeBvh } from '../motion/bvh-write';
 import { el, setAttribute, setText, together } from './dom';
 import { byteSize } from './format';
 import { icon } from './icons';
+import { reactorMotion } from './reactor-motion';
 import { reactorFileName } from './selectors';
 import type { Mount } from './services';
-import type { Reaction } from './state';
-import { apply, opened, watch } from './store';
+import type { AppState } from './state';
+import { apply, opened, watch, watchAll } from './store';
 
 /** The Download button and its menu: what can be taken home, how large it is and what it will be called. */
 export const mountDownloadMenu: Mount = (root, store, services) => {
@@ -65,22 +66,24 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   menu.hidden = true;
   root.append(wide, narrow, menu);
 
-  const showReaction = (reaction: Reaction | null): void => {
+  const showReaction = (state: AppState): void => {
+    const { reaction } = state;
     wide.disabled = narrow.disabled = save.disabled = reaction === null;
     wide.title = reaction ? '' : 'Ready when a reactor is on the stage';
     if (reaction) setText(fileName, reactorFileName(reaction.inputs));
-    if (!menu.hidden) showSize(reaction);
+    if (!menu.hidden) showSize(state);
   };
   /** The size is that of the very text that would be saved; it is only written out when someone looks. */
-  const showSize = (reaction: Reaction | null): void => {
-    setText(size, reaction ? byteSize(writeBvh(reaction.motion).length) : '');
+  const showSize = (state: AppState): void => {
+    const motion = reactorMotion(state);
+    setText(size, motion ? byteSize(writeBvh(motion).length) : '');
   };
   const showOpen = (open: boolean): void => {
     const before = menu.hidden;
     menu.hidden = !open;
     for (const button of [wide, narrow]) setAttribute(button, 'aria-expanded', open ? 'true' : 'false');
     if (open) {
-      showSize(store.getState().reaction);
+      showSize(store.getState());
       save.focus();
     } else if (!before && menu.contains(document.activeElement)) {
       (wide.offsetParent ? wide : narrow).focus();
@@ -92,7 +95,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
-    watch(store, (state) => state.reaction, showReaction),
+    watchAll(store, (state) => [state.reaction, state.footLock], showReaction),
     watch(store, (state) => state.open === 'download', showOpen),
     () => {
       document.removeEventListener('pointerdown', closeOutside);

@@ -19,7 +19,7 @@ import {
  * Least time between two changes of a progress line, milliseconds: where the processor draws the picture, each of
  * them takes time from the work.
  */
-const BETWEEN_REPORTS = 200;
+const BETWEEN_REPORTS = 500;
 
 /** The readers, so that this file can be tested without a browser. */
 export interface Readers {

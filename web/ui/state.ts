@@ -43,6 +43,7 @@ export interface Inputs {
 }
 
 export interface Reaction {
+  /** As the model made it; what is drawn and taken home is `reactorMotion`. */
   readonly motion: SolvedMotion;
   /** What it was made from. */
   readonly inputs: Inputs;
@@ -118,6 +119,8 @@ export interface AppState {
   readonly leader: LoadedLeader | null;
   readonly reading: Readonly<Record<Side, Reading | null>>;
   readonly reaction: Reaction | null;
+  /** Whether planted feet of the reactor are kept from sliding. */
+  readonly footLock: boolean;
   readonly job: Job | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was being told. */

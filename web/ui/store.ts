@@ -40,6 +40,7 @@ export function initialState(theme: Theme): AppState {
     leader: null,
     reading: { song: null, leader: null },
     reaction: null,
+    footLock: true,
     job: null,
     problem: null,
     waitingProblems: [],
@@ -210,6 +211,10 @@ export function jobChanged(job: Job | null): Change {
 
 export function reacted(reaction: Reaction): Change {
   return () => ({ reaction, job: null });
+}
+
+export function footLockSet(footLock: boolean): Change {
+  return () => ({ footLock });
 }
 
 /** Keeps something worth knowing that stops nothing. */

@@ -3,6 +3,7 @@ import { el, setText, setVariable, together } from './dom';
 import { clockTime } from './format';
 import { drawBeats, drawCurve, drawWave, surface, token } from './lane-canvas';
 import { mountPlayhead } from './playhead';
+import { reactorMotion } from './reactor-motion';
 import { rulerMarks } from './ruler';
 import { beingRead, danceDuration, jobWords, upToDate } from './selectors';
 import type { Mount } from './services';
@@ -148,17 +149,13 @@ export const mountTimeline: Mount = (root, store, services) => {
         leaderSpeed = motion ? speedCurve(motion) : new Float32Array(0);
       },
     ),
-    watch(
-      store,
-      (state) => state.reaction?.motion,
-      (motion) => {
-        reactorSpeed = motion ? speedCurve(motion) : new Float32Array(0);
-      },
-    ),
+    watch(store, reactorMotion, (motion) => {
+      reactorSpeed = motion ? speedCurve(motion) : new Float32Array(0);
+    }),
     watchAll(store, (state) => [state.leader, state.song, state.manifest], drawBlocks),
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.reaction, ...beingRead(state), state.theme],
+      (state) => [state.leader, state.song, reactorMotion(state), ...beingRead(state), state.theme],
       redraw,
     ),
     watchAll(

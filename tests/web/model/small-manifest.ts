@@ -1,3 +1,4 @@
+import { FLOOR } from '../../../web/motion/axes-units';
 import { PARENTS, SMPL22 } from '../../../web/motion/skeleton';
 import { type Manifest, parseManifest } from '../../../web/model/manifest';
 
@@ -26,6 +27,7 @@ export function smallJson() {
       lower: [1],
       feet: [7],
       reference_height: 1.5,
+      floor: { ...FLOOR } as { toe_rest: number; percentile: number },
     },
     fps: 30,
     latent: {
@@ -35,7 +37,7 @@ export function smallJson() {
       streams: ['upper', 'lower', 'placement'],
       layers: ['coarse', 'fine'],
       memory_width: 2,
-      receptive_field: { condition: 2, decode: 3 },
+      receptive_field: { condition: 2 },
     },
     diffusion: {
       train_steps: 1000,

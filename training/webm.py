@@ -1,0 +1,102 @@
+"""A WebM file of VP8 key frames, written without a video encoder.
+
+A lossy WebP picture is one VP8 key frame in another box, so Pillow makes the frames and this puts them into
+Matroska's EBML: every frame can be sought, any browser plays it, and nothing has to be installed.
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+from collections.abc import Iterable, Sequence
+
+from PIL import Image
+
+CLUSTER = 30  # frames that share a time stamp's origin and one entry of the seek table
+_MILLISECOND = 1_000_000  # nanoseconds, the unit of all times in the file
+
+
+def key_frame(picture: Image.Image, quality: int = 70) -> bytes:
+    """The VP8 key frame of an RGB picture."""
+    if picture.mode != "RGB":  # an alpha channel would be kept beside the VP8 data, not in it
+        raise ValueError(f"a video frame has to be RGB, got {picture.mode}")
+    box = io.BytesIO()
+    picture.save(box, "WEBP", quality=quality, method=2)
+    data = box.getvalue()
+    if data[12:16] != b"VP8 ":
+        raise ValueError(f"expected a lossy WebP picture, got chunk {data[12:16]!r}")
+    (size,) = struct.unpack("<I", data[16:20])
+    return data[20 : 20 + size]
+
+
+def _element(name: int, content: bytes) -> bytes:
+    """EBML: an id, the size in eight bytes, the content."""
+    return (
+        name.to_bytes((name.bit_length() + 7) // 8, "big")
+        + struct.pack(">Q", 1 << 56 | len(content))
+        + content
+    )
+
+
+def _whole(name: int, value: int) -> bytes:
+    return _element(name, struct.pack(">Q", value))
+
+
+def _time(frame: int, fps: float) -> int:
+    return round(frame * 1000 / fps)
+
+
+def _cluster(frames: Sequence[bytes], first: int, fps: float) -> bytes:
+    """Frames from number `first` on; each says how many ms after the cluster's time it is shown."""
+    start = _time(first, fps)
+    blocks = [_whole(0xE7, start)]
+    for number, frame in enumerate(frames, first):
+        head = struct.pack(">BhB", 0x81, _time(number, fps) - start, 0x80)  # track 1, time, key frame
+        blocks.append(_element(0xA3, head + frame))
+    return _element(0x1F43B675, b"".join(blocks))
+
+
+def _cues(positions: Sequence[int], fps: float) -> bytes:
+    """Where in the segment each cluster begins, bytes."""
+    points = [
+        _element(
+            0xBB,
+            _whole(0xB3, _time(index * CLUSTER, fps))
+            + _element(0xB7, _whole(0xF7, 1) + _whole(0xF1, position)),
+        )
+        for index, position in enumerate(positions)
+    ]
+    return _element(0x1C53BB6B, b"".join(points))
+
+
+def webm(pictures: Iterable[Image.Image], fps: float = 30.0) -> bytes:
+    """The file's bytes for RGB pictures of one size. Raises ValueError without pictures or with another size."""
+    frames: list[bytes] = []
+    sizes: set[tuple[int, int]] = set()
+    for picture in pictures:
+        sizes.add(picture.size)
+        frames.append(key_frame(picture))
+    if len(sizes) != 1:
+        raise ValueError(f"a video needs pictures of one size, got {sorted(sizes) or 'none'}")
+    ((width, height),) = sizes
+    header = _element(
+        0x1A45DFA3,
+        _whole(0x4286, 1) + _whole(0x42F7, 1) + _whole(0x42F2, 4) + _whole(0x42F3, 8)
+        + _element(0x4282, b"webm") + _whole(0x4287, 2) + _whole(0x4285, 2),
+    )  # fmt: skip
+    info = _element(
+        0x1549A966,
+        _whole(0x2AD7B1, _MILLISECOND) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
+        + _element(0x4489, struct.pack(">d", len(frames) * 1000 / fps)),
+    )  # fmt: skip
+    track = _element(
+        0xAE,
+        _whole(0xD7, 1) + _whole(0x73C5, 1) + _whole(0x83, 1) + _whole(0x9C, 0) + _element(0x86, b"V_VP8")
+        + _whole(0x23E383, round(1e9 / fps)) + _element(0xE0, _whole(0xB0, width) + _whole(0xBA, height)),
+    )  # fmt: skip
+    head = info + _element(0x1654AE6B, track)
+    clusters = [_cluster(frames[i : i + CLUSTER], i, fps) for i in range(0, len(frames), CLUSTER)]
+    # The seek table stands before the clusters; numbers have a fixed width, so its own length is known.
+    begin = len(head) + len(_cues([0] * len(clusters), fps))
+    positions = [begin + sum(map(len, clusters[:i])) for i in range(len(clusters))]
+    return header + _element(0x18538067, head + _cues(positions, fps) + b"".join(clusters))
