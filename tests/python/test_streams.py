@@ -8,7 +8,7 @@ import torch
 
 from training.config import FrameConfig
 from training.data.made import made_duet
-from training.frame import into_frame, out_of_frame, smoothed_heading
+from training.frame import arctangent, cosine_sine, into_frame, out_of_frame, smoothed_heading
 from training.skeleton import PARENTS, constant_bones
 from training.streams import LEADER_FEATURES, STREAM_WIDTHS, from_streams, leader_features, to_streams
 
@@ -124,3 +124,12 @@ def test_bones_keep_their_length_and_direction() -> None:
     assert torch.allclose(cosine, torch.ones_like(cosine), atol=1e-4)
     assert torch.equal(made[:, 0], stretched[:, 0])
     assert torch.allclose(constant_bones(made), made, atol=1e-5)
+
+
+def test_own_trigonometry_is_exact_where_it_is_used() -> None:
+    x = torch.linspace(-1, 1, 2001)
+    assert torch.allclose(arctangent(x), x.atan(), atol=3e-7)
+    angle = torch.linspace(-4 * np.pi, 4 * np.pi, 5001)
+    cosine, sine = cosine_sine(angle)
+    assert torch.allclose(cosine, angle.cos(), atol=5e-6)
+    assert torch.allclose(sine, angle.sin(), atol=5e-6)
