@@ -16,18 +16,16 @@ import numpy as np
 from training.dancer import Dancer, Trial, fit_length
 from training.data.bvh import read_bvh
 from training.data.duet import Solo
+from training.data.floor import lower_toe
 from training.data.npz import read_solo
 from training.metrics.distance import root_distance
 from training.metrics.speed import joint_speed
-from training.skeleton import JOINTS
 
 # Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
 # planted toe rests at 0.03; true reactors of the salsa stay within 0.01 and 0.09.
 LOWEST_TOE, HIGHEST_TOE = -0.03, 0.15
 FARTHEST = 3.0  # metres between the roots
 SPEED_FACTOR, SPEED_REST = 2.0, 0.3  # times the leader's mean speed, plus m/s
-
-_TOES = (JOINTS.index("left_foot"), JOINTS.index("right_foot"))
 
 
 @dataclass(frozen=True)
@@ -60,8 +58,7 @@ def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
 
     toe_low_m and toe_high_m: 1st and 99th percentile over frames of the lower toe joint's height.
     """
-    toe = reactor[:, _TOES, 1].min(axis=1)
-    low, high = np.percentile(toe, [1, 99])
+    low, high = np.percentile(lower_toe(reactor), [1, 99])
     apart = root_distance(leader, reactor)
     row = {
         "frames": len(reactor),

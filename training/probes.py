@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from training.dancer import Dancer, Motions, Settings, Trial, fit_length
-from training.metrics import quick_report
+from training.metrics import mean_report, quick_report
 from training.metrics.errors import root_error
 from training.metrics.response import (
     beat_phase,
@@ -83,8 +83,7 @@ def measure_responses(
                 row["change_half_beat"] = relative_change(leader, base, late)
                 row["change_no_song"] = relative_change(leader, base, dancer(leader, None, seed))
             rows.append(row)
-    keys = [key for key in rows[0] if all(key in row for row in rows)]
-    result = {key: float(np.mean([row[key] for row in rows])) for key in keys}
+    result = mean_report(rows)
     result["other_leader_raises_root_error"] = (
         _ratio(result["root_error_other_leader_mm"], result["root_error_mm"]) - 1
     )
@@ -92,7 +91,7 @@ def measure_responses(
         result["song_over_leader"] = _ratio(result["change_other_song"], result["change_other_leader"])
     apart = [between_seeds(whole[t.duet.name]) for t in trials if len(whole[t.duet.name]) > 1]
     if apart:
-        result |= {f"seeds_apart_{k}": float(np.mean([a[k] for a in apart])) for k in apart[0]}
+        result |= {f"seeds_apart_{k}": value for k, value in mean_report(apart).items()}
     return result
 
 
@@ -129,6 +128,5 @@ def measure_guidance(dancer: Dancer, trials: Sequence[Trial], settings: Settings
                     slow, quick = band_power(made, (SLOW, QUICK))
                     energy = {"slow_energy": float(slow), "quick_energy": float(quick)}
                     rows.append(quick_report(trial.duet.leader, trial.duet.reactor, made) | energy)
-            mean = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]}
-            cells.append({"coarse": coarse, "fine": fine} | mean)
+            cells.append({"coarse": coarse, "fine": fine} | mean_report(rows))
     return cells

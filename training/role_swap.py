@@ -6,13 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from training.baselines import nearest_neighbour
 from training.dancer import Dancer, Motions, Trial
 from training.data.augment import swap_roles
 from training.data.duet import Duet
-from training.metrics import quick_report
+from training.metrics import mean_report, quick_report
 
 LEADER = 1.0  # the role input of a model that dances the leader's part
 
@@ -27,12 +25,8 @@ def _rows(trials: Sequence[Trial], motions: Motions) -> dict[str, Any]:
     for trial in trials:
         duet = trial.duet
         seeds = [quick_report(duet.leader, duet.reactor, made) for made in motions[duet.name]]
-        by_trial[duet.name] = {"mean": _mean(seeds), "seeds": seeds}
-    return {"mean": _mean([row["mean"] for row in by_trial.values()]), "trials": by_trial}
-
-
-def _mean(rows: Sequence[dict[str, float]]) -> dict[str, float]:
-    return {key: float(np.mean([row[key] for row in rows])) for key in rows[0]}
+        by_trial[duet.name] = {"mean": mean_report(seeds), "seeds": seeds}
+    return {"mean": mean_report([row["mean"] for row in by_trial.values()]), "trials": by_trial}
 
 
 def measure_role_swap(

@@ -23,7 +23,7 @@ from training.diffusion import add_noise, alphas_cumprod, training_times
 from training.hfsq.autoencoder import Autoencoder
 from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
 from training.losses import motion_loss, noise_weights, simple_loss
-from training.metrics import quick_report
+from training.metrics import mean_report, quick_report
 from training.music.pairing import MusicBank, build_music_bank, variants
 from training.sampler import Model, react
 from training.skeleton import body_height, constant_bones
@@ -160,7 +160,7 @@ def validate(
         for seed in range(seeds):
             made = react(model, duet.leader[:frames], music[:frames], seed)
             rows.append(quick_report(duet.leader[:frames], duet.reactor[:frames], made))
-    return {f"val/{k}": float(np.mean([row[k] for row in rows])) for k in rows[0]}
+    return {f"val/{k}": value for k, value in mean_report(rows).items()}
 
 
 def set_feature_statistics(denoiser: Denoiser, clips: list) -> None:

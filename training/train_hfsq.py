@@ -28,7 +28,7 @@ from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import stage1_loss
 from training.hfsq.masking import slow_motion
 from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
-from training.metrics import quick_report
+from training.metrics import mean_report, quick_report
 from training.streams import reactor_motion, to_streams
 
 Streams = tuple[Tensor, Tensor, Tensor]
@@ -183,7 +183,7 @@ def evaluate(model: Autoencoder, duets: tuple[Duet, ...], options: Options) -> d
             report = quick_report(duet.leader[:frames], duet.reactor[:frames], motion)
             row |= {f"val/{name}/{k}": report[k] for k in ("mpjpe_mm", "root_error_mm", "speed_ratio")}
         rows.append(row)
-    return {k: float(np.mean([row[k] for row in rows])) for k in rows[0]}
+    return mean_report(rows)
 
 
 @torch.no_grad()

@@ -14,14 +14,18 @@ TOE_PERCENTILE = 10.0
 _TOES = (JOINTS.index("left_foot"), JOINTS.index("right_foot"))
 
 
+def lower_toe(motion: np.ndarray) -> np.ndarray:
+    """(T,) height of the lower of the two toe joints of (T, 22, 3)."""
+    return motion[:, _TOES, 1].min(axis=1)
+
+
 def floor_height(motion: np.ndarray) -> float:
     """Height of the floor under a dancer, from planted toes.
 
     motion: (T, 22, 3) metres, y up. In almost every frame of a dance one foot stands, so a low percentile
     over time of the lower toe is a planted toe, which rests TOE_REST above the floor.
     """
-    lower_toe = motion[:, _TOES, 1].min(axis=1)
-    return float(np.percentile(lower_toe, TOE_PERCENTILE)) - TOE_REST
+    return float(np.percentile(lower_toe(motion), TOE_PERCENTILE)) - TOE_REST
 
 
 def put_on_floor(motion: np.ndarray) -> np.ndarray:

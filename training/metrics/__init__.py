@@ -4,6 +4,8 @@ training.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from training.metrics.distance import root_distance
@@ -27,3 +29,8 @@ def quick_report(
             np.median(root_distance(leader, generated)) / np.median(root_distance(leader, truth))
         ),
     }
+
+
+def mean_report(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """The mean over reports of every measure that all of them have."""
+    return {key: float(np.mean([row[key] for row in rows])) for key in rows[0] if all(key in r for r in rows)}

@@ -57,46 +57,30 @@ function cut(values: Float32Array, chunk: Chunk, width: number): Float32Array {
   return values.subarray(chunk.from * width, chunk.to * width);
 }
 
-async function inChunks(
-  out: Float32Array,
-  width: number,
-  plan: readonly Chunk[],
-  run: (chunk: Chunk) => Promise<Float32Array>,
-  { signal, onProgress }: Pieces,
-): Promise<Float32Array> {
-  for (const [i, chunk] of plan.entries()) {
-    await nextTurn(signal);
-    const result = await run(chunk);
-    const skip = chunk.start - chunk.from;
-    const wanted = result.subarray(skip * width, (skip + chunk.end - chunk.start) * width);
-    out.set(wanted, chunk.start * width);
-    onProgress?.(i + 1, plan.length);
-  }
-  return out;
-}
-
 /** Memory of a whole clip (latents x memory width), at most `size` latent frames at a time. */
-export function conditionClip(
+export async function conditionClip(
   run: ConditionRunner,
   input: ConditionInput,
   manifest: Manifest,
   size: number,
-  pieces: Pieces = {},
+  { signal, onProgress }: Pieces = {},
 ): Promise<Float32Array> {
   const { latent, skeleton, audio } = manifest;
   const latents = input.musicValid.length / latent.stride;
-  const frame = { leader: skeleton.joints.length * 3, music: audio.features };
-  return inChunks(
-    new Float32Array(latents * latent.memory_width),
-    latent.memory_width,
-    chunks(latents, size, latent.receptive_field.condition),
-    (chunk) =>
-      run({
-        leader: cut(input.leader, chunk, latent.stride * frame.leader),
-        music: cut(input.music, chunk, latent.stride * frame.music),
-        musicValid: cut(input.musicValid, chunk, latent.stride),
-        role: input.role,
-      }),
-    pieces,
-  );
+  const width = latent.memory_width;
+  const memory = new Float32Array(latents * width);
+  const plan = chunks(latents, size, latent.receptive_field.condition);
+  for (const [i, chunk] of plan.entries()) {
+    await nextTurn(signal);
+    const result = await run({
+      leader: cut(input.leader, chunk, latent.stride * skeleton.joints.length * 3),
+      music: cut(input.music, chunk, latent.stride * audio.features),
+      musicValid: cut(input.musicValid, chunk, latent.stride),
+      role: input.role,
+    });
+    const skip = chunk.start - chunk.from;
+    memory.set(result.subarray(skip * width, (skip + chunk.end - chunk.start) * width), chunk.start * width);
+    onProgress?.(i + 1, plan.length);
+  }
+  return memory;
 }
