@@ -54,6 +54,7 @@ def tiny_model(seed: int = 0) -> Model:
     for stream, place in zip(hfsq.each, (0.2, -0.4, 0.9), strict=True):
         stream.mean.fill_(place)
         stream.std.fill_(0.2)
+    denoiser.lowest, denoiser.highest = hfsq.latent_range()
     diffusion = DiffusionConfig(steps=4, alternating_phase=True)
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion)
 

@@ -63,6 +63,11 @@ def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:
     return model.eval().requires_grad_(False), from_json(FrameConfig, config["frame"])
 
 
+def start_from(module: nn.Module, folder: Path, name: str) -> None:
+    """Take the weights and statistics NAME of the checkpoint in `folder`; the sizes must be the same."""
+    load_weights(module, str(folder / f"{name}.safetensors"), strict=True)
+
+
 def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionConfig]:
     config = read_config(folder, "denoiser")
     model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))

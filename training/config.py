@@ -48,6 +48,7 @@ class HfsqConfig:
     weight_position: float = 1.0
     weight_velocity: float = 5.0
     weight_acceleration: float = 5.0
+    weight_energy: float = 2.0
     weight_latent: float = 0.02
     beta: float = 0.25  # Eq. 5
     weight_kl: float = 1e-4
@@ -62,10 +63,7 @@ class ConditionConfig:
     drop_all: float = 0.1
     drop_leader: float = 0.1
     drop_music: float = 0.1
-    # What makes the music worth hearing: in training the leader alone does not always tell the beat.
-    leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
-    leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
-    blurred: float = 0.25  # share of windows with a blurred leader
+    hidden: float = 0.1  # of the leader's and of the music's features, for a whole window in training
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ or moving the couple in the world changes nothing inside the frame.
 from __future__ import annotations
 
 import torch
-import torch.nn.functional as F
 from torch import Tensor
 
 from training.config import FrameConfig
+from training.smoothing import gaussian_mean
 
 LEFT_HIP, RIGHT_HIP = 1, 2
 
@@ -62,10 +62,7 @@ def smoothed_heading(leader: Tensor, config: FrameConfig) -> Tensor:
     turns = 2 * arctangent(cross / (1 + dot).clamp_min(1e-6))
     angle = torch.cat([turns.new_zeros(1), turns]).cumsum(0)
 
-    offsets = torch.arange(-config.radius, config.radius + 1, dtype=leader.dtype, device=leader.device)
-    kernel = torch.exp(-0.5 * (offsets / config.sigma) ** 2)[None, None]
-    sums = F.conv1d(torch.stack([angle, torch.ones_like(angle)])[:, None], kernel, padding=config.radius)
-    ahead = sums[0, 0] / sums[1, 0] - angle
+    ahead = gaussian_mean(angle[None], config.sigma, config.radius)[0] - angle
     c, s = cosine_sine(ahead)
     x, z = facing.unbind(-1)
     return torch.stack([c * x + s * z, c * z - s * x], dim=-1)

@@ -8,7 +8,7 @@ import torch
 from torch import Tensor
 
 from training.config import DenoiserLossConfig
-from training.hfsq.losses import kinematic
+from training.hfsq.losses import energy_loss, kinematic
 from training.skeleton import FEET
 
 CONTACT_STEP = 0.01  # metres per frame; a foot that moves less stands (EDGE)
@@ -71,19 +71,6 @@ def contact_loss(truth: Tensor, predicted: Tensor) -> Tensor:
     stands = (truth[:, :, feet].diff(dim=1).norm(dim=-1) < CONTACT_STEP).to(predicted.dtype)
     speed = (predicted[:, :, feet].diff(dim=1).square().sum(-1) + 1e-10).sqrt() * 100
     return (speed * stands).sum((1, 2)) / stands.sum((1, 2)).clamp_min(1)
-
-
-def energy_loss(truth: Tensor, predicted: Tensor) -> Tensor:
-    """(N,) squared logarithm of predicted over true mean speed and acceleration, mean over joints.
-
-    L1 terms are content with a motion that moves too little; a dance is not. motions: (N, T, 22, 3) metres.
-    """
-    total = truth.new_zeros(len(truth))
-    for _ in range(2):
-        truth, predicted = truth.diff(dim=1), predicted.diff(dim=1)
-        true_pace, pace = ((m.square().sum(-1) + 1e-8).sqrt().mean(1) for m in (truth, predicted))
-        total = total + (pace / true_pace).log().square().mean(-1)
-    return total
 
 
 def motion_loss(

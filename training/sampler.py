@@ -70,7 +70,8 @@ def guided_x0(
 
     x (B, block, R, C), time (1,), memory (B, block, M), valid (B, block), guidance (S, R). Coarse sees no
     fine weight: the network's coarse trunk never reads the fine layer and each layer is combined with its
-    own s.
+    own s. What lies beyond the quantiser's range is brought back to its end (static thresholding, Saharia et
+    al. 2022): the decoder has never seen a latent out there.
     """
     kept = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
     keep = torch.cat([kept, kept * 0])
@@ -80,7 +81,8 @@ def guided_x0(
     # Conditional half first; written so that the exported graph needs no shape arithmetic.
     conditional, unconditional = both.reshape(2, -1, *both.shape[1:]).unbind(0)
     s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
-    return (1 + s) * conditional - s * unconditional
+    x0 = (1 + s) * conditional - s * unconditional
+    return torch.minimum(torch.maximum(x0, denoiser.lowest), denoiser.highest)
 
 
 Progress = Callable[[int, Tensor, Tensor], None]

@@ -6,6 +6,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from training.smoothing import gaussian_mean
+
 JOINTS: tuple[str, ...] = (
     "pelvis",
     "left_hip",
@@ -34,6 +36,8 @@ PARENTS: tuple[int, ...] = (-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13
 LOWER: tuple[int, ...] = (1, 2, 4, 5, 7, 8, 10, 11)
 UPPER: tuple[int, ...] = tuple(j for j in range(1, 22) if j not in LOWER)
 FEET: tuple[int, ...] = (7, 8, 10, 11)
+TOES: tuple[int, int] = (10, 11)
+GIVING_WAY = 2  # frames, sigma of the pelvis following the feet
 
 # Index of the joint on the other side of the body; joints of the middle map to themselves.
 MIRROR: tuple[int, ...] = tuple(
@@ -75,7 +79,7 @@ _DESCENT = _descent()
 
 
 def constant_bones(motion: Tensor) -> Tensor:
-    """The same directions on bones that keep their mean length. motion: (..., T, 22, 3) metres.
+    """The same directions on bones that keep their mean length. motion: (N, T, 22, 3) metres.
 
     A decoder that is unsure of a direction shortens the bone; a body cannot.
     """
@@ -86,3 +90,20 @@ def constant_bones(motion: Tensor) -> Tensor:
     lengths = bones.square().sum(-1, keepdim=True).clamp_min(1e-10).sqrt()
     bones = bones / lengths * lengths.mean(-3, keepdim=True)
     return motion[..., :1, :] + _DESCENT.to(motion) @ bones
+
+
+def keep_footing(motion: Tensor, before: Tensor) -> Tensor:
+    """`motion` raised or lowered until its lower toe is as high as it was `before`; both (N, T, 22, 3) metres.
+
+    Legs that have been given their length push the feet through the floor. The pelvis gives way, smoothly:
+    a lower toe that changes from one foot to the other must not jolt the body.
+    """
+    toes = torch.tensor(TOES, device=motion.device)
+    lower, was = (m.index_select(-2, toes)[..., 1].amin(-1) for m in (motion, before))
+    rise = gaussian_mean(was - lower, GIVING_WAY, 3 * GIVING_WAY)
+    return motion + torch.stack([torch.zeros_like(rise), rise, torch.zeros_like(rise)], dim=-1)[..., None, :]
+
+
+def as_body(motion: Tensor) -> Tensor:
+    """Decoded joints (N, T, 22, 3) as a body that can exist: bones of constant length, feet where they were."""
+    return keep_footing(constant_bones(motion), motion)

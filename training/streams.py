@@ -11,7 +11,7 @@ from torch import Tensor
 
 from training.config import FPS
 from training.frame import into_frame, out_of_frame
-from training.skeleton import LOWER, UPPER, constant_bones
+from training.skeleton import LOWER, UPPER, as_body
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
 STREAM_WIDTHS: tuple[int, int, int] = (UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH)
@@ -54,9 +54,9 @@ def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor
 
 
 def reactor_motion(streams: Sequence[Tensor], leader: Tensor, heading: Tensor) -> Tensor:
-    """What is danced: decoded streams (T, c) as a body of constant bones (T, 22, 3) in the world."""
+    """What is danced: decoded streams (T, c) as a body (T, 22, 3) in the world."""
     upper, lower, placement = streams
-    return constant_bones(from_streams(upper, lower, placement, leader, heading))
+    return as_body(from_streams(upper, lower, placement, leader, heading)[None])[0]
 
 
 def leader_features(leader: Tensor, heading: Tensor) -> Tensor:

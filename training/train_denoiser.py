@@ -15,7 +15,7 @@ import tyro
 from lightning_fabric import Fabric
 from torch import Tensor, nn
 
-from training.checkpoint import load_hfsq, save_denoiser, write_first_card
+from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
 from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
 from training.data.sources import read_split
 from training.denoiser.denoiser import Denoiser
@@ -26,7 +26,7 @@ from training.losses import motion_loss, noise_weights, simple_loss
 from training.metrics import mean_report, quick_report
 from training.music.pairing import MusicBank, build_music_bank, variants
 from training.sampler import Model, react
-from training.skeleton import body_height, constant_bones
+from training.skeleton import as_body, body_height
 from training.stage2_data import Augmentation, Batch, Windows, augmented_clips
 from training.streams import from_streams
 
@@ -37,6 +37,8 @@ class Options:
     """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
     out: Path
     """Folder with stage 1's checkpoint; stage 2's goes beside it."""
+    init: Path | None = None
+    """Start from the denoiser of this checkpoint; stage 1 must have the same latents (see train_hfsq)."""
     songs: Path | None = None
     """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
     music_cache: Path | None = None
@@ -146,7 +148,7 @@ class Stage2(nn.Module):
         upper, lower, placement = (s.float().flatten(0, 1) for s in decoded)
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
-        return constant_bones(joints.unflatten(0, (len(rows), -1)))
+        return as_body(joints.unflatten(0, (len(rows), -1)))
 
 
 def validate(
@@ -184,13 +186,15 @@ def main(options: Options) -> None:
     duets = read_split(options.data, options.val, options.test)
     wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
     bank = build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
-    clips = augmented_clips(
-        duets.train, bank, hfsq, frame, options.augmentation, options.denoiser.condition, options.seed
-    )
+    clips = augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, options.seed)
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
-    set_feature_statistics(denoiser, clips)
+    if options.init:
+        start_from(denoiser, options.init, "denoiser")
+    else:
+        set_feature_statistics(denoiser, clips)
+    denoiser.lowest, denoiser.highest = hfsq.latent_range()
     torch.manual_seed(options.seed + 1 + fabric.global_rank)
     windows = Windows(
         clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,

@@ -16,7 +16,7 @@ from lightning_fabric import Fabric
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
-from training.checkpoint import save_hfsq
+from training.checkpoint import save_hfsq, start_from
 from training.config import STRIDE, FrameConfig, HfsqConfig
 from training.data.augment import mirror, swap_roles, tempo_warp
 from training.data.duet import Duet
@@ -49,6 +49,10 @@ class Options:
     """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
     out: Path
     """Folder of this run: checkpoint, journal, curves."""
+    init: Path | None = None
+    """Start from the autoencoder of this checkpoint."""
+    keep_latents: bool = False
+    """Train the decoders alone, so that a denoiser of the `init` checkpoint goes on fitting."""
     solo: Path | None = None
     """npz archive of solo dances whose bodies join the training of the upper and lower streams."""
     solo_prefixes: tuple[str, ...] = ("indian", "modern")
@@ -222,10 +226,18 @@ def main(options: Options) -> None:
     clips = training_clips(options, duets)
     windows = Windows(clips, options.window, options.seed * 1000 + fabric.global_rank)
     autoencoder = Autoencoder(options.hfsq)
-    set_input_statistics(autoencoder, clips)
+    if options.init:
+        start_from(autoencoder, options.init, "hfsq")
+    else:
+        set_input_statistics(autoencoder, clips)
+    if options.keep_latents:
+        for stream in autoencoder.each:
+            stream.encoder.requires_grad_(False)
+            stream.quantiser.requires_grad_(False)
 
     stage = Stage1(autoencoder, options.hfsq)
-    optimizer = Lion(stage.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay)
+    trained = [p for p in stage.parameters() if p.requires_grad]
+    optimizer = Lion(trained, lr=options.learning_rate, weight_decay=options.weight_decay)
     average = Average(autoencoder, options.average)
     average.module.to(fabric.device)
     stage, optimizer = fabric.setup(stage, optimizer)
@@ -259,7 +271,8 @@ def main(options: Options) -> None:
 
     if fabric.is_global_zero:
         final = average.module.cpu()
-        set_latent_statistics(final, clips)
+        if not options.keep_latents:
+            set_latent_statistics(final, clips)
         report = evaluate(final, duets.val, options)
         if options.hfsq.quantiser == "hfsq":
             report |= {f"bins/{i}": share for i, share in enumerate(bins_used(final, clips))}

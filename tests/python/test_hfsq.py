@@ -7,9 +7,9 @@ import torch
 
 from training.config import HfsqConfig, MaskingConfig
 from training.hfsq.autoencoder import Autoencoder
-from training.hfsq.losses import kinematic, stage1_loss
+from training.hfsq.losses import energy_loss, kinematic, stage1_loss
 from training.hfsq.masking import progressive_masking, slow_motion
-from training.hfsq.quantisers import Hfsq, fsq
+from training.hfsq.quantisers import Hfsq, fsq, fsq_range
 from training.streams import STREAM_WIDTHS
 
 SMALL = HfsqConfig(groups=2, widths=(16, 16, 8), depth=2, refine_width=8)
@@ -29,6 +29,34 @@ def test_fsq_uses_exactly_the_bins_of_each_dimension(levels: tuple[int, ...]) ->
         assert torch.equal(values, values.round())
         assert values.diff().eq(1).all()
     assert z.abs().max() <= 1
+
+
+@pytest.mark.parametrize("levels", [(8, 5, 5, 5), (4, 3)])
+def test_the_range_is_what_extreme_features_give(levels: tuple[int, ...]) -> None:
+    low, high = fsq_range(torch.tensor(levels, dtype=torch.float32))
+    extreme = torch.full((len(levels),), 50.0)
+    assert torch.allclose(fsq(-extreme, torch.tensor(levels, dtype=torch.float32)), low)
+    assert torch.allclose(fsq(extreme, torch.tensor(levels, dtype=torch.float32)), high)
+
+
+def test_no_code_lies_outside_the_latent_range() -> None:
+    model = Autoencoder(HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8))
+    model.latent_mean.normal_()
+    model.latent_std.uniform_(0.5, 2)
+    latents = model.normalise(model.encode([100 * torch.randn(2, 64, c) for c in STREAM_WIDTHS]))
+    low, high = model.latent_range()
+    assert low.shape == high.shape == latents.shape[2:]
+    assert (latents >= low - 1e-5).all()
+    assert (latents <= high + 1e-5).all()
+    assert torch.isclose(latents.amin((0, 1)), low, atol=1e-5).any()
+
+
+def test_energy_loss_by_hand() -> None:
+    """A joint that moves half as far has half the speed and half the acceleration: twice log(1/2) squared."""
+    time = torch.arange(40.0)
+    path = torch.stack([torch.sin(time / 3), torch.cos(time / 3), 0 * time], dim=-1)[None, :, None]
+    assert energy_loss(path, path).item() == pytest.approx(0, abs=1e-9)
+    assert energy_loss(path, 0.5 * path).item() == pytest.approx(2 * 0.4805, rel=1e-2)
 
 
 def test_fsq_passes_the_gradient_of_its_bound_straight_through() -> None:

@@ -115,7 +115,16 @@ def test_guidance_is_equation_9(model: Model) -> None:
             channels = slice(stream * per_stream, (stream + 1) * per_stream)
             w = s[stream, layer]
             expected = (1 + w) * conditional[:, :, layer, channels] - w * unconditional[:, :, layer, channels]
+            expected = expected.clamp(d.lowest[layer, channels], d.highest[layer, channels])
             assert torch.allclose(guided[:, :, layer, channels], expected, atol=1e-5)
+
+
+def test_guidance_never_leaves_the_range_of_the_quantiser(model: Model) -> None:
+    low, high = model.hfsq.latent_range()
+    latents = run(model, 70, flat(3.0, 3.0))
+    assert (latents >= low - 1e-5).all()
+    assert (latents <= high + 1e-5).all()
+    assert ((latents - low).abs() < 1e-5).any(), "strong guidance would have gone further"
 
 
 def test_plain_blocks_do_not_know_each_other_and_alternating_ones_do(model: Model) -> None:

@@ -9,7 +9,7 @@ import torch
 from training.config import FrameConfig
 from training.data.made import made_duet
 from training.frame import arctangent, cosine_sine, into_frame, out_of_frame, smoothed_heading
-from training.skeleton import PARENTS, constant_bones
+from training.skeleton import PARENTS, TOES, as_body, constant_bones
 from training.streams import LEADER_FEATURES, STREAM_WIDTHS, from_streams, leader_features, to_streams
 
 FRAME = FrameConfig()
@@ -124,6 +124,26 @@ def test_bones_keep_their_length_and_direction() -> None:
     assert torch.allclose(cosine, torch.ones_like(cosine), atol=1e-4)
     assert torch.equal(made[:, 0], stretched[:, 0])
     assert torch.allclose(constant_bones(made), made, atol=1e-5)
+
+
+def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
+    """Feet that bones of their mean length would push through the floor stay where they were."""
+    _, reactor = pair(120)
+    shrunk = reactor.clone()
+    shrink = 0.1 * torch.exp(-(((torch.arange(120.0) - 60) / 20) ** 2))
+    shrunk[:, :, 1] = reactor[:, :, 1] * (1 - shrink)[:, None] + reactor[:, :1, 1] * shrink[:, None]
+
+    def lower(motion: torch.Tensor) -> torch.Tensor:
+        return motion[:, list(TOES), 1].amin(1)
+
+    sunk = (lower(constant_bones(shrunk)) - lower(shrunk)).abs()
+    kept = (lower(as_body(shrunk[None])[0]) - lower(shrunk)).abs()
+    assert sunk.max() > 0.02
+    assert kept.max() < 0.25 * sunk.max()
+    body = as_body(shrunk[None])[0]
+    moved = body - constant_bones(shrunk)
+    assert moved[..., [0, 2]].abs().max() == 0, "it only rises and sinks"
+    assert (moved[..., 1] - moved[:, :1, 1]).abs().max() < 1e-6, "as a whole"
 
 
 def test_own_trigonometry_is_exact_where_it_is_used() -> None:

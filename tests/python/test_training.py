@@ -107,6 +107,21 @@ def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> N
         load_hfsq(tmp_path / "nowhere")
 
 
+def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_path: Path) -> None:
+    """Decoders learn, latents stay: the denoiser of the first checkpoint goes on fitting and learns as well."""
+    train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True))
+    before, after = load_hfsq(trained)[0].state_dict(), load_hfsq(tmp_path)[0].state_dict()
+    changed = {name.split(".")[2] for name in before if not torch.equal(before[name], after[name])}
+    assert changed == {"decoder"}
+    train_denoiser.main(stage2(data, tmp_path, init=trained, learning_rate=0.0))
+    same, _ = load_denoiser(tmp_path, load_hfsq(tmp_path)[0])
+    first, _ = load_denoiser(trained, load_hfsq(trained)[0])
+    for (name, a), b in zip(first.state_dict().items(), same.state_dict().values(), strict=True):
+        assert torch.allclose(a, b, atol=2e-3), name
+    with pytest.raises(RuntimeError):
+        train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
+
+
 def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:
     hfsq, _ = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from training.skeleton import JOINTS
+from training.skeleton import TOES
 
 # Height of the toe joint (ball of the foot) of a planted foot: about half the thickness of a shoe there.
 TOE_REST = 0.03
 # Share of frames whose lower toe may lie below a planted one: noise and glitches, not the floor.
 TOE_PERCENTILE = 10.0
 
-_TOES = (JOINTS.index("left_foot"), JOINTS.index("right_foot"))
-
 
 def lower_toe(motion: np.ndarray) -> np.ndarray:
     """(T,) height of the lower of the two toe joints of (T, 22, 3)."""
-    return motion[:, _TOES, 1].min(axis=1)
+    return motion[:, list(TOES), 1].min(axis=1)
 
 
 def floor_height(motion: np.ndarray) -> float:

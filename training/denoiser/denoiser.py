@@ -79,11 +79,14 @@ class Denoiser(nn.Module):
     """Condition encoder plus one tower per residual layer: a deep coarse trunk, then fine heads on top of it.
 
     Coarse never sees fine: tower r reads the noisy latents of layers up to r and the hidden states of the tower below.
+    `lowest` and `highest` (R, C) are the ends of the quantiser's range, which sampling keeps to.
     """
 
     phase: Tensor
     causal: Tensor
     distance: Tensor
+    lowest: Tensor
+    highest: Tensor
 
     def __init__(self, latent_width: int, layers: int, config: DenoiserConfig) -> None:
         super().__init__()
@@ -98,6 +101,8 @@ class Denoiser(nn.Module):
             Tower(latent_width, r * latent_width + (config.width if r else 0), depth, config)
             for r, depth in enumerate(config.depths)
         )
+        self.register_buffer("lowest", torch.full((layers, latent_width), -torch.inf))
+        self.register_buffer("highest", torch.full((layers, latent_width), torch.inf))
         distance = distance_bias(config.block, config.slopes)
         self.register_buffer("phase", phase(config.block), persistent=False)
         self.register_buffer("causal", distance + causal_bias(config.block), persistent=False)

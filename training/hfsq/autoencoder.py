@@ -80,3 +80,9 @@ class Autoencoder(nn.Module):
 
     def denormalise(self, latents: Tensor) -> Tensor:
         return latents * self.latent_std + self.latent_mean
+
+    def latent_range(self) -> tuple[Tensor, Tensor]:
+        """Least and greatest normalised latent (R, C) that the quantiser can give."""
+        ends = zip(*(s.quantiser.range() for s in self.each), strict=True)
+        low, high = (self.normalise(torch.cat(end).to(self.latent_mean)) for end in ends)
+        return low, high

@@ -22,6 +22,19 @@ def kinematic(truth: Tensor, predicted: Tensor, weights: tuple[float, float, flo
     return total
 
 
+def energy_loss(truth: Tensor, predicted: Tensor) -> Tensor:
+    """(N,) squared logarithm of predicted over true mean speed and acceleration, mean over joints.
+
+    L1 terms are content with a motion that moves too little; a dance is not. motions: (N, T, 22, 3) metres.
+    """
+    total = truth.new_zeros(len(truth))
+    for _ in range(2):
+        truth, predicted = truth.diff(dim=1), predicted.diff(dim=1)
+        true_pace, pace = ((m.square().sum(-1) + 1e-8).sqrt().mean(1) for m in (truth, predicted))
+        total = total + (pace / true_pace).log().square().mean(-1)
+    return total
+
+
 def stage1_loss(
     model: Autoencoder, motions: Sequence[Tensor], slow: Sequence[Tensor], config: HfsqConfig
 ) -> tuple[Tensor, dict[str, Tensor]]:
@@ -47,8 +60,12 @@ def stage1_loss(
             masked, hidden = progressive_masking(codes, config.masking)
             combined = stream.quantiser.combine(masked)
             target = torch.where(hidden[:, None, None], low, motion)
-        kin = kinematic(target, stream.decode(combined), weights)
-        total = total + kin + config.weight_latent * latent + stream.quantiser.penalty()
+        decoded = stream.decode(combined)
+        kin = kinematic(target, decoded, weights)
+        energy = energy_loss(*(m.float().unflatten(-1, (-1, 3)) for m in (target, decoded))).mean()
+        total = total + kin + config.weight_energy * energy
+        total = total + config.weight_latent * latent + stream.quantiser.penalty()
         parts[f"kinematic/{name}"] = kin.detach()
+        parts[f"energy/{name}"] = energy.detach()
         parts[f"latent/{name}"] = latent.detach()
     return total, parts

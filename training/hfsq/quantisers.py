@@ -21,6 +21,12 @@ def fsq(e: Tensor, levels: Tensor) -> Tensor:
     return rounded / (levels / 2).floor()
 
 
+def fsq_range(levels: Tensor) -> tuple[Tensor, Tensor]:
+    """Least and greatest value that `fsq` can give in each of the (d,) dimensions."""
+    half = (levels / 2).floor()
+    return -torch.ones_like(half), torch.where(levels % 2 == 0, half - 1, half) / half
+
+
 class Hfsq(nn.Module):
     """Grouped residual FSQ (Eq. 1): each of G groups is quantised over R layers.
 
@@ -67,8 +73,17 @@ class Hfsq(nn.Module):
             total = total + self.scales[r] * torch.einsum("nlgd,gdw->nlgw", z[:, :, r], self.up[r])
         return total.flatten(-2)
 
+    def range(self) -> tuple[Tensor, Tensor]:
+        """Least and greatest code (latent_width,)."""
+        low, high = fsq_range(self.levels)
+        return low.repeat(self.groups), high.repeat(self.groups)
+
     def penalty(self) -> Tensor | float:
         return 0.0
+
+
+def _unlimited(width: int) -> tuple[Tensor, Tensor]:
+    return torch.full((width,), -torch.inf), torch.full((width,), torch.inf)
 
 
 class ResidualVectorQuantiser(nn.Module):
@@ -99,6 +114,9 @@ class ResidualVectorQuantiser(nn.Module):
     def combine(self, codes: Tensor) -> Tensor:
         return codes.sum(2)
 
+    def range(self) -> tuple[Tensor, Tensor]:
+        return _unlimited(self.latent_width)
+
     def penalty(self) -> Tensor | float:
         return self._commitment
 
@@ -125,6 +143,9 @@ class KlBottleneck(nn.Module):
 
     def combine(self, codes: Tensor) -> Tensor:
         return codes[:, :, 0]
+
+    def range(self) -> tuple[Tensor, Tensor]:
+        return _unlimited(self.latent_width)
 
     def penalty(self) -> Tensor | float:
         return self.weight * self._kl

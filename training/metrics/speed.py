@@ -26,13 +26,15 @@ def band_power(
 ) -> np.ndarray:
     """Mean power of the joint velocities in each band, (len(bands),) in (m/s)^2.
 
-    Whole-clip periodogram of the velocities with their mean kept in the lowest band, averaged over joints
-    and summed over x, y, z and the frequencies of [low, high); the last band includes the Nyquist
-    frequency. Summed over all bands it is the mean squared speed (Parseval).
+    Whole-clip periodogram of the velocities under a Hann window, averaged over joints and summed over x, y,
+    z and the frequencies of [low, high); the last band includes the Nyquist frequency. Without the window a
+    clip that ends faster than it began would leak its slow motion into the quick bands. Summed over all
+    bands it is the mean squared speed, as the window weighs it.
     """
     velocity = np.diff(motion, axis=0) * fps
     frames = len(velocity)
-    spectrum = np.abs(np.fft.rfft(velocity, axis=0)) ** 2 / frames**2
+    window = np.hanning(frames + 2)[1:-1, None, None]
+    spectrum = np.abs(np.fft.rfft(velocity * window, axis=0)) ** 2 / (frames * (window**2).sum())
     frequency = np.fft.rfftfreq(frames, 1 / fps)
     twice = np.where((frequency > 0) & (frequency < fps / 2), 2.0, 1.0)  # the negative frequencies
     power = twice * spectrum.sum(axis=2).mean(axis=1)
