@@ -34,7 +34,7 @@ class MaskingConfig:
 
 @dataclass(frozen=True)
 class HfsqConfig:
-    quantiser: Literal["hfsq", "rvq", "kl"] = "hfsq"
+    quantiser: Literal["hfsq", "rvq", "kl", "none"] = "hfsq"
     groups: int = 8
     layers: int = 2
     levels: tuple[int, ...] = (8, 5, 5, 5)  # 2^10 codes per group

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 import torch
 
-from training import train_denoiser, train_hfsq
-from training.checkpoint import load_denoiser, load_hfsq
+from training import plain, train_denoiser, train_hfsq
+from training.checkpoint import load_denoiser, load_hfsq, load_model
 from training.config import (
     ConditionConfig,
     DenoiserConfig,
@@ -120,6 +120,20 @@ def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_
         assert torch.allclose(a, b, atol=2e-3), name
     with pytest.raises(RuntimeError):
         train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
+
+
+def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) -> None:
+    plain.main(plain.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",)))
+    hfsq, frame = load_hfsq(tmp_path)
+    duet = made_duet(200, 1)
+    made = train_hfsq.reconstruct(hfsq, duet, frame)
+    assert np.abs(made - duet.reactor).max() < 2e-3, "bones of the made dancers are constant but for rounding"
+    one_layer = replace(DENOISER, depths=(1,))
+    loss = DenoiserLossConfig(layers=(1.0,), windows=2)
+    train_denoiser.main(
+        stage2(data, tmp_path, denoiser=one_layer, loss=loss, diffusion=DiffusionConfig(steps=2))
+    )
+    assert load_model(tmp_path).denoiser.layers == 1
 
 
 def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:

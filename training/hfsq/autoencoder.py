@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from training.config import HfsqConfig
-from training.hfsq.convolutions import Decoder, Encoder
+from training.hfsq.convolutions import Decoder, Encoder, Patch, Unpatch
 from training.hfsq.quantisers import make_quantiser
 from training.streams import STREAM_WIDTHS
 
@@ -23,8 +23,12 @@ class Stream(nn.Module):
     def __init__(self, channels: int, width: int, config: HfsqConfig) -> None:
         super().__init__()
         self.quantiser = make_quantiser(config)
-        self.encoder = Encoder(channels, width, config.depth, self.quantiser.width)
-        self.decoder = Decoder(channels, width, config.depth, self.quantiser.width, config.refine_width)
+        latent = self.quantiser.width
+        if config.quantiser == "none":
+            self.encoder, self.decoder = Patch(latent), Unpatch(channels)
+        else:
+            self.encoder = Encoder(channels, width, config.depth, latent)
+            self.decoder = Decoder(channels, width, config.depth, latent, config.refine_width)
         self.register_buffer("mean", torch.zeros(channels))
         self.register_buffer("std", torch.ones(()))
 

@@ -41,6 +41,29 @@ class Encoder(nn.Module):
         return self.layers(x)
 
 
+class Patch(nn.Module):
+    """(N, c, T) to (N, latent, T / 4): four frames side by side, the rest of the channels zero. Nothing is learned."""
+
+    def __init__(self, latent: int) -> None:
+        super().__init__()
+        self.latent = latent
+
+    def forward(self, x: Tensor) -> Tensor:
+        patches = x.unflatten(2, (-1, STRIDE)).transpose(2, 3).flatten(1, 2)
+        return F.pad(patches, (0, 0, 0, self.latent - patches.shape[1]))
+
+
+class Unpatch(nn.Module):
+    """Inverse of `Patch`."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.channels = channels
+
+    def forward(self, x: Tensor) -> Tensor:
+        return x[:, : STRIDE * self.channels].unflatten(1, (self.channels, STRIDE)).transpose(2, 3).flatten(2)
+
+
 class Decoder(nn.Module):
     """(N, latent, L) to (N, c, 4 L). Works at the latent rate, then refines at the frame rate in a narrow width."""
 

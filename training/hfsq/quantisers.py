@@ -1,4 +1,4 @@
-"""From encoder features to hierarchical latents and back: HFSQ, and the two alternatives of the paper's Table 2."""
+"""From encoder features to hierarchical latents and back: HFSQ, the two others of the paper's Table 2, and none."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import torch
 from torch import Tensor, nn
 from vector_quantize_pytorch import ResidualVQ
 
-from training.config import HfsqConfig
+from training.config import STRIDE, HfsqConfig
+from training.streams import STREAM_WIDTHS
 
 
 def fsq(e: Tensor, levels: Tensor) -> Tensor:
@@ -151,9 +152,32 @@ class KlBottleneck(nn.Module):
         return self.weight * self._kl
 
 
-Quantiser = Hfsq | ResidualVectorQuantiser | KlBottleneck
+class Unquantised(nn.Module):
+    """Features as they are, in one layer: for the plain model that diffusion in latents is measured against."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.layers = 1
+        self.width = self.latent_width = width
+
+    def forward(self, v: Tensor) -> Tensor:
+        return v[:, :, None]
+
+    def combine(self, codes: Tensor) -> Tensor:
+        return codes[:, :, 0]
+
+    def range(self) -> tuple[Tensor, Tensor]:
+        return _unlimited(self.latent_width)
+
+    def penalty(self) -> Tensor | float:
+        return 0.0
+
+
+Quantiser = Hfsq | ResidualVectorQuantiser | KlBottleneck | Unquantised
 
 
 def make_quantiser(config: HfsqConfig) -> Quantiser:
+    if config.quantiser == "none":
+        return Unquantised(STRIDE * max(STREAM_WIDTHS))
     kinds = {"hfsq": Hfsq, "rvq": ResidualVectorQuantiser, "kl": KlBottleneck}
     return kinds[config.quantiser](config)
