@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -30,7 +31,7 @@ from training.data.sources import read_split
 from training.data.splits import Split
 from training.diffusion import alphas_cumprod, ddim_steps
 from training.elsewhere import read_leaders
-from training.evaluate import evaluate
+from training.evaluate import evaluate, generate
 from training.music.pairing import Variant, build_music_bank
 from training.noise import noise
 from training.report import write_report
@@ -70,8 +71,10 @@ class Options:
     """Spectra and filmstrips."""
     videos: bool = True
     """True and generated couple of every trial side by side, WebM."""
+    plain: Path | None = None
+    """Checkpoint of a plain model (see training/plain.py), for a row beside the others."""
     solve: bool = False
-    """Measure the solved skeleton too, by the page's own solver under Node."""
+    """Measure the solved skeleton too, without and with foot lock, by the page's own code under Node."""
     settings: Settings = field(default_factory=Settings)
 
 
@@ -165,17 +168,26 @@ def commit() -> str | None:
     return out.stdout.strip()
 
 
-def solve_with_node(motion: np.ndarray) -> np.ndarray:
+def solve_with_node(motion: np.ndarray, *flags: str) -> np.ndarray:
     """The motion (T, 22, 3) on the skeleton that the page draws and exports: web/motion under Node, files
-    in between.
+    in between. flags: of tools/solve.mjs.
     """
     with tempfile.TemporaryDirectory() as folder:
         raw, solved = Path(folder) / "raw.f32", Path(folder) / "solved.f32"
         raw.write_bytes(np.ascontiguousarray(motion, dtype="<f4").tobytes())
         subprocess.run(
-            ["node", "tools/solve.mjs", str(raw), str(solved)], cwd=ROOT, check=True, capture_output=True
+            ["node", "tools/solve.mjs", *flags, str(raw), str(solved)],
+            cwd=ROOT,
+            check=True,
+            capture_output=True,
         )
         return np.frombuffer(solved.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
+
+
+SOLVERS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "solved": solve_with_node,
+    "solved, foot lock": lambda motion: solve_with_node(motion, "--foot-lock"),
+}
 
 
 def paired_trials(options: Options, duets: Split) -> list[Trial]:
@@ -225,6 +237,10 @@ def main(options: Options) -> None:
         facts |= {"model": options.checkpoint.name, "runtime": "pytorch"}
         sampled, guided = checkpoint.diffusion.steps, checkpoint.diffusion.guidance
         name = options.checkpoint.name
+    if options.plain is not None:
+        height = read_config(options.plain, "card")["reference_height"]
+        plain = torch_dancer(load_model(options.plain), height, None, None)
+        given["plain model"] = generate(plain, trials, options.settings.seeds)[0]
     spacing = Settings.seam_spacing // 2 if alternating else Settings.seam_spacing
     settings = replace(options.settings, seam_spacing=spacing)
     facts |= {
@@ -237,7 +253,7 @@ def main(options: Options) -> None:
         duets.train,
         settings,
         given,
-        solve_with_node if options.solve else None,
+        SOLVERS if options.solve else None,
         read_leaders(options.elsewhere),
         console.print,
     )

@@ -17,6 +17,7 @@ from training.baselines import mean_pose, median_distance, mirrored_leader, near
 from training.dancer import Dancer, Motions, Settings, Trial
 from training.data.duet import Duet, Solo
 from training.elsewhere import Elsewhere, measure_elsewhere
+from training.long_dance import measure_long_dance
 from training.metrics.duet import CLIP, HOP, clip_count, duet_metrics, set_metrics
 from training.metrics.modes import MODES
 from training.metrics.twosample import truth_against_truth, two_sample_accuracy
@@ -148,15 +149,15 @@ def evaluate(
     train: Sequence[Duet],
     settings: Settings | None = None,
     given: Mapping[str, Motions] | None = None,
-    solve: Callable[[np.ndarray], np.ndarray] | None = None,
+    solvers: Mapping[str, Callable[[np.ndarray], np.ndarray]] | None = None,
     elsewhere: Sequence[Solo] = (),
     log: Log = lambda _: None,
 ) -> Evaluation:
     """Everything in one run.
 
-    given: further rows whose motions exist already, such as reconstructions. solve: puts a motion (T, 22,
-    3) on a skeleton of constant bone lengths, for a row `solved` of what is drawn and exported. elsewhere:
-    leaders of other dances, without a partner.
+    given: further rows whose motions exist already, such as reconstructions. solvers: each puts a motion
+    (T, 22, 3) on a skeleton of constant bone lengths, for a row of its name: what is drawn and exported.
+    elsewhere: leaders of other dances, without a partner.
     """
     settings = settings or Settings()
     if not trials:
@@ -165,9 +166,9 @@ def evaluate(
     generated, seconds = generate(dancer, trials, settings.seeds)
     rows: dict[str, Motions] = {"truth": {t.duet.name: [t.duet.reactor] for t in trials}}
     rows |= dict(given or {}) | {"generated": generated}
-    if solve is not None:
-        log("solving")
-        rows["solved"] = {name: [solve(motion) for motion in motions] for name, motions in generated.items()}
+    for row, solve in (solvers or {}).items():
+        log(row)
+        rows[row] = {name: [solve(motion) for motion in motions] for name, motions in generated.items()}
     log("baselines")
     rows |= baselines(trials, train)
     numbers: dict[str, Any] = {
@@ -197,6 +198,8 @@ def evaluate(
         log("guidance")
         numbers["guidance"] = measure_guidance(dancer, trials, settings)
         numbers["separability"] = separability(numbers["guidance"])
+    log("a long dance")
+    numbers["long_dance"] = measure_long_dance(dancer, trials, settings.seeds)
     log("role swap")
     numbers["role_swap"], swapped = measure_role_swap(dancer, trials, train, settings.seeds)
     strangers: list[Elsewhere] = []

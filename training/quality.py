@@ -121,6 +121,12 @@ def _quality_of(row: str, prefix: str) -> tuple[Rule, ...]:
     )
 
 
+def _repeated(numbers: Numbers) -> float | None:
+    """Share of windows that come again in a long dance, over the truth's, in points."""
+    dance = numbers.get("long_dance")
+    return dance and _points_above(dance["generated"]["repeat_share"], dance["truth"]["repeat_share"])
+
+
 def _size(read: Callable[[Numbers], float | None]) -> Callable[[Numbers], float | None]:
     """How far, in either direction."""
 
@@ -137,6 +143,13 @@ QUALITY: tuple[Rule, ...] = (
     *_quality_of("generated", ""),
     ("variation of raw bones", of_row("generated", "bone_variation"), -inf, 0.02),
     *_quality_of("solved", "solved: "),
+    (
+        "foot lock: skating over without",
+        _beside("solved, foot lock", "skate_share", "solved", _ratio),
+        -inf,
+        0.5,
+    ),
+    ("two minutes: repeated windows above the truth's, points", _repeated, -inf, 5),
     ("seams over the truth's", of_probe("seams", "ratio"), 0.9, 1.15),
     ("another song's change over another leader's", of_probe("responses", "song_over_leader"), 0.1, inf),
     *(

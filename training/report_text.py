@@ -148,6 +148,15 @@ def markdown(numbers: dict[str, Any], title: str, pictures: list[Path], videos: 
             "spectrum is under 1.5 Hz for coarse and over 3 Hz for fine.",
             markdown_table(["measure", "value"], table),
         ]
+    if "long_dance" in numbers:
+        dance = numbers["long_dance"]
+        table = [[name, *(number(v) for v in dance[name].values())] for name in ("truth", "generated")]
+        parts += [
+            "## Two minutes",
+            f"The trials and their mirror images as one leader, {dance['length']['frames']:.0f} frames: share of 2 s "
+            "windows with a near-duplicate at least 4 s away, and the median distance to the nearest.",
+            markdown_table(["", *dance["truth"]], table),
+        ]
     if "role_swap" in numbers:
         parts += [
             "## Role swap",
