@@ -8,19 +8,22 @@ const towards = (folders, message) => ({ regex: `^(\\.\\./)+(${folders})(/|\\.ts
 const everywhere = towards('main|tests|tools', 'main.ts, tests and tools know the app, never the reverse');
 
 /**
- * One direction of imports: ui sees the two clients and motion, view and model see motion, audio and motion see
- * nobody, and only main.ts knows everyone.
+ * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
+ * motion, audio, motion and offline see nobody, and only main.ts knows everyone.
  */
 const directions = {
-  motion: [towards('audio|model|view|ui', 'motion imports nothing of ours')],
-  audio: [towards('motion|model|view|ui', 'audio imports nothing of ours')],
-  model: [towards('audio|view|ui', 'model imports motion only')],
-  view: [towards('audio|model|ui', 'view imports motion only')],
+  offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],
+  motion: [towards('audio|model|quality|view|export|ui', 'motion imports nothing of ours')],
+  audio: [towards('motion|model|quality|view|export|ui', 'audio imports nothing of ours')],
+  model: [towards('audio|quality|view|export|ui', 'model imports motion only')],
+  quality: [towards('audio|model|view|export|ui', 'quality imports motion only')],
+  view: [towards('audio|model|quality|export|ui', 'view imports motion only')],
+  export: [towards('audio|model|quality|ui', 'export imports motion and view only')],
   ui: [
     towards('view', 'main.ts hands the stage to ui'),
     {
-      regex: '^(\\.\\./)+(audio|model)(?!/client(\\.ts)?$)(/|$)',
-      message: 'ui sees the clients of audio and model only',
+      regex: '^(\\.\\./)+(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)',
+      message: 'ui sees the clients of audio, model, quality and export only',
     },
   ],
 };

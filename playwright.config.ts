@@ -11,12 +11,16 @@ export default defineConfig({
   forbidOnly: process.env['CI'] !== undefined,
   // Drawing and computing are both done by the processor, which has two cores at the least.
   workers: 1,
+  // Shared machines stall now and then. What passes only the second time is listed as flaky.
+  retries: 1,
   timeout: 180_000,
   expect: { timeout: 15_000 },
   reporter: 'list',
   use: {
     viewport: { width: 1280, height: 800 },
     screenshot: 'only-on-failure',
+    // A page that a service worker serves is no longer the one that a test has routed; offline.spec.ts allows it.
+    serviceWorkers: 'block',
     launchOptions: {
       executablePath: browser,
       args: [

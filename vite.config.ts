@@ -1,5 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { listedFile } from './tools/listed-file.mjs';
+import { offlineShell } from './tools/offline-shell.mjs';
 import { precompress } from './tools/precompress.mjs';
 import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
 
@@ -28,10 +30,10 @@ const brotli: Plugin = {
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [policyInPage, brotli],
+  plugins: [listedFile(), policyInPage, offlineShell(dist), brotli],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
-  worker: { format: 'es' },
+  worker: { format: 'es', plugins: () => [listedFile()] },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {

@@ -9,6 +9,7 @@ from typing import Any
 from training.config import FPS, STREAMS, STRIDE
 from training.data.floor import TOE_PERCENTILE, TOE_REST
 from training.diffusion import alphas_cumprod
+from training.metrics import beats, contact, penetration, seams
 from training.music.recipe import AudioRecipe
 from training.sampler import Model
 from training.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
@@ -38,6 +39,28 @@ def layer_names(layers: int) -> list[str]:
 def condition_field(model: Model) -> int:
     """Latent frames on each side of a chunk that its memory depends on: smoothing, velocity, convolutions."""
     return -(-(model.frame.radius + 1) // STRIDE) + model.denoiser.condition.receptive_field
+
+
+def quality_rules() -> dict[str, Any]:
+    """Constants of the measures that the page takes too, so that its numbers are those of training.metrics."""
+    return {
+        "contact": {
+            "percentile": contact.PERCENTILE,
+            "height": contact.HEIGHT,
+            "vertical_speed": contact.VERTICAL_SPEED,
+            "slide_speed": contact.SLIDE_SPEED,
+        },
+        "penetration": {
+            "capsules": [
+                {"from": first, "to": last, "radius": radius, "beyond": beyond}
+                for first, last, radius, beyond in penetration.CAPSULES
+            ],
+            "reference_height": penetration.REFERENCE_HEIGHT,
+            "deep": penetration.DEEP,
+        },
+        "beats": {"smoothing": beats.SMOOTHING, "tolerance": beats.TOLERANCE},
+        "seams": {"radius": seams.RADIUS, "clear": seams.CLEAR, "paper_radius": seams.PAPER_RADIUS},
+    }
 
 
 def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golden: str) -> dict[str, Any]:
@@ -88,6 +111,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
         },
         "noise": {"algorithm": "philox4x32-10"},
         "audio": AudioRecipe().to_dict(),
+        "quality": quality_rules(),
         "graphs": entries,
         "golden": {"path": golden},
     }

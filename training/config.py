@@ -63,7 +63,10 @@ class ConditionConfig:
     drop_all: float = 0.1
     drop_leader: float = 0.1
     drop_music: float = 0.1
-    hidden: float = 0.1  # of the leader's and of the music's features, for a whole window in training
+    # Without these the model learns the training dances by heart (training/LOG.md).
+    leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
+    leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
+    blurred: float = 0.25  # share of windows with a blurred leader
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,7 @@ LOWER: tuple[int, ...] = (1, 2, 4, 5, 7, 8, 10, 11)
 UPPER: tuple[int, ...] = tuple(j for j in range(1, 22) if j not in LOWER)
 FEET: tuple[int, ...] = (7, 8, 10, 11)
 TOES: tuple[int, int] = (10, 11)
+LOWEST_TOE = 0.02  # metres above the floor; a planted toe rests at about 0.03 (training/data/floor.py)
 GIVING_WAY = 2  # frames, sigma of the pelvis following the feet
 
 # Index of the joint on the other side of the body; joints of the middle map to themselves.
@@ -93,14 +94,15 @@ def constant_bones(motion: Tensor) -> Tensor:
 
 
 def keep_footing(motion: Tensor, before: Tensor) -> Tensor:
-    """`motion` raised or lowered until its lower toe is as high as it was `before`; both (N, T, 22, 3) metres.
+    """`motion` raised or lowered until its lower toe is as high as it was `before`, and not below a toe that
+    rests on the floor; both (N, T, 22, 3) metres, the floor at y = 0.
 
     Legs that have been given their length push the feet through the floor. The pelvis gives way, smoothly:
     a lower toe that changes from one foot to the other must not jolt the body.
     """
     toes = torch.tensor(TOES, device=motion.device)
     lower, was = (m.index_select(-2, toes)[..., 1].amin(-1) for m in (motion, before))
-    rise = gaussian_mean(was - lower, GIVING_WAY, 3 * GIVING_WAY)
+    rise = gaussian_mean(was.clamp_min(LOWEST_TOE) - lower, GIVING_WAY, 3 * GIVING_WAY)
     return motion + torch.stack([torch.zeros_like(rise), rise, torch.zeros_like(rise)], dim=-1)[..., None, :]
 
 

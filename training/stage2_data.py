@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
 from training.config import STRIDE, ConditionConfig, FrameConfig
@@ -35,6 +36,7 @@ class Clip:
 
     latents: Tensor  # (L, R, C) normalised
     features: Tensor  # (T, 68) of the leader
+    blurred: Tensor  # (T, 68) the same without its beat
     music: list[Tensor]  # several pieces (T, 54)
     leader: Tensor  # (T, 22, 3)
     reactor: Tensor  # (T, 22, 3)
@@ -69,6 +71,7 @@ def make_clip(
     role: float,
     hfsq: Autoencoder,
     frame: FrameConfig,
+    blur: float,
     yaw: float = 0.0,
 ) -> Clip:
     """Encode a duet; its length is cut to a multiple of 4. yaw: radians that the frame is turned by."""
@@ -77,9 +80,11 @@ def make_clip(
     reactor = torch.from_numpy(duet.reactor[:frames])
     heading = turned(smoothed_heading(leader, frame), yaw)
     latents = hfsq.encode([s[None] for s in to_streams(leader, reactor, heading)])
+    features = leader_features(leader, heading)
     return Clip(
         latents=hfsq.normalise(latents)[0],
-        features=leader_features(leader, heading),
+        features=features,
+        blurred=torch.from_numpy(gaussian_filter1d(features.numpy(), blur, axis=0, mode="nearest")),
         music=[torch.from_numpy(m[:frames]).float() for m in music],
         leader=leader,
         reactor=reactor,
@@ -101,6 +106,7 @@ def augmented_clips(
     hfsq: Autoencoder,
     frame: FrameConfig,
     options: Augmentation,
+    config: ConditionConfig,
     seed: int,
 ) -> list[Clip]:
     """Every duet at every tempo, mirrored or not, in both roles; the music of a tempo is shared by all of
@@ -123,7 +129,7 @@ def augmented_clips(
                         made = Duet(made.name, made.leader[cut:], made.reactor[cut:])
                         cut_music = [m[cut:] for m in music]
                         yaw = np.radians(random.uniform(-options.yaw, options.yaw))
-                        clips.append(make_clip(made, cut_music, role, hfsq, frame, yaw))
+                        clips.append(make_clip(made, cut_music, role, hfsq, frame, config.leader_blur, yaw))
     return clips
 
 
@@ -172,6 +178,9 @@ class Windows:
         rows = torch.arange(low, high)
         inside = ((rows >= first) & (rows < last)).float()
         by_frame = inside.repeat_interleave(STRIDE)
+        shift = int(self.random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
+        shift *= int(self.random.integers(2))
+        features = clip.blurred if self.random.random() < self.config.blurred else clip.features
         music = clip.music[int(self.random.integers(len(clip.music)))]
         heard = by_frame.clone()
         if self.random.random() < self.config.drop_music:
@@ -184,7 +193,7 @@ class Windows:
         return (
             slice_padded(clip.latents, start, start + block) * valid[:, None, None],
             valid,
-            slice_padded(clip.features, STRIDE * low, STRIDE * high),
+            slice_padded(features, STRIDE * low + shift, STRIDE * high + shift),
             slice_padded(music, STRIDE * low, STRIDE * high),
             heard,
             inside,

@@ -186,7 +186,9 @@ def main(options: Options) -> None:
     duets = read_split(options.data, options.val, options.test)
     wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
     bank = build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
-    clips = augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, options.seed)
+    clips = augmented_clips(
+        duets.train, bank, hfsq, frame, options.augmentation, options.denoiser.condition, options.seed
+    )
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)

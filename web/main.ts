@@ -1,37 +1,54 @@
 import { createPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
-import { writeBvh } from './motion/bvh-write';
+import { clearKept, measureKept } from './offline/kept';
+import { keepPage } from './offline/register';
+import { measureDance } from './quality/client';
 import { mountBar } from './ui/bar';
+import { createChoices } from './ui/choices';
 import { createChooser } from './ui/chooser';
+import { createCoarseLayer } from './ui/coarse-layer';
 import { loadDemo } from './ui/demo';
+import { together } from './ui/dom';
+import { type Camera, createDownloads } from './ui/downloads';
 import { mountDropTarget } from './ui/drop-target';
-import { type DroppedFile, modelAmong } from './ui/dropped';
 import { createFiles } from './ui/files';
 import { mountFirstVisit } from './ui/first-visit';
 import { mountFootLock } from './ui/foot-lock';
 import { createGeneration } from './ui/generation';
 import { mountGuidance } from './ui/guidance';
+import { createKeeping } from './ui/keep/keeping';
+import { openStorage } from './ui/keep/storage';
 import { mountKeyboard } from './ui/keyboard';
 import { mountKeysDialog } from './ui/keys-dialog';
 import { readLeader } from './ui/leader-reader';
 import { createModelLink } from './ui/model-link';
+import { mountNewVersion } from './ui/new-version';
+import { openDropped } from './ui/open-dropped';
 import { mountOptions } from './ui/options';
 import { readParameters } from './ui/parameters';
 import { createPlayback } from './ui/playback';
+import { keepPreferences } from './ui/preferences';
 import { mountProblemDialog } from './ui/problem-dialog';
 import { stageProblem } from './ui/problems';
 import { mountProgress } from './ui/progress';
-import { reactorMotion } from './ui/reactor-motion';
-import { saveText } from './ui/save';
-import { reactorFileName } from './ui/selectors';
+import { couple, madeRole } from './ui/couple';
+import { createQuality } from './ui/quality';
+import { readReference } from './ui/quality-reference';
+import { coarseMotion } from './ui/reactor-motion';
+import { saveFile } from './ui/save';
 import type { Services } from './ui/services';
+import { isProject } from './ui/sniff';
 import { mountStageControls } from './ui/stage-controls';
-import { apply, createAppStore, opened, told, themeSet, watch } from './ui/store';
-import { firstTheme, followSystemTheme, showTheme } from './ui/theme';
+import { apply, createAppStore, referenceKnown, told, updateSet, watch, watchAll } from './ui/store';
+import { mountCompareSwitch } from './ui/takes/compare-switch';
+import { showOther } from './ui/takes/other-dancer';
+import { mountUndoKeys } from './ui/takes/undo-keys';
+import { mountTakes } from './ui/takes/takes-panel';
+import { showTheme, systemTheme, watchSystemTheme } from './ui/theme';
 import { mountTimeline } from './ui/timeline';
 import { mountTransport } from './ui/transport';
 import { mountUnderstood } from './ui/understood';
-import { createStage, type Stage } from './view/stage';
+import { createStage, type PictureSize, type Stage } from './view/stage';
 
 /** The places that index.html leaves for the panels. */
 function place(id: string): HTMLElement {
@@ -42,14 +59,20 @@ function place(id: string): HTMLElement {
 
 // ---- state and the four machines: model, files, generation, playback ----
 
-const store = createAppStore(firstTheme());
+const store = createAppStore(systemTheme());
+keepPreferences(store, () => localStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
 const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
 );
-const files = createFiles(store, { loadSong, readLeader, manifest: model.manifest });
+const readers = { loadSong, readLeader, manifest: model.manifest };
+const files = createFiles(store, readers);
+const keeping = createKeeping(store, files, readers, openStorage());
 const generation = createGeneration(store, model.generator);
+const choices = createChoices(store, model.generator, generation.generate);
+createCoarseLayer(store, model.generator);
 const playback = createPlayback(store, createPlayer());
+createQuality(store, measureDance);
 
 // ---- the stage, which the rest can do without ----
 
@@ -72,57 +95,81 @@ const stage = openStage();
 
 // ---- the theme, before panels draw with its colours ----
 
-let themeWasChosen = false;
 watch(
   store,
   (state) => state.theme,
   (theme) => {
-    showTheme(theme, themeWasChosen);
-    stage?.setTheme(theme);
-    themeWasChosen = true;
+    showTheme(theme);
   },
 );
-followSystemTheme((theme) => {
-  themeWasChosen = false;
-  apply(store, themeSet(theme));
-});
+
+// ---- the page on this device, for the next visit ----
+
+const offline = import.meta.env.PROD
+  ? keepPage(new URL('service-worker.js', document.baseURI), () => {
+      apply(store, updateSet(true));
+    })
+  : null;
 
 // ---- what panels may ask for ----
 
-const choose = createChooser(document.body, (chosen) => void files.open(chosen));
+const choose = createChooser(document.body, (chosen) => void openFiles(chosen));
 const services: Services = {
-  openDropped: (coming) => void openDropped(coming),
+  openDropped: (coming) => void openDropped(coming, store, { open: openFiles }, model, generation.generate),
   choose,
   rereadLeader: (fps) => void files.rereadLeader(fps),
   playDemo: playback.playFromStart,
   generate: generation.generate,
-  cancel: generation.cancel,
+  cancel: () => {
+    generation.cancel();
+    choices.cancel();
+  },
+  makeChoices: choices.make,
+  pickChoice: choices.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
   frameBoth: () => stage?.frameBoth(),
-  saveReactor: () => {
-    const { reaction } = store.getState();
-    const motion = reactorMotion(store.getState());
-    if (!reaction || !motion) return;
-    saveText(writeBvh(motion), reactorFileName(reaction.inputs));
-    apply(store, opened(null));
+  ...createDownloads(store, {
+    camera: stage && ((size) => openCamera(stage, size)),
+    stageSize: () => stage?.pictureSize() ?? null,
+    save: saveFile,
+  }),
+  saveProject: () => void saveProject(),
+  startAfresh: () => {
+    generation.cancel();
+    keeping.startAfresh();
+    void showDemo();
   },
+  measureKept: () => measureKept(globalThis),
+  clearKept: () =>
+    clearKept(globalThis).then(
+      () => true,
+      () => false,
+    ),
+  takeUpdate: () => offline?.takeUpdate(),
 };
 
-async function openDropped(coming: Promise<readonly DroppedFile[]>): Promise<void> {
-  const dropped = await coming;
-  const folder = modelAmong(dropped);
-  if (!folder) await files.open(dropped.map(({ file }) => file));
-  else if (await model.open(folder)) generation.generate();
+async function saveProject(): Promise<void> {
+  const project = await keeping.project();
+  if (project) saveFile(new Blob([project.bytes], { type: 'application/zip' }), project.name);
+}
+
+/** A project holds song and leader of its own, so nothing that comes along with it is read. */
+async function openFiles(chosen: readonly File[]): Promise<void> {
+  const project = chosen.find(({ name }) => isProject(name));
+  if (project) await keeping.openProject(project);
+  else await files.open(chosen);
 }
 
 // ---- panels ----
 
 mountBar(place('bar'), store, services);
 mountStageControls(stageHost, store, services);
+mountCompareSwitch(stage !== null)(stageHost, store, services);
 mountFirstVisit(stageHost, store, services);
 mountProgress(stageHost, store, services);
+mountNewVersion(stageHost, store, services);
 mountProblemDialog(stageHost, store, services);
 mountDropTarget(stageHost, store, services);
 mountTransport(place('time'), store, services);
@@ -130,28 +177,80 @@ mountTimeline(place('time'), store, services);
 mountGuidance(place('panel'), store, services);
 mountOptions(place('panel'), store, services);
 mountFootLock(place('panel'), store, services);
+mountTakes(place('panel'), store, services);
 mountUnderstood(place('panel'), store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
+mountUndoKeys(store);
 
 // ---- state to stage and page ----
 
-watch(
-  store,
-  (state) => state.leader?.motion ?? null,
-  (leader) => stage?.setDancers({ leader }),
-);
-watch(store, reactorMotion, (reactor) => stage?.setDancers({ reactor }));
-watch(
-  store,
-  (state) => state.playback.time,
-  (time) => stage?.setTime(time),
-);
-watch(
-  store,
-  (state) => state.camera,
-  (camera) => stage?.setCamera(camera),
-);
+const calm = matchMedia('(prefers-reduced-motion: reduce)');
+
+/** Shows on a stage what the state says; returns how to let go of it. */
+function showOn(shown: Stage): () => void {
+  let shownAs = '';
+  return together(
+    watch(
+      store,
+      (state) => state.theme,
+      (theme) => shown.setTheme(theme),
+    ),
+    watchAll(
+      store,
+      (state) => Object.values(couple(state)),
+      (state) => {
+        // One reaction passes over into the next; what is switched, the parts and the foot lock, is there at once.
+        const now = `${madeRole(state)} ${state.footLock}`;
+        shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
+        shownAs = now;
+      },
+    ),
+    watch(store, coarseMotion, (coarse) => shown.setCoarse(coarse)),
+    watch(
+      store,
+      (state) => state.shown,
+      (what) => shown.setShown(what),
+    ),
+    showOther(store, shown),
+    watch(
+      store,
+      (state) => state.playback.time,
+      (time) => shown.setTime(time),
+    ),
+    watch(
+      store,
+      (state) => state.camera,
+      (camera) => shown.setCamera(camera),
+    ),
+  );
+}
+if (stage) showOn(stage);
+
+/** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
+async function openCamera(from: Stage, size: PictureSize): Promise<Camera> {
+  const film = from.film(size);
+  try {
+    showOn(film)();
+    const framing = from.framing();
+    await film.ready();
+    film.setTime(0);
+    film.frameAs(framing);
+  } catch (error) {
+    film.dispose();
+    throw error;
+  }
+  let before = 0;
+  return {
+    canvas: film.canvas,
+    shoot: (seconds) => {
+      film.shoot(seconds, seconds - before);
+      before = seconds;
+    },
+    dispose: () => film.dispose(),
+  };
+}
+
 /** The couple stands beside the words of the first visit, where there is room beside them. */
 const roomBeside = matchMedia('(min-width: 761px)');
 const ASIDE = 200;
@@ -163,10 +262,27 @@ watch(
 
 // ---- what is there from the start ----
 
-void loadDemo(store, files, new URL('demo/', document.baseURI), {
-  readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
-  settled: model.manifest,
-});
+function showDemo(): Promise<void> {
+  return loadDemo(store, files, new URL('demo/', document.baseURI), {
+    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
+    settled: model.manifest,
+  });
+}
+
+/** The demo is for those who have nothing here yet. */
+async function begin(): Promise<void> {
+  if (!(await keeping.restore())) await showDemo();
+}
+void begin();
+
+// What recorded dances score is only said, so it may come last and may be missing.
+void model
+  .manifest()
+  .then(() => readReference(manifestUrl))
+  .then(
+    (reference) => apply(store, referenceKnown(reference)),
+    () => undefined,
+  );
 
 declare global {
   interface Window {

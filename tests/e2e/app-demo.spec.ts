@@ -1,30 +1,9 @@
 import { readFileSync } from 'node:fs';
-import type { Page } from '@playwright/test';
 import { readBvh } from '../../web/motion/bvh-read';
-import { bvhText, wav } from './app-files';
+import { bvhText } from './app-files';
 import { App, farthest, meanSpeed } from './app-page';
 import { expect, test } from './fixtures';
-
-/** A made demo in the place of the shipped one, with or without its ready-made reaction. */
-async function serveDemo(page: Page, settings: object | null): Promise<void> {
-  const named = (file: string, label: string): object => ({ file, name: `Made ${label}`, label });
-  const reactor = { file: 'reactor.bvh', label: 'demo reaction', settings };
-  const demo = {
-    song: named('song.wav', 'demo song'),
-    leader: named('leader.bvh', 'demo leader'),
-    ...(settings ? { reactor } : {}),
-  };
-  const files: Record<string, string | Buffer> = {
-    'demo.json': JSON.stringify(demo),
-    'song.wav': wav({ seconds: 3 }).buffer,
-    'leader.bvh': bvhText({ frames: 90 }),
-    'reactor.bvh': bvhText({ frames: 90, sway: 0.5 }),
-  };
-  await page.route('**/demo/*', (route) => {
-    const body = files[new URL(route.request().url()).pathname.split('/').at(-1) ?? ''];
-    return body === undefined ? route.fulfill({ status: 404 }) : route.fulfill({ body });
-  });
-}
+import { serveDemo } from './made-demo';
 
 test('the shipped demo plays a duet on one click', async ({ page }) => {
   const app = new App(page);
@@ -47,7 +26,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
   await expect(lock).toBeChecked();
   await expect(lock).toHaveAccessibleDescription('Keeps planted feet from sliding');
   const locked = await app.onScreen();
-  await page.getByRole('button', { name: 'Generate' }).focus();
+  await page.getByRole('button', { name: 'Swap roles' }).focus();
   await page.keyboard.press('Tab');
   await expect(lock).toBeFocused();
   await page.keyboard.press('Space');
@@ -68,7 +47,9 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
 });
 
 test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {
-  const settings = { guidance: { coarse: 0.5, fine: 0.25 }, steps: 3, seed: 77 };
+  const column = { coarse: 0.5, fine: 0.25 };
+  const guidance = { upper: column, lower: column, placement: column };
+  const settings = { guidance, steps: 3, seed: 77, role: 'reactor' };
   await serveDemo(page, settings);
   let release: () => void = () => undefined;
   const held = new Promise<void>((resolve) => (release = resolve));

@@ -74,7 +74,7 @@ test('a song and a leader become a dancing partner that can be steered and taken
 
   await test.step('a moved fader changes the reactor by itself', async () => {
     await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
-    await app.until(({ reaction }) => reaction?.inputs.settings.guidance.coarse === 2);
+    await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 2);
     const second = await app.reactor();
     expect(farthest(first, second)).toBeGreaterThan(0.01);
   });
@@ -97,7 +97,7 @@ test('a song and a leader become a dancing partner that can be steered and taken
     await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
     const download = await coming;
     const seed = await app.read(({ settings }) => settings?.seed);
-    expect(download.suggestedFilename()).toBe(`my-song_my-leader_s${seed}_c2.00-f0.00_reactor.bvh`);
+    expect(download.suggestedFilename()).toBe(`my-song_my-leader_s${seed}_c2.00-f0.00_footlock_reactor.bvh`);
     const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
     expect(report.warnings).toEqual([]);
     expect(clip.frames).toBe(120);
@@ -127,7 +127,7 @@ test('playing never stops while a new reaction is made', async ({ page }) => {
       async () => {
         const state = await app.read(({ playback, reaction }) => ({
           ...playback,
-          fine: reaction?.inputs.settings.guidance.fine,
+          fine: reaction?.inputs.settings.guidance['upper']?.['fine'],
         }));
         expect(state.playing).toBe(true);
         times.push(state.time);
@@ -239,8 +239,9 @@ test('a model of one’s own is dropped as a folder and dances at once', async (
   await app.until(({ manifest }) => manifest?.name === 'My own duets');
   await app.until(({ settings, reaction, job }) => !job && settings?.seed === reaction?.inputs.settings.seed);
   expect(await app.read(({ reaction }) => reaction?.inputs.settings.guidance)).toEqual({
-    coarse: 2,
-    fine: 2,
+    upper: { coarse: 2, fine: 2 },
+    lower: { coarse: 2, fine: 2 },
+    placement: { coarse: 2, fine: 2 },
   });
   expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-4);
   await expect(page.getByRole('list', { name: 'Notes' })).toContainText('My own duets');

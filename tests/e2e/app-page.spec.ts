@@ -54,10 +54,10 @@ test('the keys do what the list of keys says', async ({ page }) => {
   await expect(page.getByRole('slider', { name: 'Coarse guidance' })).toBeFocused();
   await page.keyboard.press('ArrowRight');
   await page.keyboard.press('ArrowRight');
-  expect(await app.read(({ settings }) => settings?.guidance.coarse)).toBeCloseTo(0.1, 5);
+  expect(await app.read(({ settings }) => settings?.guidance['lower']?.['coarse'])).toBeCloseTo(0.1, 5);
   expect(await time()).toBe(0);
   await page.keyboard.press('r');
-  expect(await app.read(({ settings }) => settings?.guidance.coarse)).toBe(0);
+  expect(await app.read(({ settings }) => settings?.guidance['lower']?.['coarse'])).toBe(0);
 
   // Digits and letters typed into the seed are the seed's.
   await page.getByRole('spinbutton', { name: 'Seed' }).fill('12');
@@ -84,14 +84,14 @@ test('the playhead follows the pointer', async ({ page }) => {
   await app.openWithoutPicture();
   await app.drop(bvh({ frames: 300, name: 'mine.bvh' }));
   await app.reaction('mine.bvh');
-  const box = await page.getByRole('slider', { name: 'Playhead' }).boundingBox();
-  if (!box) throw new Error('The playhead is not on the page.');
-  await page.mouse.move(box.x + box.width / 4, box.y + 40);
+  const box = await page.getByRole('img', { name: /^Leader speed/ }).boundingBox();
+  if (!box) throw new Error('The leader is not on the page.');
+  await page.mouse.move(box.x + box.width / 4, box.y + 10);
   await page.mouse.down();
   expect(await app.read(({ playback }) => playback.time)).toBeCloseTo(2.5, 1);
-  await page.mouse.move(box.x + box.width / 2, box.y + 40);
+  await page.mouse.move(box.x + box.width / 2, box.y + 10);
   await page.mouse.up();
-  await page.mouse.move(box.x, box.y + 40);
+  await page.mouse.move(box.x, box.y + 10);
   expect(await app.read(({ playback }) => playback.time)).toBeCloseTo(5, 1);
 });
 

@@ -191,6 +191,33 @@ test.describe('the player', () => {
     });
   }
 
+  test('goes round in a loop and starts a shifted song at its time', async ({ page }) => {
+    await call(page, 'hand', 'song', 60);
+    await call(page, 'player.setSongStart', 0.5);
+    await call(page, 'player.setLoop', { from: 3, to: 3.6 });
+    expect(await call(page, 'play')).toBeNull();
+    const begun = await call<[number, number][]>(page, 'watch', 0.3);
+    expect(await call(page, 'heard'), 'silence before the song').toBeNull();
+    expect(begun.at(-1)![1]).toBeLessThan(0.5);
+    await call(page, 'watch', 0.6);
+    const [time, heard] = await page.evaluate<[number, number]>('[audio.player.time, audio.heard()]');
+    expect(Math.abs(heard + 0.5 - time)).toBeLessThan(0.12);
+
+    await call(page, 'player.seek', 2.6);
+    const readings = await call<[number, number][]>(page, 'watch', 2.5);
+    const times = readings.map(([, shown]) => shown);
+    expect(Math.max(...times)).toBeLessThan(3.75);
+    const turns = times.flatMap((shown, i) => (i > 0 && shown < times[i - 1]! - 0.2 ? [i] : []));
+    expect(turns.length).toBeGreaterThanOrEqual(2);
+    for (const turn of turns) expect(times[turn]).toBeLessThan(3.2);
+    expect(await call(page, 'heard')).toBeGreaterThan(2.4);
+
+    // The other end: what lies past the loop is heard to the end of the dance.
+    await call(page, 'player.seek', 5);
+    const past = (await call<[number, number][]>(page, 'watch', 0.4)).map(([, shown]) => shown);
+    expect(Math.min(...past)).toBeGreaterThanOrEqual(5);
+  });
+
   test('takes another song while it plays, at the same place', async ({ page }) => {
     await call(page, 'hand', 'silence', 60);
     await call(page, 'player.seek', 3);

@@ -201,19 +201,6 @@ def test_a_model_with_three_layers_and_its_own_depths() -> None:
         Denoiser(12, 3, DenoiserConfig(width=16))
 
 
-def test_features_are_hidden_for_a_whole_window_and_only_in_training() -> None:
-    encoder = ConditionEncoder(16, ConditionConfig(depth=1, hidden=0.5))
-    seen: list[torch.Tensor] = []
-    encoder.leader.hide.register_forward_hook(lambda _m, _i, out: seen.append(out))
-    inputs = (torch.randn(4, 16, 68), torch.randn(4, 16, 54), torch.ones(4, 16), torch.zeros(4))
-    encoder.train()(*inputs)
-    gone = seen[0] == 0
-    assert torch.equal(gone.all(1), gone.any(1)), "from beginning to end"
-    assert 0.3 < gone.float().mean() < 0.7
-    encoder.eval()(*inputs)
-    assert (seen[1] != 0).all()
-
-
 def test_dropout_takes_channels_from_a_whole_window() -> None:
     torch.manual_seed(0)
     dropout = ChannelDropout(0.25)

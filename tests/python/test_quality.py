@@ -38,8 +38,10 @@ def good() -> dict[str, Any]:
             "reconstruction": row(mpjpe_mm=9.0, root_error_mm=12.0),
             "generated": row(),
             "solved": row(bone_variation=0.0),
+            "solved, foot lock": row(skate_share=0.1),
             "nearest neighbour": row(**near),
         },
+        "long_dance": {"truth": {"repeat_share": 0.1}, "generated": {"repeat_share": 0.12}},
         "seams": {"ratio": 1.0},
         "responses": {"song_over_leader": 0.2},
         "separability": {
@@ -181,3 +183,14 @@ def test_separability():
         {"coarse_moves_own": 1.2, "coarse_moves_other": 0.12}
     )
     assert separability(cells[4:]) == {}
+
+
+def test_the_foot_lock_halves_skating_and_long_dances_do_not_loop():
+    numbers = good()
+    numbers["rows"]["solved, foot lock"] = row(skate_share=0.16)
+    assert missed(numbers)["foot lock: skating over without"].value == pytest.approx(0.16 / 0.3)
+    numbers = good()
+    numbers["long_dance"]["generated"]["repeat_share"] = 0.16
+    assert missed(numbers)["two minutes: repeated windows above the truth's, points"].value == pytest.approx(
+        6
+    )

@@ -1,4 +1,4 @@
-"""Windows of stage 2: everything in a window speaks of the same moments."""
+"""Windows of stage 2: everything in a window speaks of the same moments, and the leader's beat is hidden at times."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from training.stage2_data import Clip, Windows, make_clip
 from training.streams import from_streams, to_streams
 
 BLOCK, MARGIN = 6, 2
-PLAIN = replace(ConditionConfig(), drop_music=0.0)
+PLAIN = replace(ConditionConfig(), leader_shift=0, blurred=0.0, drop_music=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def hfsq() -> Autoencoder:
 def clip(hfsq: Autoencoder) -> Clip:
     duet = made_duet(160, 0)
     music = np.arange(160)[:, None] * np.ones((1, 54))
-    return make_clip(duet, [music], 0.0, hfsq, FrameConfig())
+    return make_clip(duet, [music], 0.0, hfsq, FrameConfig(), blur=6.0)
 
 
 def windows(clip: Clip, config: ConditionConfig) -> Windows:
@@ -49,9 +49,33 @@ def test_a_window_is_cut_from_one_moment(clip: Clip) -> None:
         assert torch.equal(batch.latents[n], clip.latents[start // STRIDE : start // STRIDE + BLOCK])
 
 
+def test_the_leader_comes_early_or_late_while_music_and_reactor_stay(clip: Clip) -> None:
+    batch = windows(clip, replace(PLAIN, leader_shift=3)).batch(60, short=0.0, song_ends=0.0)
+    shifts = []
+    for n in range(60):
+        start = int(batch.music[n, STRIDE * MARGIN, 0])
+        assert torch.equal(batch.reactor[n], clip.reactor[start : start + STRIDE * BLOCK])
+        seen = batch.features[n, STRIDE * MARGIN]
+        found = [s for s in range(-3, 4) if start + s >= 0 and torch.equal(seen, clip.features[start + s])]
+        assert found or start == 0, "before the clip there is nothing"
+        shifts += found
+    assert set(shifts) == set(range(-3, 4))
+    assert shifts.count(0) > 20, "half of the windows are left as they are"
+
+
+def test_a_blurred_leader_shows_where_and_not_when(clip: Clip) -> None:
+    batch = windows(clip, replace(PLAIN, blurred=1.0)).batch(5, short=0.0, song_ends=0.0)
+    for n in range(5):
+        start = int(batch.music[n, STRIDE * MARGIN, 0])
+        assert torch.equal(batch.features[n, STRIDE * MARGIN], clip.blurred[start])
+    assert torch.allclose(clip.blurred.mean(0), clip.features.mean(0), atol=0.2)
+    sway, blurred = (f.diff(dim=0).diff(dim=0).abs().mean() for f in (clip.features, clip.blurred))
+    assert blurred < 0.5 * sway
+
+
 def test_a_turned_frame_turns_streams_and_features_alike(hfsq: Autoencoder, clip: Clip) -> None:
     music = [np.zeros((160, 54))]
-    turned = make_clip(made_duet(160, 0), music, 0.0, hfsq, FrameConfig(), yaw=0.3)
+    turned = make_clip(made_duet(160, 0), music, 0.0, hfsq, FrameConfig(), blur=6.0, yaw=0.3)
     plain = smoothed_heading(clip.leader, FrameConfig())
     cosine = (turned.heading * plain).sum(-1)
     assert torch.allclose(cosine, torch.full_like(cosine, np.cos(0.3)), atol=1e-5)

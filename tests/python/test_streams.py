@@ -128,7 +128,7 @@ def test_bones_keep_their_length_and_direction() -> None:
 
 def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
     """Feet that bones of their mean length would push through the floor stay where they were."""
-    _, reactor = pair(120)
+    reactor = pair(120)[1] + torch.tensor([0.0, 0.1, 0.0])
     shrunk = reactor.clone()
     shrink = 0.1 * torch.exp(-(((torch.arange(120.0) - 60) / 20) ** 2))
     shrunk[:, :, 1] = reactor[:, :, 1] * (1 - shrink)[:, None] + reactor[:, :1, 1] * shrink[:, None]
@@ -140,6 +140,8 @@ def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
     kept = (lower(as_body(shrunk[None])[0]) - lower(shrunk)).abs()
     assert sunk.max() > 0.02
     assert kept.max() < 0.25 * sunk.max()
+    sunk_body = as_body(shrunk[None] - torch.tensor([0.0, 0.3, 0.0]))[0]
+    assert lower(sunk_body).min() > 0.015, "nobody stands in the floor"
     body = as_body(shrunk[None])[0]
     moved = body - constant_bones(shrunk)
     assert moved[..., [0, 2]].abs().max() == 0, "it only rises and sinks"

@@ -127,7 +127,9 @@ def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) ->
     hfsq, frame = load_hfsq(tmp_path)
     duet = made_duet(200, 1)
     made = train_hfsq.reconstruct(hfsq, duet, frame)
-    assert np.abs(made - duet.reactor).max() < 2e-3, "bones of the made dancers are constant but for rounding"
+    lost = made - duet.reactor
+    assert np.abs(lost[..., [0, 2]]).max() < 2e-3, "bones of the made dancers are constant but for rounding"
+    assert np.abs(lost - lost[:, :1]).max() < 2e-3, "as a whole they may be lifted out of the floor"
     one_layer = replace(DENOISER, depths=(1,))
     loss = DenoiserLossConfig(layers=(1.0,), windows=2)
     train_denoiser.main(

@@ -2,6 +2,7 @@ import { mkdtemp, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
 import { build } from 'vite';
+import { listedFile } from '../listed-file.mjs';
 import { createSite, listen } from '../serve.mjs';
 
 /**
@@ -19,7 +20,8 @@ export async function servePage(root, mounts) {
     base: './',
     publicDir: false,
     logLevel: 'error',
-    worker: { format: 'es' },
+    plugins: [listedFile()],
+    worker: { format: 'es', plugins: () => [listedFile()] },
     build: { outDir, emptyOutDir: true, target: 'es2023', assetsInlineLimit: 0, chunkSizeWarningLimit: 5000 },
   });
   const server = createSite({ root: outDir, mounts });

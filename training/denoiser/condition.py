@@ -7,7 +7,6 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from training.config import STRIDE, ConditionConfig
-from training.denoiser.transformer import ChannelDropout
 from training.streams import LEADER_FEATURES
 
 MUSIC_FEATURES = 54
@@ -39,9 +38,8 @@ class Patches(nn.Module):
     mean: Tensor
     std: Tensor
 
-    def __init__(self, channels: int, width: int, depth: int, hidden: float) -> None:
+    def __init__(self, channels: int, width: int, depth: int) -> None:
         super().__init__()
-        self.hide = ChannelDropout(hidden)
         self.register_buffer("mean", torch.zeros(channels))
         self.register_buffer("std", torch.ones(channels))
         self.patch = nn.Conv1d(channels, width, STRIDE, stride=STRIDE)
@@ -50,7 +48,7 @@ class Patches(nn.Module):
     def embed(self, x: Tensor) -> Tensor:
         # The convolution as a product, which it is, since patches do not overlap: the WebGPU convolution of
         # onnxruntime-web 1.30 is wrong when four does not divide its channels, as with the 54 of music.
-        patches = self.hide((x - self.mean) / self.std).reshape(len(x), -1, STRIDE * x.shape[-1])
+        patches = ((x - self.mean) / self.std).reshape(len(x), -1, STRIDE * x.shape[-1])
         weight = self.patch.weight.transpose(1, 2).flatten(1)
         return F.linear(patches, weight, self.patch.bias).transpose(1, 2)
 
@@ -71,8 +69,8 @@ class ConditionEncoder(nn.Module):
     def __init__(self, width: int, config: ConditionConfig) -> None:
         super().__init__()
         self.config = config
-        self.leader = Patches(LEADER_FEATURES, width, config.depth, config.hidden)
-        self.music = Patches(MUSIC_FEATURES, width, config.depth, config.hidden)
+        self.leader = Patches(LEADER_FEATURES, width, config.depth)
+        self.music = Patches(MUSIC_FEATURES, width, config.depth)
         self.role = nn.Parameter(torch.zeros(width))
         self.silence = nn.Parameter(torch.zeros(width))
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from training.skeleton import FEET
 
-HEIGHT = 0.03  # metres above a foot joint's own 5th percentile of height
+PERCENTILE = 5.0  # of a foot joint's own heights: where it rests
+HEIGHT = 0.03  # metres above that
 VERTICAL_SPEED = 0.1  # m/s, a planted foot is slower
 SLIDE_SPEED = 0.2  # m/s, a planted foot that is faster skates
 
@@ -19,7 +20,7 @@ def contacts(motion: np.ndarray, fps: float = 30.0) -> tuple[np.ndarray, np.ndar
     """
     feet = motion[:, list(FEET)].astype(np.float64)
     velocity = np.diff(feet, axis=0) * fps
-    low = feet[:-1, :, 1] < np.percentile(feet[:, :, 1], 5, axis=0) + HEIGHT
+    low = feet[:-1, :, 1] < np.percentile(feet[:, :, 1], PERCENTILE, axis=0) + HEIGHT
     planted = low & (np.abs(velocity[..., 1]) < VERTICAL_SPEED)
     return planted, np.linalg.norm(velocity[..., [0, 2]], axis=-1)
 

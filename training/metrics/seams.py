@@ -10,6 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+RADIUS = 2.0  # frames on either side that feel a seam
+CLEAR = 8.0  # frames on either side that do not count as the motion's interior
+PAPER_RADIUS = 30.0  # frames, the paper's window
+
 
 def velocity_change(motion: np.ndarray) -> np.ndarray:
     """|dv| of (T, J, 3) metres at frames 1..T-2, as (T,) mm per frame^2 with NaN at both ends."""
@@ -32,7 +36,7 @@ def near(frames: int, seams: np.ndarray, radius: float) -> np.ndarray:
     return distance <= radius
 
 
-def paper_jitter(motion: np.ndarray, seams: np.ndarray, radius: float = 30.0) -> float:
+def paper_jitter(motion: np.ndarray, seams: np.ndarray, radius: float = PAPER_RADIUS) -> float:
     """The paper's boundary jitter (its Table 6): mean |dv| within 30 frames of the seams, mm per frame^2.
 
     The window is so wide that a pop of ten times at one frame reads 1.15 times the rest, and that motion
@@ -59,10 +63,8 @@ class SeamSample:
     inside_truth: float
 
 
-def seam_sample(
-    truth: np.ndarray, generated: np.ndarray, seams: np.ndarray, radius: float = 2.0
-) -> SeamSample:
-    """Sums of |dv| within 2 frames of the seams of a generated motion (T, J, 3), and of the truth in the
+def seam_sample(truth: np.ndarray, generated: np.ndarray, seams: np.ndarray) -> SeamSample:
+    """Sums of |dv| within RADIUS frames of the seams of a generated motion (T, J, 3), and of the truth in the
     same frames.
     """
     if len(truth) != len(generated):
@@ -71,8 +73,8 @@ def seam_sample(
         )
     true, made = velocity_change(truth), velocity_change(generated)
     known = np.isfinite(made)
-    at = near(len(truth), seams, radius) & known
-    inside = known & ~near(len(truth), seams, 4 * radius)
+    at = near(len(truth), seams, RADIUS) & known
+    inside = known & ~near(len(truth), seams, CLEAR)
     return SeamSample(
         seams=len(seams),
         frames=int(at.sum()),
@@ -82,6 +84,17 @@ def seam_sample(
         inside_generated=float(made[inside].sum()),
         inside_truth=float(true[inside].sum()),
     )
+
+
+def against_interior(motion: np.ndarray, seams: np.ndarray) -> float:
+    """|dv| at the seams over the same motion's interior, for a motion without a truth to hold it against.
+
+    1 is seamless on average; a single place inside a motion scores anything from 0.5 to 2. NaN without a seam.
+    """
+    own = seam_sample(motion, motion, seams)
+    if own.frames == 0 or own.inside_generated == 0:
+        return float("nan")
+    return (own.generated / own.frames) / (own.inside_generated / own.inside_frames)
 
 
 def seam_ratio(samples: list[SeamSample]) -> dict[str, float]:

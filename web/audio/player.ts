@@ -1,3 +1,4 @@
+import { createDeck, type Deck } from './deck';
 import { AudioError } from './errors';
 
 /** The sound and the clock of the page. */
@@ -13,6 +14,13 @@ export interface Player {
    * @param duration seconds
    */
   load(sound: Blob | null, duration: number): void;
+  /** Says when in the dance the song begins, seconds; below 0 its beginning is not heard. Keeps the time. */
+  setSongStart(seconds: number): void;
+  /**
+   * Goes round in a part of the dance, seconds: from its end, or from the dance's, to its start. Null ends that.
+   * Whatever lies before the part is played into it.
+   */
+  setLoop(loop: { readonly from: number; readonly to: number } | null): void;
   /** @throws AudioError playback-refused */
   play(): Promise<void>;
   pause(): void;
@@ -25,19 +33,27 @@ export interface Player {
 
 /** Longest stretch that is filled in between two readings of the song's clock, seconds. */
 const LONGEST_GUESS = 0.1;
+/** A turn or an entry this close is there, seconds. */
+const NEAR = 0.002;
+/** Shortest wait for one, milliseconds. */
+const SHORTEST_WAIT = 4;
 
 /**
- * Plays a song with an <audio> element, which keeps the pitch at any speed and tells the time of what is heard, output
- * delay included. Given the decoded sound as WAV it seeks to the sample; compressed files do not. Before, after and
- * without a song a silent clock runs.
+ * Plays a song with <audio> elements, which keep the pitch at any speed and tell the time of what is heard, output
+ * delay included. Given the decoded sound as WAV they seek to the sample; compressed files do not. Before, after and
+ * without a song a silent clock runs. A loop is gone round on two elements in turn: the next one waits at the loop's
+ * start, so that neither a search nor a click is heard.
  */
 export function createPlayer(): Player {
-  const element = new Audio();
-  element.preload = 'auto';
+  let deck = createDeck();
+  let next = createDeck();
   let address: string | null = null;
   let duration = 0;
+  let songStart = 0;
+  let loop: { readonly from: number; readonly to: number } | null = null;
   let speed = 1;
   let playing = false;
+  let timer: ReturnType<typeof setTimeout> | undefined;
   /** The silent clock: it showed `shown` seconds at `since` milliseconds. */
   let clock = { shown: 0, since: 0 };
   /** Latest new reading of the song's clock; `since` is -1 until it has been seen to move. */
@@ -56,17 +72,17 @@ export function createPlayer(): Player {
   };
 
   /** Whether the song is what runs; not before it may start, and no more at its end. */
-  const sounds = (): boolean => playing && !element.paused && !element.ended;
+  const sounds = (): boolean => playing && !deck.element.paused && !deck.element.ended;
 
   /** The song's clock moves in steps in some browsers: between two steps its time is guessed, within the song. */
   const songTime = (): number => {
-    const { currentTime } = element;
+    const { currentTime, duration: length } = deck.element;
     if (currentTime !== reading.position) {
       reading = { position: currentTime, since: reading.position < 0 ? -1 : performance.now() };
     }
     const guess = reading.since < 0 ? 0 : Math.min(advance(reading.since), LONGEST_GUESS);
     // A song whose header has not been read yet has no duration: NaN.
-    return Math.min(currentTime + guess, element.duration || Infinity);
+    return songStart + Math.min(currentTime + guess, length || Infinity);
   };
 
   const time = (): number => {
@@ -74,18 +90,22 @@ export function createPlayer(): Player {
     return told;
   };
 
-  /** Whether the song has something to say at this time. */
-  const hasSong = (seconds: number): boolean =>
-    address !== null && !(seconds >= element.duration - 1e-3) && seconds < duration;
+  /** Whether the song has something to say at this time of the dance. */
+  const hasSong = (seconds: number): boolean => {
+    const position = seconds - songStart;
+    if (address === null || position < 0 || seconds >= duration) return false;
+    return !(position >= deck.element.duration - 1e-3);
+  };
 
   /** Puts the song where the clock is and lets it run if it should. */
   const follow = async (): Promise<void> => {
     const start = time();
+    const { element } = deck;
     if (!hasSong(start)) {
       element.pause();
       return;
     }
-    if (Math.abs(element.currentTime - start) > 1e-3) element.currentTime = start;
+    if (Math.abs(element.currentTime + songStart - start) > 1e-3) element.currentTime = start - songStart;
     if (playing) await element.play();
     else element.pause();
   };
@@ -97,15 +117,69 @@ export function createPlayer(): Player {
     });
   };
 
-  element.onended = () => {
-    if (playing) setClock(element.duration);
+  /** Lets the other element wait where the loop begins. */
+  const cue = (): void => {
+    if (loop && hasSong(loop.from)) next.element.currentTime = loop.from - songStart;
   };
-  element.onloadedmetadata = () => quietly(follow());
-  // A song that ends after the dance would sound on.
-  element.ontimeupdate = () => {
-    if (!playing || element.currentTime < duration) return;
-    setClock(duration);
-    element.pause();
+
+  const goRound = (to: number): void => {
+    setClock(to);
+    if (hasSong(to)) {
+      [deck, next] = [next, deck];
+      deck.fadeIn();
+      next.fadeOut(cue);
+    }
+    quietly(follow());
+    watchAhead();
+  };
+
+  /** Waits for what comes next by itself: the end of the loop, or the song after a silence. */
+  const watchAhead = (): void => {
+    clearTimeout(timer);
+    if (!playing) return;
+    const now = time();
+    const turn = loop ? (now < loop.to ? loop.to : duration) : Infinity;
+    const entry = address !== null && now < songStart ? songStart : Infinity;
+    const ahead = Math.min(turn, entry);
+    if (ahead === Infinity) return;
+    const wait = Math.max(SHORTEST_WAIT, ((ahead - now) / speed) * 1000);
+    timer = setTimeout(() => {
+      if (time() < ahead - NEAR) watchAhead();
+      else if (loop && ahead === turn) goRound(loop.from);
+      else {
+        // Timers may come a little early: the song starts at its first sample.
+        if (time() < songStart) setClock(songStart);
+        quietly(follow());
+        watchAhead();
+      }
+    }, wait);
+  };
+
+  const prepare = (each: Deck): void => {
+    const { element } = each;
+    element.onended = () => {
+      if (playing && each === deck) setClock(element.duration + songStart);
+    };
+    element.onloadedmetadata = () => {
+      if (each === deck) quietly(follow());
+      else cue();
+    };
+    // A song that ends after the dance would sound on.
+    element.ontimeupdate = () => {
+      if (!playing || each !== deck || element.currentTime + songStart < duration) return;
+      setClock(duration);
+      element.pause();
+    };
+  };
+  prepare(deck);
+  prepare(next);
+
+  /** Changes something that the clocks follow from, at the time that is shown. */
+  const change = (apply: () => void): void => {
+    const now = time();
+    apply();
+    setClock(now);
+    watchAhead();
   };
 
   return {
@@ -116,23 +190,39 @@ export function createPlayer(): Player {
       return playing;
     },
     load(sound, seconds) {
-      const now = time();
-      element.pause();
-      if (address !== null) URL.revokeObjectURL(address);
-      address = sound && URL.createObjectURL(sound);
-      duration = seconds;
-      setClock(now);
-      if (address === null) element.removeAttribute('src');
-      else element.src = address;
-      element.load();
-      element.defaultPlaybackRate = speed;
-      element.playbackRate = speed;
+      change(() => {
+        for (const { element } of [deck, next]) element.pause();
+        if (address !== null) URL.revokeObjectURL(address);
+        address = sound && URL.createObjectURL(sound);
+        duration = seconds;
+      });
+      for (const { element } of [deck, next]) {
+        if (address === null) element.removeAttribute('src');
+        else element.src = address;
+        element.load();
+        element.defaultPlaybackRate = speed;
+        element.playbackRate = speed;
+      }
+    },
+    setSongStart(seconds) {
+      if (seconds === songStart) return;
+      change(() => {
+        songStart = seconds;
+      });
+      quietly(follow());
+      cue();
+    },
+    setLoop(part) {
+      loop = part;
+      cue();
+      watchAhead();
     },
     async play() {
       if (playing) return;
       playing = true;
       setClock(clock.shown);
       try {
+        watchAhead();
         await follow();
       } catch (cause) {
         if ((cause as Error).name === 'AbortError') return;
@@ -146,19 +236,24 @@ export function createPlayer(): Player {
       }
     },
     pause() {
+      clearTimeout(timer);
       setClock(time());
       playing = false;
-      element.pause();
+      for (const { element } of [deck, next]) element.pause();
     },
     seek(seconds) {
       setClock(seconds);
       quietly(follow());
+      watchAhead();
     },
     setSpeed(value) {
-      setClock(time());
-      speed = value;
-      element.defaultPlaybackRate = value;
-      element.playbackRate = value;
+      change(() => {
+        speed = value;
+      });
+      for (const { element } of [deck, next]) {
+        element.defaultPlaybackRate = value;
+        element.playbackRate = value;
+      }
     },
     dispose() {
       this.pause();

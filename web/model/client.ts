@@ -1,21 +1,27 @@
 import { proxy, type Remote, wrap } from 'comlink';
+import type { SolvedMotion } from '../motion/clip';
 import type { Backend, Preference } from './backend';
 import { ModelError } from './error';
 import type { ModelFolder } from './folder';
-import type { GenerateRequest } from './inputs';
+import type { CoarseRequest, GenerateRequest } from './inputs';
 import type { Status } from './load';
 import type { Manifest } from './manifest';
-import type { GenerateOptions, GenerateResult, Progress } from './pipeline';
+import type { DownloadPart } from './parts';
+import type { GenerateOptions, GenerateResult, Made, Preview, Progress } from './pipeline';
 import type { Failure, ModelWorker, Outcome, WorkerEvent } from './protocol';
 
 export type {
   Backend,
+  CoarseRequest,
+  DownloadPart,
   GenerateOptions,
   GenerateRequest,
   GenerateResult,
+  Made,
   Manifest,
   ModelFolder,
   Preference,
+  Preview,
   Progress,
   Status,
 };
@@ -44,6 +50,12 @@ export interface Generator {
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
+  /**
+   * Compute the partner that the coarse layer alone of a reaction says.
+   * @throws {ModelError}
+   * @throws the signal's reason, soon after it is aborted
+   */
+  coarse(request: CoarseRequest, options?: Pick<GenerateOptions, 'signal'>): Promise<SolvedMotion>;
   /** Ends the worker; calls under way are rejected. */
   dispose(): void;
 }
@@ -55,8 +67,8 @@ interface Running {
   readonly backend: Backend;
   /** Is rejected when the worker dies, so that nobody waits for its answer for ever. */
   readonly death: Promise<never>;
-  /** Where the progress of each call under way goes. */
-  readonly listeners: Map<number, (progress: Progress) => void>;
+  /** Who wants to hear of each call under way. */
+  readonly listeners: Map<number, Pick<GenerateOptions, 'onProgress' | 'onPreview'>>;
   end(error: Error): void;
 }
 
@@ -94,7 +106,8 @@ async function start(options: GeneratorOptions): Promise<Running> {
   });
   const onEvent = (event: WorkerEvent): void => {
     if (event.kind === 'status') options.onStatus?.(event.status);
-    else listeners.get(event.id)?.(event.progress);
+    else if (event.kind === 'preview') listeners.get(event.id)?.onPreview?.(event.preview);
+    else listeners.get(event.id)?.onProgress?.(event.progress);
   };
   const { folder, backend = 'auto', threads } = options;
   const manifestUrl = new URL(options.manifestUrl, document.baseURI).href;
@@ -143,6 +156,39 @@ export async function createGenerator(options: GeneratorOptions): Promise<Genera
   current = Promise.resolve(latest);
   use(latest);
 
+  /** Has the worker do something, with its progress told and cancelled when the signal says so. */
+  async function call<T>(
+    { signal, onProgress, onPreview }: GenerateOptions,
+    ask: (remote: Running['remote'], id: number) => Promise<Outcome<T>>,
+  ): Promise<T> {
+    if (disposed) throw new DOMException('The generator was disposed.', 'AbortError');
+    signal?.throwIfAborted();
+    const running = await ready();
+    signal?.throwIfAborted();
+    const id = ++calls;
+    running.listeners.set(id, { onProgress, onPreview });
+    let cancel: () => void = () => undefined;
+    // The caller hears at once; the worker stops when its present graph run is over.
+    const cancelled = new Promise<never>((_, fail) => {
+      cancel = () => {
+        void running.remote.cancel(id);
+        fail(signal?.reason as Error);
+      };
+    });
+    signal?.addEventListener('abort', cancel);
+    let result: Outcome<T>;
+    try {
+      result = await Promise.race([ask(running.remote, id), running.death, cancelled]);
+    } finally {
+      signal?.removeEventListener('abort', cancel);
+      running.listeners.delete(id);
+    }
+    if (result.ok) return result.value;
+    const error = toError(result.failure);
+    if (result.failure.kind === 'crash') running.end(error);
+    throw error;
+  }
+
   return {
     get manifest() {
       return latest.manifest;
@@ -150,34 +196,9 @@ export async function createGenerator(options: GeneratorOptions): Promise<Genera
     get backend() {
       return latest.backend;
     },
-    async generate(request, { signal, onProgress } = {}) {
-      if (disposed) throw new DOMException('The generator was disposed.', 'AbortError');
-      signal?.throwIfAborted();
-      const running = await ready();
-      signal?.throwIfAborted();
-      const id = ++calls;
-      if (onProgress) running.listeners.set(id, onProgress);
-      let cancel: () => void = () => undefined;
-      // The caller hears at once; the worker stops when its present graph run is over.
-      const cancelled = new Promise<never>((_, fail) => {
-        cancel = () => {
-          void running.remote.cancel(id);
-          fail(signal?.reason as Error);
-        };
-      });
-      signal?.addEventListener('abort', cancel);
-      let result: Outcome<GenerateResult>;
-      try {
-        result = await Promise.race([running.remote.generate(id, request), running.death, cancelled]);
-      } finally {
-        signal?.removeEventListener('abort', cancel);
-        running.listeners.delete(id);
-      }
-      if (result.ok) return result.value;
-      const error = toError(result.failure);
-      if (result.failure.kind === 'crash') running.end(error);
-      throw error;
-    },
+    generate: (request, { at, ...options } = {}) =>
+      call(options, (remote, id) => remote.generate(id, request, options.onPreview ? (at ?? null) : null)),
+    coarse: (request, options = {}) => call(options, (remote, id) => remote.coarse(id, request)),
     dispose() {
       disposed = true;
       latest.end(new DOMException('The generator was disposed.', 'AbortError'));

@@ -14,7 +14,10 @@ export interface DownloadOptions {
   readonly fetch: typeof fetch;
   /** Undefined where the browser has no storage for the page. */
   readonly store?: FileStore | undefined;
-  readonly onProgress?: ((loaded: number, total: number) => void) | undefined;
+  /** Further files of the same owner that may be wanted again, by their SHA-256. */
+  readonly spare?: readonly string[] | undefined;
+  /** Bytes that are here, bytes in all, and how many of those the store had. */
+  readonly onProgress?: ((loaded: number, total: number, kept: number) => void) | undefined;
   /** Called once, when a file could not be kept; the download goes on without keeping any. */
   readonly onUnkept?: ((reason: unknown) => void) | undefined;
 }
@@ -103,6 +106,20 @@ async function mismatch(bytes: Uint8Array<ArrayBuffer>, file: ManifestFile): Pro
   return sum === undefined || sum === file.sha256 ? undefined : `SHA-256 ${sum} instead of ${file.sha256}`;
 }
 
+/** The files that the store has, as the manifest lists them; undefined for the others. */
+function lookUp(
+  files: readonly ManifestFile[],
+  store: FileStore | undefined,
+): Promise<(Uint8Array<ArrayBuffer> | undefined)[]> {
+  return Promise.all(
+    files.map(async (file) => {
+      // A store that fails or holds other bytes is as good as an empty one.
+      const bytes = await store?.get(file.sha256).catch(() => undefined);
+      return bytes !== undefined && (await mismatch(bytes, file)) === undefined ? bytes : undefined;
+    }),
+  );
+}
+
 /**
  * Get files, from the store where it has them, and verify them against the manifest.
  * @param base address that the files' paths are relative to
@@ -112,42 +129,42 @@ async function mismatch(bytes: Uint8Array<ArrayBuffer>, file: ManifestFile): Pro
 export async function download(
   base: string,
   files: readonly ManifestFile[],
-  { fetch: get, store, onProgress, onUnkept }: DownloadOptions,
+  { fetch: get, store, spare = [], onProgress, onUnkept }: DownloadOptions,
 ): Promise<Uint8Array<ArrayBuffer>[]> {
   const total = files.reduce((sum, file) => sum + file.bytes, 0);
-  let before = 0;
+  const found = await lookUp(files, store);
+  const kept = found.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
+  let loaded = kept;
+  const tell = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, kept);
+  tell(0);
   let full = false;
   const results: Uint8Array<ArrayBuffer>[] = [];
-  for (const file of files) {
-    const offset = before;
-    // A store that fails or holds other bytes is as good as an empty one.
-    const kept = await store?.get(file.sha256).catch(() => undefined);
-    let bytes = kept !== undefined && (await mismatch(kept, file)) === undefined ? kept : undefined;
-    if (bytes === undefined) {
-      const url = new URL(file.path, base).href;
-      const response = await fetchFile(url, get);
-      bytes = await readBody(response, url, (loaded) => {
-        onProgress?.(Math.min(offset + loaded, total), total);
-      });
-      const wrong = await mismatch(bytes, file);
-      if (wrong !== undefined) {
-        throw new ModelError(
-          'model-corrupt',
-          `The model file ${file.path} is not the one its manifest lists: ${wrong}.`,
-          'Load the page again; if it stays so, copy the whole model folder to the server anew.',
-        );
-      }
-      try {
-        if (!full) await store?.put(file.sha256, bytes);
-      } catch (error) {
-        full = true;
-        onUnkept?.(error);
-      }
+  for (const [index, file] of files.entries()) {
+    const here = found[index];
+    if (here !== undefined) {
+      results.push(here);
+      continue;
     }
-    before += file.bytes;
-    onProgress?.(before, total);
+    const url = new URL(file.path, base).href;
+    const bytes = await readBody(await fetchFile(url, get), url, tell);
+    const wrong = await mismatch(bytes, file);
+    if (wrong !== undefined) {
+      throw new ModelError(
+        'model-corrupt',
+        `The model file ${file.path} is not the one its manifest lists: ${wrong}.`,
+        'Load the page again; if it stays so, copy the whole model folder to the server anew.',
+      );
+    }
+    try {
+      if (!full) await store?.put(file.sha256, bytes);
+    } catch (error) {
+      full = true;
+      onUnkept?.(error);
+    }
+    loaded += file.bytes;
+    tell(0);
     results.push(bytes);
   }
-  await store?.keepOnly(files.map((file) => file.sha256)).catch(() => undefined);
+  await store?.keepOnly([...files.map((file) => file.sha256), ...spare]).catch(() => undefined);
   return results;
 }

@@ -8,8 +8,15 @@ import type { Manifest } from './manifest';
 export interface GenerateRequest {
   /** The dancer that is there, at the size of their file. */
   readonly leader: MotionClip;
-  /** frames x features of the song from frame 0 of the clip; null for silence. */
-  readonly music: { readonly features: Float32Array; readonly frames: number } | null;
+  /**
+   * frames x features of the song; null for silence. The song starts at frame `start` of the clip, 0 when not given;
+   * below 0 its beginning is not heard.
+   */
+  readonly music: {
+    readonly features: Float32Array;
+    readonly frames: number;
+    readonly start?: number | undefined;
+  } | null;
   /** streams x layers, s of the paper's Eq. 9. */
   readonly guidance: Float32Array;
   readonly steps: number;
@@ -17,6 +24,14 @@ export interface GenerateRequest {
   readonly seed: number;
   /** Whose part is wanted; the reactor's when not given. */
   readonly role?: 'reactor' | 'leader' | undefined;
+}
+
+/** A reaction made before, of which less is wanted. */
+export interface CoarseRequest {
+  /** The dancer whom it answers, at the size of their file. */
+  readonly leader: MotionClip;
+  /** latents x layers x channels, as this model made them. */
+  readonly latents: Float32Array;
 }
 
 /** A request as the graphs take it. */
@@ -54,6 +69,9 @@ export function checkRequest(
   if (music !== null && !music.features.every(Number.isFinite)) {
     refuse('The song holds a feature that is not a number.', 'Choose another song.');
   }
+  if (music?.start !== undefined && !Number.isInteger(music.start)) {
+    refuse(`The song starts at frame ${music.start}.`, 'Shift the song by whole frames.');
+  }
   if (!Number.isInteger(steps) || steps < diffusion.steps.min || steps > diffusion.steps.max) {
     refuse(
       `${steps} is not a number of steps between ${diffusion.steps.min} and ${diffusion.steps.max}.`,
@@ -69,8 +87,18 @@ export function checkRequest(
   if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
 }
 
+/** @throws {ModelError} `bad-request` when the latents are not those of a dance as long as the leader's */
+export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Manifest): void {
+  const wanted = Math.ceil(leader.frames / latent.stride) * latent.layers.length * latent.channels;
+  if (latents.length === wanted) return;
+  refuse('The reaction was not made for this leader by this model.', 'Generate the reaction again.');
+}
+
 /** Scale the leader to the reference height, and bring leader and music to a common, whole number of latent frames. */
-export function prepareInput({ leader, music, role }: GenerateRequest, manifest: Manifest): ModelInput {
+export function prepareInput(
+  { leader, music, role }: Pick<GenerateRequest, 'leader' | 'music' | 'role'>,
+  manifest: Manifest,
+): ModelInput {
   const { latent, skeleton, audio } = manifest;
   const frame = skeleton.joints.length * 3;
   const frames = Math.ceil(leader.frames / latent.stride) * latent.stride;
@@ -82,9 +110,15 @@ export function prepareInput({ leader, music, role }: GenerateRequest, manifest:
     positions.copyWithin(at, (leader.frames - 1) * frame, leader.frames * frame);
   }
   const features = new Float32Array(frames * audio.features);
-  const heard = music === null ? 0 : Math.min(music.frames, frames);
-  if (music !== null) features.set(music.features.subarray(0, heard * audio.features));
-  const musicValid = new Float32Array(frames).fill(1, 0, heard);
+  const musicValid = new Float32Array(frames);
+  if (music !== null) {
+    const { start = 0 } = music;
+    const from = Math.min(frames, Math.max(0, start));
+    const to = Math.max(from, Math.min(frames, start + music.frames));
+    const heard = music.features.subarray((from - start) * audio.features, (to - start) * audio.features);
+    features.set(heard, from * audio.features);
+    musicValid.fill(1, from, to);
+  }
   return {
     condition: { leader: positions, music: features, musicValid, role: role === 'leader' ? 1 : 0 },
     scale,

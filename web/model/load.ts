@@ -1,15 +1,16 @@
 import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
 import { conditionClip } from './chunks';
-import { download, fetchFile } from './download';
 import { ModelError } from './error';
 import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';
-import { GRAPHS, type GraphName, type Manifest, type ManifestFile, parseManifest } from './manifest';
+import { fetchLatest } from './latest';
+import { type Manifest, parseManifest } from './manifest';
+import { type DownloadPart, downloadParts } from './parts';
 import { Pipeline } from './pipeline';
 import { type ModelSession, openSession, type Provider } from './session';
 import { sample } from './sampler';
 import { ddim } from './schedule';
-import { cacheStore } from './store';
+import { type AnswerStore, answerStore } from './store';
 
 export interface LoadOptions {
   /** Absolute address of manifest.json; the graphs' paths are relative to it. */
@@ -25,7 +26,7 @@ export interface LoadOptions {
 export type Status =
   /** First of all: what the model is, before its bytes. */
   | { readonly kind: 'manifest'; readonly manifest: Manifest }
-  | { readonly kind: 'download'; readonly loaded: number; readonly total: number }
+  | { readonly kind: 'download'; readonly parts: readonly DownloadPart[] }
   | { readonly kind: 'open' | 'check' | 'warm-up' }
   /** On WebGPU: metres between its golden sampling and Python's. */
   | { readonly kind: 'checked'; readonly error: number }
@@ -40,11 +41,11 @@ export interface LoadedModel {
 // Metres. fp32 on another device differs by rounding only, which is far below; a broken driver is far above.
 const GOLDEN_TOLERANCE = 1e-3;
 
-async function fetchManifest(url: string, get: typeof fetch): Promise<Manifest> {
-  const response = await fetchFile(url, get);
+async function fetchManifest(url: string, get: typeof fetch, store?: AnswerStore): Promise<Manifest> {
+  const bytes = await fetchLatest(url, get, store);
   let json: unknown;
   try {
-    json = await response.json();
+    json = JSON.parse(new TextDecoder().decode(bytes));
   } catch (error) {
     throw new ModelError(
       'manifest-invalid',
@@ -62,10 +63,11 @@ async function checkGolden(
   session: ModelSession,
   url: string,
   get: typeof fetch,
+  store?: AnswerStore,
 ): Promise<number | undefined> {
   if (manifest.golden === undefined) return undefined;
-  const response = await fetchFile(new URL(manifest.golden.path, url).href, get);
-  return goldenError(manifest, session, readGolden(new Uint8Array(await response.arrayBuffer())));
+  const bytes = await fetchLatest(new URL(manifest.golden.path, url).href, get, store);
+  return goldenError(manifest, session, readGolden(bytes));
 }
 
 /** The first run of a graph compiles it; better now than when somebody waits for a dance. */
@@ -103,18 +105,18 @@ export async function loadModel(
   onStatus: (status: Status) => void,
 ): Promise<LoadedModel> {
   const get = folder ? folderFetch(folder, manifestUrl) : fetch;
-  const manifest = await fetchManifest(manifestUrl, get);
+  const answers = folder ? undefined : answerStore(scope);
+  const manifest = await fetchManifest(manifestUrl, get, answers);
   onStatus({ kind: 'manifest', manifest });
   let backend = await chooseBackend(preference, surroundings(scope), threads);
 
   const open = async (provider: Provider): Promise<ModelSession> => {
-    const files: ManifestFile[] = GRAPHS.map((name) => manifest.graphs[name].files[provider]);
-    const bytes = await download(manifestUrl, files, {
-      fetch: get,
-      // The visitor's own files need no second copy.
-      store: folder ? undefined : cacheStore(scope, manifest.id),
-      onProgress: (loaded, total) => {
-        onStatus({ kind: 'download', loaded, total });
+    const { graphs, runtime } = await downloadParts(manifest, provider, {
+      manifestUrl,
+      folder,
+      scope,
+      onProgress: (parts) => {
+        onStatus({ kind: 'download', parts });
       },
       onUnkept: (reason) => {
         onStatus({
@@ -126,11 +128,7 @@ export async function loadModel(
       },
     });
     onStatus({ kind: 'open' });
-    const graphs = Object.fromEntries(GRAPHS.map((name, i) => [name, bytes[i]])) as Record<
-      GraphName,
-      Uint8Array
-    >;
-    return openSession(manifest, graphs, provider, backend.threads);
+    return openSession(manifest, graphs, provider, backend.threads, runtime);
   };
 
   let session: ModelSession | undefined;
@@ -139,7 +137,7 @@ export async function loadModel(
     try {
       session = await open('webgpu');
       onStatus({ kind: 'check' });
-      const error = await checkGolden(manifest, session, manifestUrl, get);
+      const error = await checkGolden(manifest, session, manifestUrl, get, answers);
       if (error !== undefined) onStatus({ kind: 'checked', error });
       // Written so that an error which is not a number is a doubt too.
       if (error !== undefined && !(error <= GOLDEN_TOLERANCE)) {

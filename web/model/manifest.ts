@@ -18,6 +18,27 @@ const graph = v.object({
   files: v.object({ wasm: file, webgpu: file }),
 });
 
+const positive = v.pipe(v.number(), v.minValue(0));
+
+/** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
+const quality = v.object({
+  contact: v.object({
+    percentile: v.pipe(positive, v.maxValue(100)),
+    height: positive,
+    vertical_speed: positive,
+    slide_speed: positive,
+  }),
+  penetration: v.object({
+    capsules: v.array(
+      v.object({ from: v.picklist(SMPL22), to: v.picklist(SMPL22), radius: positive, beyond: positive }),
+    ),
+    reference_height: v.pipe(v.number(), v.minValue(0.1)),
+    deep: positive,
+  }),
+  beats: v.object({ smoothing: positive, tolerance: positive }),
+  seams: v.object({ radius: positive, clear: positive, paper_radius: positive }),
+});
+
 const schema = v.object({
   format: v.literal('reactdance-model'),
   version: v.literal(1),
@@ -71,6 +92,7 @@ const schema = v.object({
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
   /** The feature recipe; its other keys are checked by the audio side, which reads them. */
   audio: v.looseObject({ sample_rate: count, hop: count, features: count }),
+  quality,
   graphs: v.object({ condition: graph, step: graph, decode: graph }),
   /** Inputs and results of one small sampling, as Python computed it. */
   golden: v.optional(v.object({ path: v.pipe(v.string(), v.minLength(1)) })),

@@ -1,10 +1,11 @@
 /** What client and worker say to each other. Errors cross as data: a structured clone would lose code and hint. */
+import type { SolvedMotion } from '../motion/clip';
 import type { Backend } from './backend';
 import { ModelError, type ModelErrorCode } from './error';
-import type { GenerateRequest } from './inputs';
+import type { CoarseRequest, GenerateRequest } from './inputs';
 import type { LoadOptions, Status } from './load';
 import type { Manifest } from './manifest';
-import type { GenerateResult, Progress } from './pipeline';
+import type { GenerateResult, Preview, Progress } from './pipeline';
 
 export type Failure =
   | { readonly kind: 'model'; readonly code: ModelErrorCode; readonly message: string; readonly hint: string }
@@ -18,14 +19,17 @@ export type Outcome<T> =
 /** Everything the worker says unasked, through one callback for its whole life. */
 export type WorkerEvent =
   | { readonly kind: 'status'; readonly status: Status }
-  | { readonly kind: 'progress'; readonly id: number; readonly progress: Progress };
+  | { readonly kind: 'progress'; readonly id: number; readonly progress: Progress }
+  | { readonly kind: 'preview'; readonly id: number; readonly preview: Preview };
 
 export interface ModelWorker {
   load(
     options: LoadOptions,
     onEvent: (event: WorkerEvent) => void,
   ): Promise<Outcome<{ manifest: Manifest; backend: Backend }>>;
-  generate(id: number, request: GenerateRequest): Promise<Outcome<GenerateResult>>;
+  /** `at`: the frame that someone looks at, where a preview is wanted. */
+  generate(id: number, request: GenerateRequest, at: number | null): Promise<Outcome<GenerateResult>>;
+  coarse(id: number, request: CoarseRequest): Promise<Outcome<SolvedMotion>>;
   cancel(id: number): void;
 }
 

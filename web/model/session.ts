@@ -45,12 +45,17 @@ type Runtime = typeof ort;
  * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
  * as long there and is twice as large, so each provider has its own and only that one is downloaded.
  */
-async function loadRuntime(provider: Provider, threads: number): Promise<Runtime> {
+async function loadRuntime(
+  provider: Provider,
+  threads: number,
+  wasm?: Uint8Array<ArrayBuffer>,
+): Promise<Runtime> {
   const runtime = await (provider === 'wasm'
     ? import('onnxruntime-web/wasm')
     : import('onnxruntime-web/webgpu'));
   // Read once, when the first graph is opened.
   runtime.env.wasm.numThreads = threads;
+  if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
   runtime.env.logLevel = 'error';
   return runtime;
 }
@@ -100,6 +105,7 @@ function output(arrays: Arrays, name: string): Float32Array {
  * Open the three graphs on one execution provider.
  * @param graphs the ONNX files
  * @param threads of the wasm runtime; the first session of a worker decides for all
+ * @param wasm the runtime's WebAssembly; without it onnxruntime fetches its own
  * @throws {ModelError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
  */
 export async function openSession(
@@ -107,8 +113,9 @@ export async function openSession(
   graphs: Readonly<Record<GraphName, Uint8Array>>,
   provider: Provider,
   threads: number,
+  wasm?: Uint8Array<ArrayBuffer>,
 ): Promise<ModelSession> {
-  const runtime = await loadRuntime(provider, threads);
+  const runtime = await loadRuntime(provider, threads, wasm);
   const sessions: Partial<Record<GraphName, ort.InferenceSession>> = {};
   const release = async (): Promise<void> => {
     for (const session of Object.values(sessions)) await session.release();
@@ -120,6 +127,8 @@ export async function openSession(
     await inTurn(release);
     throw error;
   }
+  // Compiled by now: its bytes need not stay in memory.
+  delete runtime.env.wasm.wasmBinary;
   const { condition, step, decode } = sessions as Record<GraphName, ort.InferenceSession>;
   const { latent, audio } = manifest;
   const joints = manifest.skeleton.joints.length;

@@ -1,11 +1,36 @@
 /** The one worker that owns onnxruntime. */
 import { expose, transfer } from 'comlink';
+import type { SolvedMotion } from '../motion/clip';
 import { type LoadedModel, loadModel } from './load';
-import { type ModelWorker, outcome, type WorkerEvent } from './protocol';
+import { type ModelWorker, type Outcome, outcome, type WorkerEvent } from './protocol';
 
 let model: LoadedModel | undefined;
 let emit: (event: WorkerEvent) => void = () => undefined;
 const running = new Map<number, AbortController>();
+
+/** Does a job with the model that can be cancelled by its id. */
+async function run<T>(
+  id: number,
+  job: (loaded: LoadedModel, signal: AbortSignal) => Promise<T>,
+): Promise<Outcome<T>> {
+  const controller = new AbortController();
+  running.set(id, controller);
+  const { signal } = controller;
+  const result = await outcome(() => {
+    if (model === undefined) throw new Error('the model was asked before it was loaded');
+    return job(model, signal);
+  }, signal);
+  running.delete(id);
+  return result;
+}
+
+/** The memory of motions, which is handed over instead of copied. Locked feet may share what they leave as it was. */
+function buffers(...motions: readonly SolvedMotion[]): ArrayBufferLike[] {
+  const all = motions.flatMap(({ offsets, root, rotations, positions }) =>
+    [offsets, root, rotations, positions].map((array) => array.buffer),
+  );
+  return [...new Set(all)];
+}
 
 const worker: ModelWorker = {
   load(options, onEvent) {
@@ -18,26 +43,28 @@ const worker: ModelWorker = {
     });
   },
 
-  async generate(id, request) {
-    const controller = new AbortController();
-    running.set(id, controller);
-    const { signal } = controller;
-    const result = await outcome(async () => {
-      if (model === undefined) throw new Error('generate was called before load');
-      return model.pipeline.generate(request, {
+  async generate(id, request, at) {
+    const result = await run(id, ({ pipeline }, signal) =>
+      pipeline.generate(request, {
         signal,
         onProgress: (progress) => {
           emit({ kind: 'progress', id, progress });
         },
-      });
-    }, signal);
-    running.delete(id);
-    if (!result.ok) return result;
-    const { offsets, root, rotations, positions } = result.value.motion;
-    return transfer(
-      result,
-      [offsets, root, rotations, positions].map((array) => array.buffer),
+        at: at ?? undefined,
+        onPreview: (preview) => {
+          const { motion, locked } = preview;
+          emit(transfer({ kind: 'preview', id, preview }, buffers(motion, locked)));
+        },
+      }),
     );
+    if (!result.ok) return result;
+    const { motion, locked, latents } = result.value;
+    return transfer(result, [...buffers(motion, locked), latents.buffer]);
+  },
+
+  async coarse(id, request) {
+    const result = await run(id, ({ pipeline }, signal) => pipeline.coarse(request, { signal }));
+    return result.ok ? transfer(result, buffers(result.value)) : result;
   },
 
   cancel(id) {

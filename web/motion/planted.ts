@@ -5,7 +5,7 @@ import { readVec, sub, type Vec3 } from './vec3';
 
 /** Speed over the floor of a joint that comes to stand, and of one that has left again, m/s. */
 const ENTER = 0.5;
-const LEAVE = 0.9;
+export const LEAVE = 0.9;
 /** A standing joint rises or sinks slower than this, m/s. */
 const VERTICAL = 0.2;
 /**

@@ -1,8 +1,10 @@
-import { bytesOf } from './format';
+import { mountDeviceCard } from './device-card';
 import { el, setText, setVariable, together } from './dom';
+import { icon } from './icons';
+import { loadingWords } from './loading-words';
 import type { Mount } from './services';
 import type { ModelState } from './state';
-import { watch } from './store';
+import { apply, opened, watch } from './store';
 
 const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
 
@@ -28,8 +30,25 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       },
     },
   });
-  const badge = el('div', { class: 'badge' }, dot, title, meter, bytes, why, again);
+  const about = el(
+    'button',
+    {
+      class: 'about',
+      attributes: { type: 'button', 'aria-haspopup': 'dialog' },
+      on: {
+        click: () => {
+          apply(store, opened('device'));
+        },
+      },
+    },
+    el('span', { class: 'phone-only' }, icon('device')),
+    dot,
+    title,
+    why,
+  );
+  const badge = el('div', { class: 'badge' }, about, meter, bytes, again);
   root.append(badge);
+  const card = mountDeviceCard(badge, about, store, services);
 
   const show = (model: ModelState): void => {
     const loading = model.phase === 'loading';
@@ -37,27 +56,30 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     dot.hidden = why.hidden = model.phase !== 'ready';
     again.hidden = model.phase !== 'failed';
     badge.className = `badge ${model.phase}`;
-    badge.title = '';
+    about.title = '';
     if (model.phase === 'loading') {
       const part = model.total > 0 ? model.received / model.total : 0;
-      setText(title, model.label);
-      setText(bytes, model.total > 0 ? bytesOf(model.received, model.total) : '');
+      const words = loadingWords(model);
+      setText(title, words.title);
+      setText(bytes, words.detail);
+      about.title = `${words.title} ${words.detail}`.trim();
       setVariable(fill, '--part', part);
-      meter.setAttribute('aria-label', model.label);
+      meter.setAttribute('aria-label', words.title);
       meter.setAttribute('aria-valuenow', String(Math.round(part * 100)));
     } else if (model.phase === 'ready') {
       setText(title, BACKENDS[model.backend]);
       setText(why, model.reason.replace(/\.$/, ''));
       const threads =
         model.backend === 'wasm' ? `, ${model.threads} thread${model.threads === 1 ? '' : 's'}` : '';
-      badge.title = `Computes on ${BACKENDS[model.backend]}${threads}: ${model.reason}`;
+      about.title = `Computes on ${BACKENDS[model.backend]}${threads}: ${model.reason}`;
     } else {
       setText(title, 'No model');
-      badge.title = model.problem.title;
+      about.title = model.problem.title;
     }
   };
   return together(
     watch(store, (state) => state.model, show),
+    card,
     () => {
       badge.remove();
     },

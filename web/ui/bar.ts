@@ -3,8 +3,10 @@ import { mountChip } from './chip';
 import { el, setAttribute, together } from './dom';
 import { mountDownloadMenu } from './download-menu';
 import { brandMark, icon } from './icons';
+import { mountProjectMenu } from './keep/project-menu';
 import type { Mount } from './services';
 import { apply, opened, themeSet, watch } from './store';
+import { mountUndo } from './takes/undo-buttons';
 
 /** The bar: what this is, the two files, what computes, light or dark, and the way out with the motion. */
 export const mountBar: Mount = (root, store, services) => {
@@ -44,13 +46,18 @@ export const mountBar: Mount = (root, store, services) => {
   const leader = mountChip(root, store, services, 'leader');
   root.append(el('span', { class: 'grow' }));
   const badge = mountBackendBadge(root, store, services);
-  root.append(el('span', { class: 'vline' }), keys, theme);
+  root.append(el('span', { class: 'vline' }));
+  const undo = mountUndo(root, store, services);
+  const project = mountProjectMenu(root, store, services);
+  root.append(keys, theme);
   const download = mountDownloadMenu(root, store, services);
 
   return together(
     song,
     leader,
     badge,
+    undo,
+    project,
     download,
     watch(
       store,

@@ -1,3 +1,4 @@
+import { loadedRole, roleName } from './couple';
 import { duration, tempo } from './format';
 import { el, setText, setVariable, together } from './dom';
 import { icon } from './icons';
@@ -6,7 +7,6 @@ import type { Services } from './services';
 import type { AppState, Side } from './state';
 import { watchAll, type Store } from './store';
 
-const NAMES = { song: 'Song', leader: 'Leader' } as const;
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
 /** The song's or the leader's place in the bar: its name, what it is, and the way to another one. */
@@ -15,7 +15,7 @@ export function mountChip(root: HTMLElement, store: Store, services: Services, s
   const short = el('span');
   const long = el('span', { class: 'long' });
   const foot = el('span', { class: 'foot', attributes: { 'aria-hidden': 'true' } });
-  const sign = el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(side));
+  const sign = el('span', { class: 'sign' }, icon(side));
   const chip = el(
     'button',
     {
@@ -29,6 +29,8 @@ export function mountChip(root: HTMLElement, store: Store, services: Services, s
     },
     sign,
     name,
+    // Read together, name and facts are words of their own.
+    ' ',
     el('span', { class: 'm' }, short, long),
     foot,
   );
@@ -44,11 +46,15 @@ export function mountChip(root: HTMLElement, store: Store, services: Services, s
     foot.hidden = words.fraction === null;
     setVariable(foot, '--part', words.fraction ?? 0);
     chip.title = words.name ?? '';
-    const what = words.name ? `${NAMES[side]}: ${words.name}, ${words.short}` : `No ${side} yet`;
+    const role = loadedRole(state);
+    sign.className = `sign ${side === 'song' ? '' : role === 'leader' ? 'lead' : 'reac'}`;
+    const title = side === 'song' ? 'Song' : roleName(role);
+    // Says what can be read on it, so that it can be called by that.
+    const what = words.name ? `${title}: ${words.name} ${words.short}${words.long}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${words.name ? 'another' : 'one'}`);
   };
   return together(
-    watchAll(store, (state) => [state[side], state.reading[side], state.problem], show),
+    watchAll(store, (state) => [state[side], state.reading[side], state.problem, state.settings?.role], show),
     () => {
       chip.remove();
     },

@@ -1,19 +1,22 @@
 import type { Side } from './state';
 
+export type Choice = Side | 'any' | 'project';
+
 /** What the system's file chooser offers first; the content decides in the end. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
   leader: '.bvh',
-  any: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,.bvh',
+  any: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,.bvh,.reactdance',
+  project: '.reactdance,.zip',
 } as const;
 
 /** Opens the system's file chooser through inputs that live in the page, one for each kind. */
 export function createChooser(
   host: HTMLElement,
   open: (files: readonly File[]) => void,
-): (side: Side | 'any') => void {
-  const inputs = new Map<Side | 'any', HTMLInputElement>();
-  for (const side of ['song', 'leader', 'any'] as const) {
+): (what: Choice) => void {
+  const inputs = new Map<Choice, HTMLInputElement>();
+  for (const side of ['song', 'leader', 'any', 'project'] as const) {
     const input = document.createElement('input');
     input.type = 'file';
     input.id = `choose-${side}`;
@@ -29,5 +32,5 @@ export function createChooser(
     host.append(input);
     inputs.set(side, input);
   }
-  return (side) => inputs.get(side)?.click();
+  return (what) => inputs.get(what)?.click();
 }

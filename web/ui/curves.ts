@@ -1,4 +1,5 @@
 import type { SolvedMotion } from '../motion/clip';
+import type { Span } from './time-scale';
 
 /** Loudness of a song as seen: per column the lowest and the highest sample. */
 export interface Peaks {
@@ -10,19 +11,19 @@ export interface Peaks {
  * The picture of a waveform.
  * @param pcm mono samples
  * @param rate samples per second
- * @param seconds length of the picture; past the song's end it is flat
+ * @param span what the picture shows, seconds of the song; before its start and past its end it is flat
  * @param columns width of the picture
  */
-export function peaks(pcm: Float32Array, rate: number, seconds: number, columns: number): Peaks {
+export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, columns: number): Peaks {
   const low = new Float32Array(columns);
   const high = new Float32Array(columns);
-  const samples = seconds * rate;
+  const sampleAt = (column: number): number => Math.floor((from + (column / columns) * (to - from)) * rate);
   for (let column = 0; column < columns; column++) {
-    const from = Math.floor((column / columns) * samples);
-    const to = Math.min(pcm.length, Math.max(from + 1, Math.floor(((column + 1) / columns) * samples)));
+    const first = sampleAt(column);
+    const end = Math.min(pcm.length, Math.max(first + 1, sampleAt(column + 1)));
     let least = 0;
     let most = 0;
-    for (let i = from; i < to; i++) {
+    for (let i = Math.max(0, first); i < end; i++) {
       const value = pcm[i] ?? 0;
       if (value < least) least = value;
       if (value > most) most = value;
@@ -31,6 +32,11 @@ export function peaks(pcm: Float32Array, rate: number, seconds: number, columns:
     high[column] = most;
   }
   return { low, high };
+}
+
+/** The loudest sample of a song, at least a little above silence so that one can divide by it. */
+export function loudest(pcm: Float32Array): number {
+  return pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 1e-3);
 }
 
 /** Speed of a dancer as drawn in its lane: mean over the joints in m/s per frame, smoothed over about 0.2 s. */

@@ -3,6 +3,7 @@ import type { SolvedMotion } from '../motion/clip';
 import type { Files } from './files';
 import type { LoadedLeader, LoadedSong, Reaction, Settings } from './state';
 import { apply, demoChanged, playbackSet, reacted, settingsSet, type Store } from './store';
+import { unremembered } from './takes/history';
 
 const text = v.pipe(v.string(), v.minLength(1));
 const named = { file: text, name: text, label: text };
@@ -19,9 +20,11 @@ const schema = v.object({
       file: text,
       label: text,
       settings: v.object({
-        guidance: v.object({ coarse: v.number(), fine: v.number() }),
+        /** By stream and layer. */
+        guidance: v.record(v.string(), v.record(v.string(), v.number())),
         steps: v.number(),
         seed: v.number(),
+        role: v.picklist(['leader', 'reactor']),
       }),
     }),
   ),
@@ -81,14 +84,15 @@ async function showReaction(
   const { motion, leader, label, settings } = made;
   const shown = (song: LoadedSong | null): Reaction => ({
     motion,
-    inputs: { leader, song, settings },
+    latents: null,
+    inputs: { leader, song, shift: 0, settings },
     label,
     seconds: null,
   });
   if (store.getState().leader !== leader) return;
   apply(store, reacted(shown(null)));
   await readers.settled();
-  if (store.getState().leader === leader) apply(store, settingsSet(settings));
+  if (store.getState().leader === leader) apply(store, unremembered(settingsSet(settings)));
   const song = await coming;
   if (song && store.getState().leader === leader) apply(store, reacted(shown(song)));
 }

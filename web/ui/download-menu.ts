@@ -1,107 +1,87 @@
-import { writeBvh } from '../motion/bvh-write';
-import { el, setAttribute, setText, together } from './dom';
-import { byteSize } from './format';
+import { el, setAttribute, setText, setVariable, together } from './dom';
+import { createDownloadMotion } from './download-motion';
+import { createDownloadVideo } from './download-video';
 import { icon } from './icons';
-import { reactorMotion } from './reactor-motion';
-import { reactorFileName } from './selectors';
 import type { Mount } from './services';
 import type { AppState } from './state';
 import { apply, opened, watch, watchAll } from './store';
+import { mountTakesDoor } from './takes/takes-door';
 
-/** The Download button and its menu: what can be taken home, how large it is and what it will be called. */
+/**
+ * The Download button and its menu: whose motion, in which format and under which name, and the video. A video goes on
+ * while the menu is closed; the button then shows how far it is.
+ */
 export const mountDownloadMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
     apply(store, opened('download'));
   };
-  const attributes = { type: 'button', 'aria-haspopup': 'dialog' };
-  const wide = el(
-    'button',
-    { class: 'btn primary desk', attributes, on: { click: toggle } },
-    icon('download'),
-    'Download',
-  );
-  const narrow = el(
-    'button',
-    {
-      class: 'icon phone-only',
-      attributes: { ...attributes, 'aria-label': 'Download' },
-      on: { click: toggle },
-    },
-    icon('share'),
-  );
-  const size = el('em');
-  const save = el(
-    'button',
-    {
-      class: 'it',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.saveReactor();
-        },
-      },
-    },
-    el('b', { text: 'BVH' }),
-    el('span', { text: 'Skeleton with rest pose, for Blender, Maya, MotionBuilder' }),
-    size,
-  );
-  const fileName = el('b');
-  const file = el('div', { class: 'file' }, 'Saved as', fileName);
+  const attributes = { type: 'button', 'aria-haspopup': 'dialog', 'aria-label': 'Download' };
+  const button = (kind: string, sign: SVGSVGElement, text: string | null) => {
+    const ring = el('span', { class: 'ring', attributes: { 'aria-hidden': true } });
+    const element = el('button', { class: kind, attributes, on: { click: toggle } }, ring, sign, text);
+    return { element, ring, sign };
+  };
+  const wide = button('btn primary desk', icon('download'), 'Download');
+  const narrow = button('icon phone-only', icon('share'), null);
+  const motion = createDownloadMotion(store, services);
+  const video = createDownloadVideo(store, services);
   const menu = el(
     'div',
     { class: 'float menu', attributes: { role: 'dialog', 'aria-label': 'Download' } },
-    el(
-      'div',
-      { class: 'row' },
-      el('h2', { text: 'Motion of the reactor' }),
-      el(
-        'button',
-        { class: 'icon', attributes: { type: 'button', 'aria-label': 'Close' }, on: { click: toggle } },
-        icon('close'),
-      ),
-    ),
-    save,
-    file,
+    ...motion.parts,
+    video.part,
   );
   menu.hidden = true;
-  root.append(wide, narrow, menu);
+  const door = mountTakesDoor(menu, store, services);
+  // Read out at the start, half way and at the end, not at every picture.
+  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  root.append(wide.element, narrow.element, menu, spoken);
 
-  const showReaction = (state: AppState): void => {
-    const { reaction } = state;
-    wide.disabled = narrow.disabled = save.disabled = reaction === null;
-    wide.title = reaction ? '' : 'Ready when a reactor is on the stage';
-    if (reaction) setText(fileName, reactorFileName(reaction.inputs));
-    if (!menu.hidden) showSize(state);
-  };
-  /** The size is that of the very text that would be saved; it is only written out when someone looks. */
-  const showSize = (state: AppState): void => {
-    const motion = reactorMotion(state);
-    setText(size, motion ? byteSize(writeBvh(motion).length) : '');
+  const showButtons = ({ reaction, filming, saved }: AppState): void => {
+    const share = filming && filming.frame / filming.frames;
+    for (const { element, ring, sign } of [wide, narrow]) {
+      element.disabled = reaction === null && !filming;
+      element.title = filming
+        ? `Writing the video, ${Math.round(100 * (share ?? 0))} %`
+        : reaction
+          ? ''
+          : 'Ready when a reactor is on the stage';
+      ring.hidden = !filming;
+      sign.toggleAttribute('hidden', filming !== null);
+      setVariable(ring, '--part', share ?? 0);
+    }
+    if (filming)
+      setText(spoken, (share ?? 0) < 0.5 ? 'The video is being written.' : 'The video is half done.');
+    else setText(spoken, saved ? `Saved ${saved.name}.` : '');
   };
   const showOpen = (open: boolean): void => {
     const before = menu.hidden;
     menu.hidden = !open;
-    for (const button of [wide, narrow]) setAttribute(button, 'aria-expanded', open ? 'true' : 'false');
+    for (const { element } of [wide, narrow]) setAttribute(element, 'aria-expanded', open ? 'true' : 'false');
     if (open) {
-      showSize(store.getState());
-      save.focus();
-    } else if (!before && menu.contains(document.activeElement)) {
-      (wide.offsetParent ? wide : narrow).focus();
+      motion.focus();
+    } else if (
+      !before &&
+      (menu.contains(document.activeElement) || document.activeElement === document.body)
+    ) {
+      (wide.element.offsetParent ? wide : narrow).element.focus();
     }
   };
   const closeOutside = (event: PointerEvent): void => {
     const target = event.target as Node;
-    if (!menu.hidden && ![menu, wide, narrow].some((part) => part.contains(target))) toggle();
+    const inside = [menu, wide.element, narrow.element].some((part) => part.contains(target));
+    if (!menu.hidden && !inside) toggle();
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
-    watchAll(store, (state) => [state.reaction, state.footLock], showReaction),
+    watchAll(store, (state) => [state.reaction, state.filming, state.saved], showButtons),
     watch(store, (state) => state.open === 'download', showOpen),
+    door,
+    motion.dispose,
+    video.dispose,
     () => {
       document.removeEventListener('pointerdown', closeOutside);
-      wide.remove();
-      narrow.remove();
-      menu.remove();
+      for (const part of [wide.element, narrow.element, menu, spoken]) part.remove();
     },
   );
 };

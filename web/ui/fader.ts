@@ -2,6 +2,14 @@ import { el, setText, setVariable } from './dom';
 import { drawing } from './icons';
 import type { Layer } from './state';
 
+export interface FaderEvents {
+  readonly change: (value: number) => void;
+  readonly reset: () => void;
+  /** It is taken in hand; all changes until it is let go belong together. */
+  readonly grab?: () => void;
+  readonly letGo?: () => void;
+}
+
 /** A fader's range, from the manifest. */
 export interface FaderRange {
   readonly min: number;
@@ -12,8 +20,8 @@ export interface FaderRange {
 export interface Fader {
   readonly root: HTMLElement;
   readonly input: HTMLInputElement;
-  /** Sets range and value; null draws it asleep. */
-  readonly show: (range: FaderRange | null, value: number) => void;
+  /** Sets range and value, the mean where the body parts are mixed; null draws it asleep. */
+  readonly show: (range: FaderRange | null, value: number, mixed?: boolean) => void;
   /** The warm outline: this one is being applied. */
   readonly setApplying: (applying: boolean) => void;
 }
@@ -36,20 +44,17 @@ function wavePath(layer: Layer): string {
  * A native range input laid over a drawn well, so that keyboard, touch and screen readers work by themselves.
  * Shift drags at a tenth; a double click asks for the default.
  */
-export function createFader(
-  layer: Layer,
-  name: string,
-  hint: string,
-  on: { readonly change: (value: number) => void; readonly reset: () => void },
-): Fader {
+export function createFader(layer: Layer, name: string, hint: string, on: FaderEvents): Fader {
   const hintId = `hint-${layer}`;
   const value = el('output', { class: 'val' });
+  const mix = el('small', { class: 'mix', text: 'mixed' });
   const well = el(
     'span',
     { class: 'well' },
     el('span', { class: 'fill' }),
     el('span', { class: 'name', text: name }),
     drawing(`0 0 ${WAVE.width} ${WAVE.height}`, 'w', [[wavePath(layer)]]),
+    mix,
     value,
   );
   const input = el('input', {
@@ -60,15 +65,8 @@ export function createFader(
       title: `${hint} Double click for the default.`,
       disabled: true,
     },
-    on: {
-      input: () => {
-        on.change(input.valueAsNumber);
-      },
-      dblclick: () => {
-        on.reset();
-      },
-    },
   });
+  steer(input, on);
   const scale = el('div', { class: 'scale', attributes: { 'aria-hidden': 'true' } });
   const root = el(
     'div',
@@ -78,13 +76,12 @@ export function createFader(
     scale,
     el('span', { class: 'hint', text: hint, attributes: { id: hintId } }),
   );
-  dragFinely(input, on.change);
 
   let drawn: FaderRange | null = null;
   return {
     root,
     input,
-    show: (range, current) => {
+    show: (range, current, mixed = false) => {
       input.disabled = range === null;
       setText(value, range ? current.toFixed(2) : '');
       if (!range) return;
@@ -96,7 +93,8 @@ export function createFader(
         scale.replaceChildren(...marks(range));
       }
       if (input.valueAsNumber !== current) input.value = String(current);
-      input.setAttribute('aria-valuetext', `${current.toFixed(2)}, ${closeness(current)}`);
+      mix.hidden = !mixed;
+      input.setAttribute('aria-valuetext', valueWords(current, mixed));
       setVariable(root, '--v', (current - range.min) / (range.max - range.min));
     },
     setApplying: (applying) => {
@@ -118,10 +116,28 @@ function marks({ min, max }: FaderRange): HTMLElement[] {
   return list;
 }
 
+/** What a screen reader says of a value. */
+export function valueWords(value: number, mixed = false): string {
+  const words = `${value.toFixed(2)}, ${closeness(value)}`;
+  return mixed ? `${words}, on average: the body parts are mixed` : words;
+}
+
 function closeness(value: number): string {
   if (value <= -0.75) return 'hardly follows';
   if (value < 0.5) return 'follows';
   return value < 1.75 ? 'follows closely' : 'follows very closely';
+}
+
+/** Ties a range input to what it does: drag, keys, double click for the default, Shift to drag finely. */
+export function steer(input: HTMLInputElement, { change, reset, grab, letGo }: FaderEvents): void {
+  input.addEventListener('pointerdown', () => grab?.());
+  for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
+    input.addEventListener(type, () => letGo?.());
+  input.addEventListener('input', () => {
+    change(input.valueAsNumber);
+  });
+  input.addEventListener('dblclick', reset);
+  dragFinely(input, change);
 }
 
 /** With Shift held the value moves a tenth as far as the pointer. */

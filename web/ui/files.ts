@@ -6,6 +6,7 @@ import { HEAD_BYTES, kindOf } from './sniff';
 import type { LoadedLeader, LoadedSong, Side } from './state';
 import {
   apply,
+  type Change,
   leaderLoaded,
   told,
   dismissed,
@@ -14,6 +15,7 @@ import {
   type Store,
   visitEnded,
 } from './store';
+import { unremembered } from './takes/history';
 
 /**
  * Least time between two changes of a progress line, milliseconds: where the processor draws the picture, each of
@@ -40,6 +42,15 @@ export interface Files {
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
   readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
+  /** Reads a song as `openSong` does without putting it on the page; null when that failed or a newer one came. */
+  readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
+  /** The same for a leader. */
+  readonly readLeader: (
+    text: string,
+    name: string,
+    label: string | null,
+    fps: number | null,
+  ) => Promise<LoadedLeader | null>;
 }
 
 /**
@@ -80,7 +91,12 @@ export function createFiles(store: Store, readers: Readers): Files {
     }
   }
 
-  const openSong: Files['openSong'] = (blob, name, label) =>
+  const readSong = (
+    blob: Blob,
+    name: string,
+    label: string | null,
+    done: (song: LoadedSong) => void,
+  ): Promise<LoadedSong | null> =>
     read(
       'song',
       name,
@@ -92,11 +108,11 @@ export function createFiles(store: Store, readers: Readers): Files {
             progress(fraction);
           },
         });
-        return { name, label, data };
+        // The bytes themselves: a file of the visitor's disk may have changed by the time it is kept.
+        const file = new Blob([await blob.arrayBuffer()], { type: blob.type });
+        return { name, label, file, data };
       },
-      (song) => {
-        apply(store, songLoaded(song));
-      },
+      done,
     );
 
   const readLeader = (
@@ -104,6 +120,7 @@ export function createFiles(store: Store, readers: Readers): Files {
     name: string,
     label: string | null,
     fps: number | null,
+    done: (leader: LoadedLeader) => void,
   ): Promise<LoadedLeader | null> =>
     read(
       'leader',
@@ -112,10 +129,24 @@ export function createFiles(store: Store, readers: Readers): Files {
         const { file, motion } = await readers.readLeader({ text, fps }, signal);
         return { name, label, text, fps, file, motion };
       },
-      (leader) => {
-        apply(store, leaderLoaded(leader));
-      },
+      done,
     );
+
+  /** What comes with a label is the page's own and nothing that a visitor would take back. */
+  const put = (change: Change, label: string | null): void => {
+    apply(store, label === null ? change : unremembered(change));
+  };
+  const putLeader = (leader: LoadedLeader): void => {
+    put(leaderLoaded(leader), leader.label);
+  };
+  /** The page's own material never takes the place of what came while it was being read, as by undoing. */
+  const late = (side: Side, label: string | null): boolean =>
+    label !== null && store.getState()[side] !== null;
+  const openSong: Files['openSong'] = (blob, name, label) =>
+    readSong(blob, name, label, (song) => {
+      if (late('song', label)) apply(store, readingSet('song', null));
+      else put(songLoaded(song), label);
+    });
 
   async function openOne(file: File): Promise<void> {
     if (file.size === 0) {
@@ -130,7 +161,7 @@ export function createFiles(store: Store, readers: Readers): Files {
         return;
       case 'leader':
         apply(store, visitEnded());
-        await readLeader(await file.text(), file.name, null, null);
+        await readLeader(await file.text(), file.name, null, null, putLeader);
         return;
       case 'other-motion':
         apply(store, told(otherMotionProblem(file.name)));
@@ -155,10 +186,22 @@ export function createFiles(store: Store, readers: Readers): Files {
       );
     },
     openSong,
-    openLeader: (text, name, label) => readLeader(text, name, label, null),
+    openLeader: (text, name, label) =>
+      readLeader(text, name, label, null, (leader) => {
+        if (late('leader', label)) apply(store, readingSet('leader', null));
+        else putLeader(leader);
+      }),
     rereadLeader: async (fps) => {
       const { leader } = store.getState();
-      return leader ? readLeader(leader.text, leader.name, leader.label, fps) : null;
+      return leader ? readLeader(leader.text, leader.name, leader.label, fps, putLeader) : null;
     },
+    readSong: (blob, name, label) =>
+      readSong(blob, name, label, () => {
+        apply(store, readingSet('song', null));
+      }),
+    readLeader: (text, name, label, fps) =>
+      readLeader(text, name, label, fps, () => {
+        apply(store, readingSet('leader', null));
+      }),
   };
 }

@@ -1,5 +1,6 @@
 import { duration } from './format';
 import { el, setText, together } from './dom';
+import { howItWorks, opensHowItWorks, steps } from './how-it-works';
 import { icon, type IconName } from './icons';
 import { danceDuration } from './selectors';
 import type { Mount, Services } from './services';
@@ -29,9 +30,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     el('h1', { text: 'Drop a song and a lead. Watch the partner answer.' }),
     el('p', {
       class: 'lede',
-      text:
-        'Your browser dances the reacting partner and shows both in 3D. ' +
-        'Steer how closely it follows, then download the motion.',
+      text: 'Your browser dances the reacting partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
@@ -40,6 +39,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
       half(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
       half(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
     ),
+    steps(opensHowItWorks('Where from?', 'link')),
     el(
       'p',
       { class: 'how' },
@@ -50,7 +50,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         el('span', { class: 'desk', text: 'Drop both anywhere on this page. ' }),
         'Your files never leave this browser.',
       ),
+      opensHowItWorks('How it works', 'link phone-only'),
     ),
+    howItWorks(),
   );
   root.append(block);
 

@@ -1,8 +1,17 @@
-import type { Generator } from '../model/client';
+import type {
+  GenerateRequest,
+  GenerateResult,
+  Generator,
+  Manifest,
+  Preview as ModelPreview,
+} from '../model/client';
+import type { SolvedMotion } from '../motion/clip';
 import { generationProblem, isAbort } from './problems';
+import { reactorMotion, rememberLocked } from './reactor-motion';
 import { guidanceMatrix, sameInputs, wantedInputs } from './selectors';
-import type { Inputs } from './state';
-import { apply, jobChanged, told, reacted, type Store } from './store';
+import { splice } from './splice';
+import type { Inputs, Reaction } from './state';
+import { apply, jobChanged, previewed, told, reacted, type Store } from './store';
 
 /** Stillness after the last change before a new reaction is begun, milliseconds. */
 const STILLNESS = 60;
@@ -17,7 +26,8 @@ export interface Generation {
 
 /**
  * Keeps the reaction in step with song, leader and settings: what they ask for is made by itself, once, and a
- * newer wish drops the older one. Whatever was on the stage stays there until the new reaction is ready.
+ * newer wish drops the older one. Whatever was on the stage stays there until the new reaction is ready, save for the
+ * part under the playhead, which changes as soon as it can.
  * @param model resolves with the model when it is there; rejects when it cannot be had, which is told elsewhere
  */
 export function createGeneration(store: Store, model: () => Promise<Generator>): Generation {
@@ -39,29 +49,24 @@ export function createGeneration(store: Store, model: () => Promise<Generator>):
     running = { controller, inputs };
     const { signal } = controller;
     try {
-      apply(store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0 }));
+      apply(store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, fresh: null }));
       const generator = await model();
       if (signal.aborted) return;
-      const { song, leader, settings } = inputs;
-      const { motion, seconds } = await generator.generate(
-        {
-          leader: leader.file.clip,
-          music: song ? { features: song.data.features, frames: song.data.frames } : null,
-          guidance: guidanceMatrix(settings, generator.manifest.latent),
-          steps: settings.steps,
-          seed: settings.seed,
+      const { playback, leader } = store.getState();
+      const made = await generator.generate(requestFor(inputs, generator.manifest), {
+        signal,
+        onProgress: (progress) => {
+          const fresh = store.getState().job?.fresh ?? null;
+          if (!signal.aborted) apply(store, jobChanged({ ...progress, fresh }));
         },
-        {
-          signal,
-          onProgress: (progress) => {
-            if (!signal.aborted) apply(store, jobChanged(progress));
-          },
+        at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
+        onPreview: (preview) => {
+          if (!signal.aborted) showPreview(store, preview);
         },
-      );
+      });
       if (signal.aborted) return;
       running = null;
-      const took = Object.values(seconds).reduce((sum, part) => sum + part, 0);
-      apply(store, reacted({ motion, inputs, label: null, seconds: took }));
+      apply(store, reacted(reactionOf(made, inputs)));
     } catch (error) {
       if (signal.aborted) return;
       running = null;
@@ -108,4 +113,35 @@ export function createGeneration(store: Store, model: () => Promise<Generator>):
       stop();
     },
   };
+}
+
+/** What the model is asked for. */
+export function requestFor({ song, leader, shift, settings }: Inputs, manifest: Manifest): GenerateRequest {
+  return {
+    leader: leader.file.clip,
+    music: song ? { features: song.data.features, frames: song.data.frames, start: shift } : null,
+    guidance: guidanceMatrix(settings, manifest.latent),
+    steps: settings.steps,
+    seed: settings.seed,
+    role: settings.role,
+  };
+}
+
+/** What the model made, as a reaction that can be shown. */
+export function reactionOf({ motion, locked, latents, seconds }: GenerateResult, inputs: Inputs): Reaction {
+  rememberLocked(motion, locked);
+  const took = Object.values(seconds).reduce((sum, part) => sum + part, 0);
+  return { motion, latents, inputs, label: null, seconds: took };
+}
+
+/** Puts the new part into what is on the stage; where nothing is, the whole of what the model has so far. */
+function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): void {
+  const { reaction } = store.getState();
+  const into = (shown: SolvedMotion | null, made: SolvedMotion): SolvedMotion =>
+    shown?.frames === made.frames ? splice(shown, made, fresh) : made;
+  const preview = {
+    motion: into(reaction?.motion ?? null, motion),
+    locked: into(reactorMotion({ reaction, footLock: true }), locked),
+  };
+  apply(store, previewed(preview, fresh));
 }

@@ -1,8 +1,11 @@
 import { el, together } from './dom';
 import { createFader } from './fader';
+import { columnOf } from './guidance-matrix';
 import { icon } from './icons';
+import { mountMatrix } from './matrix';
+import { mountPresetMenu } from './preset-menu';
 import type { Mount } from './services';
-import type { Layer } from './state';
+import type { Guidance, Layer } from './state';
 import { apply, guidanceReset, guidanceSet, watchAll } from './store';
 
 const FADERS: readonly (readonly [Layer, string, string])[] = [
@@ -10,13 +13,17 @@ const FADERS: readonly (readonly [Layer, string, string])[] = [
   ['fine', 'Fine', 'The detail: hands, feet, accents.'],
 ];
 
-/** The instrument: how closely the reactor's big shape and its detail follow leader and music. */
-export const mountGuidance: Mount = (root, store) => {
+/** The instrument: how closely the partner's big shape and its detail follow the other dancer and the music. */
+export const mountGuidance: Mount = (root, store, services) => {
   const reset = el(
     'button',
     {
       class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Reset guidance', title: 'Reset (R)' },
+      attributes: {
+        type: 'button',
+        'aria-label': 'Reset guidance',
+        title: 'Back to what suits this model best (R)',
+      },
       on: {
         click: () => {
           apply(store, guidanceReset());
@@ -26,27 +33,43 @@ export const mountGuidance: Mount = (root, store) => {
     icon('reset'),
   );
   let touched: Layer | null = null;
+  /** Where the body parts stood when a fader was taken in hand: while it is held, their differences come back. */
+  let held: Guidance | null = null;
   let worked = false;
   const faders = FADERS.map(([layer, name, hint]) => ({
     layer,
     fader: createFader(layer, name, hint, {
       change: (value) => {
         touched = layer;
-        apply(store, guidanceSet(layer, value));
+        apply(store, guidanceSet(layer, value, held ?? undefined));
       },
       reset: () => {
         touched = layer;
         apply(store, guidanceReset(layer));
       },
+      grab: () => {
+        held = store.getState().settings?.guidance ?? null;
+      },
+      letGo: () => {
+        held = null;
+      },
     }),
   }));
+  const head = el(
+    'div',
+    { class: 'head' },
+    el('h2', { text: 'Guidance', attributes: { id: 'guidance-head' } }),
+  );
   const section = el(
     'section',
-    { class: 'sec', attributes: { 'aria-labelledby': 'guidance-head' } },
-    el('div', { class: 'head' }, el('h2', { text: 'Guidance', attributes: { id: 'guidance-head' } }), reset),
+    { class: 'sec guidance', attributes: { 'aria-labelledby': 'guidance-head' } },
+    head,
     ...faders.map(({ fader }) => fader.root),
   );
   root.append(section);
+  const menu = mountPresetMenu(head, store, services);
+  head.append(reset);
+  const matrix = mountMatrix(section, store, services);
 
   return together(
     watchAll(
@@ -54,15 +77,19 @@ export const mountGuidance: Mount = (root, store) => {
       (state) => [state.settings, state.manifest, state.job !== null],
       ({ settings, manifest, job }) => {
         reset.disabled = !settings;
+        section.dataset['made'] = settings?.role ?? 'reactor';
         // A fader is touched a moment before its job begins, and is done with when that job ends.
         if (worked && !job) touched = null;
         worked = job !== null;
         for (const { layer, fader } of faders) {
-          fader.show(settings && manifest ? manifest.guidance : null, settings?.guidance[layer] ?? 0);
+          const { value, mixed } = columnOf(settings?.guidance ?? {}, layer);
+          fader.show(settings && manifest ? manifest.guidance : null, value, mixed);
           fader.setApplying(job !== null && touched === layer);
         }
       },
     ),
+    menu,
+    matrix,
     () => {
       section.remove();
     },

@@ -1,8 +1,10 @@
+import { coarseIsMissing } from './coarse-layer';
 import { listen, together } from './dom';
-import { rolledSeed } from './options';
+import { rolledSeed } from './seed';
 import { danceDuration } from './selectors';
 import type { Services } from './services';
-import type { Camera } from './state';
+import { SHOWS } from './shows';
+import type { Camera, Shown } from './state';
 import {
   apply,
   cameraSet,
@@ -10,10 +12,15 @@ import {
   opened,
   playbackSet,
   dismissed,
-  seedSet,
+  seedRolled,
+  shownToggled,
   SPEEDS,
   type Store,
 } from './store';
+import { regionEndSet, regionSet, zoomedBy, zoomSet } from './timeline-changes';
+import { ZOOM_STEP } from './zoom-control';
+import { takeStarred } from './takes/changes';
+import { takeOnStage } from './takes/take';
 
 /**
  * The keys of the page. Letters rest while someone types; arrows, Home and End rest on sliders of their own;
@@ -26,6 +33,8 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
     if (event.key === 'Escape') {
+      // The browser itself closes a popover, and nothing else is meant then.
+      if (document.querySelector(':popover-open')) return;
       if (escape(store, services)) event.preventDefault();
       return;
     }
@@ -55,10 +64,11 @@ export function mountKeyboard(store: Store, services: Services): () => void {
 
 /** Closes or cancels the one thing in front; true if there was one. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, open, job } = store.getState();
+  const { problem, open, job, choices, playback } = store.getState();
   if (problem) apply(store, dismissed());
   else if (open) apply(store, opened(open));
-  else if (job) services.cancel();
+  else if (job || choices?.making) services.cancel();
+  else if (playback.region) apply(store, regionSet(null));
   else return false;
   return true;
 }
@@ -90,13 +100,35 @@ function press(event: KeyboardEvent, store: Store, services: Services): boolean 
     case ']':
       apply(store, playbackSet({ speed: beside(speed, 1) }));
       return true;
+    case '+':
+    case '=':
+      apply(store, zoomedBy(ZOOM_STEP));
+      return true;
+    case '-':
+      apply(store, zoomedBy(1 / ZOOM_STEP));
+      return true;
+    case '0':
+      apply(store, zoomSet(null));
+      return true;
     case '?':
       apply(store, opened('keys'));
       return true;
   }
+  const show = SHOWS.find(({ key }) => key === event.key.toUpperCase());
+  if (show) {
+    toggleShow(store, show.what);
+    return true;
+  }
+  const onStage = takeOnStage(state);
   switch (event.key.toLowerCase()) {
     case 'l':
       apply(store, playbackSet({ loop: !loop }));
+      return true;
+    case 'i':
+      apply(store, regionEndSet('from', time));
+      return true;
+    case 'o':
+      apply(store, regionEndSet('to', time));
       return true;
     case 'c':
       focusFader('Coarse guidance');
@@ -108,13 +140,16 @@ function press(event: KeyboardEvent, store: Store, services: Services): boolean 
       apply(store, guidanceReset());
       return true;
     case 'd':
-      apply(store, seedSet(rolledSeed()));
+      apply(store, seedRolled(rolledSeed()));
       return true;
     case 'f':
       toggleCamera(store, 'follow');
       return true;
     case 't':
       toggleCamera(store, 'top');
+      return true;
+    case 's':
+      if (onStage) apply(store, takeStarred(onStage.id));
       return true;
     case 'e':
       if (state.reaction) apply(store, opened('download'));
@@ -135,4 +170,12 @@ function focusFader(label: string): void {
 
 function toggleCamera(store: Store, camera: Camera): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
+}
+
+/** A coarse ghost that can't be seen opens the menu, which says why and what to do. */
+function toggleShow(store: Store, what: keyof Shown): void {
+  apply(store, shownToggled(what));
+  const { shown, open, visiting } = store.getState();
+  const silent = what === 'ghost' && shown.ghost && coarseIsMissing(store.getState());
+  if (silent && open === null && !visiting) apply(store, opened('show'));
 }

@@ -1,6 +1,7 @@
 import { el, together } from './dom';
 import { icon } from './icons';
 import type { Mount } from './services';
+import { SHOWS } from './shows';
 import { apply, opened, watch } from './store';
 
 const KEYS: readonly (readonly [readonly string[], string])[] = [
@@ -9,13 +10,21 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Shift ←', 'Shift →'], 'One second back or on'],
   [['Home', 'End'], 'Start, end'],
   [['[', ']'], 'Slower, faster'],
-  [['L'], 'Loop'],
+  [['← →'], 'On the song’s lane: shift it by a frame; with Shift by ten'],
+  [['L'], 'Loop on or off'],
+  [['I', 'O'], 'Loop from here, to here'],
+  [['+', '−', '0'], 'Zoom in, out, the whole dance'],
   [['C', 'V'], 'Coarse, fine; then the arrows'],
   [['R'], 'Guidance back to its default'],
   [['D'], 'Another seed'],
+  [['S'], 'Star the take on the stage'],
+  [['B'], 'The other take; held, only while held'],
+  [['Ctrl Z', 'Ctrl Y'], 'Undo, redo'],
+  [['Ctrl S'], 'Save the project'],
   [['F', 'T'], 'Follow, top view; again for orbit'],
+  [SHOWS.map(({ key }) => key), SHOWS.map(({ label }) => label).join(', ')],
   [['E'], 'Download'],
-  [['Esc'], 'Cancel, or close what is open'],
+  [['Esc'], 'Cancel, close what is open, or end the loop'],
   [['?'], 'This list'],
 ];
 

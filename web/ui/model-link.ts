@@ -1,5 +1,5 @@
 import type { Generator, Manifest, ModelFolder, Status } from '../model/client';
-import { rolledSeed } from './options';
+import { rolledSeed } from './seed';
 import { modelProblem } from './problems';
 import type { ModelState } from './state';
 import { apply, manifestArrived, modelChanged, modelOpened, told, remarked, type Store } from './store';
@@ -37,9 +37,14 @@ export function createModelLink(
   };
   const load = async (): Promise<Generator> => {
     apply(store, modelChanged({ phase: 'loading', label: 'Model', received: 0, total: 0 }));
+    // Downloads beside the one that failed may still tell how far they are.
+    let failed = false;
     try {
-      return await create(onStatus, null);
+      return await create((status) => {
+        if (!failed) onStatus(status);
+      }, null);
     } catch (error) {
+      failed = true;
       const problem = modelProblem(error);
       apply(store, modelChanged({ phase: 'failed', problem }));
       apply(store, told(problem));
@@ -87,7 +92,13 @@ function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): Mode
   const preparing = (label: string): ModelState => ({ phase: 'loading', label, received: 0, total: 0 });
   switch (status.kind) {
     case 'download':
-      return { phase: 'loading', label: 'Model', received: status.loaded, total: status.total };
+      return {
+        phase: 'loading',
+        label: 'Model',
+        received: status.parts.reduce((sum, part) => sum + part.loaded, 0),
+        total: status.parts.reduce((sum, part) => sum + part.total, 0),
+        parts: status.parts,
+      };
     case 'open':
       return preparing('Opening the model');
     case 'check':

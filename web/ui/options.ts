@@ -1,88 +1,117 @@
+import { mountChoiceCards } from './choice-cards';
+import { complete } from './choice-changes';
+import { loadedRole, madeRole } from './couple';
 import { el, setText, together } from './dom';
 import { icon } from './icons';
+import { mountSeedBox } from './seed-box';
+import { rolledSeed } from './seed';
 import { beingRead, upToDate } from './selectors';
 import type { Mount } from './services';
 import type { AppState } from './state';
-import { apply, seedSet, stepsSet, watchAll } from './store';
+import { apply, rolesSwapped, seedRolled, stepsSet, watchAll } from './store';
 
-/** A seed that nobody chose: small enough to read out and to type again. */
-export function rolledSeed(): number {
-  return 1 + Math.floor(Math.random() * 9999);
-}
-
-/** Which reaction of the many possible ones, how carefully it is made, and the order to make it. */
+/** Which of the many possible reactions, how carefully it is made, whose part it is, and the order to make it. */
 export const mountOptions: Mount = (root, store, services) => {
-  const seed = el('input', {
-    attributes: {
-      type: 'number',
-      min: 0,
-      max: 0xffffffff,
-      step: 1,
-      'aria-label': 'Seed',
-      inputmode: 'numeric',
-    },
-    on: {
-      change: () => {
-        apply(store, seedSet(seed.valueAsNumber));
-        showSeed(store.getState());
-      },
-    },
-  });
-  const roll = button('dice', 'Roll a new seed', 'Another reaction (D)', () => {
-    apply(store, seedSet(rolledSeed()));
-  });
   const count = el('output', { attributes: { 'aria-label': 'Steps' } });
   const move = (by: number): void => {
     apply(store, stepsSet((store.getState().settings?.steps ?? 0) + by));
   };
-  const fewer = button('minus', 'Fewer steps', 'Fewer steps: quicker, rougher', () => {
+  const fewer = stepper('minus', 'Fewer steps', 'Fewer steps: quicker, rougher', () => {
     move(-1);
   });
-  const more = button('plus', 'More steps', 'More steps: slower, smoother', () => {
+  const more = stepper('plus', 'More steps', 'More steps: slower, smoother', () => {
     move(1);
   });
+  const swap = el(
+    'button',
+    {
+      class: 'btn tint swap',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          apply(store, rolesSwapped());
+        },
+      },
+    },
+    icon('swap'),
+    'Swap roles',
+  );
   const make = el('button', {
     class: 'btn tint',
-    text: 'Generate',
     attributes: { type: 'button' },
     on: {
       click: () => {
-        services.generate();
+        const state = store.getState();
+        // With a reaction to the very wish on the stage, another one is another seed, unless that is locked.
+        if (upToDate(state) && !state.seedLocked) apply(store, seedRolled(rolledSeed()));
+        else services.generate();
       },
     },
   });
-  const words = el('small');
+  const three = el('button', {
+    class: 'btn tint',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        if (store.getState().choices?.making) services.cancel();
+        else services.makeChoices();
+      },
+    },
+  });
+  const head = el(
+    'div',
+    { class: 'head' },
+    el('h2', { text: 'Reactions', attributes: { id: 'reactions-head' } }),
+  );
   const section = el(
     'section',
-    { class: 'sec options', attributes: { 'aria-label': 'Reaction' } },
+    { class: 'sec options', attributes: { 'aria-labelledby': 'reactions-head' } },
+    head,
+  );
+  root.append(section);
+  const seed = mountSeedBox(head, store, services);
+  const cards = mountChoiceCards(section, store, services);
+  section.append(
+    el('div', { class: 'make' }, make, three),
     el(
       'div',
       { class: 'opts' },
-      el('span', { class: 'num' }, el('span', { class: 'lbl', text: 'Seed' }), seed, roll),
-      el('span', { class: 'grow' }),
       el('span', { class: 'num' }, el('span', { class: 'lbl', text: 'Steps' }), fewer, count, more),
+      el('span', { class: 'grow' }),
+      swap,
     ),
-    el('div', { class: 'make' }, make, words),
   );
-  root.append(section);
 
-  const showSeed = ({ settings }: AppState): void => {
-    seed.value = settings ? String(settings.seed) : '';
-  };
   const show = (state: AppState): void => {
     const { settings, manifest } = state;
-    for (const control of [seed, roll, fewer, more]) control.disabled = !settings;
+    section.dataset['made'] = madeRole(state);
+    for (const control of [fewer, more, swap]) control.disabled = !settings;
     if (settings && manifest) {
       const { min, max } = manifest.diffusion.steps;
       fewer.disabled = settings.steps <= min;
       more.disabled = settings.steps >= max;
       setText(count, String(settings.steps));
     }
-    showSeed(state);
+    swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
+    swap.title =
+      `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
+      'Press to have it the other way round.';
     make.disabled = !state.leader || !settings || state.job !== null;
-    setText(words, makeWords(state));
+    setText(make, state.reaction ? 'Generate again' : 'Generate');
+    make.title = makeWords(state);
+    const making = state.choices?.making ?? false;
+    const kept = complete(state.choices) && state.seedLocked;
+    three.disabled = !making && (!state.leader || !settings || beingRead(state).some(Boolean) || kept);
+    setText(three, making ? 'Cancel' : 'Three reactions');
+    three.title = making
+      ? 'Make no more'
+      : kept
+        ? 'Unlock the seed to make three others'
+        : 'Make three at once that differ by chance alone, and pick the best';
   };
   return together(
+    seed,
+    cards,
     watchAll(
       store,
       (state) => [
@@ -91,6 +120,8 @@ export const mountOptions: Mount = (root, store, services) => {
         state.leader,
         state.song,
         state.reaction,
+        state.choices,
+        state.seedLocked,
         ...beingRead(state),
         state.job !== null,
       ],
@@ -105,13 +136,15 @@ export const mountOptions: Mount = (root, store, services) => {
 function makeWords(state: AppState): string {
   if (!state.leader)
     return state.reading.leader ? 'Reading the leader' : 'Needs a leader; a song is optional.';
-  if (state.job) return 'The reactor is being made.';
+  if (state.job) return 'The reaction is being made.';
   if (state.reading.song) return 'Reading the song';
-  if (upToDate(state)) return 'Follows every change by itself.';
-  return state.reaction ? 'The settings have changed since.' : 'Ready.';
+  if (!upToDate(state)) return state.reaction ? 'The settings have changed since.' : 'Ready.';
+  return state.seedLocked
+    ? 'Makes the same again: the seed is locked.'
+    : 'Another reaction, with a new seed. Changes of the settings are followed by themselves.';
 }
 
-function button(
+function stepper(
   name: Parameters<typeof icon>[0],
   label: string,
   title: string,

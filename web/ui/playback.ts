@@ -1,8 +1,11 @@
 import type { Player } from '../audio/client';
 import { isAbort, playbackProblem } from './problems';
 import { danceDuration } from './selectors';
+import { songStart } from './song-shift';
+import type { AppState } from './state';
 import { apply, playbackSet, told, type Store, visitEnded, watch, watchAll } from './store';
 import { together } from './dom';
+import type { Span } from './time-scale';
 
 export interface PlaybackControl {
   readonly toggle: () => void;
@@ -22,19 +25,18 @@ export function createPlayback(store: Store, player: Player): PlaybackControl {
   };
   const follow = (): void => {
     const whole = danceDuration(store.getState());
-    if (player.time >= whole) {
-      if (store.getState().playback.loop) seek(0);
-      else {
-        apply(store, playbackSet({ playing: false, time: whole }));
-        return;
-      }
-    } else apply(store, playbackSet({ time: player.time }));
+    if (player.time >= whole && !store.getState().playback.loop) {
+      apply(store, playbackSet({ playing: false, time: whole }));
+      return;
+    }
+    apply(store, playbackSet({ time: player.time }));
     frame = requestAnimationFrame(follow);
   };
   const start = (): void => {
     const state = store.getState();
     if (danceDuration(state) === 0) return;
-    if (state.playback.time >= danceDuration(state) - 1e-3) seek(0);
+    const part = loopOf(state) ?? { from: 0, to: danceDuration(state) };
+    if (state.playback.time >= part.to - 1e-3) seek(part.from);
     apply(store, visitEnded());
     apply(store, playbackSet({ playing: true }));
   };
@@ -46,6 +48,19 @@ export function createPlayback(store: Store, player: Player): PlaybackControl {
       (state) => {
         player.load(state.song?.data.sound ?? null, danceDuration(state));
         player.seek(state.playback.time);
+      },
+    ),
+    watch(store, songStart, (seconds) => {
+      player.setSongStart(seconds);
+    }),
+    watchAll(
+      store,
+      (state) => [state.playback.loop, state.playback.region, state.song, state.leader],
+      (state) => {
+        const part = loopOf(state);
+        player.setLoop(part);
+        // A region drawn behind the playhead is meant to be heard now.
+        if (part && state.playback.playing && state.playback.time > part.to) seek(part.from);
       },
     ),
     watch(
@@ -91,4 +106,10 @@ export function createPlayback(store: Store, player: Player): PlaybackControl {
       disposers();
     },
   };
+}
+
+/** What is gone round in: the region, or all of the dance; null without a loop. */
+function loopOf(state: AppState): Span | null {
+  const { loop, region } = state.playback;
+  return loop ? (region ?? { from: 0, to: danceDuration(state) }) : null;
 }

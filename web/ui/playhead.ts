@@ -1,11 +1,21 @@
 import { el, setVariable, together } from './dom';
 import { barAt, danceDuration } from './selectors';
-import type { Mount } from './services';
-import { watchAll } from './store';
+import type { Services } from './services';
+import { musicBeats } from './song-shift';
+import { type Store, watchAll } from './store';
+import type { TimeScale } from './time-scale';
 
-/** The playhead: one slider over all lanes. Pointer and keys move it, playing or not. */
-export const mountPlayhead: Mount = (root, store, services) => {
-  const line = el('div', { class: 'head-line' });
+/**
+ * The playhead: one slider over all lanes. Keys, its own grip and a press on any lane move it, playing or not. Lanes
+ * that do something else with the pointer, and buttons in lanes, keep it to themselves with `data-own-pointer`.
+ */
+export function createPlayhead(
+  lanes: HTMLElement,
+  store: Store,
+  services: Services,
+  scale: () => TimeScale,
+): { readonly root: HTMLElement; readonly draw: () => void; readonly dispose: () => void } {
+  const line = el('div', { class: 'head-line' }, el('div', { class: 'head-grip' }));
   const slider = el(
     'div',
     {
@@ -14,39 +24,64 @@ export const mountPlayhead: Mount = (root, store, services) => {
     },
     line,
   );
-  root.append(slider);
 
+  let pointer: number | null = null;
   const toPointer = (event: PointerEvent): void => {
-    const box = slider.getBoundingClientRect();
-    services.seek(((event.clientX - box.left) / box.width) * danceDuration(store.getState()));
+    const time = scale().time(event.clientX - slider.getBoundingClientRect().left);
+    services.seek(Math.min(danceDuration(store.getState()), Math.max(0, time)));
   };
-  slider.addEventListener('pointerdown', (event) => {
-    if (event.button !== 0 || danceDuration(store.getState()) === 0) return;
-    slider.setPointerCapture(event.pointerId);
+  const down = (event: PointerEvent): void => {
+    const target = event.target instanceof Element ? event.target : null;
+    const isGrip = target?.matches('.head-grip') ?? false;
+    const isLane = target?.closest('.lane') && !target.closest('[data-own-pointer], button');
+    if (!target || !(isGrip || isLane) || event.button !== 0 || danceDuration(store.getState()) === 0) return;
+    pointer = event.pointerId;
+    // Clicks go to whoever holds the pointer: the grip passes a double click on.
+    target.setPointerCapture(pointer);
     toPointer(event);
-  });
-  slider.addEventListener('pointermove', (event) => {
-    if (slider.hasPointerCapture(event.pointerId)) toPointer(event);
-  });
+  };
+  const move = (event: PointerEvent): void => {
+    if (event.pointerId === pointer) toPointer(event);
+  };
+  const up = (event: PointerEvent): void => {
+    if (event.pointerId === pointer) pointer = null;
+  };
+  lanes.addEventListener('pointerdown', down);
+  lanes.addEventListener('pointermove', move);
+  lanes.addEventListener('pointerup', up);
+  lanes.addEventListener('pointercancel', up);
 
-  return together(
-    watchAll(
-      store,
-      (state) => [state.playback.time, state.leader, state.song],
-      (state) => {
-        const whole = danceDuration(state);
-        const { time } = state.playback;
-        setVariable(line, '--at', whole > 0 ? time / whole : 0);
-        slider.setAttribute('aria-valuemax', whole.toFixed(1));
-        slider.setAttribute('aria-valuenow', time.toFixed(1));
-        slider.setAttribute('aria-disabled', String(whole === 0));
-        const place = barAt(state.song?.data.beats ?? [], time);
-        const counted = place ? `, bar ${place.bar}, count ${place.count}` : '';
-        slider.setAttribute('aria-valuetext', `${time.toFixed(1)} seconds${counted}`);
+  const draw = (): void => {
+    const now = scale();
+    const place = now.width > 0 ? now.x(store.getState().playback.time) / now.width : 0;
+    line.hidden = place < -1e-6 || place > 1 + 1e-6;
+    setVariable(line, '--at', place);
+  };
+  return {
+    root: slider,
+    draw,
+    dispose: together(
+      watchAll(
+        store,
+        (state) => [state.playback.time, state.zoom, state.leader, state.song, state.shift],
+        (state) => {
+          draw();
+          const { time } = state.playback;
+          const whole = danceDuration(state);
+          slider.setAttribute('aria-valuemax', whole.toFixed(1));
+          slider.setAttribute('aria-valuenow', time.toFixed(1));
+          slider.setAttribute('aria-disabled', String(whole === 0));
+          const place = barAt(musicBeats(state), time);
+          const counted = place ? `, bar ${place.bar}, count ${place.count}` : '';
+          slider.setAttribute('aria-valuetext', `${time.toFixed(1)} seconds${counted}`);
+        },
+      ),
+      () => {
+        lanes.removeEventListener('pointerdown', down);
+        lanes.removeEventListener('pointermove', move);
+        lanes.removeEventListener('pointerup', up);
+        lanes.removeEventListener('pointercancel', up);
       },
     ),
-    () => {
-      slider.remove();
-    },
-  );
-};
+  };
+}

@@ -41,6 +41,18 @@ function named(name: string, sentence: string): string {
   return sentence.includes(name) ? sentence : `${name}: ${sentence}`;
 }
 
+/** A project file that could not be opened, or written. */
+export function projectProblem(error: unknown, name: string, remedy: Problem['remedy']): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'unreadable-file',
+    title: told ? named(name, error.message) : `${name} could not be read.`,
+    hint: told ? error.hint : 'Choose it again. Everything on the page is unchanged.',
+    remedy,
+    refused: { side: null, name },
+  };
+}
+
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
   const told = isTold(error);
@@ -65,6 +77,18 @@ export function generationProblem(error: unknown): Problem {
   };
 }
 
+/** A failure to decode the coarse layer of a reaction that is there. */
+export function coarseProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'coarse-failed',
+    title: told ? error.message : 'The coarse layer of this reaction could not be decoded.',
+    hint: told ? error.hint : 'Show it again, or generate the reaction again.',
+    remedy: 'generate',
+    refused: null,
+  };
+}
+
 /** A failure to play. */
 export function playbackProblem(error: unknown): Problem {
   const told = isTold(error);
@@ -72,6 +96,18 @@ export function playbackProblem(error: unknown): Problem {
     code: told ? error.code : 'playback-failed',
     title: told ? error.message : 'The song could not be played.',
     hint: told ? error.hint : 'Press play again.',
+    remedy: 'none',
+    refused: null,
+  };
+}
+
+/** A failure to write a file to take home. */
+export function savingProblem(error: unknown): Problem {
+  const told = isTold(error);
+  return {
+    code: told ? error.code : 'saving-failed',
+    title: told ? error.message : 'The file could not be written.',
+    hint: told ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
     remedy: 'none',
     refused: null,
   };
@@ -87,6 +123,31 @@ export function stageProblem(error: unknown): Problem {
       ? error.hint
       : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
     remedy: 'none',
+    refused: null,
+  };
+}
+
+/** What was dropped could not be opened at all: moved meanwhile, forbidden, or on a disk that is gone. */
+export function dropProblem(error: unknown): Problem {
+  const forbidden =
+    error instanceof DOMException && (error.name === 'NotReadableError' || error.name === 'SecurityError');
+  return {
+    code: 'drop-unreadable',
+    title: forbidden
+      ? 'The browser may not read what was dropped.'
+      : 'What was dropped could not be read to its end.',
+    hint: 'Check that it is still there and that you may open it, copy it to a folder of your own, and drop it again.',
+    remedy: 'any-file',
+    refused: null,
+  };
+}
+
+export function emptyDropProblem(): Problem {
+  return {
+    code: 'drop-empty',
+    title: 'There is no file in what was dropped.',
+    hint: 'Drop a song, a leader as BVH, or the folder of a model with its manifest.json.',
+    remedy: 'any-file',
     refused: null,
   };
 }

@@ -1,3 +1,4 @@
+import { madeRole } from './couple';
 import { el, setText, setVariable, together } from './dom';
 import { jobWords } from './selectors';
 import type { Mount } from './services';
@@ -38,13 +39,8 @@ export const mountProgress: Mount = (root, store, services) => {
     'Cancel ',
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
   );
-  const pill = el(
-    'div',
-    { class: 'float prog' },
-    el('span', {}, el('b', { text: 'Reacting ' }), words),
-    meter,
-    cancel,
-  );
+  const title = el('b');
+  const pill = el('div', { class: 'float prog' }, el('span', {}, title, words), meter, cancel);
   pill.hidden = true;
   // Read out at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
@@ -56,15 +52,17 @@ export const mountProgress: Mount = (root, store, services) => {
     if (!job) {
       if (timer !== null) clearTimeout(timer);
       timer = null;
-      if (spoken.textContent) setText(spoken, state.reaction ? 'The reactor is ready.' : '');
+      if (spoken.textContent) setText(spoken, state.reaction ? `The ${madeRole(state)} is ready.` : '');
       pill.hidden = true;
       return;
     }
     timer ??= setTimeout(() => {
       pill.hidden = false;
-      setText(spoken, 'The reactor is being made.');
+      setText(spoken, `The ${madeRole(state)} is being made.`);
     }, PATIENCE);
-    if (!pill.hidden && job.fraction >= 0.5) setText(spoken, 'The reactor is half made.');
+    if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
+    setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
+    pill.dataset['made'] = madeRole(state);
     setText(words, jobWords(job, state));
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));

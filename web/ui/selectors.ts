@@ -1,4 +1,5 @@
-import { bytesOf, duration, rate, slug } from './format';
+import { bytesOf, duration, rate } from './format';
+import { guidanceAt, sameGuidance } from './guidance-matrix';
 import type { AppState, Inputs, Job, Settings } from './state';
 
 /** Length of what plays, seconds: the leader rules it; a song alone plays for itself. */
@@ -9,23 +10,21 @@ export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number 
 
 /** What a reaction would be made from now, or null while something is missing or still being read. */
 export function wantedInputs(state: AppState): Inputs | null {
-  const { leader, song, settings, reading } = state;
+  const { leader, song, shift, settings, reading } = state;
   if (!leader || !settings || reading.song || reading.leader) return null;
-  return { leader, song, settings };
+  return { leader, song, shift: song ? shift : 0, settings };
 }
 
 export function sameSettings(a: Settings, b: Settings): boolean {
   return (
-    a.seed === b.seed &&
-    a.steps === b.steps &&
-    a.guidance.coarse === b.guidance.coarse &&
-    a.guidance.fine === b.guidance.fine
+    a.seed === b.seed && a.steps === b.steps && a.role === b.role && sameGuidance(a.guidance, b.guidance)
   );
 }
 
 export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   if (!a || !b) return a === b;
-  return a.leader === b.leader && a.song === b.song && sameSettings(a.settings, b.settings);
+  const sameFiles = a.leader === b.leader && a.song === b.song && a.shift === b.shift;
+  return sameFiles && sameSettings(a.settings, b.settings);
 }
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */
@@ -33,13 +32,15 @@ export function upToDate(state: AppState): boolean {
   return state.reaction !== null && sameInputs(state.reaction.inputs, wantedInputs(state));
 }
 
-/** Guidance as the model takes it: streams x layers in the manifest's order, row-major, alike in every stream. */
+/** Guidance as the model takes it: streams x layers in the manifest's order, row-major. */
 export function guidanceMatrix(
   settings: Settings,
   latent: { readonly streams: readonly string[]; readonly layers: readonly string[] },
 ): Float32Array {
-  const values: Readonly<Record<string, number>> = settings.guidance;
-  return Float32Array.from(latent.streams.flatMap(() => latent.layers.map((layer) => values[layer] ?? 0)));
+  const { streams, layers } = latent;
+  return Float32Array.from(
+    streams.flatMap((stream) => layers.map((layer) => guidanceAt(settings.guidance, stream, layer))),
+  );
 }
 
 /** Bar and count, both from 1, counted in four from the first beat found; null before it or without beats. */
@@ -54,18 +55,6 @@ export function barAt(beats: readonly number[], time: number): { bar: number; co
   return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
 }
 
-/** `song_leader_s1204_c1.20-f0.60_reactor.bvh`, after what the reaction was made from. */
-export function reactorFileName({ song, leader, settings }: Inputs): string {
-  const { coarse, fine } = settings.guidance;
-  return [
-    song ? slug(song.name, 'song') : 'no-song',
-    slug(leader.name, 'leader'),
-    `s${settings.seed}`,
-    `c${coarse.toFixed(2)}-f${fine.toFixed(2)}`,
-    'reactor.bvh',
-  ].join('_');
-}
-
 /** The stage a job is in, in words. */
 export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
   switch (job.stage) {
@@ -75,6 +64,8 @@ export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' |
         : 'waiting for the model';
     case 'condition':
       return 'listening and watching';
+    case 'preview':
+      return 'what plays now first';
     case 'step':
       return stepWords(job, settings?.steps ?? job.total);
     case 'decode':
@@ -93,14 +84,15 @@ function stepWords({ done, total }: Job, steps: number): string {
 export function lengthNote({
   song,
   leader,
+  shift,
   reading,
-}: Pick<AppState, 'song' | 'leader' | 'reading'>): string | null {
+}: Pick<AppState, 'song' | 'leader' | 'shift' | 'reading'>): string | null {
   if (!leader || reading.song) return null;
   const dance = leader.file.clip.frames / leader.file.clip.fps;
-  if (!song) return 'No song: the reactor dances to silence.';
-  const rest = dance - song.data.duration;
-  if (rest > 0.5)
-    return `The song ends at ${duration(song.data.duration)}; silence follows to the end of the dance.`;
+  if (!song) return 'No song: the partner dances to silence.';
+  const end = song.data.duration + shift / leader.file.clip.fps;
+  const rest = dance - end;
+  if (rest > 0.5) return `The song ends at ${duration(end)}; silence follows to the end of the dance.`;
   if (rest < -0.5) return `The dance ends at ${duration(dance)}; the rest of the song is not used.`;
   return null;
 }

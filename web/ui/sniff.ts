@@ -6,6 +6,12 @@ export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
 const BVH_NAME = /\.bvh$/i;
+const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
+
+/** Whether a file is a project, as its name alone says: other things are zip archives too. */
+export function isProject(name: string): boolean {
+  return PROJECT_NAME.test(name);
+}
 
 /**
  * @param head the first `HEAD_BYTES` bytes, or all of a shorter file

@@ -1,5 +1,7 @@
 import { el, together } from './dom';
+import { coarseMotion } from './reactor-motion';
 import type { Mount } from './services';
+import { mountShowMenu } from './show-menu';
 import type { Camera } from './state';
 import { apply, cameraSet, watch } from './store';
 
@@ -12,11 +14,13 @@ const CAMERAS: readonly (readonly [Camera, string])[] = [
 
 /** Over the picture: who is who, and from where it is seen. */
 export const mountStageControls: Mount = (root, store, services) => {
+  const coarse = el('li', { class: 'reac' }, el('span', { class: 'dot hollow' }), 'Coarse only');
   const legend = el(
     'ul',
     { class: 'over legend' },
     el('li', { class: 'lead' }, el('span', { class: 'dot' }), 'Leader'),
     el('li', { class: 'reac' }, el('span', { class: 'dot' }), 'Reactor'),
+    coarse,
   );
   const select = (camera: Camera): void => {
     apply(store, cameraSet(camera));
@@ -62,6 +66,14 @@ export const mountStageControls: Mount = (root, store, services) => {
   root.append(legend, views);
 
   return together(
+    mountShowMenu(root, store, services),
+    watch(
+      store,
+      (state) => coarseMotion(state) !== null,
+      (seen) => {
+        coarse.hidden = !seen;
+      },
+    ),
     watch(
       store,
       (state) => state.camera,

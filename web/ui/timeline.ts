@@ -1,113 +1,80 @@
-import { peaks, speedCurve, type Peaks } from './curves';
+import { createBlockRow } from './block-row';
+import { couple, madeRole } from './couple';
 import { el, setText, setVariable, together } from './dom';
-import { clockTime } from './format';
-import { drawBeats, drawCurve, drawWave, surface, token } from './lane-canvas';
-import { mountPlayhead } from './playhead';
-import { reactorMotion } from './reactor-motion';
+import { mountLaneZoom } from './lane-zoom';
+import { mountLoopRegion } from './loop-region';
+import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } from './motion-lane';
+import { createPlayhead } from './playhead';
+import { mountQualityStrip } from './quality-strip';
 import { rulerMarks } from './ruler';
-import { beingRead, danceDuration, jobWords, upToDate } from './selectors';
+import { beingRead, jobWords, upToDate } from './selectors';
 import type { Mount } from './services';
+import { createSongLabel } from './song-label';
+import { createSongLane } from './song-lane';
+import { musicBeats } from './song-shift';
 import type { AppState } from './state';
 import { watch, watchAll } from './store';
+import { shown } from './timeline-changes';
+import { timeScale, type TimeScale } from './time-scale';
 
 /** Speed that a lane's upper edge stands for at least, m/s, so that standing still looks still. */
 const LEAST_TOP = 1;
 /** Room above the fastest usual moment. */
 const HEADROOM = 1.2;
 
-/** The score: ruler, song, leader and reactor over the same seconds, and the playhead across them. */
+/** The score: ruler, song, leader and reactor over the same seconds, loop and playhead across them. */
 export const mountTimeline: Mount = (root, store, services) => {
-  const ruler = el('div', { class: 'lane ruler', attributes: { 'aria-hidden': 'true' } });
+  const ruler = el('div', { class: 'lane ruler', attributes: { 'data-own-pointer': true } });
+  ruler.title = 'Drag to loop a part, click to jump';
+  const rulerMarksRoot = el('div', { class: 'marks', attributes: { 'aria-hidden': 'true' } });
+  ruler.append(rulerMarksRoot);
   const rulerName = el('div', { class: 'lab ruler' });
-  const wave = el('canvas');
-  const wavePast = el('canvas');
-  const past = el('div', { class: 'past' }, wavePast);
-  const noSong = el('div', { class: 'none' });
-  const songLane = el('div', { class: 'lane song', attributes: { role: 'img' } }, wave, past, noSong);
-  const leaderCurve = el('canvas');
-  const leaderWord = el('span', { class: 'word' });
-  const leaderLane = el(
-    'div',
-    { class: 'lane mot lead-lane', attributes: { role: 'img' } },
-    el('div', { class: 'base' }),
-    leaderCurve,
-    leaderWord,
-  );
-  const blocks = el('div');
-  const reactorCurve = el('canvas');
-  const reactorWord = el('span', { class: 'word' });
-  const reactorLane = el(
-    'div',
-    { class: 'lane mot', attributes: { role: 'img' } },
-    blocks,
-    reactorCurve,
-    reactorWord,
-  );
+  const scale = (): TimeScale => timeScale(shown(store.getState()), reactorLane.root.clientWidth);
+
+  /** The shift of the song while it is being dragged, frames. */
+  let tried: number | null = null;
+  const songLabel = createSongLabel(store);
+  const songLane = createSongLane(store, services, {
+    scale,
+    onTry: (shift) => {
+      tried = shift;
+      redrawSoon();
+    },
+  });
+  const leaderLane = createMotionLane('leader', 'lane mot lead-lane', el('div', { class: 'base' }));
+  const blocks = createBlockRow();
+  const reactorLane = createMotionLane('reactor', 'lane mot', blocks.root);
   const lanes = el(
     'div',
     { class: 'lanes' },
     rulerName,
     ruler,
-    el('div', { class: 'lab song', text: 'Song' }),
-    songLane,
+    songLabel.root,
+    songLane.root,
     el('div', { class: 'lab mot lead-lane lead' }, el('span', { class: 'dot' }), 'Leader'),
-    leaderLane,
+    leaderLane.root,
     el('div', { class: 'lab mot reac' }, el('span', { class: 'dot' }), 'Reactor'),
-    reactorLane,
+    reactorLane.root,
   );
   root.append(lanes);
-  const playhead = mountPlayhead(lanes, store, services);
+  const quality = mountQualityStrip(lanes, store, services, shown);
+  const playhead = createPlayhead(lanes, store, services, scale);
+  lanes.append(playhead.root);
+  const loop = mountLoopRegion(store, services, { ruler, overlay: playhead.root, scale });
 
-  const drawSong = (state: AppState): void => {
-    const seconds = danceDuration(state);
-    const { song } = state;
-    noSong.hidden = song !== null || seconds === 0;
-    setText(noSong, state.reading.song ? 'Reading the song' : 'No song: silence');
-    songLane.setAttribute(
-      'aria-label',
-      song ? `Waveform of ${song.name}, ${song.data.beats.length} beats` : 'No song',
-    );
-    const surfaces = [surface(wave), surface(wavePast)] as const;
-    if (!song || seconds === 0) return;
-    const columns = Math.max(1, Math.round(wave.clientWidth * Math.min(2, window.devicePixelRatio)));
-    const shape: Peaks = peaks(song.data.pcm, song.data.sampleRate, seconds, columns);
-    surfaces.forEach((each, index) => {
-      if (!each) return;
-      const colours = {
-        bar: token(root, '--text-2'),
-        beat: token(root, '--control-line'),
-        line: token(root, '--line'),
-      };
-      drawBeats(each, song.data.beats, seconds, colours);
-      drawWave(each, shape, token(root, index === 0 ? '--wave' : '--wave-past'));
-    });
+  let leader: DrawnMotion | null = null;
+  let reactor: DrawnMotion | null = null;
+  /** The speed at the upper edge of both lanes, so that the two can be compared. */
+  let top = LEAST_TOP;
+  const measure = (): void => {
+    const speeds = [...(leader?.speed ?? []), ...(reactor?.speed ?? [])];
+    top = Math.max(LEAST_TOP, HEADROOM * usualMost(speeds));
   };
 
-  let leaderSpeed: Float32Array = new Float32Array(0);
-  let reactorSpeed: Float32Array = new Float32Array(0);
-  const drawMotion = (state: AppState): void => {
-    const top = Math.max(LEAST_TOP, HEADROOM * usualMost([...leaderSpeed, ...reactorSpeed]));
-    const pairs = [
-      [leaderCurve, leaderSpeed, 'leader'],
-      [reactorCurve, reactorSpeed, 'reactor'],
-    ] as const;
-    for (const [canvas, curve, who] of pairs) {
-      const on = surface(canvas);
-      const colours = { line: token(root, `--${who}`), fill: token(root, `--${who}-soft`) };
-      if (on && curve.length > 0) drawCurve(on, curve, top, colours);
-    }
-    leaderLane.setAttribute('aria-label', state.leader ? speedWords('Leader', leaderSpeed) : 'No leader');
-    reactorLane.setAttribute(
-      'aria-label',
-      state.reaction ? speedWords('Reactor', reactorSpeed) : 'No reactor yet',
-    );
-    setText(leaderWord, state.leader ? '' : state.reading.leader ? 'Reading the leader' : 'No leader yet');
-  };
-
-  const drawRuler = (state: AppState): void => {
-    const { name, marks } = rulerMarks(state.song?.data.beats ?? [], danceDuration(state), ruler.clientWidth);
+  const drawRuler = (beats: readonly number[], now: TimeScale): void => {
+    const { name, marks } = rulerMarks(beats, now);
     setText(rulerName, name);
-    ruler.replaceChildren(
+    rulerMarksRoot.replaceChildren(
       ...marks.map(({ text, at }) => {
         const mark = el('span', { text });
         setVariable(mark, '--at', at);
@@ -115,71 +82,100 @@ export const mountTimeline: Mount = (root, store, services) => {
       }),
     );
   };
-
-  const drawBlocks = (state: AppState): void => {
-    const seconds = danceDuration(state);
-    const { manifest } = state;
-    const length = manifest ? (manifest.latent.block * manifest.latent.stride) / manifest.fps : seconds;
-    const count = seconds > 0 && length > 0 ? Math.ceil(seconds / length - 1e-6) : 1;
-    blocks.replaceChildren(
-      ...Array.from({ length: count }, (_, index) => {
-        const block = el('div', { class: 'blk' }, el('div', { class: 'p' }));
-        const from = seconds > 0 ? (index * length) / seconds : 0;
-        setVariable(block, '--from', from);
-        setVariable(block, '--span', seconds > 0 ? Math.min(1, from + length / seconds) - from : 1);
-        return block;
-      }),
-    );
+  const drawWords = (state: AppState): void => {
+    const leads = madeRole(state) === 'leader';
+    const [made, loaded] = leads ? [leaderLane, reactorLane] : [reactorLane, leaderLane];
+    const waiting = state.leader && !state.reaction;
+    loaded.say(state.leader ? '' : state.reading.leader ? 'Reading the leader' : 'No leader yet');
+    made.say(waiting ? (state.job ? capital(jobWords(state.job, state)) : 'Not made yet') : '');
   };
-
   const redraw = (): void => {
     const state = store.getState();
-    drawRuler(state);
-    drawSong(state);
-    drawMotion(state);
+    const now = scale();
+    const shift = tried ?? state.shift;
+    const beats = musicBeats({ ...state, shift });
+    const tolerance = state.manifest?.quality.beats.tolerance ?? 0;
+    const still = { scale: now, musicBeats: beats, tolerance, top, stale: false, fresh: null };
+    drawRuler(beats, now);
+    songLabel.show(state);
+    songLane.draw(state, { scale: now, shift, musicBeats: beats });
+    songLane.played(state.playback.time, now);
+    const { job } = state;
+    const fps = state.leader?.motion.fps ?? 30;
+    const made: MotionPicture = {
+      ...still,
+      stale: job !== null && !upToDate(state),
+      fresh: job?.fresh ? { from: job.fresh.from / fps, to: job.fresh.to / fps } : null,
+    };
+    const leads = madeRole(state) === 'leader';
+    leaderLane.draw(leader, leads ? made : still);
+    reactorLane.draw(reactor, leads ? still : made);
+    const lane = leads ? leaderLane : reactorLane;
+    if (blocks.root.parentElement !== lane.root) lane.root.prepend(blocks.root);
+    blocks.draw(state, now);
+    drawWords(state);
+    loop.draw();
+    playhead.draw();
+  };
+  let frame = 0;
+  /** Draws once before the next picture, however much changed. */
+  const redrawSoon = (): void => {
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(redraw);
   };
   const sizes = new ResizeObserver(redraw);
   sizes.observe(lanes);
 
   return together(
+    watchAll(
+      store,
+      (state) => [couple(state).leader, state.manifest],
+      (state) => {
+        const motion = couple(state).leader;
+        leader = motion && drawnMotion(motion, state.manifest);
+        measure();
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [couple(state).reactor, state.manifest],
+      (state) => {
+        const motion = couple(state).reactor;
+        reactor = motion && drawnMotion(motion, state.manifest);
+        measure();
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [
+        ...[state.leader, state.song, state.shift, ...Object.values(couple(state)), state.manifest],
+        ...[state.zoom, state.theme, madeRole(state), ...beingRead(state)],
+        ...[state.job !== null, state.job?.fresh?.from, state.job?.fresh?.to, upToDate(state)],
+      ],
+      redrawSoon,
+    ),
     watch(
       store,
-      (state) => state.leader?.motion,
-      (motion) => {
-        leaderSpeed = motion ? speedCurve(motion) : new Float32Array(0);
+      (state) => state.job,
+      (_, state) => {
+        blocks.fill(state);
+        drawWords(state);
       },
     ),
-    watch(store, reactorMotion, (motion) => {
-      reactorSpeed = motion ? speedCurve(motion) : new Float32Array(0);
-    }),
-    watchAll(store, (state) => [state.leader, state.song, state.manifest], drawBlocks),
-    watchAll(
+    watch(
       store,
-      (state) => [state.leader, state.song, reactorMotion(state), ...beingRead(state), state.theme],
-      redraw,
-    ),
-    watchAll(
-      store,
-      (state) => [state.job, state.reaction, state.leader],
-      (state) => {
-        const { job } = state;
-        blocks.style.setProperty('--part', String(job ? job.fraction : 0));
-        reactorLane.classList.toggle('stale', job !== null && !upToDate(state));
-        const waiting = state.leader && !state.reaction;
-        setText(reactorWord, waiting ? (job ? capital(jobWords(job, state)) : 'Not made yet') : '');
+      (state) => state.playback.time,
+      (time) => {
+        songLane.played(time, scale());
       },
     ),
-    watchAll(
-      store,
-      (state) => [state.playback.time, state.leader, state.song],
-      (state) => {
-        const whole = danceDuration(state);
-        const part = whole > 0 ? state.playback.time / whole : 0;
-        past.style.clipPath = `inset(0 ${(100 - part * 100).toFixed(3)}% 0 0)`;
-      },
-    ),
-    playhead,
+    mountLaneZoom(store, lanes, playhead.root, scale),
+    loop.dispose,
+    playhead.dispose,
+    quality,
+    songLane.dispose,
     () => {
+      cancelAnimationFrame(frame);
       sizes.disconnect();
       lanes.remove();
     },
@@ -189,18 +185,6 @@ export const mountTimeline: Mount = (root, store, services) => {
 /** The speed that only one moment in fifty exceeds: a single hasty turn must not flatten all the rest. */
 function usualMost(speeds: number[]): number {
   return speeds.sort((a, b) => a - b)[Math.floor(speeds.length * 0.98)] ?? 0;
-}
-
-function speedWords(who: string, curve: Float32Array): string {
-  let sum = 0;
-  let most = 0;
-  let at = 0;
-  curve.forEach((speed, index) => {
-    sum += speed;
-    if (speed > most) [most, at] = [speed, index];
-  });
-  const mean = (sum / Math.max(1, curve.length)).toFixed(2);
-  return `${who} speed, ${mean} metres per second on average, fastest at ${clockTime(at / 30)}`;
 }
 
 function capital(text: string): string {

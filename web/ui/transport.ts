@@ -3,7 +3,9 @@ import { clockTime } from './format';
 import { icon, type IconName } from './icons';
 import { barAt, beingRead, danceDuration, lengthNote } from './selectors';
 import type { Mount } from './services';
+import { musicBeats } from './song-shift';
 import { apply, playbackSet, SPEEDS, watch, watchAll } from './store';
+import { createZoomControl } from './zoom-control';
 
 /** Play, where we are, how fast. */
 export const mountTransport: Mount = (root, store, services) => {
@@ -39,10 +41,17 @@ export const mountTransport: Mount = (root, store, services) => {
     },
     ...SPEEDS.map((value) => el('option', { text: `${value}×`, attributes: { value } })),
   );
-  const loop = button('icon', 'loop', 'Loop', 'Start over at the end (L)', () => {
-    apply(store, playbackSet({ loop: !store.getState().playback.loop }));
-  });
+  const loop = button(
+    'icon',
+    'loop',
+    'Loop',
+    'Start over at the end; drag on the ruler to loop a part (L)',
+    () => {
+      apply(store, playbackSet({ loop: !store.getState().playback.loop }));
+    },
+  );
   const note = el('span', { class: 'silence' });
+  const zoom = createZoomControl(store);
   const line = el(
     'div',
     { class: 'transport', attributes: { role: 'group', 'aria-label': 'Transport' } },
@@ -55,13 +64,14 @@ export const mountTransport: Mount = (root, store, services) => {
     loop,
     el('span', { class: 'grow' }),
     note,
+    zoom.root,
   );
   root.append(line);
 
   return together(
     watchAll(
       store,
-      (state) => [state.leader, state.song, ...beingRead(state)],
+      (state) => [state.leader, state.song, state.shift, ...beingRead(state)],
       (state) => {
         const whole = danceDuration(state);
         for (const control of [start, play, end, loop]) control.disabled = whole === 0;
@@ -73,10 +83,10 @@ export const mountTransport: Mount = (root, store, services) => {
     ),
     watchAll(
       store,
-      (state) => [state.playback.time, state.song],
-      ({ playback, song }) => {
-        setText(now, clockTime(playback.time));
-        const place = barAt(song?.data.beats ?? [], playback.time);
+      (state) => [state.playback.time, state.song, state.shift],
+      (state) => {
+        setText(now, clockTime(state.playback.time));
+        const place = barAt(musicBeats(state), state.playback.time);
         setText(bar, place ? String(place.bar) : '–');
         setText(count, place ? String(place.count) : '–');
       },
@@ -96,13 +106,17 @@ export const mountTransport: Mount = (root, store, services) => {
         speed.value = String(value);
       },
     ),
-    watch(
+    watchAll(
       store,
-      (state) => state.playback.loop,
-      (value) => {
-        loop.setAttribute('aria-pressed', String(value));
+      (state) => [state.playback.loop, state.playback.region],
+      ({ playback }) => {
+        loop.setAttribute('aria-pressed', String(playback.loop));
+        const { region } = playback;
+        const part = region ? `Loop ${clockTime(region.from)} to ${clockTime(region.to)}` : 'Loop';
+        loop.setAttribute('aria-label', part);
       },
     ),
+    zoom.dispose,
     () => {
       line.remove();
     },

@@ -1,6 +1,8 @@
 import type { Manifest } from '../model/client';
+import { loadedRole, roleName } from './couple';
 import { el, together } from './dom';
 import { clockTime, rate, tempo } from './format';
+import { guidanceWords } from './guidance-matrix';
 import { beingRead, notes } from './selectors';
 import type { Mount, Services } from './services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from './state';
@@ -50,6 +52,7 @@ export const mountUnderstood: Mount = (root, store, services) => {
         state.manifest,
         state.model,
         state.remarks,
+        state.settings?.role,
       ],
       show,
     ),
@@ -77,8 +80,11 @@ function songFacts({ song, reading }: AppState): HTMLElement[] {
   ];
 }
 
-function leaderFacts({ leader, reading }: AppState, services: Services): HTMLElement[] {
-  if (!leader) return [group('lead', 'Leader'), ...fact('File', reading.leader ? 'being read' : 'none yet')];
+function leaderFacts(state: AppState, services: Services): HTMLElement[] {
+  const { leader, reading } = state;
+  const role = loadedRole(state);
+  const head = group(role === 'leader' ? 'lead' : 'reac', roleName(role));
+  if (!leader) return [head, ...fact('File', reading.leader ? 'being read' : 'none yet')];
   const { clip, report } = leader.file;
   const sources = Object.values(report.joints);
   const found = sources.filter((source) => source !== null).length;
@@ -87,7 +93,7 @@ function leaderFacts({ leader, reading }: AppState, services: Services): HTMLEle
       ? `all ${sources.length} found`
       : `${found} of ${sources.length} found; filled in: ${report.filled.join(', ').replaceAll('_', ' ')}`;
   return [
-    group('lead', 'Leader'),
+    head,
     ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Skeleton', report.dialect),
@@ -121,11 +127,11 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
 }
 
 function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
-  const { guidance, seed, steps } = inputs.settings;
+  const { guidance, seed, steps, role } = inputs.settings;
   return [
-    group('reac', 'Reactor'),
+    group(role === 'leader' ? 'lead' : 'reac', roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
-    ...fact('Guidance', `${guidance.coarse.toFixed(2)} coarse, ${guidance.fine.toFixed(2)} fine`),
+    ...fact('Guidance', guidanceWords(guidance)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
       ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)

@@ -6,8 +6,10 @@ import {
   fitDistance,
   measureCouple,
   nearestTurn,
+  reframed,
   shotOf,
   type Couple,
+  type Framing,
   type Shot,
   type View,
 } from './framing';
@@ -24,8 +26,14 @@ export interface CameraRig {
   setView(view: View, couple: Couple): void;
   /** Returns to the couple, both in the picture, from the side it is seen now. */
   frame(couple: Couple): void;
+  /** Steps back or closer for a picture of another shape, unless the person chose the distance. */
+  refit(couple: Couple): void;
   /** Shows dancers who have just come on: the first at once, a partner with a move, unless the person moved it. */
   introduce(couple: Couple, atOnce: boolean): void;
+  /** How the couple is seen now, or at the end of a move. */
+  framing(couple: Couple): Framing;
+  /** Sees the couple as another rig did. */
+  frameAs(framing: Framing, couple: Couple): void;
   /**
    * Moves on by `dt` seconds; true while it is still moving.
    *
@@ -36,7 +44,7 @@ export interface CameraRig {
 }
 
 const MOVE_SECONDS = 0.6;
-/** How far the couple may stray in the orbit view before the camera goes along, metres. */
+/** How far the couple may stray in the orbit view before the camera goes along, metres; less in a narrow picture. */
 const SLACK = 0.4;
 const TRACK_TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
 const BACK_TAU = 1;
@@ -70,6 +78,12 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
   const spherical = new Spherical();
   const offset = new Vector3();
   const still = matchMedia('(prefers-reduced-motion: reduce)');
+  /** Without flights the camera stops with the hand. */
+  const glide = (): void => {
+    controls.enableDamping = !still.matches;
+  };
+  glide();
+  still.addEventListener('change', glide);
 
   let size = { width: 1, height: 1 };
   let aside = 0;
@@ -142,6 +156,15 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
     frame(couple) {
       go({ ...shotOf(view, couple, camera.aspect, current().heading) });
     },
+    refit(couple) {
+      const shot = current();
+      if (ownDistance) return onChange();
+      const { distance } = shotOf(view, couple, camera.aspect, shot.heading);
+      const beside = tracked.clone();
+      go({ ...shot, distance });
+      // The couple has not moved, and what was panned stays beside it.
+      tracked.copy(beside);
+    },
     introduce(couple, atOnce) {
       if (touched) return;
       const shot = shotOf(view, couple, camera.aspect, couple.square);
@@ -149,6 +172,25 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
       if (!atOnce) return;
       move = null;
       stand(shot);
+    },
+    framing(couple) {
+      const shot = move?.to ?? current();
+      const [x, y, z] = shot.target;
+      return {
+        view,
+        shot: { ...shot, target: [x - couple.x, y, z - couple.z] },
+        tracked: [tracked.x - couple.x, tracked.z - couple.z],
+        ownDistance,
+        aspect: camera.aspect,
+      };
+    },
+    frameAs(framing, couple) {
+      ({ view, ownDistance } = framing);
+      touched = true;
+      move = null;
+      stand(reframed(framing, couple, camera.aspect));
+      tracked.set(couple.x + framing.tracked[0], 0, couple.z + framing.tracked[1]);
+      onChange();
     },
     update(dt, couple, danced) {
       let moving = true;
@@ -172,6 +214,7 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
       return controls.update(dt) || moving;
     },
     dispose() {
+      still.removeEventListener('change', glide);
       controls.dispose();
     },
   };
@@ -181,7 +224,8 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
     let [dx, dz] = [couple.x - tracked.x, couple.z - tracked.z];
     if (view === 'orbit') {
       const away = Math.hypot(dx, dz);
-      const beyond = away > SLACK ? (away - SLACK) / away : 0;
+      const slack = SLACK * Math.min(1, camera.aspect);
+      const beyond = away > slack ? (away - slack) / away : 0;
       dx *= beyond;
       dz *= beyond;
     }

@@ -6,9 +6,8 @@ import {
   PlaneGeometry,
   ShaderMaterial,
 } from 'three';
-import { J } from '../motion/skeleton';
-import { SOLE } from './body/leg';
 import { ramp } from './body/field';
+import { FEET, standAt } from './foot-place';
 import type { Look } from './theme';
 
 /** Dark spots under feet that are close to the floor: what makes them stand instead of hover. */
@@ -20,10 +19,6 @@ export interface Contacts {
   dispose(): void;
 }
 
-const FEET = [
-  [J.left_ankle, J.left_foot],
-  [J.right_ankle, J.right_foot],
-] as const;
 const MOST_FEET = 4;
 /** Size of a spot, metres. */
 const LONG = 0.4;
@@ -71,17 +66,10 @@ export function createContacts(): Contacts {
     update(dancers) {
       let count = 0;
       for (const joints of dancers)
-        for (const [ankle, toe] of FEET) {
-          const at = (joint: number, axis: number): number => joints[joint * 3 + axis]!;
-          const angle = Math.atan2(at(toe, 0) - at(ankle, 0), at(toe, 2) - at(ankle, 2));
-          place.makeRotationY(angle);
-          place.setPosition(
-            (at(toe, 0) + at(ankle, 0)) / 2 + Math.sin(angle) * 0.02,
-            -SOLE + 0.003,
-            (at(toe, 2) + at(ankle, 2)) / 2 + Math.cos(angle) * 0.02,
-          );
-          object.setMatrixAt(count, place);
-          strength.setX(count, 1 - ramp(0, LIFTED, Math.min(at(toe, 1), at(ankle, 1) - 0.05)));
+        for (const foot of FEET) {
+          object.setMatrixAt(count, standAt(joints, foot, 0.003, place));
+          const height = (joint: number): number => joints[joint * 3 + 1]!;
+          strength.setX(count, 1 - ramp(0, LIFTED, Math.min(height(foot.toe), height(foot.ankle) - 0.05)));
           count++;
         }
       object.count = count;

@@ -1,21 +1,31 @@
-import { BufferAttribute, BufferGeometry, Group, MeshStandardMaterial, SkinnedMesh } from 'three';
+import { BufferGeometry, Group, MeshStandardMaterial, SkinnedMesh } from 'three';
 import type { SolvedMotion } from '../motion/clip';
 import { JOINT_COUNT } from '../motion/skeleton';
-import { BUILDS } from './body/part';
+import { toGeometry, type BodyGeometry } from './body/geometry';
 import { roundedOffsets, type BodyLibrary } from './body/library';
-import type { BodyMesh } from './body/mesh';
+import type { Body } from './body/lighter';
+import { BUILDS } from './body/part';
 import { gesture } from './gesture';
-import { createPose, samplePose } from './pose';
+import { createGlass, type Clarity } from './glass';
+import { blendPose, createPose, samplePose } from './pose';
 import { createRig, type Rig } from './rig';
 import type { Look, Role } from './theme';
+
+/** What a body is made of: solid; glass around bones; the coarse layer's ghost; the ghost of another take. */
+export type Matter = 'solid' | 'glass' | 'coarse' | 'other';
 
 /** One mannequin on the stage. */
 export interface Dancer {
   readonly object: Group;
   readonly rig: Rig;
   readonly motion: SolvedMotion | null;
-  /** Gives it another dance, or none. The body is made in the background. */
-  setMotion(motion: SolvedMotion | null): void;
+  /** Gives it another dance, or none; with `softly`, it passes over to it. The body is made in the background. */
+  setMotion(motion: SolvedMotion | null, softly?: boolean): void;
+  /** Goes on passing over, by seconds; true while the pose changes by it. */
+  advance(dt: number): boolean;
+  setMatter(matter: Matter): void;
+  /** Hides a dancer who has a motion, or lets them be seen again. */
+  show(on: boolean): void;
   /** Resolves when the body for the latest motion is on. */
   dressed(): Promise<void>;
   /** Takes the pose of its motion at a moment. */
@@ -28,18 +38,14 @@ export interface Dancer {
   dispose(): void;
 }
 
-function toGeometry(body: BodyMesh): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(body.positions, 3));
-  geometry.setAttribute('normal', new BufferAttribute(body.normals, 3));
-  geometry.setAttribute('skinIndex', new BufferAttribute(body.skinJoints, 4));
-  geometry.setAttribute('skinWeight', new BufferAttribute(body.skinWeights, 4));
-  const shade = new Float32Array(body.shade.length * 3);
-  body.shade.forEach((value, v) => shade.fill(value, v * 3, v * 3 + 3));
-  geometry.setAttribute('color', new BufferAttribute(shade, 3));
-  geometry.setIndex(new BufferAttribute(body.indices, 1));
-  return geometry;
-}
+const CLARITY: Readonly<Record<Exclude<Matter, 'solid'>, Clarity>> = {
+  glass: { facing: 0.14, grazing: 0.75 },
+  coarse: { facing: 0.13, grazing: 0.85 },
+  other: { facing: 0.24, grazing: 0.95 },
+};
+
+/** Seconds that passing from one dance to another takes. */
+const PASSAGE = 0.25;
 
 /**
  * @param onBody called when the body has been meshed and the picture changes.
@@ -58,23 +64,50 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
   // The bones carry the body across the floor, beyond the bounds of the bind pose.
   mesh.frustumCulled = false;
   mesh.bind(rig.skeleton);
+  mesh.onBeforeShadow = () => geometry?.lighten(true);
+  mesh.onAfterShadow = () => geometry?.lighten(false);
+  const glass = createGlass(rig.skeleton);
   const object = new Group();
   object.add(rig.root);
   object.visible = false;
 
   const pose = createPose();
+  const coming = createPose();
   const joints = new Float32Array(JOINT_COUNT * 3);
   let motion: SolvedMotion | null = null;
+  /** The dance that it passes over from, and how far it has, 0 to 1. */
+  let former: SolvedMotion | null = null;
+  let passed = 0;
+  let matter: Matter = 'solid';
+  let shown = true;
+  let look: Look | null = null;
   let dressing = Promise.resolve();
-  let worn: BodyMesh | null = null;
+  let worn: Body | null = null;
+  let geometry: BodyGeometry | null = null;
 
-  function wear(body: BodyMesh, offsets: Float32Array): void {
+  function wear(body: Body, offsets: Float32Array): void {
     worn = body;
-    mesh.geometry.dispose();
-    mesh.geometry = toGeometry(body);
+    geometry?.dispose();
+    geometry = toGeometry(body);
+    mesh.geometry = geometry.full;
+    glass.setGeometry(geometry.light);
     rig.bind(offsets);
-    object.add(mesh);
+    dress();
     onBody();
+  }
+  /** Puts on the body that the matter asks for, once there is one. */
+  function dress(): void {
+    object.visible = motion !== null && shown;
+    const solid = matter === 'solid';
+    if (look !== null) {
+      material.color.set(look[role]);
+      const tint = matter === 'coarse' || matter === 'other' ? look[matter] : look[role];
+      if (!solid) glass.setTint(tint, CLARITY[matter as Exclude<Matter, 'solid'>]);
+    }
+    glass.setShadow(matter === 'glass');
+    if (geometry === null) return;
+    object.remove(mesh, glass.object);
+    object.add(solid ? mesh : glass.object);
   }
 
   return {
@@ -83,9 +116,12 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     get motion() {
       return motion;
     },
-    setMotion(next) {
+    setMotion(next, softly = false) {
+      if (next === motion) return;
+      former = softly && next ? motion : null;
+      passed = 0;
       motion = next;
-      object.visible = next !== null;
+      dress();
       if (next === null) return;
       rig.fit(next.offsets);
       dressing = library.request(next.offsets, BUILDS[role]).then((body) => {
@@ -93,10 +129,29 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
         if (motion === next && body !== worn) wear(body, roundedOffsets(next.offsets));
       });
     },
+    advance(dt) {
+      if (!former) return false;
+      passed += dt / PASSAGE;
+      if (passed >= 1) former = null;
+      return true;
+    },
+    setMatter(next) {
+      if (next === matter) return;
+      matter = next;
+      dress();
+    },
+    show(on) {
+      shown = on;
+      object.visible = motion !== null && shown;
+    },
     dressed: () => dressing,
     pose(seconds) {
       if (motion === null) return;
-      samplePose(motion, seconds, pose);
+      samplePose(former ?? motion, seconds, pose);
+      if (former) {
+        samplePose(motion, seconds, coming);
+        blendPose(pose, coming, passed * passed * (3 - 2 * passed));
+      }
       rig.apply(pose);
     },
     attend(partner) {
@@ -105,13 +160,15 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     jointPositions() {
       return motion === null ? joints.fill(0).slice() : rig.jointPositions(joints).slice();
     },
-    setLook(look) {
-      material.color.set(look[role]);
+    setLook(next) {
+      look = next;
+      dress();
     },
     dispose() {
       motion = null;
-      mesh.geometry.dispose();
+      geometry?.dispose();
       material.dispose();
+      glass.dispose();
       rig.skeleton.dispose();
     },
   };

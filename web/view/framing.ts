@@ -1,4 +1,4 @@
-import { J } from '../motion/skeleton';
+import { headingOf } from './heading';
 
 /** Where the couple is and from where it is seen best: plain numbers, no camera. */
 
@@ -27,6 +27,19 @@ export interface Couple {
   readonly square: number;
 }
 
+/** How a couple is seen, apart from where it is: what another picture needs to be framed alike. */
+export interface Framing {
+  readonly view: View;
+  /** Target as metres from the couple's middle, on the floor plan. */
+  readonly shot: Shot;
+  /** Metres from the couple's middle to where the camera last went along with it. */
+  readonly tracked: readonly [x: number, z: number];
+  /** The person has chosen the distance. */
+  readonly ownDistance: boolean;
+  /** Width / height of the picture. */
+  readonly aspect: number;
+}
+
 export const FIELD_OF_VIEW = 26;
 const TARGET_HEIGHT = 0.84;
 const EYE_HEIGHT = 1.3;
@@ -36,18 +49,19 @@ const BASE_DISTANCE = 5.05;
 const MARGIN = 0.22;
 const HEADROOM = 0.12;
 
-/** Angle about y from which a dancer is seen three-quarters from the front. */
-function inFrontOf(joints: Float32Array): number {
-  const across = (axis: number): number => joints[J.left_hip * 3 + axis]! - joints[J.right_hip * 3 + axis]!;
-  return Math.atan2(-across(2), across(0)) + 0.5;
-}
+/** How far to the side of straight ahead somebody alone is seen from: three-quarters from the front, radians. */
+const THREE_QUARTERS = 0.5;
 
 /**
  * Measures whoever is on the stage.
  *
  * @param dancers joint positions (22 x 3, metres), the leader first.
+ * @param beside joints of others who have to be in the picture too, without being the couple
  */
-export function measureCouple(dancers: readonly Float32Array[]): Couple {
+export function measureCouple(
+  dancers: readonly Float32Array[],
+  beside: readonly Float32Array[] = [],
+): Couple {
   const [first, second] = dancers;
   if (first === undefined) return { x: 0, z: 0, reach: 0.5, height: 0, square: 0 };
   let [x, z, reach, height] = [0, 0, 0, 0];
@@ -55,13 +69,15 @@ export function measureCouple(dancers: readonly Float32Array[]): Couple {
     x += joints[0]! / dancers.length;
     z += joints[2]! / dancers.length;
   }
-  for (const joints of dancers)
+  for (const joints of [...dancers, ...beside])
     for (let j = 0; j < joints.length; j += 3) {
       reach = Math.max(reach, Math.hypot(joints[j]! - x, joints[j + 2]! - z));
       height = Math.max(height, joints[j + 1]!);
     }
   const square =
-    second === undefined ? inFrontOf(first) : Math.atan2(second[2]! - first[2]!, first[0]! - second[0]!);
+    second === undefined
+      ? headingOf(first) + THREE_QUARTERS
+      : Math.atan2(second[2]! - first[2]!, first[0]! - second[0]!);
   return { x, z, reach, height, square };
 }
 
@@ -100,6 +116,22 @@ export function shotOf(view: View, couple: Couple, aspect: number, heading: numb
       };
     }
   }
+}
+
+/**
+ * The shot that frames this couple as `framing` does in a picture of another shape. A distance chosen by hand stays,
+ * unless the picture is narrower: then as much is seen to the sides.
+ */
+export function reframed(framing: Framing, couple: Couple, aspect: number): Shot {
+  const { view, shot, ownDistance } = framing;
+  const [x, y, z] = shot.target;
+  const target = [couple.x + x, y, couple.z + z] as const;
+  const within = (shape: number): number => shotOf(view, couple, shape, shot.heading).distance;
+  if (view === 'top') {
+    return { ...shot, target, distance: (shot.distance * within(aspect)) / within(framing.aspect) };
+  }
+  const distance = ownDistance ? shot.distance * Math.max(1, framing.aspect / aspect) : within(aspect);
+  return { ...shot, target, distance };
 }
 
 /** The same angle, within half a turn of `near`. */

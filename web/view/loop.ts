@@ -13,6 +13,14 @@ const KEPT = 60;
 /** Longest step that easing may take, seconds: after a pause the camera goes on instead of jumping. */
 const LONGEST = 0.25;
 
+/** A loop that never draws: for pictures that are drawn one by one. */
+export const idleLoop: Loop = {
+  invalidate: () => undefined,
+  flush: () => undefined,
+  frameMs: 0,
+  dispose: () => undefined,
+};
+
 /** @param draw draws a frame, `dt` seconds after the last one; true asks for another. */
 export function createLoop(draw: (dt: number) => boolean): Loop {
   let request = 0;

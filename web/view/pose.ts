@@ -31,21 +31,22 @@ export function samplePose(motion: SolvedMotion, seconds: number, out: Pose): vo
     out.root[axis] = a + (motion.root[next * 3 + axis]! - a) * t;
   }
   const width = JOINT_COUNT * 4;
-  for (let joint = 0; joint < JOINT_COUNT; joint++)
-    slerp(motion.rotations, frame * width + joint * 4, next * width + joint * 4, t, out.rotations, joint * 4);
+  const from = motion.rotations.subarray(frame * width, (frame + 1) * width);
+  const to = motion.rotations.subarray(next * width, (next + 1) * width);
+  for (let joint = 0; joint < width; joint += 4) slerp(from, to, joint, t, out.rotations);
 }
 
-/** Shortest-arc spherical interpolation between two quaternions of `source`, written to `out`. */
-function slerp(
-  source: Float32Array,
-  from: number,
-  to: number,
-  t: number,
-  out: Float32Array,
-  target: number,
-): void {
+/** Moves the pose `out` towards another one: 0 leaves it, 1 makes it the other. */
+export function blendPose(out: Pose, to: Pose, t: number): void {
+  for (let axis = 0; axis < 3; axis++) out.root[axis]! += (to.root[axis]! - out.root[axis]!) * t;
+  for (let joint = 0; joint < JOINT_COUNT * 4; joint += 4)
+    slerp(out.rotations, to.rotations, joint, t, out.rotations);
+}
+
+/** Shortest-arc spherical interpolation between the quaternions at `at` in two poses, written to `out` there. */
+function slerp(from: Float32Array, to: Float32Array, at: number, t: number, out: Float32Array): void {
   let cos = 0;
-  for (let i = 0; i < 4; i++) cos += source[from + i]! * source[to + i]!;
+  for (let i = at; i < at + 4; i++) cos += from[i]! * to[i]!;
   const sign = cos < 0 ? -1 : 1;
   cos = Math.min(1, cos * sign);
   let a = 1 - t;
@@ -57,11 +58,11 @@ function slerp(
     b = Math.sin(b * angle) / sin;
   }
   let norm = 0;
-  for (let i = 0; i < 4; i++) {
-    const value = a * source[from + i]! + sign * b * source[to + i]!;
-    out[target + i] = value;
+  for (let i = at; i < at + 4; i++) {
+    const value = a * from[i]! + sign * b * to[i]!;
+    out[i] = value;
     norm += value * value;
   }
   const unit = 1 / Math.sqrt(norm);
-  for (let i = 0; i < 4; i++) out[target + i]! *= unit;
+  for (let i = at; i < at + 4; i++) out[i]! *= unit;
 }

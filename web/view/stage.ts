@@ -1,15 +1,20 @@
-import { Color, Scene, VSMShadowMap, WebGLRenderer } from 'three';
+import { Color, Scene } from 'three';
 import type { SolvedMotion } from '../motion/clip';
-import { createBodyLibrary } from './body/library';
 import { createCameraRig } from './camera-rig';
+import { createBodyLibrary, type BodyLibrary } from './body/library';
+import { createCanvas, type Picture, type PictureSize } from './canvas';
+import { createCast, type OtherMode, type Part } from './cast';
 import { createContacts } from './contacts';
-import { createDancer } from './dancer';
-import { ViewError } from './error';
 import { createFloor } from './floor';
-import { easing, measureCouple, nearestTurn, type View } from './framing';
+import { ViewError } from './error';
+import { easing, type Framing, measureCouple, nearestTurn, type View } from './framing';
+import { createHalves, type Labels } from './halves';
 import { createLights } from './lights';
-import { createLoop } from './loop';
+import { createLoop, idleLoop } from './loop';
+import { createShows, type Shown } from './shows/shows';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';
+
+export type { PictureSize };
 
 export interface StageStats {
   /** Draw calls of the last frame, shadow passes included. */
@@ -22,10 +27,34 @@ export interface StageStats {
   readonly frames: number;
 }
 
+/** A stage that is filmed instead of seen: it is never on the page and draws only when told to. */
+export interface Film extends Stage {
+  readonly canvas: HTMLCanvasElement;
+  /**
+   * Draws the moment `seconds` now; `dt` seconds have passed since the picture before it.
+   *
+   * @throws {ViewError} `webgl-lost` when the graphics card has taken the context away.
+   */
+  shoot(seconds: number, dt: number): void;
+}
+
+/** How dancers come onto the stage. */
+export interface Entrance {
+  /** Whose part was made, the reactor's unless said otherwise: coarse layer and other take are of the same part. */
+  readonly made?: Role;
+  /** Whether who is there already passes over to the other dance. */
+  readonly softly?: boolean;
+}
+
 /** The room in which the two dance. */
 export interface Stage {
   /** Puts dancers on the stage or takes them off (null); a role that is left out stays as it is. */
-  setDancers(dancers: { leader?: SolvedMotion | null; reactor?: SolvedMotion | null }): void;
+  setDancers(dancers: { leader?: SolvedMotion | null; reactor?: SolvedMotion | null }, how?: Entrance): void;
+  /** Sets the reactor of the coarse layer alone, which `shown.ghost` lets be seen through the reactor. */
+  setCoarse(motion: SolvedMotion | null): void;
+  /** Shows another reactor to compare with, or none. */
+  setOther(other: Other | null): void;
+  setShown(shown: Shown): void;
   /** Shows the moment `seconds` of both motions. */
   setTime(seconds: number): void;
   setTheme(theme: Theme): void;
@@ -34,32 +63,42 @@ export interface Stage {
   standAside(pixels: number): void;
   /** Brings both dancers into the picture. */
   frameBoth(): void;
+  /** How the couple is seen now, for a film to be framed alike. */
+  framing(): Framing;
+  frameAs(framing: Framing): void;
+  /** Size of what is drawn. */
+  pictureSize(): PictureSize;
+  /**
+   * An empty stage beside this one, for pictures of `size` that leave the page. It shares nothing that moves, so
+   * that neither disturbs the other.
+   *
+   * @throws {ViewError} `webgl-missing` when the browser gives no second context.
+   */
+  film(size: PictureSize): Film;
   /** Calls `listener` after every drawn frame; returns how to stop that. */
   onFrame(listener: (stats: StageStats) => void): () => void;
   stats(): StageStats;
   /** Resolves when the bodies of all dancers on the stage have been made and drawn. */
   ready(): Promise<void>;
   /** World positions of the 22 joints as drawn right now (22 x 3, metres); zeros without a motion. */
-  jointPositions(role: Role): Float32Array;
+  jointPositions(part: Part): Float32Array;
   dispose(): void;
 }
 
-/** Sharper than this costs more than it shows. */
-const MOST_PIXELS = 2;
+/** Another reactor beside the one on the stage. */
+export interface Other {
+  readonly motion: SolvedMotion;
+  /** `ghost`: seen through, in the same picture; `side`: in the right half of the picture, the reactor in the left. */
+  readonly mode: OtherMode;
+  /** What the halves are called. */
+  readonly labels: Labels;
+}
+
 /** Time constant with which the lights follow the camera's heading, seconds. */
 const LIGHT_TAU = 0.7;
 
-function createRenderer(): WebGLRenderer {
-  try {
-    return new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
-  } catch {
-    throw new ViewError(
-      'webgl-missing',
-      'The stage needs WebGL 2, which this browser does not offer here.',
-      'Turn on hardware acceleration in the browser settings, or open the page in a current Chrome, Edge, Firefox or Safari.',
-    );
-  }
-}
+const WHOLE = ['whole'] as const satisfies readonly Picture[];
+const HALVES = ['left', 'right'] as const satisfies readonly Picture[];
 
 /**
  * Builds the stage inside `host` and fills it.
@@ -67,12 +106,21 @@ function createRenderer(): WebGLRenderer {
  * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
  */
 export function createStage(host: HTMLElement): Stage {
-  const renderer = createRenderer();
-  const canvas = renderer.domElement;
-  canvas.style.display = 'block';
-  host.append(canvas);
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = VSMShadowMap;
+  const library = createBodyLibrary();
+  const stage = buildStage(host, library, null);
+  return {
+    ...stage,
+    dispose() {
+      stage.dispose();
+      library.dispose();
+    },
+  };
+}
+
+/** @param filmed the size of pictures that are drawn one by one; null follows the host and draws by itself. */
+function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize | null): Film {
+  const canvas = createCanvas(host, filmed, () => loop.invalidate());
+  const { renderer } = canvas;
 
   const scene = new Scene();
   const background = new Color();
@@ -83,35 +131,31 @@ export function createStage(host: HTMLElement): Stage {
   scene.add(contacts.object);
   const lights = createLights();
   scene.add(lights.object);
-  const library = createBodyLibrary();
-  const dancers = {
-    leader: createDancer('leader', library, () => loop.invalidate()),
-    reactor: createDancer('reactor', library, () => loop.invalidate()),
-  };
-  for (const role of ROLES) scene.add(dancers[role].object);
-  const rig = createCameraRig(canvas, () => loop.invalidate());
+  const cast = createCast(library, () => loop.invalidate());
+  const shows = createShows();
+  scene.add(cast.object, shows.object);
+  const halves = createHalves(host);
+  const rig = createCameraRig(renderer.domElement, () => loop.invalidate());
   const listeners = new Set<(stats: StageStats) => void>();
   let seconds = 0;
   let posed = false;
-  let lost = false;
   let frames = 0;
   let couple = measureCouple([]);
   let lightHeading = rig.heading;
-
-  const onStage = (): Role[] => ROLES.filter((role) => dancers[role].motion !== null);
 
   /** Brings bones to the current moment, if they are not there yet. */
   function pose(): void {
     if (posed) return;
     posed = true;
-    for (const role of onStage()) dancers[role].pose(seconds);
-    if (onStage().length === 2) {
-      dancers.leader.attend(dancers.reactor);
-      dancers.reactor.attend(dancers.leader);
-    }
-    const joints = onStage().map((role) => dancers[role].jointPositions());
-    couple = measureCouple(joints);
-    contacts.update(joints);
+    couple = cast.pose(seconds);
+  }
+
+  function drawPicture(picture: Picture): void {
+    canvas.aim(picture);
+    const figures = cast.arrange(picture);
+    contacts.update(figures.map(({ joints }) => joints));
+    shows.update(figures, seconds);
+    renderer.render(scene, rig.camera);
   }
 
   const stats = (): StageStats => ({
@@ -121,8 +165,10 @@ export function createStage(host: HTMLElement): Stage {
     frames,
   });
 
-  const loop = createLoop((dt) => {
-    if (lost) return false;
+  function draw(dt: number): boolean {
+    if (canvas.lost) return false;
+    const passing = cast.advance(dt);
+    if (passing) posed = false;
     const danced = !posed;
     pose();
     const moving = rig.update(dt, couple, danced);
@@ -130,35 +176,29 @@ export function createStage(host: HTMLElement): Stage {
     lightHeading += turn * easing(dt, LIGHT_TAU);
     lights.aim(couple.x, couple.z, lightHeading);
     floor.setCentre(couple.x, couple.z);
-    renderer.render(scene, rig.camera);
+    renderer.info.reset();
+    for (const picture of cast.split ? HALVES : WHOLE) drawPicture(picture);
     frames++;
     const now = stats();
     for (const listener of listeners) listener(now);
-    return moving || Math.abs(turn) > 0.01;
-  });
+    return moving || passing || Math.abs(turn) > 0.01;
+  }
+  const loop = filmed ? idleLoop : createLoop(draw);
 
-  function resize(): void {
-    const { clientWidth: width, clientHeight: height } = host;
-    if (width === 0 || height === 0) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS));
-    renderer.setSize(width, height);
-    rig.resize(width, height);
-    // A resized canvas is empty until it is drawn again.
-    loop.flush();
+  /** Gives the camera the shape of one picture. */
+  function frame(): void {
+    const { width, height } = canvas.size;
+    rig.resize(cast.split ? width / 2 : width, height);
   }
   const observer = new ResizeObserver(resize);
   observer.observe(host);
-
-  const onLost = (event: Event): void => {
-    event.preventDefault();
-    lost = true;
-  };
-  const onRestored = (): void => {
-    lost = false;
-    loop.invalidate();
-  };
-  canvas.addEventListener('webglcontextlost', onLost);
-  canvas.addEventListener('webglcontextrestored', onRestored);
+  function resize(): void {
+    const { width, height } = filmed ?? { width: host.clientWidth, height: host.clientHeight };
+    if (!canvas.resize(width, height)) return;
+    frame();
+    // A resized canvas is empty until it is drawn again.
+    loop.flush();
+  }
 
   function setTheme(theme: Theme): void {
     const look = LOOKS[theme];
@@ -166,26 +206,49 @@ export function createStage(host: HTMLElement): Stage {
     floor.setLook(look);
     contacts.setLook(look);
     lights.setLook(look);
-    for (const role of ROLES) dancers[role].setLook(look);
+    cast.setLook(look);
+    shows.setLook(look);
     loop.invalidate();
   }
   setTheme('dark');
   resize();
 
   return {
-    setDancers(next) {
-      const before = onStage().length;
+    setDancers(next, { made = 'reactor', softly = false } = {}) {
+      cast.setMade(made);
+      const before = cast.present;
       for (const role of ROLES) {
         const motion = next[role];
-        if (motion !== undefined) dancers[role].setMotion(motion);
+        if (motion !== undefined) cast.setMotion(role, motion, softly);
       }
       posed = false;
       pose();
-      const now = onStage().length;
-      if (now > before) {
+      if (cast.present > before) {
         rig.introduce(couple, before === 0);
         if (before === 0) lightHeading = rig.heading;
       }
+      loop.invalidate();
+    },
+    setCoarse(motion) {
+      cast.setMotion('coarse', motion);
+      posed = false;
+      loop.invalidate();
+    },
+    setOther(other) {
+      const wasSplit = cast.split;
+      cast.setMotion('other', other?.motion ?? null);
+      cast.setOtherMode(other?.mode ?? 'ghost');
+      halves.show(other && cast.split ? other.labels : null);
+      posed = false;
+      loop.invalidate();
+      if (cast.split === wasSplit) return;
+      frame();
+      pose();
+      rig.refit(couple);
+    },
+    setShown(shown) {
+      cast.setShown(shown);
+      shows.setShown(shown);
       loop.invalidate();
     },
     setTime(at) {
@@ -206,33 +269,60 @@ export function createStage(host: HTMLElement): Stage {
       pose();
       rig.frame(couple);
     },
+    framing() {
+      pose();
+      return rig.framing(couple);
+    },
+    frameAs(framing) {
+      pose();
+      rig.frameAs(framing, couple);
+      lightHeading = rig.heading;
+    },
+    pictureSize: () => {
+      const { width, height } = renderer.domElement;
+      return { width, height };
+    },
+    film: (size) => buildStage(document.createElement('div'), library, size),
+    canvas: renderer.domElement,
+    shoot(at, dt) {
+      if (canvas.lost) {
+        throw new ViewError(
+          'webgl-lost',
+          'The graphics card stopped drawing the video.',
+          'Try again, with a smaller picture or fewer other tabs open.',
+        );
+      }
+      if (at !== seconds) {
+        seconds = at;
+        posed = false;
+      }
+      draw(dt);
+    },
     onFrame(listener) {
       listeners.add(listener);
       return () => listeners.delete(listener);
     },
     stats,
     async ready() {
-      await Promise.all(ROLES.map((role) => dancers[role].dressed()));
+      await cast.dressed();
       loop.flush();
     },
-    jointPositions(role) {
+    jointPositions(part) {
       pose();
-      return dancers[role].jointPositions();
+      return cast.joints(part);
     },
     dispose() {
       loop.dispose();
       observer.disconnect();
-      canvas.removeEventListener('webglcontextlost', onLost);
-      canvas.removeEventListener('webglcontextrestored', onRestored);
       listeners.clear();
       rig.dispose();
-      for (const role of ROLES) dancers[role].dispose();
-      library.dispose();
+      cast.dispose();
+      shows.dispose();
+      halves.dispose();
       lights.dispose();
       floor.dispose();
       contacts.dispose();
-      renderer.dispose();
-      canvas.remove();
+      canvas.dispose();
     },
   };
 }

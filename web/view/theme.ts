@@ -6,6 +6,11 @@ export const ROLES = ['leader', 'reactor'] as const satisfies readonly Role[];
 export interface Look {
   readonly leader: number;
   readonly reactor: number;
+  /** The reactor's coarse layer alone, and another take of the reactor. */
+  readonly coarse: number;
+  readonly other: number;
+  /** What stands out from the background: the middle of a line between hands, and bones. */
+  readonly contrast: number;
   readonly background: number;
   /** Colour of the lit floor in the middle. */
   readonly pool: number;
@@ -26,6 +31,9 @@ export const LOOKS: Readonly<Record<Theme, Look>> = {
   dark: {
     leader: 0x4b9bd4,
     reactor: 0xf08a4b,
+    coarse: 0xffb27d,
+    other: 0xf0705a,
+    contrast: 0xf4f1ec,
     background: 0x121417,
     pool: 0x1e2226,
     line: 0xffffff,
@@ -42,6 +50,9 @@ export const LOOKS: Readonly<Record<Theme, Look>> = {
   light: {
     leader: 0x3d8fca,
     reactor: 0xe97e42,
+    coarse: 0xe06a22,
+    other: 0xc8432c,
+    contrast: 0x2b3036,
     background: 0xe9ebed,
     pool: 0xf6f7f8,
     line: 0x5c646d,

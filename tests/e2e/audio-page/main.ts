@@ -66,7 +66,7 @@ function watchFreezes(): () => number {
 
 let song: Song | undefined;
 
-/** The elements that were made to sound, the player's first: only they tell what is really heard. */
+/** The elements that were made to sound, the player's first two: only they tell what is really heard. */
 const elements: HTMLAudioElement[] = [];
 window.Audio = class extends Audio {
   constructor() {
@@ -144,8 +144,8 @@ export const page = {
 
   /** Seconds of the song that are heard now; null when there is silence. */
   heard(): number | null {
-    const [element] = elements;
-    return !element || element.paused || element.ended ? null : element.currentTime;
+    const [element] = elements.filter(({ paused, ended }) => !paused && !ended);
+    return element ? element.currentTime : null;
   },
 
   /** Reads both clocks at every frame for some seconds: [the page's, the player's] in seconds. */

@@ -80,6 +80,29 @@ describe('download', () => {
     expect(results[1]).toEqual(bytesOf('graph bb'));
   });
 
+  it('tells from the start what is here already', async () => {
+    const { store, files } = memoryStore();
+    files.set(b.sha256, bytesOf('graph bb'));
+    const progress: [number, number, number][] = [];
+    const { get, asked } = both();
+    const results = await download(BASE, [a, b], {
+      fetch: get,
+      store,
+      onProgress: (loaded, total, kept) => progress.push([loaded, total, kept]),
+    });
+    expect(progress[0]).toEqual([8, 15, 8]);
+    expect(progress.at(-1)).toEqual([15, 15, 8]);
+    expect(asked).toEqual(['https://dance.example/models/salsa/a.onnx']);
+    expect(results.map((bytes) => new TextDecoder().decode(bytes))).toEqual(['graph a', 'graph bb']);
+  });
+
+  it('does not forget files that may be wanted again', async () => {
+    const { store, files } = memoryStore();
+    files.set(b.sha256, bytesOf('graph bb'));
+    await download(BASE, [a], { fetch: both().get, store, spare: [b.sha256] });
+    expect([...files.keys()].sort()).toEqual([a.sha256, b.sha256].sort());
+  });
+
   it('fetches again what was spoiled in the store', async () => {
     const { store, files } = memoryStore();
     files.set(a.sha256, bytesOf('graph A'));

@@ -46,6 +46,11 @@ describe('parseManifest', () => {
     ['channels that do not divide', (json) => void (json.latent.channels = 4), 'manifest-invalid'],
     ['default steps out of range', (json) => void (json.diffusion.steps.default = 60), 'manifest-invalid'],
     ['no guidance for a layer', (json) => void (json.guidance.default = { coarse: 0 }), 'manifest-invalid'],
+    [
+      'a capsule between no joints',
+      (json) => void (json.quality.penetration.capsules[0]!.to = 'tail'),
+      'manifest-invalid',
+    ],
     ['a list', () => [], 'manifest-invalid'],
     ['a string', () => 'manifest', 'manifest-invalid'],
   ])('refuses %s', (_, change, code) => {

@@ -117,6 +117,43 @@ describe('Pipeline', () => {
     expect(conditions[0]?.musicValid.reduce((sum, v) => sum + v, 0)).toBe(52);
   });
 
+  it('decodes the coarse layer alone from the latents of a reaction, as long and as large as the whole', async () => {
+    const large = request(121, { leader: scaleClip(request(121).leader, 1.3) });
+    const { motion, latents } = await pipeline.generate(large);
+    expect(latents).toHaveLength(31 * model.manifest.latent.layers.length * model.manifest.latent.channels);
+    const asked: number[][] = [];
+    const { session, manifest } = model;
+    const watched: ModelSession = {
+      ...session,
+      decode(input) {
+        asked.push([...input.layers]);
+        return session.decode(input);
+      },
+    };
+    const runs = stepRuns;
+    const coarse = await new Pipeline(manifest, watched, () => 0).coarse({ leader: large.leader, latents });
+    expect(asked).toEqual([[1, 0]]);
+    expect(stepRuns).toBe(runs);
+    expect(coarse.frames).toBe(motion.frames);
+    expect(maxDifference(coarse.positions, motion.positions)).toBeGreaterThan(1e-4);
+    // Without its fine layer a reaction is its own coarse reaction.
+    const width = manifest.latent.channels;
+    const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));
+    const again = await pipeline.coarse({ leader: large.leader, latents: plain });
+    expect(again.positions).toEqual(coarse.positions);
+  });
+
+  it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
+    const { latents } = await pipeline.generate(request(120));
+    const { leader } = request(200);
+    await expect(pipeline.coarse({ leader, latents })).rejects.toMatchObject({
+      code: 'bad-request',
+      message: expect.stringMatching(/not made for this leader/) as string,
+    });
+    const coarse = pipeline.coarse({ leader: request(120).leader, latents }, { signal: AbortSignal.abort() });
+    await expect(coarse).rejects.toThrow(/abort/i);
+  });
+
   it('tells its progress, never backwards, up to the end', async () => {
     const seen: Progress[] = [];
     await pipeline.generate(request(483), { onProgress: (progress) => seen.push(progress) });

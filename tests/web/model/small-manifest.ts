@@ -55,6 +55,16 @@ export function smallJson() {
     },
     noise: { algorithm: 'philox4x32-10' },
     audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },
+    quality: {
+      contact: { percentile: 5, height: 0.03, vertical_speed: 0.1, slide_speed: 0.2 },
+      penetration: {
+        capsules: [{ from: 'pelvis', to: 'spine1', radius: 0.1, beyond: 0 }],
+        reference_height: 1.4,
+        deep: 0.01,
+      },
+      beats: { smoothing: 5, tolerance: 3 },
+      seams: { radius: 2, clear: 8, paper_radius: 30 },
+    },
     graphs: { condition: graph('condition.onnx'), step: graph('step.onnx'), decode: graph('decode.onnx') },
   };
 }

@@ -4,15 +4,22 @@ import { peaks, speedCurve } from '../../../web/ui/curves';
 describe('waveform', () => {
   it('keeps the lowest and highest sample of each column', () => {
     const pcm = Float32Array.of(0.1, 0.5, -0.2, 0, -0.9, 0.3, 0, 0);
-    const { low, high } = peaks(pcm, 8, 1, 4);
+    const { low, high } = peaks(pcm, 8, { from: 0, to: 1 }, 4);
     expect([...high].map((value) => Number(value.toFixed(2)))).toEqual([0.5, 0, 0.3, 0]);
     expect([...low].map((value) => Number(value.toFixed(2)))).toEqual([0, -0.2, -0.9, 0]);
   });
 
   it('is flat after the end of the song and ends with the dance', () => {
     const pcm = new Float32Array(100).fill(0.5);
-    expect([...peaks(pcm, 100, 2, 4).high]).toEqual([0.5, 0.5, 0, 0]);
-    expect([...peaks(pcm, 100, 0.5, 2).high]).toEqual([0.5, 0.5]);
+    expect([...peaks(pcm, 100, { from: 0, to: 2 }, 4).high]).toEqual([0.5, 0.5, 0, 0]);
+    expect([...peaks(pcm, 100, { from: 0, to: 0.5 }, 2).high]).toEqual([0.5, 0.5]);
+  });
+});
+
+describe('a part of a waveform', () => {
+  it('is flat before the song begins', () => {
+    const pcm = new Float32Array(100).fill(0.5);
+    expect([...peaks(pcm, 100, { from: -0.5, to: 0.5 }, 4).high]).toEqual([0, 0, 0.5, 0.5]);
   });
 });
 

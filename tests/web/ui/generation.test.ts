@@ -1,36 +1,10 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { GenerateOptions, GenerateRequest, GenerateResult, Generator } from '../../../web/model/client';
 import { createGeneration } from '../../../web/ui/generation';
 import * as change from '../../../web/ui/store';
+import { shiftSet } from '../../../web/ui/timeline-changes';
 import { small } from '../model/small-manifest';
+import { Hand, result } from './hand';
 import { leader, song, still } from './made';
-
-/** A generator whose answers the test gives by hand. */
-class Hand {
-  readonly calls: {
-    request: GenerateRequest;
-    options: GenerateOptions;
-    answer: (result: GenerateResult) => void;
-    fail: (error: Error) => void;
-  }[] = [];
-  readonly generator = {
-    manifest: small,
-    backend: { name: 'wasm', reason: '', threads: 1 },
-    generate: (request: GenerateRequest, options: GenerateOptions = {}) =>
-      new Promise<GenerateResult>((answer, fail) => {
-        this.calls.push({ request, options, answer, fail });
-        options.signal?.addEventListener('abort', () => {
-          fail(options.signal?.reason as Error);
-        });
-      }),
-    dispose: () => undefined,
-  } satisfies Generator;
-}
-
-const result = (frames = 60): GenerateResult => ({
-  motion: still(frames),
-  seconds: { condition: 0.5, steps: 2, decode: 0.25, solve: 0.25 },
-});
 
 describe('generation', () => {
   let store: change.Store;
@@ -74,6 +48,16 @@ describe('generation', () => {
     await still60();
     expect(hand.calls).toHaveLength(1);
     expect(hand.calls[0]?.request.music?.frames).toBe(60);
+  });
+
+  it('makes another reaction for a song that starts later', async () => {
+    change.apply(store, change.songLoaded(song(2)));
+    await begin();
+    hand.calls[0]?.answer(result());
+    await still60();
+    change.apply(store, shiftSet(7));
+    await still60();
+    expect(hand.calls[1]?.request.music).toMatchObject({ frames: 60, start: 7 });
   });
 
   it('waits for stillness while a fader moves, and the newest wish drops the older ones', async () => {
@@ -143,6 +127,44 @@ describe('generation', () => {
     expect(hand.calls).toHaveLength(2);
   });
 
+  it('shows the part under the playhead early, among what was there, until the whole is ready', async () => {
+    await begin();
+    hand.calls[0]?.answer(result());
+    await still60();
+    const { reaction } = store.getState();
+    change.apply(store, change.playbackSet({ time: 1 }));
+    change.apply(store, change.seedSet(8));
+    await still60();
+    const { options } = hand.calls[1] ?? {};
+    expect(options?.at).toBe(30);
+    const moved = { ...still(60), root: new Float32Array(180).fill(1) };
+    options?.onPreview?.({ motion: moved, locked: moved, fresh: { from: 24, to: 48 } });
+    const { preview, job } = store.getState();
+    expect(job?.fresh).toEqual({ from: 24, to: 48 });
+    expect([0, 36, 59].map((frame) => preview?.motion.root[frame * 3])).toEqual([0, 1, 0]);
+    options?.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
+    expect(store.getState().job?.fresh).toEqual({ from: 24, to: 48 });
+    // What was made before is still what is taken home.
+    expect(store.getState().reaction).toBe(reaction);
+    hand.calls[1]?.answer(result());
+    await still60();
+    expect(store.getState()).toMatchObject({ preview: null, job: null });
+  });
+
+  it('a newer wish drops the older one with its preview to come, and cancelling takes the preview away', async () => {
+    await begin();
+    const preview = { motion: still(60), locked: still(60), fresh: { from: 0, to: 24 } };
+    const [older] = hand.calls;
+    change.apply(store, change.seedSet(8));
+    await still60();
+    older?.options.onPreview?.(preview);
+    expect(store.getState().preview).toBeNull();
+    hand.calls[1]?.options.onPreview?.(preview);
+    expect(store.getState().preview).not.toBeNull();
+    generation.cancel();
+    expect(store.getState()).toMatchObject({ preview: null, job: null });
+  });
+
   it('a late answer to an older wish is not shown', async () => {
     await begin();
     const late = hand.calls[0];
@@ -161,8 +183,11 @@ describe('generation', () => {
     change.apply(store, change.leaderLoaded(one));
     const { settings } = store.getState();
     if (!settings) throw new Error('no settings');
-    const inputs = { leader: one, song: null, settings };
-    change.apply(store, change.reacted({ motion: still(60), inputs, label: 'demo reaction', seconds: null }));
+    const inputs = { leader: one, song: null, shift: 0, settings };
+    change.apply(
+      store,
+      change.reacted({ motion: still(60), latents: null, inputs, label: 'demo reaction', seconds: null }),
+    );
     await still60();
     expect(hand.calls).toHaveLength(0);
   });

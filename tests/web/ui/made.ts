@@ -2,7 +2,14 @@ import type { Song } from '../../../web/audio/client';
 import type { LeaderFile } from '../../../web/motion/bvh-read';
 import type { SolvedMotion } from '../../../web/motion/clip';
 import { SMPL22 } from '../../../web/motion/skeleton';
-import type { LoadedLeader, LoadedSong } from '../../../web/ui/state';
+import { uniform } from '../../../web/ui/guidance-matrix';
+import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/state';
+import { small } from '../model/small-manifest';
+
+/** Guidance of the small model with every body part alike. */
+export function alike(coarse: number, fine: number): Guidance {
+  return uniform(small.latent.streams, small.latent.layers, (layer) => (layer === 'coarse' ? coarse : fine));
+}
 
 /** A motion of the right shape in which nobody moves. */
 export function still(frames: number): SolvedMotion {
@@ -63,5 +70,5 @@ export function heard(seconds: number, more: Partial<Song> = {}): Song {
 }
 
 export function song(seconds: number, more: Partial<Song> = {}): LoadedSong {
-  return { name: 'Descarga.mp3', label: null, data: heard(seconds, more) };
+  return { name: 'Descarga.mp3', label: null, file: new Blob(['ID3']), data: heard(seconds, more) };
 }

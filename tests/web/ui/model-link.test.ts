@@ -30,8 +30,18 @@ describe('loading the model', () => {
     attempt?.tell({ kind: 'manifest', manifest: small });
     expect(store.getState().settings?.steps).toBe(10);
     expect(await link.manifest()).toBe(small);
-    attempt?.tell({ kind: 'download', loaded: 5, total: 9 });
-    expect(store.getState().model).toEqual({ phase: 'loading', label: 'Model', received: 5, total: 9 });
+    const parts = [
+      { name: 'runtime', loaded: 4, total: 4, kept: 4 },
+      { name: 'model', loaded: 1, total: 5, kept: 0 },
+    ] as const;
+    attempt?.tell({ kind: 'download', parts });
+    expect(store.getState().model).toEqual({
+      phase: 'loading',
+      label: 'Model',
+      received: 5,
+      total: 9,
+      parts,
+    });
     attempt?.tell({ kind: 'warm-up' });
     expect(store.getState().model).toMatchObject({ phase: 'loading', label: 'Warming up', total: 0 });
     attempt?.tell({ kind: 'ready', backend });
@@ -52,7 +62,8 @@ describe('loading the model', () => {
     attempts[0]?.fail(new ModelError('model-missing', 'The server answered 404.', 'Copy the model folder.'));
     await expect(link.generator()).rejects.toThrow('404');
     expect(store.getState().problem).toMatchObject({ code: 'model-missing', remedy: 'model' });
-    expect(store.getState().model.phase).toBe('failed');
+    attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, kept: 0 }] });
+    expect(store.getState().model.phase, 'a download beside the one that failed').toBe('failed');
     link.retry();
     attempts[1]?.tell({ kind: 'manifest', manifest: small });
     attempts[1]?.tell({ kind: 'ready', backend });
@@ -112,7 +123,7 @@ describe('opening a model of the visitor', () => {
     const { store, link, attempts, present, isDisposed } = await danced();
     const before = store.getState();
     const opened = link.open(folder);
-    attempts[1]?.tell({ kind: 'download', loaded: 1, total: 2 });
+    attempts[1]?.tell({ kind: 'download', parts: [{ name: 'model', loaded: 1, total: 2, kept: 0 }] });
     attempts[1]?.fail(new ModelError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
     expect(await opened).toBe(false);
     const { problem, ...after } = store.getState();

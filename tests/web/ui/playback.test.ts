@@ -2,6 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Player } from '../../../web/audio/client';
 import { createPlayback, type PlaybackControl } from '../../../web/ui/playback';
 import * as change from '../../../web/ui/store';
+import { regionSet, shiftSet } from '../../../web/ui/timeline-changes';
 import { leader, song } from './made';
 
 /** A player whose time the test sets. */
@@ -11,6 +12,8 @@ class Hand implements Player {
   duration = 0;
   sound: Blob | null = null;
   speed = 1;
+  songStart = 0;
+  loop: { readonly from: number; readonly to: number } | null = null;
   refusal: Error | null = null;
   load(sound: Blob | null, duration: number): void {
     Object.assign(this, { sound, duration });
@@ -28,6 +31,12 @@ class Hand implements Player {
   }
   setSpeed(speed: number): void {
     this.speed = speed;
+  }
+  setSongStart(seconds: number): void {
+    this.songStart = seconds;
+  }
+  setLoop(loop: Hand['loop']): void {
+    this.loop = loop;
   }
   dispose(): void {
     this.playing = false;
@@ -91,10 +100,43 @@ describe('playback', () => {
     playback.toggle();
     expect(hand.time).toBe(0);
     change.apply(store, change.playbackSet({ loop: true }));
+    expect(hand.loop).toEqual({ from: 0, to: 3 });
     await draw(3);
-    expect(store.getState().playback).toMatchObject({ playing: true, time: 0 });
+    expect(store.getState().playback).toMatchObject({ playing: true, time: 3 });
     await draw(0.5);
-    expect(store.getState().playback.time).toBe(0.5);
+    expect(store.getState().playback).toMatchObject({ playing: true, time: 0.5 });
+  });
+
+  it('loops a region, which is heard at once when it lies behind the playhead', async () => {
+    load();
+    playback.toggle();
+    await draw(2);
+    change.apply(store, regionSet({ from: 0.5, to: 1 }));
+    expect(hand.loop).toEqual({ from: 0.5, to: 1 });
+    expect(hand.time).toBe(0.5);
+    change.apply(store, regionSet(null));
+    expect(hand.loop).toBeNull();
+  });
+
+  it('plays from the start of the region when the playhead is past it', async () => {
+    load();
+    change.apply(store, regionSet({ from: 0.5, to: 1 }));
+    playback.seek(0.2);
+    playback.toggle();
+    expect(hand.time).toBe(0.2);
+    playback.toggle();
+    playback.seek(2);
+    playback.toggle();
+    expect(hand.time).toBe(0.5);
+    await draw(0.5);
+  });
+
+  it('starts the song as much later as it is shifted', () => {
+    load();
+    change.apply(store, shiftSet(15));
+    expect(hand.songStart).toBe(0.5);
+    change.apply(store, change.songLoaded(song(2)));
+    expect(hand.songStart).toBe(0);
   });
 
   it('goes on playing when another song comes', async () => {

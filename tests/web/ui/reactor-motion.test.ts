@@ -3,7 +3,7 @@ import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
 import { reactorMotion } from '../../../web/ui/reactor-motion';
 import { createAppStore, apply, footLockSet, reacted } from '../../../web/ui/store';
 import { madeStander } from '../motion/made-stander';
-import { leader } from './made';
+import { alike, leader } from './made';
 
 test('the foot lock is on at first, and switching it changes the motion shown, not the one that was made', () => {
   const motion = madeStander({ frames: 90, path: (frame) => [0.05 * Math.sin(frame / 4.8), 0] });
@@ -12,9 +12,9 @@ test('the foot lock is on at first, and switching it changes the motion shown, n
   const shown = () => reactorMotion(store.getState());
   expect(shown()).toBeNull();
 
-  const settings = { guidance: { coarse: 0, fine: 0 }, steps: 10, seed: 1 };
-  const inputs = { leader: leader(90), song: null, settings };
-  apply(store, reacted({ motion, inputs, label: null, seconds: 1 }));
+  const settings = { guidance: alike(0, 0), steps: 10, seed: 1, role: 'reactor' as const };
+  const inputs = { leader: leader(90), song: null, shift: 0, settings };
+  apply(store, reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();
   const ankles = locked!.positions.filter((_, i) => i % (JOINT_COUNT * 3) === J.left_ankle * 3);
   expect(Math.max(...ankles) - Math.min(...ankles)).toBeLessThan(0.04);

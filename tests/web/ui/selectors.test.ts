@@ -3,9 +3,9 @@ import * as select from '../../../web/ui/selectors';
 import type { AppState, Settings } from '../../../web/ui/state';
 import { initialState } from '../../../web/ui/store';
 import { small } from '../model/small-manifest';
-import { leader, song, still } from './made';
+import { alike, leader, song, still } from './made';
 
-const settings: Settings = { guidance: { coarse: 1.2, fine: 0.6 }, steps: 10, seed: 1204 };
+const settings: Settings = { guidance: alike(1.2, 0.6), steps: 10, seed: 1204, role: 'reactor' };
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),
   manifest: small,
@@ -23,13 +23,18 @@ describe('what is wanted', () => {
 
   it('needs no song', () => {
     const one = leader(30);
-    expect(select.wantedInputs(state({ leader: one }))).toEqual({ leader: one, song: null, settings });
+    expect(select.wantedInputs(state({ leader: one }))).toEqual({
+      leader: one,
+      song: null,
+      shift: 0,
+      settings,
+    });
   });
 
   it('is up to date exactly while the reaction was made from the same', () => {
     const one = leader(30);
-    const inputs = { leader: one, song: null, settings };
-    const reaction = { motion: still(30), inputs, label: null, seconds: 1 };
+    const inputs = { leader: one, song: null, shift: 0, settings };
+    const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
     expect(select.upToDate(state({ leader: one, reaction }))).toBe(true);
     expect(
       select.upToDate(
@@ -40,7 +45,9 @@ describe('what is wanted', () => {
     for (const changed of [
       { ...settings, seed: 1 },
       { ...settings, steps: 4 },
-      { ...settings, guidance: { coarse: 1.2, fine: 0.65 } },
+      { ...settings, guidance: alike(1.2, 0.65) },
+      { ...settings, guidance: { ...settings.guidance, lower: { coarse: 1.2, fine: 0.65 } } },
+      { ...settings, role: 'leader' as const },
     ])
       expect(select.upToDate(state({ leader: one, reaction, settings: changed }))).toBe(false);
   });
@@ -50,6 +57,8 @@ describe('guidance matrix', () => {
   it('is streams by layers, row by row', () => {
     const matrix = select.guidanceMatrix(settings, small.latent);
     expect([...matrix].map((value) => Number(value.toFixed(2)))).toEqual([1.2, 0.6, 1.2, 0.6, 1.2, 0.6]);
+    const lower = { ...settings, guidance: { ...settings.guidance, lower: { coarse: 2, fine: 3 } } };
+    expect([...select.guidanceMatrix(lower, small.latent)].slice(2, 4)).toEqual([2, 3]);
   });
 });
 
@@ -87,17 +96,11 @@ describe('what is said', () => {
 
   it('of the job, in words', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
-    const job = { done: 2, total: 10, fraction: 0.3 };
+    const job = { done: 2, total: 10, fraction: 0.3, fresh: null };
     const from = { model: loading, settings };
     expect(select.jobWords({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
     expect(select.jobWords({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');
     expect(select.jobWords({ ...job, stage: 'step', done: 10 }, from)).toBe('step 10 of 10');
     expect(select.jobWords({ ...job, stage: 'step', done: 24, total: 50 }, from)).toBe('step 5 of 10');
-  });
-
-  it('in the name of the file: song, leader, seed, guidance', () => {
-    const inputs = { leader: leader(30), song: song(5), settings };
-    expect(select.reactorFileName(inputs)).toBe('descarga_lead-0412_s1204_c1.20-f0.60_reactor.bvh');
-    expect(select.reactorFileName({ ...inputs, song: null })).toMatch(/^no-song_/);
   });
 });

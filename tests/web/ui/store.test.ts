@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import * as change from '../../../web/ui/store';
 import type { Problem } from '../../../web/ui/state';
 import { small } from '../model/small-manifest';
-import { leader, song, still } from './made';
+import { alike, leader, song, still } from './made';
 
 const ready = (): change.Store => {
   const store = change.createAppStore('dark');
@@ -13,7 +13,12 @@ const ready = (): change.Store => {
 describe('settings', () => {
   it('come from the manifest, with the seed that was rolled', () => {
     const store = ready();
-    expect(store.getState().settings).toEqual({ guidance: { coarse: 0, fine: 0 }, steps: 10, seed: 7 });
+    expect(store.getState().settings).toEqual({
+      guidance: alike(0, 0),
+      steps: 10,
+      seed: 7,
+      role: 'reactor',
+    });
   });
 
   it('do not exist before the manifest', () => {
@@ -28,11 +33,11 @@ describe('settings', () => {
     const store = ready();
     change.apply(store, change.guidanceSet('coarse', 9));
     change.apply(store, change.guidanceSet('fine', 0.33));
-    expect(store.getState().settings?.guidance).toEqual({ coarse: 3, fine: 0.35 });
+    expect(store.getState().settings?.guidance).toEqual(alike(3, 0.35));
     change.apply(store, change.guidanceReset('coarse'));
-    expect(store.getState().settings?.guidance).toEqual({ coarse: 0, fine: 0.35 });
+    expect(store.getState().settings?.guidance).toEqual(alike(0, 0.35));
     change.apply(store, change.guidanceReset());
-    expect(store.getState().settings?.guidance).toEqual({ coarse: 0, fine: 0 });
+    expect(store.getState().settings?.guidance).toEqual(alike(0, 0));
   });
 
   it('are the same object while nothing changes, so that nothing is made anew', () => {
@@ -66,7 +71,8 @@ describe('files', () => {
       store,
       change.reacted({
         motion: still(300),
-        inputs: { leader: first, song: null, settings },
+        latents: null,
+        inputs: { leader: first, song: null, shift: 0, settings },
         label: null,
         seconds: 1,
       }),
@@ -84,7 +90,8 @@ describe('files', () => {
     if (!settings) throw new Error('no settings');
     const reaction = {
       motion: still(300),
-      inputs: { leader: first, song: null, settings },
+      latents: null,
+      inputs: { leader: first, song: null, shift: 0, settings },
       label: null,
       seconds: 1,
     };

@@ -1,6 +1,13 @@
 import { describe, expect, it } from 'vitest';
 import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
-import { FIELD_OF_VIEW, fitDistance, measureCouple, nearestTurn, shotOf } from '../../../web/view/framing';
+import {
+  FIELD_OF_VIEW,
+  fitDistance,
+  measureCouple,
+  nearestTurn,
+  reframed,
+  shotOf,
+} from '../../../web/view/framing';
 
 /** Somebody at (x, z) as a joint cloud: a pole with hips across x. */
 function figure(x: number, z: number): Float32Array {
@@ -60,5 +67,18 @@ describe('framing', () => {
     expect(nearestTurn(Math.PI * 1.9, 0)).toBeCloseTo(-Math.PI * 0.1, 6);
     expect(nearestTurn(-3, 3)).toBeCloseTo(2 * Math.PI - 3, 6);
     expect(nearestTurn(0.2, 0.1)).toBeCloseTo(0.2, 6);
+  });
+
+  it('frames the couple alike elsewhere and in a picture of another shape', () => {
+    const couple = measureCouple([figure(0.4, 0), figure(-0.4, 0)]);
+    const there = measureCouple([figure(3.4, 2), figure(2.6, 2)]);
+    const shot = { target: [0.1, 1, -0.2], distance: 3, heading: 0.7, elevation: 0.3 } as const;
+    const wide = { view: 'orbit', shot, tracked: [0, 0], ownDistance: true, aspect: 1.8 } as const;
+    expect(reframed(wide, there, 1.8)).toEqual({ ...shot, target: [3.1, 1, 1.8] });
+    // Narrower: what was seen at the sides still is. Wider: as high as before.
+    expect(reframed(wide, couple, 0.9).distance).toBeCloseTo(6, 6);
+    expect(reframed(wide, couple, 2.4).distance).toBe(3);
+    expect(reframed({ ...wide, ownDistance: false }, couple, 0.9).distance).toBe(fitDistance(couple, 0.9));
+    expect(reframed({ ...wide, view: 'top' }, couple, 1.8).distance).toBeCloseTo(3, 6);
   });
 });

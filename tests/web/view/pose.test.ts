@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Quaternion } from 'three';
 import { JOINT_COUNT } from '../../../web/motion/skeleton';
-import { createPose, lastMoment, samplePose } from '../../../web/view/pose';
+import { blendPose, createPose, lastMoment, samplePose } from '../../../web/view/pose';
 import { createRig } from '../../../web/view/rig';
 import { randomMotion } from './skeletons';
 
@@ -79,4 +79,30 @@ describe('the rig', () => {
       }
     }
   });
+});
+
+it('one pose passes into another the short way round, all the way and no further', () => {
+  const about = (angle: number) => [0, Math.sin(angle / 2), 0, Math.cos(angle / 2)];
+  const posed = (x: number, quaternion: readonly number[]) => {
+    const pose = createPose();
+    pose.root.set([x, 1, 0]);
+    for (let joint = 0; joint < 22; joint++) pose.rotations.set(quaternion, joint * 4);
+    return pose;
+  };
+  // The same turn with its sign the other way: a straight mix would pass through zero.
+  const to = posed(
+    2,
+    about(1).map((value) => -value),
+  );
+  for (const [t, angle] of [
+    [0, 0],
+    [0.5, 0.5],
+    [1, 1],
+  ] as const) {
+    const pose = posed(0, about(0));
+    blendPose(pose, to, t);
+    expect(pose.root[0]).toBeCloseTo(2 * t, 6);
+    const dot = about(angle).reduce((sum, value, i) => sum + value * pose.rotations[84 + i]!, 0);
+    expect(Math.abs(dot)).toBeCloseTo(1, 6);
+  }
 });

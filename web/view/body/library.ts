@@ -1,12 +1,12 @@
 import { wrap, type Remote } from 'comlink';
 import type { Build } from './part';
-import type { BodyMesh } from './mesh';
+import type { Body } from './lighter';
 import type { Mesher } from './worker';
 
 /** Bodies already meshed, by skeleton and build; meshes the others in a worker. */
 export interface BodyLibrary {
   /** The mesh for a skeleton, made for `roundedOffsets`. */
-  request(offsets: ArrayLike<number>, build: Build): Promise<BodyMesh>;
+  request(offsets: ArrayLike<number>, build: Build): Promise<Body>;
   dispose(): void;
 }
 
@@ -23,20 +23,20 @@ export const roundedOffsets = (offsets: ArrayLike<number>): Float32Array =>
 export function createBodyLibrary(): BodyLibrary {
   let worker: Worker | null = null;
   let mesher: Remote<Mesher> | null = null;
-  const bodies = new Map<string, Promise<BodyMesh>>();
+  const bodies = new Map<string, Promise<Body>>();
 
-  async function mesh(offsets: Float32Array, build: Build): Promise<BodyMesh> {
+  async function mesh(offsets: Float32Array, build: Build): Promise<Body> {
     try {
       return await inWorker(offsets, build);
     } catch (error) {
       // Slower and felt, but a stage without its worker still shows the dance.
       console.warn('Bodies are made on the main thread, their worker failed:', error);
-      const { buildBody } = await import('./mesh');
-      return buildBody(offsets, build);
+      const { makeBody } = await import('./lighter');
+      return makeBody(offsets, build);
     }
   }
 
-  function inWorker(offsets: Float32Array, build: Build): Promise<BodyMesh> {
+  function inWorker(offsets: Float32Array, build: Build): Promise<Body> {
     worker ??= new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bodies' });
     mesher ??= wrap<Mesher>(worker);
     const started = worker;

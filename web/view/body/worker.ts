@@ -1,15 +1,15 @@
 import { expose, transfer } from 'comlink';
+import { makeBody, type Body } from './lighter';
 import type { Build } from './part';
-import { buildBody, type BodyMesh } from './mesh';
 
 /** Meshing off the main thread: a third of a second of arithmetic that must not be felt. */
 const mesher = {
-  build(offsets: Float32Array, build: Build): BodyMesh {
-    const mesh = buildBody(offsets, build);
-    const { positions, normals, indices, skinJoints, skinWeights, shade } = mesh;
-    const arrays = [positions, normals, indices, skinJoints, skinWeights, shade];
+  async build(offsets: Float32Array, build: Build): Promise<Body> {
+    const body = await makeBody(offsets, build);
+    const { positions, normals, indices, light, skinJoints, skinWeights, shade } = body;
+    const arrays = [positions, normals, indices, light, skinJoints, skinWeights, shade];
     return transfer(
-      mesh,
+      body,
       arrays.map((array) => array.buffer),
     );
   },

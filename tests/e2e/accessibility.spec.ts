@@ -1,0 +1,40 @@
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { App } from './app-page';
+import { expect, test } from './fixtures';
+
+/** Everything that axe finds against WCAG 2.2 AA and its own best practices. */
+async function violations(page: Page): Promise<string[]> {
+  const { violations: found } = await new AxeBuilder({ page }).analyze();
+  return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 160)).join(' | ')}`);
+}
+
+for (const theme of ['dark', 'light'] as const) {
+  test(`nothing stands in the way of anybody, ${theme}`, async ({ page }) => {
+    await page.emulateMedia({ colorScheme: theme, reducedMotion: 'reduce' });
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.settled();
+    expect(await violations(page), 'first visit').toEqual([]);
+
+    await page.keyboard.press('Space');
+    await page.keyboard.press('Space');
+    expect(await violations(page), 'the demo on the stage').toEqual([]);
+
+    await page.getByRole('button', { name: 'By body part' }).click();
+    expect(await violations(page), 'guidance by body part').toEqual([]);
+    await page.getByRole('button', { name: 'By body part' }).click();
+
+    for (const [key, what] of [
+      ['e', 'download'],
+      ['?', 'keys'],
+    ] as const) {
+      await page.keyboard.press(key);
+      expect(await violations(page), what).toEqual([]);
+      await page.keyboard.press('Escape');
+    }
+
+    await page.setViewportSize({ width: 390, height: 844 });
+    expect(await violations(page), 'on a phone').toEqual([]);
+  });
+}

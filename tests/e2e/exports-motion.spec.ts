@@ -1,0 +1,76 @@
+import { readFile } from 'node:fs/promises';
+import type { Download } from '@playwright/test';
+import { unzipSync } from 'fflate';
+import { validateBytes } from 'gltf-validator';
+import { App } from './app-page';
+import { expect, test } from './fixtures';
+import { serveDemo } from './made-demo';
+
+const settings = {
+  guidance: {
+    upper: { coarse: 0.5, fine: 0.25 },
+    lower: { coarse: 0.5, fine: 0.25 },
+    placement: { coarse: 0.5, fine: 0.25 },
+  },
+  steps: 3,
+  seed: 77,
+  role: 'reactor',
+};
+const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
+
+test('leader, reactor or both are saved in four formats that say what they hold', async ({ page }) => {
+  await serveDemo(page, settings, 60);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const menu = page.getByRole('dialog', { name: 'Download' });
+  const save = async (format: string): Promise<Download> => {
+    await page.getByRole('button', { name: 'Download', exact: true }).click();
+    const coming = page.waitForEvent('download');
+    await menu.getByRole('button', { name: new RegExp(format) }).click();
+    const download = await coming;
+    await expect(menu).toBeHidden();
+    return download;
+  };
+  const bytes = async (download: Download): Promise<Uint8Array> =>
+    new Uint8Array(await readFile(await download.path()));
+
+  await test.step('whom is chosen by arrow keys and remembered; the name follows', async () => {
+    await page.keyboard.press('e');
+    await expect(menu.getByRole('button', { name: /BVH/ })).toBeFocused();
+    await expect(menu).toContainText(`${PREFIX}_reactor.bvh`);
+    await menu.getByRole('radio', { name: 'Reactor' }).focus();
+    await page.keyboard.press('ArrowRight');
+    await expect(menu.getByRole('radio', { name: 'Leader' })).toBeFocused();
+    await expect(menu).toContainText('made-demo-song_made-demo-leader_leader.bvh');
+    await page.keyboard.press('ArrowRight');
+    await expect(menu).toContainText(`${PREFIX}_both-bvh.zip`);
+    await expect(menu.getByRole('button', { name: 'Save video' })).toBeDisabled();
+    await expect(menu).toContainText('A video needs the 3D picture');
+    await page.keyboard.press('Escape');
+  });
+
+  await test.step('GLB: without a fault, two dancers in one animation', async () => {
+    const download = await save('GLB');
+    expect(download.suggestedFilename()).toBe(`${PREFIX}_both.glb`);
+    const { issues, info } = await validateBytes(await bytes(download));
+    expect(issues.messages.filter(({ severity }) => severity < 2)).toEqual([]);
+    expect(info).toMatchObject({ animationCount: 1 });
+    expect(info.totalTriangleCount).toBeGreaterThan(20_000);
+  });
+
+  await test.step('BVH, NPZ and JSON of both', async () => {
+    expect(Object.keys(unzipSync(await bytes(await save('BVH'))))).toEqual(['leader.bvh', 'reactor.bvh']);
+    const json = JSON.parse(await readFile(await (await save('JSON')).path(), 'utf8')) as object;
+    expect(json).toMatchObject({ song: 'Made demo song', leader: 'Made demo leader', settings, frames: 60 });
+    const archive = await bytes(await save('NPZ'));
+    const names = Object.keys(unzipSync(archive));
+    expect(names).toEqual(['leader.npy', 'reactor.npy', 'fps.npy', 'joints.npy', 'metadata.npy']);
+  });
+
+  await test.step('the last format has the focus when the menu opens again', async () => {
+    await page.keyboard.press('e');
+    await expect(menu.getByRole('button', { name: /NPZ/ })).toBeFocused();
+    await expect(menu.getByRole('radio', { name: 'Both' })).toBeChecked();
+  });
+});

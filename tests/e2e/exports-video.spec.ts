@@ -1,0 +1,119 @@
+import { readFile } from 'node:fs/promises';
+import type { Download, Page } from '@playwright/test';
+import { App } from './app-page';
+import { expect, test } from './fixtures';
+import { probe } from './ffprobe';
+import { serveDemo } from './made-demo';
+
+const settings = {
+  guidance: {
+    upper: { coarse: 0.5, fine: 0.25 },
+    lower: { coarse: 0.5, fine: 0.25 },
+    placement: { coarse: 0.5, fine: 0.25 },
+  },
+  steps: 3,
+  seed: 77,
+  role: 'reactor',
+};
+const FRAMES = 24;
+const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
+
+// A small stage: what draws here is the processor.
+test.use({ viewport: { width: 480, height: 540 } });
+
+async function openMenu(page: Page, frames = FRAMES): Promise<App> {
+  await serveDemo(page, settings, frames);
+  const app = new App(page);
+  await app.open();
+  await app.settled();
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  return app;
+}
+
+async function film(page: Page): Promise<Download> {
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  const coming = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save video' }).click();
+  return coming;
+}
+
+/** What a person would see in the middle of a film and hear in it: shares of warm and cool pixels, loudest sample. */
+async function watched(page: Page, file: string): Promise<{ warm: number; cool: number; loudest: number }> {
+  return page.evaluate(
+    async (base64) => {
+      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const video = document.createElement('video');
+      video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/webm' }));
+      await new Promise((resolve) => (video.onloadeddata = resolve));
+      video.currentTime = video.duration / 2;
+      await new Promise((resolve) => (video.onseeked = resolve));
+      const context = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d');
+      if (!context) throw new Error('No canvas to look at the film with.');
+      context.drawImage(video, 0, 0);
+      const { data } = context.getImageData(0, 0, video.videoWidth, video.videoHeight);
+      let [warm, cool] = [0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        const [red = 0, green = 0, blue = 0] = [data[i], data[i + 1], data[i + 2]];
+        if (red >= 90 && red >= 1.3 * green && green >= blue) warm += 4 / data.length;
+        if (blue >= 90 && blue >= 1.3 * red) cool += 4 / data.length;
+      }
+      const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
+      return { warm, cool, loudest: Math.max(...sound.getChannelData(0).map(Math.abs)) };
+    },
+    (await readFile(file)).toString('base64'),
+  );
+}
+
+test('the stage is filmed with its song, every frame of it, and has not noticed', async ({ page }) => {
+  const app = await openMenu(page);
+  const size = await page.evaluate('window.reactdance.stage.pictureSize()');
+  const before = await app.onScreen();
+  const download = await film(page);
+  expect(download.suggestedFilename()).toBe(`${PREFIX}_stage.webm`);
+  const { format, streams } = await probe(await download.path());
+  expect(Number(format.duration)).toBeCloseTo(FRAMES / 30, 1);
+  const [video, audio] = streams;
+  expect(video).toMatchObject({ codec_name: 'vp9', nb_read_frames: String(FRAMES) });
+  const even = (pixels: number): number => 2 * Math.round(pixels / 2);
+  const { width, height } = size as { width: number; height: number };
+  expect([video?.width, video?.height]).toEqual([even(width), even(height)]);
+  expect(audio).toMatchObject({ codec_type: 'audio', codec_name: 'opus', channels: 1 });
+  const { warm, cool, loudest } = await watched(page, await download.path());
+  expect(warm).toBeGreaterThan(0.001);
+  expect(cool).toBeGreaterThan(0.001);
+  expect(loudest).toBeGreaterThan(0.2);
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Saved, \d+ KB/);
+  expect(await app.onScreen()).toEqual(before);
+  expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
+});
+
+test('a video tells how far it is, with the menu closed too, and is cancelled at once', async ({ page }) => {
+  const app = await openMenu(page, 1800);
+  const button = page.getByRole('button', { name: 'Download', exact: true });
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  await page.getByRole('button', { name: 'Save video' }).click();
+  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await expect(page.getByRole('progressbar', { name: 'Video' })).toBeVisible();
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Frame \d+ of 1,800/);
+  await page.keyboard.press('Escape');
+  await expect(button).toHaveAttribute('title', /Writing the video, \d+ %/);
+  await button.click();
+  await page.getByRole('button', { name: 'Cancel the video' }).click();
+  const left = await app.read(({ filming, problem, saved }) => [filming, problem, saved]);
+  expect(left).toEqual([null, null, null]);
+  await expect(page.getByRole('progressbar', { name: 'Video' })).toBeHidden();
+  await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
+  await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
+});
+
+test('where pages may not encode, the video is recorded in real time', async ({ page }) => {
+  await page.addInitScript(() => {
+    Reflect.deleteProperty(globalThis, 'VideoEncoder');
+  });
+  await openMenu(page, 120);
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText('takes 0:04');
+  const download = await film(page);
+  const { streams } = await probe(await download.path());
+  expect(streams.map(({ codec_type }) => codec_type).sort()).toEqual(['audio', 'video']);
+  expect(Number(streams.find((stream) => stream.codec_type === 'video')?.nb_read_frames)).toBeGreaterThan(3);
+});

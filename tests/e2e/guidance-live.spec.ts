@@ -1,0 +1,84 @@
+import { App, farthest, SHIPPED } from './app-page';
+import { expect, test } from './fixtures';
+
+test('a change shows under the playhead first, then everywhere, and nothing stops meanwhile', async ({
+  page,
+}) => {
+  const app = new App(page);
+  // Without a picture: here the processor would draw it, and that alone takes longer than a task may.
+  await app.openWithoutPicture(SHIPPED);
+  await app.settled();
+  const coarse = page.getByRole('slider', { name: 'Coarse guidance' });
+  await coarse.fill('0');
+  await app.until(
+    ({ job, reaction }) => !job && reaction?.inputs.settings.guidance['upper']?.['coarse'] === 0,
+  );
+  await page.evaluate(`
+    window.seen = { tasks: [], fresh: [], previews: 0, stopped: 0 };
+    new PerformanceObserver((list) => {
+      for (const { duration } of list.getEntries()) window.seen.tasks.push(Math.round(duration));
+    }).observe({ type: 'longtask' });
+    window.watching = (since) => {
+      const { seen } = window;
+      let preview = null;
+      window.done = new Promise((resolve) => {
+        (function look() {
+          const state = window.reactdance.store.getState();
+          if (!state.playback.playing) seen.stopped += 1;
+          if (state.preview && state.preview !== preview) {
+            preview = state.preview;
+            seen.previews += 1;
+            seen.first ??= performance.now() - since;
+            seen.fresh.push([state.job.fresh.from, state.playback.time * 30, state.job.fresh.to]);
+            window.early = Array.from(preview.motion.positions.slice(240 * 66, 480 * 66));
+          }
+          if (seen.first && !state.job) resolve({ ...seen, whole: performance.now() - since });
+          else setTimeout(look, 5);
+        })();
+      });
+    };
+  `);
+  await page.keyboard.press('Home');
+  for (let second = 0; second < 9; second++) await page.keyboard.press('Shift+ArrowRight');
+  await page.keyboard.press('Space');
+  await app.until(({ playback }) => playback.playing && playback.time > 9);
+  const before = await app.reactor();
+  await page.evaluate('window.watching(performance.now())');
+  // The second change comes while the first is being made: only the newer one is shown.
+  await coarse.fill('1');
+  await app.until(({ job }) => job);
+  await coarse.fill('2.5');
+  const seen = await page.evaluate<{
+    tasks: number[];
+    fresh: [number, number, number][];
+    stopped: number;
+    first: number;
+    whole: number;
+  }>('window.done');
+  test.info().annotations.push({
+    type: 'measured',
+    description:
+      `first change ${Math.round(seen.first)} ms, whole ${Math.round(seen.whole)} ms, ` +
+      `tasks over 50 ms: ${seen.tasks.join(', ')}`,
+  });
+  expect(seen.stopped).toBe(0);
+  expect(seen.first).toBeLessThan(0.75 * seen.whole);
+  for (const [from, playhead, to] of seen.fresh) {
+    // It goes on playing while the block is made.
+    expect(playhead).toBeGreaterThan(from);
+    expect(to - from).toBe(240);
+  }
+  const after = await app.reactor();
+  expect(await app.read(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'])).toBe(2.5);
+  // What was shown early was on its way: nearer to the end than to the beginning.
+  const early = await page.evaluate<number[]>('window.early');
+  const part = (all: number[]): number[] => all.slice(240 * 66, 480 * 66);
+  expect(apart(early, part(after))).toBeLessThan(apart(early, part(before)));
+  expect(farthest(before, after)).toBeGreaterThan(0.01);
+  expect(await app.read(({ preview }) => preview)).toBeNull();
+  expect(seen.tasks.filter((duration) => duration > 100)).toEqual([]);
+});
+
+function apart(a: readonly number[], b: readonly number[]): number {
+  return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? NaN)), 0) / a.length;
+}

@@ -1,0 +1,149 @@
+/** The page on this device: the second visit starts from it, without a server too, and the visitor can clear it. */
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import type { Locator, Page } from '@playwright/test';
+import { writeServiceWorker } from '../../tools/offline-shell.mjs';
+import { createSite, listen } from '../../tools/serve.mjs';
+import { App } from './app-page';
+import { expect, test as base } from './fixtures';
+
+const project = path.resolve(import.meta.dirname, '../..');
+
+/** A site of our own, to be stopped and changed. */
+interface Host {
+  readonly root: string;
+  readonly stop: () => Promise<void>;
+  readonly start: () => Promise<string>;
+}
+
+const test = base.extend<object, { host: Host; site: string }>({
+  serviceWorkers: 'allow',
+  host: [
+    // eslint-disable-next-line no-empty-pattern -- Playwright reads the wanted fixtures from this pattern
+    async ({}, use) => {
+      const root = mkdtempSync(path.join(tmpdir(), 'reactdance-offline-'));
+      cpSync(path.join(project, 'dist'), root, {
+        recursive: true,
+        filter: (file) => !/\.br$|models.salsa/.test(file),
+      });
+      const mounts = { '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model') };
+      const server = createSite({ root, mounts });
+      let port = 0;
+      const start = async (): Promise<string> => {
+        const address = await listen(server, { port });
+        port = Number(new URL(address).port);
+        return address;
+      };
+      const stop = (): Promise<void> =>
+        new Promise((resolve) => {
+          server.close(() => {
+            resolve();
+          });
+          server.closeAllConnections();
+        });
+      await use({ root, start, stop });
+      await stop();
+      rmSync(root, { recursive: true });
+    },
+    { scope: 'worker' },
+  ],
+  site: [async ({ host }, use) => use(await host.start()), { scope: 'worker' }],
+});
+
+/** Waits until the page is kept. */
+async function shellKept(page: Page): Promise<void> {
+  await page.evaluate(async () => void (await navigator.serviceWorker.ready));
+}
+
+async function openCard(page: Page): Promise<Locator> {
+  await page.getByRole('banner').getByRole('button', { name: 'WebAssembly' }).click();
+  return page.getByRole('dialog', { name: 'On this device' });
+}
+
+test('the second visit downloads neither graphs nor runtime, and needs no server at all', async ({
+  page,
+  host,
+  requests,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await shellKept(page);
+  const large = (): string[] => requests.filter((address) => /\.(onnx|wasm)$/.test(address));
+  expect(large()).toHaveLength(4);
+
+  requests.length = 0;
+  await app.openWithoutPicture();
+  await app.settled();
+  expect(large()).toEqual([]);
+
+  await host.stop();
+  try {
+    // With the picture this time: all of it has to be here. The scripts that hide WebGL belong to the old tab.
+    const tab = await page.context().newPage();
+    // Small, for the processor draws it.
+    await tab.setViewportSize({ width: 800, height: 480 });
+    const offline = new App(tab);
+    await offline.open();
+    await offline.settled();
+    expect(await offline.read(({ model, demo, problem }) => [model.phase, demo, problem])).toEqual([
+      'ready',
+      'ready',
+      null,
+    ]);
+    // From the cache the page is isolated still, so the model has its threads.
+    expect(await tab.evaluate('crossOriginIsolated')).toBe(true);
+    expect(await tab.evaluate('window.reactdance.stage !== null')).toBe(true);
+    await tab.getByRole('slider', { name: 'Fine guidance' }).fill('1');
+    await offline.until(({ reaction, job }) => reaction?.label === null && !job);
+
+    const card = await openCard(tab);
+    await expect(card.getByRole('status')).toHaveText(/^\d+\.\d MB kept for offline use$/);
+    await card.getByRole('button', { name: 'Clear' }).click();
+    await expect(card.getByRole('status')).toHaveText(/^Cleared\./);
+    await expect(card.getByText('not kept')).toHaveCount(3);
+    await expect(card.getByRole('button', { name: 'Clear' })).toBeDisabled();
+    expect(await tab.evaluate(() => caches.keys())).toEqual([]);
+  } finally {
+    await host.start();
+  }
+});
+
+test('a browser that keeps nothing still dances, and says so', async ({ page, site }) => {
+  const session = await page.context().newCDPSession(page);
+  const origin = new URL(site).origin;
+  await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1000 });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await page.getByRole('slider', { name: 'Fine guidance' }).fill('1');
+  await app.until(({ reaction, job }) => reaction?.label === null && !job);
+  await expect(page.getByRole('list', { name: 'Notes' })).toContainText('could not keep the model');
+  const card = await openCard(page);
+  await expect(card.getByRole('status')).toHaveText('Nothing is kept for offline use.');
+});
+
+test('a new build is offered, and taken whole', async ({ page, host }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await shellKept(page);
+  const file = path.join(host.root, 'index.html');
+  const before = readFileSync(file, 'utf8');
+  writeFileSync(file, before.replace('<title>', '<meta name="build" content="next" /><title>'));
+  await writeServiceWorker(host.root);
+
+  await app.openWithoutPicture();
+  const next = page.locator('meta[name="build"]');
+  await expect(next).not.toBeAttached();
+  const note = page.getByRole('status').filter({ hasText: 'A new version is there.' });
+  await expect(note).toBeVisible();
+  await note.getByRole('button', { name: 'Reload' }).click();
+  await expect(next).toBeAttached();
+  await expect.poll(() => page.evaluate(shells)).toHaveLength(1);
+});
+
+/** Runs in the page: the caches that hold a build. */
+async function shells(): Promise<string[]> {
+  return (await caches.keys()).filter((name) => name.startsWith('reactdance-shell-'));
+}

@@ -1,0 +1,49 @@
+import { App, SHIPPED } from './app-page';
+import { expect, test } from './fixtures';
+
+test('worst moments of the demo are marked, a click goes there, and the foot lock changes the numbers', async ({
+  page,
+}) => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  const app = new App(page);
+  await app.openWithoutPicture(SHIPPED);
+  await app.until(({ demo, reading, quality }) => demo === 'ready' && !reading.song && quality);
+  const timeline = page.getByRole('region', { name: 'Timeline' });
+  const feet = timeline.getByRole('img', { name: /^Feet / });
+  await expect(feet).toHaveAccessibleName(/^Feet \d+ %: Feet slide \d+ % of the time they touch the floor/);
+  for (const name of [
+    /^Closest 0\.\d\d m: /,
+    /^Beats 0\.\d\d 0\.\d\d: .*With the music/,
+    /^Seams \d\.\d\d: /,
+  ])
+    await expect(timeline.getByRole('img', { name })).toBeVisible();
+
+  // The page knows what the recorded dancers of this model score.
+  await expect(feet).toHaveAccessibleName(/recorded dancers: \d+ %/);
+
+  const mark = timeline.getByRole('button', { name: /^1\. .* (at|around) 0:\d\d\.\d$/ });
+  await expect(mark).toHaveText('1');
+  const [, seconds = ''] = /0:(\d\d\.\d)$/.exec((await mark.getAttribute('title')) ?? '') ?? [];
+  expect(await app.read(({ playback }) => playback.time)).not.toBeCloseTo(Number(seconds), 0);
+  await mark.click();
+  expect(Math.abs((await app.read(({ playback }) => playback.time)) - Number(seconds))).toBeLessThan(0.11);
+  await expect(page.getByRole('slider', { name: 'Playhead' })).toHaveAttribute('aria-valuetext', /./);
+
+  const share = async (): Promise<number> =>
+    Number(/(\d+) %/.exec((await feet.getAttribute('aria-label')) ?? '')?.[1]);
+  const locked = await share();
+  await page.getByRole('switch', { name: 'Foot lock' }).click();
+  await expect.poll(share).toBeGreaterThan(locked + 10);
+  await page.getByRole('switch', { name: 'Foot lock' }).click();
+  await expect.poll(share).toBe(locked);
+
+  // In a low window one lane holds the worst of the four, and its marks work by key.
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await expect(feet).toBeHidden();
+  await expect(timeline.getByRole('img', { name: /^Quality/ })).toBeVisible();
+  const second = timeline.getByRole('button', { name: /^2\. / });
+  await second.focus();
+  const before = await app.read(({ playback }) => playback.time);
+  await page.keyboard.press('Enter');
+  await app.until(({ playback }, time) => playback.time !== time, before);
+});

@@ -1,0 +1,195 @@
+import { readFileSync } from 'node:fs';
+import type { Locator, Page } from '@playwright/test';
+import { bvh, wav } from './app-files';
+import { App, farthest } from './app-page';
+import { expect, test } from './fixtures';
+
+/** The list of takes as a visitor sees it. */
+const takes = (page: Page): Locator => page.getByRole('grid', { name: 'Takes' }).getByRole('row');
+const take = (page: Page, name: string): Locator => takes(page).filter({ hasText: name });
+const titles = (page: Page): Promise<string[]> => takes(page).locator('b').allTextContents();
+
+/** A page with two takes of its own: `Take 1` and, on the stage, `Take 2`. */
+async function withTwoTakes(page: Page): Promise<App> {
+  await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.until(({ reaction, song, job }) => reaction?.inputs.song === song && song && !job);
+  await page.getByRole('spinbutton', { name: 'Seed' }).fill('77');
+  await page.keyboard.press('Enter');
+  await app.until(({ reaction, job }) => reaction?.inputs.settings.seed === 77 && !job);
+  await page.evaluate('document.activeElement.blur()');
+  await expect(takes(page)).toHaveCount(2);
+  return app;
+}
+
+/** Waits until the browser has kept what is on the page. */
+async function kept(page: Page, name: string): Promise<void> {
+  const names = `new Promise((resolve, reject) => {
+    const open = indexedDB.open('reactdance');
+    open.onerror = () => reject(open.error);
+    open.onsuccess = () => {
+      const all = open.result.transaction('takes').objectStore('takes').getAll();
+      all.onsuccess = () => { open.result.close(); resolve(all.result.map((take) => take.name)); };
+    };
+  })`;
+  await expect.poll(() => page.evaluate<(string | null)[]>(names)).toContain(name);
+}
+
+test('takes are named, starred, flipped on the same beat, deleted and brought back', async ({ page }) => {
+  const app = await withTwoTakes(page);
+  const [newer = '', older = ''] = await titles(page);
+  const second = await app.reactor();
+  await expect(take(page, newer)).toHaveAttribute('aria-selected', 'true');
+
+  await test.step('a click shows a take, and nothing is made anew', async () => {
+    await page.keyboard.press('End');
+    await take(page, older).click();
+    await expect(take(page, older)).toHaveAttribute('aria-selected', 'true');
+    expect(farthest(second, await app.reactor())).toBeGreaterThan(1e-4);
+    expect(await app.read(({ job, playback }) => [job, playback.time])).toEqual([null, 3]);
+    await expect(page.getByRole('spinbutton', { name: 'Seed' })).not.toHaveValue('77');
+  });
+
+  await test.step('the keys of the list', async () => {
+    await take(page, older).focus();
+    await page.keyboard.press('ArrowUp');
+    await expect(take(page, newer)).toBeFocused();
+    await page.keyboard.press('Enter');
+    expect(farthest(second, await app.reactor())).toBe(0);
+    await page.keyboard.press('s');
+    await expect(page.getByRole('button', { name: `Star ${newer}` })).toHaveAttribute('aria-pressed', 'true');
+    await page.keyboard.press('F2');
+    await page.getByRole('textbox', { name: 'Name of the take' }).fill('Softer hands');
+    await page.keyboard.press('Enter');
+    await expect(take(page, 'Softer hands')).toBeFocused();
+    await page.keyboard.press('F2');
+    await page.keyboard.type('Nothing of this');
+    await page.keyboard.press('Escape');
+    await expect(takes(page)).toContainText(['Softer hands', older]);
+  });
+
+  await test.step('A and B flip on the same playhead', async () => {
+    await page.getByRole('button', { name: `Use ${older} as B` }).click();
+    const compare = page.getByRole('radiogroup', { name: 'Compare takes' });
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    await page.keyboard.press('b');
+    await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
+    await expect(take(page, older)).toHaveAttribute('aria-selected', 'true');
+    expect(await app.read(({ playback }) => playback.time)).toBe(3);
+    // Held, it is a look.
+    await page.keyboard.down('b');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    await page.waitForTimeout(500);
+    await page.keyboard.up('b');
+    await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
+    await compare.getByRole('radio', { name: 'A' }).click();
+    await expect(take(page, 'Softer hands')).toHaveAttribute('aria-selected', 'true');
+  });
+
+  await test.step('delete, undo and redo', async () => {
+    await take(page, older).hover();
+    await page.getByRole('button', { name: `Delete ${older}` }).click();
+    await expect(takes(page)).toHaveCount(1);
+    await page.keyboard.press('Control+z');
+    await expect(takes(page)).toHaveCount(2);
+    await page.getByRole('button', { name: 'Redo', exact: true }).click();
+    await expect(takes(page)).toHaveCount(1);
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
+    await expect(takes(page)).toHaveCount(2);
+  });
+});
+
+test('everything survives a reload, and a project file a page that starts afresh', async ({ page }) => {
+  const app = await withTwoTakes(page);
+  const [newer = '', older = ''] = await titles(page);
+  const summary = () =>
+    app.read(({ takes, reaction, song, leader, settings, other, playback }) => ({
+      takes: takes.map(({ id, name, starred, reaction: { inputs } }) => [id, name, starred, inputs.settings]),
+      files: [song?.name, song?.data.beats, leader?.name, leader?.text.length],
+      settings,
+      other,
+      time: playback.time,
+      answers: reaction?.inputs.leader === leader && reaction?.inputs.song === song,
+    }));
+  await page.getByRole('button', { name: `Star ${older}` }).click();
+  await page.getByRole('button', { name: `Use ${older} as B` }).click();
+  await page.keyboard.press('End');
+  await take(page, newer).dblclick();
+  await page.keyboard.type('Softer hands');
+  await page.keyboard.press('Enter');
+  const before = await summary();
+  const motion = await app.reactor();
+  expect(before.takes).toHaveLength(2);
+  expect(before.answers).toBe(true);
+
+  await test.step('a reload', async () => {
+    await kept(page, 'Softer hands');
+    await page.reload();
+    await app.until(({ takes }) => takes.length === 2);
+    await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
+    expect(await summary()).toEqual(before);
+    expect(farthest(motion, await app.reactor())).toBe(0);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await app.until(({ model, job }) => model.phase === 'ready' && !job);
+    // All of it was there: nothing had to be made.
+    expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(await summary()).toEqual(before);
+  });
+
+  const saved = await test.step('a project is saved', async () => {
+    const coming = page.waitForEvent('download');
+    await page.keyboard.press('Control+s');
+    const download = await coming;
+    expect(download.suggestedFilename()).toBe('my-song_mine.reactdance');
+    return readFileSync(await download.path());
+  });
+
+  await test.step('the page starts afresh, also after a reload', async () => {
+    await page.getByRole('button', { name: 'Project' }).click();
+    await page
+      .getByRole('dialog', { name: 'Project' })
+      .getByRole('button', { name: /Start afresh/ })
+      .click();
+    await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeVisible();
+    await expect(takes(page)).toHaveCount(0);
+    await page.waitForTimeout(1200);
+    await page.reload();
+    await app.until(({ demo }) => demo === 'missing');
+    await expect(takes(page)).toHaveCount(0);
+    await page.keyboard.press('Escape');
+  });
+
+  await test.step('the project is opened, and a broken one says what is wrong', async () => {
+    await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
+    await app.until(({ takes }) => takes.length === 2);
+    expect(await summary()).toEqual(before);
+    expect(farthest(motion, await app.reactor())).toBe(0);
+    await app.drop({ name: 'torn.reactdance', mimeType: '', buffer: saved.subarray(0, saved.length / 2) });
+    await expect(app.alert).toContainText('torn.reactdance: The project is cut off or damaged.');
+    await page.keyboard.press('Escape');
+    expect(await summary()).toEqual(before);
+  });
+
+  await test.step('another project in its place can be taken back', async () => {
+    await take(page, older).focus();
+    await page.keyboard.press('Delete');
+    await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
+    await app.until(({ takes }) => takes.length === 2);
+    await page.keyboard.press('Control+z');
+    await expect(takes(page)).toHaveCount(1);
+    await expect(takes(page)).toContainText(['Softer hands']);
+  });
+});
+
+test('a browser that keeps nothing says so, and the page goes on', async ({ page }) => {
+  await page.addInitScript(() => {
+    Reflect.set(IDBFactory.prototype, 'open', () => {
+      throw new DOMException('Not in this window.', 'SecurityError');
+    });
+  });
+  await withTwoTakes(page);
+  await expect(page.getByRole('list', { name: 'Notes' })).toContainText('keeps nothing');
+});

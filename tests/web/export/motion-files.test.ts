@@ -1,0 +1,59 @@
+import { unzipSync } from 'fflate';
+import { expect, test } from 'vitest';
+import { estimateBytes, type MotionFormat, motionEnding, writeMotion } from '../../../web/export/client';
+import { writeNpz } from '../../../web/export/npz';
+import { readBvh } from '../../../web/motion/bvh-read';
+import { SMPL22 } from '../../../web/motion/skeleton';
+import { madeDance } from './made-dance';
+
+const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>
+  new Uint8Array(await (await file).arrayBuffer());
+
+test('one dancer is a BVH, two are an archive with one each', async () => {
+  const dance = madeDance(40, 'leader', 'reactor');
+  expect(motionEnding('bvh', 2)).toBe('-bvh.zip');
+  const archive = unzipSync(await bytes(writeMotion('bvh', dance, 'dark')));
+  expect(Object.keys(archive)).toEqual(['leader.bvh', 'reactor.bvh']);
+  for (const { role, motion } of dance.dancers) {
+    const { clip } = readBvh(new TextDecoder().decode(archive[`${role}.bvh`]));
+    clip.positions.forEach((value, i) => expect(value).toBeCloseTo(motion.positions[i]!, 4));
+  }
+  const one = await bytes(writeMotion('bvh', madeDance(40, 'reactor'), 'dark'));
+  expect(new TextDecoder().decode(one)).toBe(new TextDecoder().decode(archive['reactor.bvh']));
+});
+
+test('JSON says what it is and holds every joint to a tenth of a millimetre', async () => {
+  const dance = madeDance(33, 'reactor');
+  const read = JSON.parse(await (await writeMotion('json', dance, 'dark')).text()) as Record<string, unknown>;
+  expect(read).toMatchObject({
+    units: { position: 'metres', time: 'seconds' },
+    fps: 30,
+    frames: 33,
+    dancers: ['reactor'],
+    joints: [...SMPL22],
+    ...dance.about,
+  });
+  const { reactor, leader } = read['positions'] as Record<string, number[][][] | undefined>;
+  expect(leader).toBeUndefined();
+  expect(reactor).toHaveLength(33);
+  const flat = reactor!.flat(2);
+  dance.dancers[0]!.motion.positions.forEach((value, i) => expect(flat[i]).toBeCloseTo(value, 4));
+});
+
+test('the same dance is the same NPZ on every day', () => {
+  expect(writeNpz(madeDance(20, 'reactor'))).toEqual(writeNpz(madeDance(20, 'reactor')));
+});
+
+test.each<[MotionFormat, number]>([
+  ['bvh', 0.03],
+  ['npz', 0],
+  ['json', 0.03],
+])('the size of %s is known before it is written', async (format, tolerance) => {
+  for (const roles of [['reactor'], ['leader', 'reactor']] as const) {
+    const dance = madeDance(400, ...roles);
+    const { size } = await writeMotion(format, dance, 'dark');
+    // How far text shrinks in an archive can only be guessed.
+    const within = format === 'bvh' && roles.length > 1 ? 0.1 : tolerance;
+    expect(Math.abs(estimateBytes(format, dance) / size - 1)).toBeLessThanOrEqual(within);
+  }
+});

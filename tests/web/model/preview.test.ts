@@ -1,0 +1,136 @@
+/** The block under the playhead first: near to what it will be, and no change of what comes out in the end. */
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+import type { GenerateRequest } from '../../../web/model/inputs';
+import { type GenerateResult, Pipeline, type Preview, type Progress } from '../../../web/model/pipeline';
+import { around, blockAt, blockRuns, worthPreview } from '../../../web/model/preview';
+import { type OpenedModel, openModel, TINY } from './open-model';
+
+let model: OpenedModel;
+beforeAll(async () => {
+  model = await openModel(TINY);
+}, 60_000);
+afterAll(() => model.session.release());
+
+/** On a machine so slow that a preview of the tiny model is worth its while. */
+const open = (): Pipeline => new Pipeline(model.manifest, model.session, () => performance.now() / 10);
+
+/** Four blocks: the golden leader, forth and back, so that it does not jump. */
+function request(changes: Partial<GenerateRequest> = {}): GenerateRequest {
+  const { golden, manifest } = model;
+  const [frames, there] = [4 * 240 - 7, golden.leader.length / 66];
+  const at = (frame: number): number => {
+    const turn = frame % (2 * there);
+    return turn < there ? turn : 2 * there - 1 - turn;
+  };
+  const pick = (values: Float32Array, width: number): Float32Array =>
+    Float32Array.from(
+      { length: frames * width },
+      (_, i) => values[at(Math.floor(i / width)) * width + (i % width)] ?? 0,
+    );
+  return {
+    leader: { fps: 30, frames, positions: pick(golden.leader, 66) },
+    music: { features: pick(golden.music, manifest.audio.features), frames },
+    guidance: new Float32Array(6),
+    steps: 3,
+    seed: 1,
+    ...changes,
+  };
+}
+
+async function generate(
+  pipeline: Pipeline,
+  changes: Partial<GenerateRequest>,
+  at: number,
+): Promise<{ result: GenerateResult; previews: Preview[]; progress: Progress[] }> {
+  const previews: Preview[] = [];
+  const progress: Progress[] = [];
+  const result = await pipeline.generate(request(changes), {
+    at,
+    onPreview: (preview) => previews.push(preview),
+    onProgress: (told) => progress.push(told),
+  });
+  return { result, previews, progress };
+}
+
+describe('a generation with someone looking', () => {
+  it('hands over the block in view, and ends in the same motion as without', async () => {
+    const [plain, watched] = [open(), open()];
+    const changes = { guidance: new Float32Array(6).fill(2), seed: 9 };
+    const expected = await plain.generate(request(changes));
+    // A first run, so that the preview stands among the latents of another reaction.
+    const first = await watched.generate(request());
+    const { result, previews, progress } = await generate(watched, changes, 500);
+    expect(result.motion).toEqual(expected.motion);
+    expect(result.locked).toEqual(expected.locked);
+    expect(previews.map(({ fresh }) => fresh)).toEqual([{ from: 480, to: 720 }]);
+    const fractions = progress.map(({ fraction }) => fraction);
+    expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
+    expect(progress.some(({ stage }) => stage === 'preview')).toBe(true);
+
+    const [preview] = previews;
+    const inside = (positions: Float32Array): Float32Array => positions.subarray(500 * 66, 700 * 66);
+    const before = inside(first.motion.positions);
+    const after = inside(expected.motion.positions);
+    const early = inside(preview!.motion.positions);
+    expect(preview!.motion.frames).toBe(request().leader.frames);
+    expect(mean(early, after)).toBeLessThan(0.5 * mean(before, after));
+  });
+
+  it('shows something on the very first run too, and at the end of the clip', async () => {
+    const { previews } = await generate(open(), {}, 99_999);
+    expect(previews[0]?.fresh).toEqual({ from: 3 * 240, to: 4 * 240 - 7 });
+    expect(previews[0]?.motion.positions.every(Number.isFinite)).toBe(true);
+  });
+
+  it('keeps to the whole where that is over at once', async () => {
+    const { leader, music } = request();
+    const short = { ...leader, frames: 300, positions: leader.positions.slice(0, 300 * 66) };
+    const { previews, progress } = await generate(open(), { leader: short, music }, 0);
+    expect(previews).toEqual([]);
+    expect(progress.every(({ stage }) => stage !== 'preview')).toBe(true);
+  });
+
+  it('is cancelled during the preview as at any time', async () => {
+    const controller = new AbortController();
+    const previews: Preview[] = [];
+    const result = open().generate(request(), {
+      signal: controller.signal,
+      at: 0,
+      onPreview: (preview) => previews.push(preview),
+      onProgress: ({ stage }) => {
+        if (stage === 'preview') controller.abort();
+      },
+    });
+    await expect(result).rejects.toThrow(/abort/i);
+    expect(previews).toEqual([]);
+  });
+});
+
+describe('what is worth a preview', () => {
+  it('counts blocks as the sampler cuts them', () => {
+    expect(blockRuns(60, 60, 5, true)).toBe(3 * 1 + 2 * 2);
+    expect(blockRuns(233, 60, 5, true)).toBe(3 * 4 + 2 * 5);
+    expect(blockRuns(233, 60, 5, false)).toBe(5 * 4);
+  });
+  it('is a small part of something that takes a while', () => {
+    expect(worthPreview(7, 22, undefined)).toBe(true);
+    expect(worthPreview(7, 12, undefined)).toBe(false);
+    expect(worthPreview(7, 22, 0.1)).toBe(true);
+    expect(worthPreview(7, 22, 0.01)).toBe(false);
+  });
+  it('is the block that someone looks at', () => {
+    expect(blockAt(100, 60, 59.9)).toEqual({ start: 0, length: 60 });
+    expect(blockAt(100, 60, 60)).toEqual({ start: 60, length: 40 });
+    expect(blockAt(100, 60, 500)).toEqual({ start: 60, length: 40 });
+  });
+  it('stands among earlier latents, or among itself', () => {
+    const block = Float32Array.of(1, 2);
+    const at = { start: 2, length: 2 };
+    expect([...around(block, at, Float32Array.of(9, 9, 9, 9, 9), 5, 1)]).toEqual([9, 9, 1, 2, 9]);
+    expect([...around(block, at, null, 5, 1)]).toEqual([1, 2, 1, 2, 1]);
+  });
+});
+
+function mean(a: Float32Array, b: Float32Array): number {
+  return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? NaN)), 0) / a.length;
+}

@@ -1,0 +1,115 @@
+import { describe, expect, it } from 'vitest';
+import { forgetOthers, fromShell, keepShell, type Shell, type ShellScope } from '../../../web/offline/shell';
+
+const BASE = 'https://dance.example/studio/';
+
+/** A browser's caches in memory, as far as the shell asks of them. */
+function memoryCaches(room = Infinity) {
+  const all = new Map<string, Map<string, Response>>();
+  const caches = {
+    open: (name: string) => {
+      const files = all.get(name) ?? new Map<string, Response>();
+      all.set(name, files);
+      return Promise.resolve({
+        put: (address: string, response: Response) => {
+          if (files.size >= room) return Promise.reject(new DOMException('full', 'QuotaExceededError'));
+          return Promise.resolve(void files.set(address, response));
+        },
+      });
+    },
+    match: (address: string, { cacheName }: { cacheName?: string } = {}) =>
+      Promise.resolve(
+        [...all]
+          .filter(([name]) => cacheName === undefined || name === cacheName)
+          .map(([, files]) => files.get(address)?.clone())
+          .find((response) => response !== undefined),
+      ),
+    keys: () => Promise.resolve([...all.keys()]),
+    delete: (name: string) => Promise.resolve(all.delete(name)),
+  };
+  return { all, caches: caches as unknown as CacheStorage };
+}
+
+const shell = (version: string): Shell => ({
+  version,
+  files: { 'index.html': 'sha256-a', [`assets/main-${version}.js`]: 'sha256-b' },
+  headers: { 'Cross-Origin-Embedder-Policy': 'require-corp' },
+});
+
+const server =
+  (build: string): typeof fetch =>
+  (address) =>
+    Promise.resolve(
+      new Response(`${build} ${address as string}`, {
+        headers: {
+          'content-encoding': 'br',
+          'content-length': '3',
+          'content-security-policy': "default-src 'self'",
+        },
+      }),
+    );
+
+async function kept(build = 'one', memory = memoryCaches()) {
+  const scope: ShellScope = { caches: memory.caches, fetch: server(build), base: BASE };
+  await keepShell(shell(build), scope);
+  const ask = (path: string, request: Partial<Request> = {}) =>
+    fromShell({ url: BASE + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
+  return { ...memory, scope, ask };
+}
+
+describe('the shell', () => {
+  it('answers with what was kept, whatever the question mark says', async () => {
+    const { ask } = await kept();
+    for (const path of ['', 'index.html', '?model=mine/manifest.json', '#top'])
+      expect(await (await ask(path))?.text()).toMatch(/^one/);
+    expect(await (await ask('assets/main-one.js'))?.text()).toContain('main-one.js');
+  });
+
+  it('brings the headers of isolation, and the server’s own but those of its packing', async () => {
+    const { ask } = await kept();
+    const response = await ask('');
+    expect(response?.headers.get('cross-origin-embedder-policy')).toBe('require-corp');
+    expect(response?.headers.get('content-security-policy')).toBe("default-src 'self'");
+    expect(response?.headers.get('content-encoding')).toBeNull();
+    expect(Number(response?.headers.get('content-length'))).toBe((await response?.text())?.length);
+  });
+
+  it('leaves models, parts of files and other sites to the network', async () => {
+    const { ask } = await kept();
+    expect(ask('models/salsa/step.onnx')).toBeNull();
+    expect(ask('index.html', { headers: new Headers({ range: 'bytes=0-9' }) })).toBeNull();
+    expect(ask('', { method: 'POST' })).toBeNull();
+    expect(ask('', { url: 'https://elsewhere.example/index.html' })).toBeNull();
+  });
+
+  it('serves a page of the older build its own pieces as long as they are kept', async () => {
+    const older = await kept('one');
+    const newer = await kept('two', older);
+    expect(await (await newer.ask(''))?.text()).toMatch(/^two/);
+    expect(await (await newer.ask('assets/main-one.js'))?.text()).toMatch(/^one/);
+    await forgetOthers(shell('two'), newer.scope);
+    expect(await newer.ask('assets/main-one.js')).toBeUndefined();
+    expect(await (await newer.ask(''))?.text()).toMatch(/^two/);
+  });
+
+  it('is kept whole or not at all', async () => {
+    const full = memoryCaches(1);
+    await expect(kept('one', full)).rejects.toThrow('full');
+    expect(full.all.size).toBe(0);
+    const torn = memoryCaches();
+    const missing: typeof fetch = (address, options) =>
+      (address as string).endsWith('.js')
+        ? Promise.resolve(new Response('', { status: 404 }))
+        : server('one')(address, options);
+    await expect(
+      keepShell(shell('one'), { caches: torn.caches, fetch: missing, base: BASE }),
+    ).rejects.toThrow('404');
+    expect(torn.all.size).toBe(0);
+  });
+
+  it('is empty, not broken, when the visitor has cleared it', async () => {
+    const { ask, all } = await kept();
+    all.clear();
+    expect(await ask('')).toBeUndefined();
+  });
+});

@@ -1,0 +1,124 @@
+/** The measures of the page against training/metrics, on the same duet. */
+import { readFileSync } from 'node:fs';
+import { describe, expect, test } from 'vitest';
+import { contacts, seenSlide } from '../../../web/quality/contact';
+import { measure } from '../../../web/quality/measure';
+import { overlapDepth } from '../../../web/quality/penetration';
+import type { Duet, Rules } from '../../../web/quality/rules';
+import { boundaries, velocityChange } from '../../../web/quality/seams';
+import { LEAVE } from '../../../web/motion/planted';
+import { readNpz } from '../../../web/model/npz';
+
+const folder = new URL('../../fixtures/', import.meta.url);
+const golden = JSON.parse(readFileSync(new URL('quality.json', folder), 'utf8')) as {
+  fps: number;
+  block: number;
+  music_beats: number[];
+  rules: Rules;
+  feet: Record<string, number>;
+  closeness: Record<string, number>;
+  beats: Record<string, number>;
+  seams: Record<string, number>;
+  seam_frames: number[];
+  depth: number[];
+  velocity_change: number[];
+};
+const motions = readNpz(new Uint8Array(readFileSync(new URL('quality.npz', folder))));
+const positions = (name: string): Float32Array => Float32Array.from(motions.get(name)!.data);
+
+const duet: Duet = {
+  fps: golden.fps,
+  frames: motions.get('leader')!.shape[0]!,
+  leader: positions('leader'),
+  reactor: positions('reactor'),
+  beats: golden.music_beats,
+  block: golden.block,
+};
+const report = measure(duet, golden.rules);
+
+/** Both say the same number, to a billionth of it. */
+function agree(ours: number, theirs: number | undefined): void {
+  expect(theirs).toBeTypeOf('number');
+  expect(Math.abs(ours - theirs!)).toBeLessThanOrEqual(1e-9 * Math.max(1e-3, Math.abs(theirs!)));
+}
+
+describe('the numbers of the whole dance are those of Python', () => {
+  test('feet', () => {
+    const { skateShare, slideSpeed, contactShare } = report.feet.whole;
+    agree(skateShare, golden.feet.skate_share);
+    agree(slideSpeed, golden.feet.slide_speed);
+    agree(contactShare, golden.feet.contact_share);
+  });
+
+  test('closeness', () => {
+    const { overlapShare, depthP50, depthP95, deepest, closest } = report.closeness.whole;
+    agree(overlapShare, golden.closeness.ipr_capsules);
+    agree(depthP50 * 1000, golden.closeness.depth_p50_mm);
+    agree(depthP95 * 1000, golden.closeness.depth_p95_mm);
+    agree(deepest, golden.closeness.deepest);
+    agree(closest, golden.closeness.closest);
+  });
+
+  test('beats', () => {
+    const { music, leader, backward, leaderBeats, reactorBeats } = report.beats.whole;
+    agree(music.value, golden.beats.value);
+    agree(music.chance, golden.beats.chance);
+    agree(leader.value, golden.beats.forward);
+    agree(leader.chance, golden.beats.forward_chance);
+    agree(backward.value, golden.beats.backward);
+    agree(backward.chance, golden.beats.backward_chance);
+    expect([leaderBeats, reactorBeats]).toEqual([golden.beats.leader_beats, golden.beats.reactor_beats]);
+  });
+
+  test('seams', () => {
+    const { seams, ratio, paperJitter } = report.seams.whole;
+    expect(boundaries(duet.frames, duet.block)).toEqual(golden.seam_frames);
+    expect(seams).toBe(golden.seam_frames.length);
+    agree(ratio, golden.seams.ratio);
+    agree(paperJitter, golden.seams.paper_jitter);
+  });
+});
+
+describe('so are the curves', () => {
+  test('overlap', () => {
+    overlapDepth(duet, golden.rules.penetration).forEach((depth, frame) => agree(depth, golden.depth[frame]));
+  });
+
+  test('change of velocity', () => {
+    const change = velocityChange(duet.reactor, duet.frames);
+    expect([change[0], change.at(-1)]).toEqual([NaN, NaN]);
+    change.slice(1, -1).forEach((value, index) => agree(value, golden.velocity_change[index]));
+  });
+});
+
+describe('the worst moments are where the faults were put', () => {
+  const seconds = (part: keyof typeof report): number[] =>
+    report[part].worst.map(({ frame }) => frame / golden.fps);
+
+  test('a foot slides at half a metre per second, and all worst moments are slower than a step', () => {
+    const seen = seenSlide(contacts(duet.reactor, duet.frames, duet.fps, golden.rules.contact));
+    expect(seen[315]).toBeCloseTo(0.5, 1);
+    expect(report.feet.worst).toHaveLength(3);
+    for (const { value } of report.feet.worst) {
+      expect(value).toBeGreaterThan(golden.rules.contact.slide_speed);
+      expect(value).toBeLessThan(LEAVE);
+    }
+  });
+
+  test('the bodies run into each other around 12.3 s', () => {
+    const [worst] = report.closeness.worst;
+    expect(worst!.value).toBe(report.closeness.whole.deepest);
+    expect(Math.abs(worst!.frame - 370)).toBeLessThan(40);
+  });
+
+  test('the second seam jumps, the first does not', () => {
+    expect(seconds('seams')).toEqual([16]);
+  });
+
+  test('moments of one measure keep apart', () => {
+    for (const { worst } of [report.feet, report.closeness, report.beats, report.seams]) {
+      const frames = worst.map(({ frame }) => frame).sort((a, b) => a - b);
+      frames.slice(1).forEach((frame, index) => expect(frame - frames[index]!).toBeGreaterThan(29));
+    }
+  });
+});

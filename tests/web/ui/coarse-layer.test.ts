@@ -1,0 +1,146 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { CoarseRequest, GenerateOptions, Generator } from '../../../web/model/client';
+import type { SolvedMotion } from '../../../web/motion/clip';
+import { coarseIsMissing, createCoarseLayer } from '../../../web/ui/coarse-layer';
+import { coarseMotion } from '../../../web/ui/reactor-motion';
+import type { Reaction } from '../../../web/ui/state';
+import * as change from '../../../web/ui/store';
+import { small } from '../model/small-manifest';
+import { alike, leader, still } from './made';
+
+/** A model whose answers the test gives by hand. */
+class Hand {
+  readonly calls: {
+    request: CoarseRequest;
+    signal: AbortSignal | undefined;
+    answer: (motion: SolvedMotion) => void;
+    fail: (error: Error) => void;
+  }[] = [];
+  readonly generator = {
+    manifest: small,
+    backend: { name: 'wasm', reason: '', threads: 1 },
+    generate: () => Promise.reject(new Error('Nothing is generated here.')),
+    coarse: (request: CoarseRequest, { signal }: Pick<GenerateOptions, 'signal'> = {}) =>
+      new Promise<SolvedMotion>((answer, fail) => {
+        this.calls.push({ request, signal, answer, fail });
+        signal?.addEventListener('abort', () => {
+          fail(signal.reason as Error);
+        });
+      }),
+    dispose: () => undefined,
+  } satisfies Generator;
+}
+
+describe('the coarse layer', () => {
+  let store: change.Store;
+  let hand: Hand;
+  let stop: () => void;
+  const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
+  const state = () => store.getState();
+  const reaction = (latents: Float32Array | null): Reaction => {
+    const settings = { guidance: alike(0, 0), steps: 10, seed: 1, role: 'reactor' as const };
+    const inputs = { leader: leader(60), song: null, shift: 0, settings };
+    return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
+  };
+  const show = (shown: Reaction) => change.apply(store, change.reacted(shown));
+  const toggle = () => change.apply(store, change.shownToggled('ghost'));
+
+  beforeEach(() => {
+    store = change.createAppStore('dark');
+    change.apply(store, change.footLockSet(false));
+    hand = new Hand();
+    stop = createCoarseLayer(store, () => Promise.resolve(hand.generator));
+  });
+  afterEach(() => {
+    stop();
+    vi.restoreAllMocks();
+  });
+
+  it('is decoded when it is wanted, from the latents of the reaction and its leader', async () => {
+    const shown = reaction(new Float32Array([1, 2]));
+    show(shown);
+    await turn();
+    expect(hand.calls).toHaveLength(0);
+    toggle();
+    await turn();
+    expect(state().coarse).toEqual({ motion: null, decoding: true });
+    expect(hand.calls[0]?.request).toEqual({ leader: shown.inputs.leader.file.clip, latents: shown.latents });
+    const motion = still(60);
+    hand.calls[0]?.answer(motion);
+    await turn();
+    expect(state().coarse).toEqual({ motion, decoding: false });
+    expect(coarseMotion(state())).toBe(motion);
+    toggle();
+    expect(coarseMotion(state())).toBeNull();
+  });
+
+  it('is decoded once for each reaction, however often takes are changed and the ghost is switched', async () => {
+    const [one, two] = [reaction(new Float32Array([1])), reaction(new Float32Array([2]))];
+    toggle();
+    const motions = [];
+    for (const each of [one, two]) {
+      show(each);
+      await turn();
+      const motion = still(60);
+      motions.push(motion);
+      hand.calls.at(-1)?.answer(motion);
+      await turn();
+    }
+    toggle();
+    show({ ...one });
+    toggle();
+    expect(state().coarse).toEqual({ motion: motions[0], decoding: false });
+    show(two);
+    expect(state().coarse.motion).toBe(motions[1]);
+    await turn();
+    expect(hand.calls).toHaveLength(2);
+  });
+
+  it('drops what it decodes when another reaction comes, and keeps the ghost until the next is there', async () => {
+    toggle();
+    show(reaction(new Float32Array([1])));
+    await turn();
+    const first = still(60);
+    hand.calls[0]?.answer(first);
+    await turn();
+    show(reaction(new Float32Array([2])));
+    await turn();
+    expect(state().coarse).toEqual({ motion: first, decoding: true });
+    show(reaction(new Float32Array([3])));
+    await turn();
+    expect(hand.calls[1]?.signal?.aborted).toBe(true);
+    expect(state().coarse.decoding).toBe(true);
+    const last = still(60);
+    hand.calls[2]?.answer(last);
+    await turn();
+    expect(state().coarse).toEqual({ motion: last, decoding: false });
+    change.apply(store, change.leaderLoaded(leader(30)));
+    expect(state().coarse).toEqual({ motion: null, decoding: false });
+  });
+
+  it('is missing from a reaction that came ready-made, or was made by a model that has gone', async () => {
+    toggle();
+    show(reaction(null));
+    await turn();
+    expect(coarseIsMissing(state())).toBe(true);
+    expect(hand.calls).toHaveLength(0);
+    show(reaction(new Float32Array([1])));
+    expect(coarseIsMissing(state())).toBe(false);
+    change.apply(store, change.modelOpened(small, 1));
+    expect(coarseIsMissing(state())).toBe(true);
+    expect(hand.calls.every(({ signal }) => signal?.aborted)).toBe(true);
+  });
+
+  it('tells a failure in words and switches the ghost off, so that it is not tried again by itself', async () => {
+    show(reaction(new Float32Array([1])));
+    toggle();
+    await turn();
+    hand.calls[0]?.fail(new Error('boom'));
+    await turn();
+    expect(state().problem).toMatchObject({ code: 'coarse-failed', remedy: 'generate' });
+    expect(state().shown.ghost).toBe(false);
+    expect(state().coarse).toEqual({ motion: null, decoding: false });
+    await turn();
+    expect(hand.calls).toHaveLength(1);
+  });
+});

@@ -1,0 +1,93 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { J } from '../../../web/motion/skeleton';
+import { createBodyLibrary } from '../../../web/view/body/library';
+import { createCast, type Cast } from '../../../web/view/cast';
+import { NOTHING_SHOWN } from '../../../web/view/shows/shows';
+import { randomMotion } from './skeletons';
+
+const motions = {
+  leader: randomMotion(30, 1),
+  reactor: randomMotion(30, 2),
+  coarse: randomMotion(30, 3),
+  other: randomMotion(30, 4),
+};
+const PARTS = ['leader', 'reactor', 'coarse', 'other'] as const;
+
+describe('the cast', () => {
+  let cast: Cast;
+  /** Who is to be seen, in the order of `PARTS`. */
+  const seen = (): boolean[] => cast.object.children.map(({ visible }) => visible);
+
+  beforeEach(() => {
+    // Node has no Worker: bodies are made here, in their own time, and none is waited for.
+    vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+    cast = createCast(createBodyLibrary(), () => undefined);
+    for (const part of PARTS) cast.setMotion(part, motions[part]);
+    cast.pose(0.4);
+  });
+  afterEach(() => {
+    cast.dispose();
+    vi.restoreAllMocks();
+  });
+
+  it('shows another take as a ghost beside both, and the coarse layer when it is asked for', () => {
+    cast.arrange('whole');
+    expect(seen()).toEqual([true, true, false, true]);
+    cast.setShown({ ...NOTHING_SHOWN, ghost: true });
+    cast.arrange('whole');
+    expect(seen()).toEqual([true, true, true, true]);
+    expect(cast.split).toBe(false);
+  });
+
+  it('shows the leader in both halves, the reactor in the left and the other take in the right', () => {
+    cast.setOtherMode('side');
+    cast.setShown({ ...NOTHING_SHOWN, ghost: true });
+    expect(cast.split).toBe(true);
+    const left = cast.arrange('left');
+    expect(seen()).toEqual([true, true, true, false]);
+    expect(left.map(({ role, motion }) => [role, motion])).toEqual([
+      ['leader', motions.leader],
+      ['reactor', motions.reactor],
+    ]);
+    const right = cast.arrange('right');
+    expect(seen()).toEqual([true, false, false, true]);
+    expect(right.map(({ role, motion }) => [role, motion])).toEqual([
+      ['leader', motions.leader],
+      ['reactor', motions.other],
+    ]);
+    cast.setMotion('other', null);
+    expect(cast.split).toBe(false);
+  });
+
+  it('lets the leader look at the partner of each half, whichever was drawn before', () => {
+    cast.setOtherMode('side');
+    const gaze = (picture: 'left' | 'right'): number[] => {
+      cast.arrange(picture);
+      return cast.object.children[0]!.getObjectByName('head')!.quaternion.toArray();
+    };
+    let apart = 0;
+    for (const seconds of [0, 0.1, 0.2, 0.3, 0.4]) {
+      cast.pose(seconds);
+      const [left, right, again] = [gaze('left'), gaze('right'), gaze('left')];
+      apart = Math.max(apart, ...left.map((value, i) => Math.abs(value - right[i]!)));
+      for (const [i, value] of again.entries()) expect(value).toBeCloseTo(left[i]!, 6);
+    }
+    expect(apart).toBeGreaterThan(0.05);
+    const joints = cast.joints('leader');
+    for (const i of [J.head, J.left_wrist])
+      expect(joints[i * 3]!).toBeCloseTo(motions.leader.positions[(12 * 22 + i) * 3]!, 4);
+  });
+
+  it('has everybody in the picture that is measured', () => {
+    const { reach } = cast.pose(0.4);
+    cast.setMotion('other', null);
+    const alone = cast.pose(0.4);
+    const far = { ...motions.other, root: motions.other.root.map((value) => value * 4) };
+    cast.setMotion('other', far);
+    const wide = cast.pose(0.4);
+    expect(reach).toBeGreaterThanOrEqual(alone.reach);
+    expect(wide.reach).toBeGreaterThan(alone.reach + 0.5);
+    // The couple itself stays where it was.
+    expect([wide.x, wide.z, wide.square]).toEqual([alone.x, alone.z, alone.square]);
+  });
+});

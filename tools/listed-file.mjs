@@ -1,0 +1,36 @@
+import { createHash } from 'node:crypto';
+import { readFile } from 'node:fs/promises';
+
+const QUERY = /\?listed$/;
+
+/**
+ * `import file from 'some/file.wasm?listed'` gives `{ path, bytes, sha256 }`: the file's address, and what it is known
+ * by, so that the page can show its download, verify it and keep it as it does with the files of a model.
+ *
+ * @returns {import('vite').Plugin}
+ */
+export function listedFile() {
+  return {
+    name: 'listed-file',
+    enforce: 'pre',
+    resolveId: {
+      filter: { id: QUERY },
+      async handler(source, importer) {
+        const file = await this.resolve(source.replace(QUERY, ''), importer, { skipSelf: true });
+        return file && `${file.id}?listed`;
+      },
+    },
+    load: {
+      filter: { id: QUERY },
+      async handler(id) {
+        const file = id.replace(QUERY, '');
+        const content = await readFile(file);
+        const sha256 = createHash('sha256').update(content).digest('hex');
+        return [
+          `import path from ${JSON.stringify(`${file}?url`)};`,
+          `export default { path, bytes: ${content.length}, sha256: '${sha256}' };`,
+        ].join('\n');
+      },
+    },
+  };
+}

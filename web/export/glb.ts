@@ -1,0 +1,94 @@
+import {
+  AnimationClip,
+  Group,
+  type KeyframeTrack,
+  Matrix4,
+  MeshStandardMaterial,
+  QuaternionKeyframeTrack,
+  Scene,
+  SkinnedMesh,
+  VectorKeyframeTrack,
+} from 'three';
+import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
+import { BVH_NAMES } from '../motion/bvh-names';
+import type { SolvedMotion } from '../motion/clip';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton';
+import { toFullGeometry } from '../view/body/geometry';
+import { type BodyLibrary, roundedOffsets } from '../view/body/library';
+import { BUILDS } from '../view/body/part';
+import { createRig, type Rig } from '../view/rig';
+import { LOOKS, type Role, type Theme } from '../view/theme';
+import type { Dance } from './dance';
+
+const NAMES: Readonly<Record<Role, string>> = { leader: 'Leader', reactor: 'Reactor' };
+
+/**
+ * The dance as binary glTF: for each dancer a skinned mannequin in the theme's colour of its role, bones named as in
+ * our BVH, and one animation of both with a key on every frame where something moves. Metres, y up, seconds. What the
+ * stage adds to the motion (glances, hands that reach) is left out: bones turn as the model made them.
+ *
+ * @param bodies makes the mannequins; the caller disposes of it.
+ */
+export async function writeGlb(
+  dance: Dance,
+  theme: Theme,
+  bodies: Pick<BodyLibrary, 'request'>,
+): Promise<ArrayBuffer> {
+  const scene = new Scene();
+  scene.name = 'ReactDance';
+  scene.userData = { ...dance.about };
+  const tracks: KeyframeTrack[] = [];
+  for (const { role, motion } of dance.dancers) {
+    const rig = rigAtRest(motion);
+    const body = await bodies.request(motion.offsets, BUILDS[role]);
+    const material = new MeshStandardMaterial({
+      name: NAMES[role],
+      color: LOOKS[theme][role],
+      roughness: 0.62,
+      metalness: 0,
+      vertexColors: true,
+    });
+    const mesh = new SkinnedMesh(toFullGeometry(body), material);
+    mesh.name = `${NAMES[role]} body`;
+    mesh.bind(rig.skeleton, new Matrix4());
+    const armature = new Group();
+    armature.name = NAMES[role];
+    armature.add(rig.root);
+    // Viewers ignore what a skinned mesh hangs on, so it stands beside its bones.
+    scene.add(armature, mesh);
+    tracks.push(...keys(motion, rig));
+  }
+  const clip = new AnimationClip('Dance', -1, tracks).optimize();
+  const exporter = new GLTFExporter();
+  const glb = await exporter.parseAsync(scene, { binary: true, animations: [clip] });
+  if (!(glb instanceof ArrayBuffer)) throw new TypeError('Binary glTF was asked for and text came.');
+  return glb;
+}
+
+/** A dancer's bones in the T-pose, on the floor where the dance begins. */
+function rigAtRest(motion: SolvedMotion): Rig {
+  const rig = createRig();
+  rig.fit(motion.offsets);
+  rig.bind(roundedOffsets(motion.offsets));
+  const heights: number[] = [];
+  for (let joint = 0; joint < JOINT_COUNT; joint++)
+    heights.push((heights[PARENTS[joint] ?? -1] ?? 0) + (motion.offsets[joint * 3 + 1] ?? 0));
+  rig.root.position.set(motion.root[0] ?? 0, -Math.min(...heights), motion.root[2] ?? 0);
+  rig.bones.forEach((bone, joint) => (bone.name = BVH_NAMES[SMPL22[joint] ?? 'pelvis']));
+  return rig;
+}
+
+/** Bones are found by identity: those of two dancers share their names. */
+function keys(motion: SolvedMotion, rig: Rig): KeyframeTrack[] {
+  const { frames, fps } = motion;
+  const times = Array.from({ length: frames }, (_, frame) => frame / fps);
+  const turns = rig.bones.map((bone, joint) => {
+    const values = new Float32Array(frames * 4);
+    for (let frame = 0; frame < frames; frame++) {
+      const from = (frame * JOINT_COUNT + joint) * 4;
+      values.set(motion.rotations.subarray(from, from + 4), frame * 4);
+    }
+    return new QuaternionKeyframeTrack(`${bone.uuid}.quaternion`, times, values);
+  });
+  return [new VectorKeyframeTrack(`${rig.root.uuid}.position`, times, motion.root), ...turns];
+}

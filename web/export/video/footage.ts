@@ -1,0 +1,29 @@
+/** What is filmed: pictures by number, and what is heard. */
+export interface Footage {
+  readonly width: number;
+  readonly height: number;
+  readonly fps: number;
+  readonly frames: number;
+  readonly canvas: HTMLCanvasElement;
+  /** Draws a picture on the canvas, where it stays until the task ends. They ascend; some may be left out. */
+  readonly draw: (frame: number) => void;
+  readonly sound: Soundtrack | null;
+}
+
+export interface Soundtrack {
+  /** A sound file that the browser can decode. */
+  readonly file: Blob;
+  /** Moment of the dance at which the song begins, seconds; negative when its beginning is not heard. */
+  readonly start: number;
+}
+
+export interface VideoProgress {
+  /** Pictures written. */
+  readonly frame: number;
+  readonly frames: number;
+}
+
+export interface VideoOptions {
+  readonly signal: AbortSignal;
+  readonly onProgress: (progress: VideoProgress) => void;
+}

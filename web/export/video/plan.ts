@@ -1,0 +1,53 @@
+import type { AudioCodec, VideoCodec } from 'mediabunny';
+import { canEncodeAudio, canEncodeVideo } from 'mediabunny';
+
+export type Container = 'mp4' | 'webm';
+
+/** How a video will be written. */
+export type VideoPlan =
+  | {
+      /** Picture by picture, as fast as the machine can. */
+      readonly way: 'encode';
+      readonly container: Container;
+      readonly video: VideoCodec;
+      readonly audio: AudioCodec | null;
+    }
+  | {
+      /** In real time, where the browser has no encoders for pages. */
+      readonly way: 'record';
+      readonly container: Container;
+      readonly type: string;
+    };
+
+/** MP4 only with the two codecs that every player of MP4 knows; else WebM with the best there is. */
+const ENCODED = [
+  { container: 'mp4', video: 'avc', audio: 'aac' },
+  { container: 'webm', video: 'vp9', audio: 'opus' },
+  { container: 'webm', video: 'vp8', audio: 'opus' },
+  { container: 'webm', video: 'av1', audio: 'opus' },
+] as const;
+
+const RECORDED = [
+  { container: 'mp4', type: 'video/mp4;codecs=avc1.42E01F,mp4a.40.2' },
+  { container: 'webm', type: 'video/webm;codecs=vp9,opus' },
+  { container: 'webm', type: 'video/webm;codecs=vp8,opus' },
+  { container: 'webm', type: 'video/webm' },
+  { container: 'mp4', type: 'video/mp4' },
+] as const;
+
+/** The first way that this browser can go; null when there is none. */
+export async function plan(
+  { width, height }: { readonly width: number; readonly height: number },
+  withSound: boolean,
+): Promise<VideoPlan | null> {
+  if ('VideoEncoder' in globalThis) {
+    for (const { container, video, audio } of ENCODED) {
+      const seen = await canEncodeVideo(video, { width, height });
+      const heard = !withSound || ('AudioEncoder' in globalThis && (await canEncodeAudio(audio)));
+      if (seen && heard) return { way: 'encode', container, video, audio: withSound ? audio : null };
+    }
+  }
+  if (!('MediaRecorder' in globalThis) || !('captureStream' in HTMLCanvasElement.prototype)) return null;
+  const known = RECORDED.find(({ type }) => MediaRecorder.isTypeSupported(type));
+  return known ? { way: 'record', ...known } : null;
+}

@@ -1,0 +1,23 @@
+/** Sizes that a video can have: two that every player knows, and that of the picture on the stage. */
+export const VIDEO_SIZES = ['720p', '1080p', 'stage'] as const;
+export type VideoSize = (typeof VIDEO_SIZES)[number];
+
+interface Pixels {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Encoders share colour among two by two pixels. */
+const even = (pixels: number): number => Math.max(2, 2 * Math.round(pixels / 2));
+
+/** @param stage size of the picture on the stage */
+export function videoPixels(size: VideoSize, stage: Pixels): Pixels {
+  switch (size) {
+    case '720p':
+      return { width: 1280, height: 720 };
+    case '1080p':
+      return { width: 1920, height: 1080 };
+    case 'stage':
+      return { width: even(stage.width), height: even(stage.height) };
+  }
+}

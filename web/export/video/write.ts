@@ -1,0 +1,36 @@
+import { ExportError } from '../error';
+import { encodeVideo } from './encode';
+import type { Footage, VideoOptions } from './footage';
+import type { VideoPlan } from './plan';
+import { recordVideo } from './record';
+
+/**
+ * Films the footage as planned.
+ *
+ * @throws {ExportError} `video-failed`, `sound-failed`; errors of the drawing as they are; the signal's reason at once
+ * when it is aborted
+ */
+export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
+  const { signal } = options;
+  signal.throwIfAborted();
+  const aborted = new Promise<never>((_, reject) => {
+    signal.addEventListener('abort', () => reject(signal.reason as Error), { once: true });
+  });
+  const work =
+    plan.way === 'encode' ? encodeVideo(footage, plan, options) : recordVideo(footage, plan, options);
+  // Whoever cancels does not wait for an encoder; what it says afterwards interests nobody.
+  work.catch(() => undefined);
+  try {
+    return await Promise.race([work, aborted]);
+  } catch (error) {
+    signal.throwIfAborted();
+    const told = error instanceof Error && 'hint' in error;
+    if (told) throw error;
+    throw new ExportError(
+      'video-failed',
+      'The video could not be written.',
+      'Try the smaller size, or close other tabs and try again. The dance and your settings are unchanged.',
+      { cause: error },
+    );
+  }
+}

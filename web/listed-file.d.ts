@@ -1,0 +1,5 @@
+/** See tools/listed-file.mjs. */
+declare module '*?listed' {
+  const file: { readonly path: string; readonly bytes: number; readonly sha256: string };
+  export default file;
+}

@@ -1,0 +1,54 @@
+/** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
+import { type Block, partition } from './blocks';
+
+/** A run that is over sooner than this needs no preview, seconds. */
+const SOON = 0.3;
+/** A preview that costs more of the whole than this is not worth waiting for. */
+const WORTH = 0.5;
+
+/** Blocks that go through the step graph in all steps of a sampling. */
+export function blockRuns(latents: number, size: number, steps: number, alternating: boolean): number {
+  let runs = 0;
+  for (let k = 0; k < steps; k++) runs += partition(latents, size, alternating && k % 2 === 1).length;
+  return runs;
+}
+
+/** The block of the plain partition that holds a latent frame; frames outside the clip count as its ends. */
+export function blockAt(latents: number, size: number, latent: number): Block {
+  const held = Math.min(latents - 1, Math.max(0, Math.floor(latent)));
+  const start = held - (held % size);
+  return { start, length: Math.min(size, latents - start) };
+}
+
+/**
+ * Whether showing one block early is worth its cost.
+ * @param pace seconds that one block takes in one step, as measured before; undefined when it was not
+ */
+export function worthPreview(preview: number, whole: number, pace: number | undefined): boolean {
+  return preview <= WORTH * whole && (pace === undefined || pace * whole >= SOON);
+}
+
+/**
+ * Latents of a whole clip in which one block is new. What the decode graph makes of a block depends on its
+ * neighbours and on the clip's statistics, so around it stand the latents of an earlier run; without one the block
+ * itself, over and over, which keeps the statistics of a dance where zeros would not.
+ * @param block length x width
+ * @param earlier latents x width of another run over a clip as long
+ */
+export function around(
+  block: Float32Array,
+  { start, length }: Block,
+  earlier: Float32Array | null,
+  latents: number,
+  width: number,
+): Float32Array {
+  const out = new Float32Array(latents * width);
+  if (earlier) out.set(earlier);
+  else
+    for (let frame = 0; frame < latents; frame++) {
+      const from = (((frame - start) % length) + length) % length;
+      out.set(block.subarray(from * width, (from + 1) * width), frame * width);
+    }
+  out.set(block, start * width);
+  return out;
+}

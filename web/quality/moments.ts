@@ -1,0 +1,82 @@
+export type MomentKind = 'slide' | 'overlap' | 'music' | 'leader' | 'seam';
+
+/** A moment worth a look. */
+export interface Moment {
+  readonly kind: MomentKind;
+  readonly frame: number;
+  /** In the measure's own unit. */
+  readonly value: number;
+  /** How bad that is, as on `Scale`: above 1. */
+  readonly concern: number;
+}
+
+/** One measure of a dance. */
+export interface Measure<Whole> {
+  /** The numbers of the whole dance, as Python gives them; NaN where there is nothing to measure. */
+  readonly whole: Whole;
+  /** Concern per frame, one row or several that are drawn above each other; NaN where there is none to have. */
+  readonly rows: readonly Float32Array[];
+  /** A few moments past the limit, the worst first. */
+  readonly worst: readonly Moment[];
+}
+
+/**
+ * How values of one measure are judged, so that measures of different units can be drawn and ranked together:
+ * concern is 0 at `fine`, 1 at `limit` and 2 at `bad`, straight between and beyond. What is fine may be more or less
+ * than what is bad.
+ */
+export interface Scale {
+  readonly fine: number;
+  readonly limit: number;
+  readonly bad: number;
+}
+
+/** The concern for a value, never below 0; NaN stays NaN. */
+export function concern(value: number, { fine, limit, bad }: Scale): number {
+  const past = (value - limit) / (bad - limit);
+  return past > 0 ? 1 + past : Math.max(0, (value - fine) / (limit - fine));
+}
+
+/** Moments of one measure. */
+const MOST = 3;
+/** Two moments of one measure are at least this far apart, seconds. */
+const LEAST_APART = 1;
+/** The same as a share of the dance, so that their marks do not lie on each other in a long one. */
+const SHARE_APART = 1 / 30;
+
+/** The few moments past the limit, the worst first. */
+export function worstOf(moments: readonly Moment[]): Moment[] {
+  return moments
+    .filter(({ concern }) => concern > 1)
+    .sort((a, b) => b.concern - a.concern)
+    .slice(0, MOST);
+}
+
+/** Frames between two moments of one measure. */
+export function apart(frames: number, fps: number): number {
+  return Math.ceil(Math.max(LEAST_APART * fps, SHARE_APART * frames));
+}
+
+/**
+ * The worst moments of a row: peaks above 1 with nothing worse near by.
+ * @param row concern per frame
+ * @param value the measure's own value at a frame
+ */
+export function worstMoments(
+  row: Float32Array,
+  fps: number,
+  kind: MomentKind,
+  value: (frame: number) => number,
+): Moment[] {
+  const near = apart(row.length, fps);
+  const peaks: Moment[] = [];
+  row.forEach((here, frame) => {
+    if (!(here > 1)) return;
+    for (let other = Math.max(0, frame - near); other <= Math.min(row.length - 1, frame + near); other++) {
+      // Of several that are equally bad the first one counts.
+      if (row[other]! > here || (row[other] === here && other < frame)) return;
+    }
+    peaks.push({ kind, frame, value: value(frame), concern: here });
+  });
+  return worstOf(peaks);
+}

@@ -1,0 +1,63 @@
+import type { JointName } from '../motion/skeleton';
+
+/** A rounded bone of the body whose overlaps are measured. */
+export interface Capsule {
+  readonly from: JointName;
+  readonly to: JointName;
+  /** Metres, on a body of the reference height. */
+  readonly radius: number;
+  /** Share of the bone's length by which it goes on past its end; it then begins at that end. */
+  readonly beyond: number;
+}
+
+/**
+ * The constants of the measures, the same as in training/metrics. They come from Python through the manifest (its
+ * `quality` block), so that a number on the page and one in a report mean the same.
+ */
+export interface Rules {
+  readonly contact: {
+    /** The joint's own resting height is this percentile of its heights. */
+    readonly percentile: number;
+    /** Metres above it up to which the joint touches the floor. */
+    readonly height: number;
+    /** A planted foot rises or sinks slower than this, m/s. */
+    readonly vertical_speed: number;
+    /** A planted foot that is faster skates, m/s. */
+    readonly slide_speed: number;
+  };
+  readonly penetration: {
+    readonly capsules: readonly Capsule[];
+    /** Body height (motion/scale.ts) of the radii's body, metres. */
+    readonly reference_height: number;
+    /** A shallower overlap is a touch, metres. */
+    readonly deep: number;
+  };
+  readonly beats: {
+    /** Standard deviation of the filter on the speed, frames. */
+    readonly smoothing: number;
+    /** Standard deviation of the score, frames. */
+    readonly tolerance: number;
+  };
+  readonly seams: {
+    /** Frames around a seam that feel it. */
+    readonly radius: number;
+    /** Frames around a seam that are not counted as the motion's interior. */
+    readonly clear: number;
+    /** The same window as the paper has it, frames. */
+    readonly paper_radius: number;
+  };
+}
+
+/** What is measured: two dancers of equal length, and what they were to follow. */
+export interface Duet {
+  readonly fps: number;
+  readonly frames: number;
+  /** frames x 22 x 3, metres, y up. */
+  readonly leader: Float32Array;
+  /** frames x 22 x 3, metres, y up. */
+  readonly reactor: Float32Array;
+  /** Frames of the music's beats, ascending; empty without a song. */
+  readonly beats: readonly number[];
+  /** Frames of one block of the model. */
+  readonly block: number;
+}

@@ -1,0 +1,77 @@
+import { listen, together } from './dom';
+
+/** What a drag does. Distances are CSS pixels from where it began. */
+export interface Drag {
+  /** The pointer is down; false declines. */
+  readonly begin?: (event: PointerEvent) => boolean;
+  /** The pointer has left the place where it went down. */
+  readonly move: (distance: number, event: PointerEvent) => void;
+  /** The pointer is up again: after a drag, or without one. */
+  readonly drop: (event: PointerEvent) => void;
+  readonly click: (event: PointerEvent) => void;
+  /** Escape was pressed, or the system took the pointer away. */
+  readonly cancel: () => void;
+}
+
+/** Way that a pointer makes before a press is a drag, CSS pixels. */
+const SLOP = 4;
+
+/** Makes an element draggable to the left and right; returns the undo. */
+export function draggable(element: HTMLElement, drag: Drag): () => void {
+  let from: { readonly pointer: number; readonly x: number } | null = null;
+  let moving = false;
+
+  const end = (): void => {
+    if (from && element.hasPointerCapture(from.pointer)) element.releasePointerCapture(from.pointer);
+    from = null;
+    moving = false;
+  };
+  const cancel = (): void => {
+    if (!from) return;
+    const wasMoving = moving;
+    end();
+    if (wasMoving) drag.cancel();
+  };
+  const down = (event: PointerEvent): void => {
+    if (event.button !== 0 || from || drag.begin?.(event) === false) return;
+    from = { pointer: event.pointerId, x: event.clientX };
+    element.setPointerCapture(event.pointerId);
+  };
+  const move = (event: PointerEvent): void => {
+    if (event.pointerId !== from?.pointer) return;
+    const distance = event.clientX - from.x;
+    if (!moving && Math.abs(distance) < SLOP) return;
+    moving = true;
+    drag.move(distance, event);
+  };
+  const up = (event: PointerEvent): void => {
+    if (event.pointerId !== from?.pointer) return;
+    const wasMoving = moving;
+    end();
+    if (wasMoving) drag.drop(event);
+    else drag.click(event);
+  };
+  element.addEventListener('pointerdown', down);
+  element.addEventListener('pointermove', move);
+  element.addEventListener('pointerup', up);
+  element.addEventListener('pointercancel', cancel);
+  return together(
+    listen(
+      window,
+      'keydown',
+      (event) => {
+        if (event.key !== 'Escape' || !moving) return;
+        event.stopPropagation();
+        event.preventDefault();
+        cancel();
+      },
+      { capture: true },
+    ),
+    () => {
+      element.removeEventListener('pointerdown', down);
+      element.removeEventListener('pointermove', move);
+      element.removeEventListener('pointerup', up);
+      element.removeEventListener('pointercancel', cancel);
+    },
+  );
+}

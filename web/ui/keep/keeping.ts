@@ -1,0 +1,213 @@
+import type { Files, Readers } from '../files';
+import { rolledSeed } from '../seed';
+import { projectProblem } from '../problems';
+import { slug } from '../format';
+import type { AppState } from '../state';
+import { apply, dismissed, remarked, type Store, told, visitEnded } from '../store';
+import { presentInputs } from '../takes/take';
+import { broughtBack, projectOpened, startedAfresh, takesBroughtBack } from './changes';
+import { ProjectError } from './error';
+import { type Kept, keep, knownAs, worthKeeping } from './kept';
+import { readProject, writeProject } from './project-file';
+import { type Rereaders, reviving } from './revive';
+import type { Storage } from './storage';
+
+/** Rest after the last change before it is written, milliseconds; a drag is written once. */
+const REST = 700;
+
+export interface Keeping {
+  /** Brings back what an earlier visit left; false when there is nothing. What happens from then on is kept. */
+  readonly restore: () => Promise<boolean>;
+  /** Opens a project file in the place of everything; false when it can't be, which is told. */
+  readonly openProject: (file: File) => Promise<boolean>;
+  /** The project file of all that is here, or null when that failed, which is told. */
+  readonly project: () => Promise<{ readonly name: string; readonly bytes: Uint8Array<ArrayBuffer> } | null>;
+  /** Empties the page and what is kept of it; undo brings it back. */
+  readonly startAfresh: () => void;
+  readonly dispose: () => void;
+}
+
+/** Keeps songs, leaders, takes and settings between visits and in project files. */
+export function createKeeping(store: Store, files: Files, readers: Readers, storage: Storage): Keeping {
+  /** In sight: with progress in the bar, a failure is told, and a newer file of the visitor's wins. */
+  const inSight: Rereaders = {
+    song: ({ file, name, label }) => files.readSong(file, name, label),
+    leader: ({ text, name, label, fps }) => files.readLeader(text, name, label, fps),
+  };
+  /** Beside what goes on: what fails is a remark. */
+  const aside: Rereaders = {
+    song: async ({ file, name, label }) => {
+      const { audio } = await readers.manifest();
+      const options = { signal: new AbortController().signal, onProgress: () => undefined };
+      return readers.loadSong(file, audio, options).then(
+        (data) => ({ name, label, file, data }),
+        () => null,
+      );
+    },
+    leader: ({ text, name, label, fps }) =>
+      readers.readLeader({ text, fps }, new AbortController().signal).then(
+        ({ file, motion }) => ({ name, label, text, fps, file, motion }),
+        () => null,
+      ),
+  };
+
+  // ---- writing ----
+
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let unsubscribe = (): void => undefined;
+  let written: readonly unknown[] | null = null;
+  let writing: Promise<void> = Promise.resolve();
+  let anythingKept = false;
+
+  const write = (): void => {
+    clearTimeout(timer);
+    timer = undefined;
+    const state = store.getState();
+    const parts = keptParts(state);
+    if (written?.every((part, index) => part === parts[index])) return;
+    written = parts;
+    writing = writing.then(async () => {
+      try {
+        if (worthKeeping(state)) {
+          anythingKept = true;
+          await storage.write(keep(state));
+        } else if (anythingKept) {
+          anythingKept = false;
+          await storage.clear();
+        }
+      } catch (error) {
+        // The next change tries again.
+        written = null;
+        apply(store, remarked(storageRemark(error)));
+      }
+    });
+  };
+  const begin = (): void => {
+    write();
+    unsubscribe = store.subscribe((state) => {
+      const parts = keptParts(state);
+      if (written?.every((part, index) => part === parts[index])) return;
+      clearTimeout(timer);
+      timer = setTimeout(write, REST);
+    });
+  };
+  const onHide = (): void => {
+    if (timer !== undefined && document.visibilityState === 'hidden') write();
+  };
+  globalThis.document?.addEventListener('visibilitychange', onHide);
+
+  // ---- reading ----
+
+  const stored = async (): Promise<Kept | null> => {
+    try {
+      return await storage.read();
+    } catch (error) {
+      apply(store, remarked(storageRemark(error)));
+      return null;
+    }
+  };
+
+  const restore = async (): Promise<boolean> => {
+    const kept = await stored();
+    if (!kept) {
+      begin();
+      return false;
+    }
+    anythingKept = true;
+    apply(store, visitEnded());
+    const before = store.getState();
+    await readers.manifest();
+    const revival = reviving(kept, store.getState(), knownAs);
+    await revival.readPage(inSight);
+    const { leader, song, takes } = store.getState();
+    // Files that the visitor was quicker with stay.
+    const overtaken = leader !== before.leader || song !== before.song || takes.length > 0;
+    if (overtaken) apply(store, takesBroughtBack(revival.content().takes ?? []));
+    else apply(store, broughtBack(revival.content()));
+    begin();
+    void revival.readRest(aside).then(() => {
+      apply(store, takesBroughtBack(revival.content().takes ?? []));
+      for (const loss of revival.losses()) apply(store, remarked(loss));
+    });
+    return true;
+  };
+
+  const openProject = async (file: File): Promise<boolean> => {
+    apply(store, dismissed());
+    try {
+      const kept = readProject(new Uint8Array(await file.arrayBuffer()));
+      await readers.manifest();
+      const before = store.getState();
+      const revival = reviving(kept, before);
+      await revival.readPage(inSight);
+      await revival.readRest(aside);
+      const now = store.getState();
+      // A file that the visitor chose meanwhile is the newer wish.
+      if (now.leader !== before.leader || now.song !== before.song) return false;
+      const content = revival.content();
+      if (kept.page.leader !== null && !content.leader) return false;
+      apply(store, projectOpened(content));
+      for (const loss of revival.losses()) apply(store, remarked(loss));
+      return true;
+    } catch (error) {
+      apply(store, told(projectProblem(error, file.name, 'any-file')));
+      return false;
+    }
+  };
+
+  return {
+    restore,
+    openProject,
+    project: async () => {
+      const state = store.getState();
+      try {
+        return { name: projectName(state), bytes: await writeProject(keep(state)) };
+      } catch {
+        const error = new ProjectError(
+          'too-large',
+          'The project could not be written.',
+          'Delete some takes, or close other tabs, and save again.',
+        );
+        apply(store, told(projectProblem(error, projectName(state), 'none')));
+        return null;
+      }
+    },
+    startAfresh: () => {
+      apply(store, startedAfresh(store.getState().manifest, rolledSeed()));
+    },
+    dispose: () => {
+      clearTimeout(timer);
+      unsubscribe();
+      globalThis.document?.removeEventListener('visibilitychange', onHide);
+    },
+  };
+}
+
+/** The parts of the state that are kept; while they are the same, there is nothing to write. */
+function keptParts(state: AppState): readonly unknown[] {
+  const { takes, reaction, other, letter, compare, footLock, song } = state;
+  return [
+    takes,
+    reaction,
+    other,
+    letter,
+    compare,
+    footLock,
+    song,
+    ...Object.values<unknown>({ ...presentInputs(state) }),
+  ];
+}
+
+/** `descarga_lead-0412.reactdance`. */
+function projectName({ song, leader }: AppState): string {
+  const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
+  return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
+}
+
+function storageRemark(error: unknown): string {
+  const full = error instanceof DOMException && error.name === 'QuotaExceededError';
+  const why = full
+    ? 'The space that this browser gives the page is full'
+    : 'This browser keeps nothing for the page';
+  return `${why}: takes are lost when the page is closed. Save a project file to keep them.`;
+}

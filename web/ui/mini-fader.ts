@@ -1,0 +1,37 @@
+import { el, setText, setVariable } from './dom';
+import { type FaderEvents, type FaderRange, steer, valueWords } from './fader';
+
+export interface MiniFader {
+  readonly root: HTMLElement;
+  /** Sets range and value; null draws it asleep. */
+  readonly show: (range: FaderRange | null, value: number) => void;
+}
+
+/** A fader of one cell of the matrix: as the large ones, without words of its own. */
+export function createMiniFader(label: string, hint: string, on: FaderEvents): MiniFader {
+  const value = el('output');
+  const input = el('input', {
+    attributes: {
+      type: 'range',
+      'aria-label': label,
+      title: `${hint} Double click for the default.`,
+      disabled: true,
+    },
+  });
+  steer(input, on);
+  const root = el('div', { class: 'mini' }, el('span', { class: 'fill' }), value, input);
+  return {
+    root,
+    show: (range, current) => {
+      input.disabled = range === null;
+      setText(value, range ? current.toFixed(2) : '');
+      if (!range) return;
+      input.min = String(range.min);
+      input.max = String(range.max);
+      input.step = String(range.step);
+      if (input.valueAsNumber !== current) input.value = String(current);
+      input.setAttribute('aria-valuetext', valueWords(current));
+      setVariable(root, '--v', (current - range.min) / (range.max - range.min));
+    },
+  };
+}

@@ -1,0 +1,36 @@
+import * as v from 'valibot';
+
+const known = v.nullable(v.number());
+
+/** The part of metrics.json, the report that lies beside a shipped model, that says how the recorded dancers do. */
+const schema = v.object({
+  model: v.string(),
+  rows: v.object({
+    truth: v.object({
+      mean: v.object({ skate_share: known, ipr_capsules: known, bas: known, bed_forward: known }),
+    }),
+  }),
+});
+
+/** What the recorded dances score on which a model was tested: neither perfect nor zero, as people aren't. */
+export interface Reference {
+  /** The model's id. */
+  readonly model: string;
+  readonly skateShare: number | null;
+  readonly overlapShare: number | null;
+  readonly music: number | null;
+  readonly leader: number | null;
+}
+
+/** Reads it; null where there is none, as beside a model of one's own. */
+export async function readReference(manifestUrl: string): Promise<Reference | null> {
+  try {
+    const response = await fetch(new URL('metrics.json', manifestUrl));
+    if (!response.ok) return null;
+    const { model, rows } = v.parse(schema, await response.json());
+    const { skate_share, ipr_capsules, bas, bed_forward } = rows.truth.mean;
+    return { model, skateShare: skate_share, overlapShare: ipr_capsules, music: bas, leader: bed_forward };
+  } catch {
+    return null;
+  }
+}

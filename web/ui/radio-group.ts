@@ -1,0 +1,58 @@
+import { el, setText } from './dom';
+
+/** A row of buttons of which one is chosen; arrows move the choice as in every radio group. */
+export interface RadioGroup<T extends string> {
+  readonly element: HTMLElement;
+  /** Shows which one is chosen. */
+  readonly show: (value: T) => void;
+  /** Changes the words on a button. */
+  readonly label: (value: T, text: string) => void;
+}
+
+const MOVES: Readonly<Record<string, 1 | -1>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+
+/** @param choose is told what the visitor chooses; the group itself shows only what it is told to. */
+export function radioGroup<T extends string>(
+  label: string,
+  options: readonly (readonly [T, string])[],
+  choose: (value: T) => void,
+): RadioGroup<T> {
+  const buttons = options.map(([value, text], index) =>
+    el('button', {
+      class: 'btn',
+      text,
+      attributes: { type: 'button', role: 'radio' },
+      on: {
+        click: () => {
+          choose(value);
+        },
+        keydown: (event) => {
+          const move = MOVES[event.key];
+          if (move === undefined) return;
+          event.preventDefault();
+          event.stopPropagation();
+          const next = (index + move + options.length) % options.length;
+          choose(options[next]?.[0] ?? value);
+          buttons[next]?.focus();
+        },
+      },
+    }),
+  );
+  return {
+    element: el(
+      'div',
+      { class: 'group', attributes: { role: 'radiogroup', 'aria-label': label } },
+      ...buttons,
+    ),
+    show: (shown) => {
+      options.forEach(([value], index) => {
+        buttons[index]?.setAttribute('aria-checked', String(value === shown));
+        buttons[index]?.setAttribute('tabindex', value === shown ? '0' : '-1');
+      });
+    },
+    label: (wanted, text) => {
+      const button = buttons[options.findIndex(([value]) => value === wanted)];
+      if (button) setText(button, text);
+    },
+  };
+}

@@ -1,0 +1,18 @@
+import type { Shown } from './state';
+
+/** What the stage can show beside the dancers: its name on the page, the key that switches it, what it tells. */
+export interface ShowWords {
+  readonly what: keyof Shown;
+  readonly label: string;
+  readonly key: string;
+  readonly hint: string;
+}
+
+export const SHOWS: readonly ShowWords[] = [
+  { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The reactor without its fine layer' },
+  { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },
+  { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },
+  { what: 'contacts', label: 'Foot contacts', key: 'N', hint: 'Rings under feet that stand' },
+  { what: 'facing', label: 'Facing', key: 'W', hint: 'Which way each dancer faces' },
+  { what: 'hands', label: 'Hand links', key: 'H', hint: 'Lines between hands within reach' },
+];

@@ -1,0 +1,72 @@
+import { betterShift, type BetterShift } from '../motion/beat-match';
+import { motionBeats } from '../motion/motion-beats';
+import type { AppState, LoadedLeader, LoadedSong } from './state';
+
+/** Frames per second of everything past the readers. */
+const FPS = 30;
+
+type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;
+
+/** Time of the dance at which the song begins, seconds; below 0 its beginning is not heard. */
+export function songStart({ leader, shift }: Pick<AppState, 'leader' | 'shift'>): number {
+  return leader ? shift / leader.file.clip.fps : 0;
+}
+
+/** Beats of the song in seconds of the dance, as they are heard; the first ones may be before its start. */
+export function musicBeats(parts: Parts): number[] {
+  const start = songStart(parts);
+  return parts.song?.data.beats.map((beat) => beat + start) ?? [];
+}
+
+/** Shifts that leave something of the song in the dance, frames; nothing to choose without both. */
+export function shiftRange({ song, leader }: Pick<AppState, 'song' | 'leader'>): {
+  readonly min: number;
+  readonly max: number;
+} {
+  if (!song || !leader) return { min: 0, max: 0 };
+  const { fps, frames } = leader.file.clip;
+  const heard = Math.floor(song.data.duration * fps);
+  return { min: -Math.max(0, heard - fps), max: Math.max(0, frames - fps) };
+}
+
+/** `+7`, `−12`, `0`. */
+export function signed(frames: number): string {
+  return frames > 0 ? `+${frames}` : frames < 0 ? `\u2212${-frames}` : '0';
+}
+
+/** `+7 frames`, `−1 frame`. */
+export function frameWords(frames: number): string {
+  return `${signed(frames)} ${Math.abs(frames) === 1 ? 'frame' : 'frames'}`;
+}
+
+/** `+7 frames, 0.23 s later`. */
+export function shiftWords(frames: number, fps = FPS): string {
+  if (frames === 0) return 'as the files begin';
+  return `${frameWords(frames)}, ${(Math.abs(frames) / fps).toFixed(2)} s ${frames > 0 ? 'later' : 'earlier'}`;
+}
+
+let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: BetterShift | null } | null =
+  null;
+
+/**
+ * How much later the song should start than it does now so that its beats meet the leader's; null when nothing is
+ * clearly better. The last answer is remembered: many parts of the page ask.
+ */
+export function suggestedShift({
+  song,
+  leader,
+  shift,
+  manifest,
+}: Parts & Pick<AppState, 'manifest'>): BetterShift | null {
+  if (!song || !leader || !manifest) return null;
+  if (answered?.leader === leader && answered.song === song && answered.shift === shift)
+    return answered.answer;
+  const { fps } = leader.file.clip;
+  const music = musicBeats({ song, leader, shift }).map((beat) => beat * fps);
+  const { smoothing, tolerance } = manifest.quality.beats;
+  const found = betterShift(motionBeats(leader.motion, smoothing), music, tolerance);
+  const { min, max } = shiftRange({ song, leader });
+  const answer = found && shift + found.by >= min && shift + found.by <= max ? found : null;
+  answered = { leader, song, shift, answer };
+  return answer;
+}

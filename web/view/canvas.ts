@@ -1,0 +1,102 @@
+import { VSMShadowMap, WebGLRenderer } from 'three';
+import { ViewError } from './error';
+
+/** A picture of the couple over the whole canvas, or one of its two halves. */
+export type Picture = 'whole' | 'left' | 'right';
+
+/** The canvas in the page and the renderer that draws on it. */
+export interface Canvas {
+  readonly renderer: WebGLRenderer;
+  /** In CSS pixels. */
+  readonly size: { readonly width: number; readonly height: number };
+  /** Whether the browser has taken the graphics card away for now. */
+  readonly lost: boolean;
+  /** Takes another size; false when there is nothing to draw on. */
+  resize(width: number, height: number): boolean;
+  /** Says where the next picture goes. */
+  aim(picture: Picture): void;
+  dispose(): void;
+}
+
+/** Pixels. */
+export interface PictureSize {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Sharper than this costs more than it shows. */
+const MOST_PIXELS = 2;
+
+function createRenderer(): WebGLRenderer {
+  try {
+    return new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
+  } catch {
+    throw new ViewError(
+      'webgl-missing',
+      'The stage needs WebGL 2, which this browser does not offer here.',
+      'Turn on hardware acceleration in the browser settings, or open the page in a current Chrome, Edge, Firefox or Safari.',
+    );
+  }
+}
+
+/**
+ * @param filmed the size of pictures that leave the page one by one; null follows the host
+ * @param onRestored called when a lost graphics card is there again
+ * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
+ */
+export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRestored: () => void): Canvas {
+  const renderer = createRenderer();
+  const element = renderer.domElement;
+  element.style.display = 'block';
+  host.append(element);
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = VSMShadowMap;
+  // A frame may be two pictures, whose calls and triangles are counted together.
+  renderer.info.autoReset = false;
+
+  let size = { width: 1, height: 1 };
+  let lost = false;
+  const lose = (event: Event): void => {
+    event.preventDefault();
+    lost = true;
+  };
+  const restore = (): void => {
+    lost = false;
+    onRestored();
+  };
+  element.addEventListener('webglcontextlost', lose);
+  element.addEventListener('webglcontextrestored', restore);
+
+  return {
+    renderer,
+    get size() {
+      return size;
+    },
+    get lost() {
+      return lost;
+    },
+    resize(width, height) {
+      if (width === 0 || height === 0) return false;
+      size = { width, height };
+      renderer.setPixelRatio(filmed ? 1 : Math.min(window.devicePixelRatio, MOST_PIXELS));
+      renderer.setSize(width, height);
+      return true;
+    },
+    aim(picture) {
+      const { width, height } = size;
+      const left = picture === 'right' ? width / 2 : 0;
+      const wide = picture === 'whole' ? width : width / 2;
+      renderer.setScissorTest(picture !== 'whole');
+      renderer.setViewport(left, 0, wide, height);
+      renderer.setScissor(left, 0, wide, height);
+    },
+    dispose() {
+      element.removeEventListener('webglcontextlost', lose);
+      element.removeEventListener('webglcontextrestored', restore);
+      renderer.dispose();
+      // Browsers allow few contexts; one that is not given back waits for the garbage collector.
+      if (filmed) renderer.forceContextLoss();
+      element.remove();
+    },
+  };
+}
