@@ -93,6 +93,8 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
     advance: (dt) => PARTS.filter((part) => dancers[part].advance(dt)).length > 0,
     setMade(role) {
       made = role;
+      dancers.coarse.colourAs(role);
+      dancers.other.colourAs(role);
     },
     setOtherMode(next) {
       mode = next;

@@ -24,6 +24,8 @@ export interface Dancer {
   /** Goes on passing over, by seconds; true while the pose changes by it. */
   advance(dt: number): boolean;
   setMatter(matter: Matter): void;
+  /** Takes the colours of a role; its own until then. */
+  colourAs(role: Role): void;
   /** Hides a dancer who has a motion, or lets them be seen again. */
   show(on: boolean): void;
   /** Resolves when the body for the latest motion is on. */
@@ -79,6 +81,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
   let former: SolvedMotion | null = null;
   let passed = 0;
   let matter: Matter = 'solid';
+  let colours = role;
   let shown = true;
   let look: Look | null = null;
   let dressing = Promise.resolve();
@@ -100,8 +103,10 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     object.visible = motion !== null && shown;
     const solid = matter === 'solid';
     if (look !== null) {
-      material.color.set(look[role]);
-      const tint = matter === 'coarse' || matter === 'other' ? look[matter] : look[role];
+      material.color.set(look[colours]);
+      // Ghosts have tints of their own in the reactor's family.
+      const ghost = matter === 'coarse' || matter === 'other' ? matter : null;
+      const tint = look[ghost !== null && colours === 'reactor' ? ghost : colours];
       if (!solid) glass.setTint(tint, CLARITY[matter as Exclude<Matter, 'solid'>]);
     }
     glass.setShadow(matter === 'glass');
@@ -138,6 +143,11 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     setMatter(next) {
       if (next === matter) return;
       matter = next;
+      dress();
+    },
+    colourAs(next) {
+      if (next === colours) return;
+      colours = next;
       dress();
     },
     show(on) {

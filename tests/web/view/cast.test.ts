@@ -1,8 +1,10 @@
+import { type MeshStandardMaterial, SkinnedMesh } from 'three';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { J } from '../../../web/motion/skeleton';
 import { createBodyLibrary } from '../../../web/view/body/library';
 import { createCast, type Cast } from '../../../web/view/cast';
 import { NOTHING_SHOWN } from '../../../web/view/shows/shows';
+import { LOOKS } from '../../../web/view/theme';
 import { randomMotion } from './skeletons';
 
 const motions = {
@@ -57,6 +59,29 @@ describe('the cast', () => {
     ]);
     cast.setMotion('other', null);
     expect(cast.split).toBe(false);
+  });
+
+  it('shows another leader beside the loaded reactor when the leader is who was made, in the colour of a leader', async () => {
+    cast.setOtherMode('side');
+    cast.setLook(LOOKS.dark);
+    cast.setMade('leader');
+    await cast.dressed();
+    const right = cast.arrange('right');
+    expect(seen()).toEqual([false, true, false, true]);
+    expect(right.map(({ role, motion }) => [role, motion])).toEqual([
+      ['reactor', motions.reactor],
+      ['leader', motions.other],
+    ]);
+    const colour = (part: number): string => {
+      let found = '';
+      cast.object.children[part]!.traverse((object) => {
+        if (object instanceof SkinnedMesh)
+          found = (object.material as MeshStandardMaterial).color.getHexString();
+      });
+      return found;
+    };
+    expect(colour(3)).toBe(colour(0));
+    expect(colour(3)).not.toBe(colour(1));
   });
 
   it('lets the leader look at the partner of each half, whichever was drawn before', () => {
