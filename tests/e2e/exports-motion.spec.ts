@@ -4,18 +4,8 @@ import { unzipSync } from 'fflate';
 import { validateBytes } from 'gltf-validator';
 import { App } from './app-page';
 import { expect, test } from './fixtures';
-import { serveDemo } from './made-demo';
+import { demoSettings as settings, serveDemo } from './made-demo';
 
-const settings = {
-  guidance: {
-    upper: { coarse: 0.5, fine: 0.25 },
-    lower: { coarse: 0.5, fine: 0.25 },
-    placement: { coarse: 0.5, fine: 0.25 },
-  },
-  steps: 3,
-  seed: 77,
-  role: 'reactor',
-};
 const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
 
 test('leader, reactor or both are saved in four formats that say what they hold', async ({ page }) => {

@@ -3,18 +3,8 @@ import type { Download, Page } from '@playwright/test';
 import { App } from './app-page';
 import { expect, test } from './fixtures';
 import { probe } from './ffprobe';
-import { serveDemo } from './made-demo';
+import { demoSettings as settings, serveDemo } from './made-demo';
 
-const settings = {
-  guidance: {
-    upper: { coarse: 0.5, fine: 0.25 },
-    lower: { coarse: 0.5, fine: 0.25 },
-    placement: { coarse: 0.5, fine: 0.25 },
-  },
-  steps: 3,
-  seed: 77,
-  role: 'reactor',
-};
 const FRAMES = 24;
 const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
 

@@ -1,6 +1,18 @@
 import type { Page } from '@playwright/test';
 import { bvhText, wav } from './app-files';
 
+/** What a made reaction may say that it was made with. */
+export const demoSettings = {
+  guidance: {
+    upper: { coarse: 0.5, fine: 0.25 },
+    lower: { coarse: 0.5, fine: 0.25 },
+    placement: { coarse: 0.5, fine: 0.25 },
+  },
+  steps: 3,
+  seed: 77,
+  role: 'reactor',
+};
+
 /** A made demo in the place of the shipped one, with or without its ready-made reaction. */
 export async function serveDemo(page: Page, settings: object | null, frames = 90): Promise<void> {
   const named = (file: string, label: string): object => ({ file, name: `Made ${label}`, label });

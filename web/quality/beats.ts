@@ -1,3 +1,4 @@
+import { beatScores } from '../motion/beat-match';
 import { concern, type Measure, type MomentKind, type Scale, worstMoments, worstOf } from './moments';
 import { motionBeats } from '../motion/motion-beats';
 import type { Duet, Rules } from './rules';
@@ -21,27 +22,9 @@ export interface BeatAlignment {
   readonly reactorBeats: number;
 }
 
-/** exp(-d^2 / (2 tolerance^2)) by the whole frames d to the nearest beat. */
+/** What `beatScores` gives, by the whole frames to the nearest beat: over all shifts it is asked for too often. */
 function scoreTable(frames: number, tolerance: number): Float64Array {
   return Float64Array.from({ length: frames + 1 }, (_, far) => Math.exp(-(far * far) / (2 * tolerance ** 2)));
-}
-
-/**
- * The score of every reference beat: `beat_scores` in Python.
- * @param reference ascending whole frames
- * @param beats ascending whole frames
- */
-export function beatScores(
-  reference: readonly number[],
-  beats: readonly number[],
-  table: Float64Array,
-): number[] {
-  let nearest = 0;
-  return reference.map((frame) => {
-    const far = (index: number): number => Math.abs(frame - (beats[index] ?? Infinity));
-    while (nearest + 1 < beats.length && far(nearest + 1) <= far(nearest)) nearest++;
-    return table[far(nearest)] ?? 0;
-  });
 }
 
 /** The mean score over all shifts of the beats. What leaves at the end comes in at the start. */
@@ -79,12 +62,15 @@ export function alignment(
   reference: readonly number[],
   beats: readonly number[],
   frames: number,
-  table: Float64Array,
+  tolerance: number,
 ): Alignment {
-  const scores = beatScores(reference, beats, table);
+  const scores = beatScores(reference, beats, tolerance);
   const value = scores.reduce((sum, score) => sum + score, 0) / scores.length;
   const unknown = reference.length === 0 || beats.length === 0;
-  return { value, chance: unknown ? value : chanceOf(reference, beats, frames, table) };
+  return {
+    value,
+    chance: unknown ? value : chanceOf(reference, beats, frames, scoreTable(frames, tolerance)),
+  };
 }
 
 /** Standard deviation of the window in which the score is felt, seconds: about two bars. */
@@ -124,19 +110,18 @@ const scaleBy = ({ chance }: Alignment): Scale => ({
 export function measureBeats(duet: Duet, rules: Rules): Measure<BeatAlignment> {
   const { frames, fps } = duet;
   const { smoothing, tolerance } = rules.beats;
-  const table = scoreTable(frames, tolerance);
   const lead = motionBeats({ positions: duet.leader, frames }, smoothing);
   const own = motionBeats({ positions: duet.reactor, frames }, smoothing);
   const music = duet.beats.filter((beat) => beat >= 0 && beat < frames);
   const whole: BeatAlignment = {
-    music: alignment(music, own, frames, table),
-    leader: alignment(lead, own, frames, table),
-    backward: alignment(own, lead, frames, table),
+    music: alignment(music, own, frames, tolerance),
+    leader: alignment(lead, own, frames, tolerance),
+    backward: alignment(own, lead, frames, tolerance),
     leaderBeats: lead.length,
     reactorBeats: own.length,
   };
   const heard = (kind: MomentKind, reference: readonly number[], as: Alignment) => {
-    const local = localScore(reference, beatScores(reference, own, table), frames, fps);
+    const local = localScore(reference, beatScores(reference, own, tolerance), frames, fps);
     const row = local.map((score) => concern(score, scaleBy(as)));
     return { row, worst: worstMoments(row, fps, kind, (frame) => local[frame]!) };
   };

@@ -1,5 +1,6 @@
 import * as v from 'valibot';
 import { together } from './dom';
+import { NOTHING_SHOWN } from './shows';
 import type { AppState, Theme } from './state';
 import { apply, SPEEDS, themeSet, watch, watchAll, type Change, type Store } from './store';
 
@@ -24,7 +25,7 @@ const schema = v.object({
       hands: v.boolean(),
       ghost: v.boolean(),
     }),
-    { skeleton: false, trails: false, contacts: false, facing: false, hands: false, ghost: false },
+    NOTHING_SHOWN,
   ),
 });
 

@@ -14,8 +14,8 @@ export function asDrawn(free: SolvedMotion, footLock: boolean): SolvedMotion {
 }
 
 /**
- * The made dancer's motion that is taken home, and drawn unless a newer one is on its way: as the model made it, or with its feet locked. The same object
- * as long as reaction and foot lock are the same.
+ * The made dancer's motion that is taken home, and drawn unless a newer one is on its way: as the model made it, or
+ * with its feet locked. The same object as long as reaction and foot lock are the same.
  */
 export function reactorMotion({
   reaction,

@@ -8,6 +8,16 @@ export interface ShowWords {
   readonly hint: string;
 }
 
+/** As the page opens for the first time. */
+export const NOTHING_SHOWN: Shown = {
+  skeleton: false,
+  trails: false,
+  contacts: false,
+  facing: false,
+  hands: false,
+  ghost: false,
+};
+
 export const SHOWS: readonly ShowWords[] = [
   { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The reactor without its fine layer' },
   { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },

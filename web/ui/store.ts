@@ -4,6 +4,7 @@ import { otherRole } from './couple';
 import { columnOf, defaultGuidance, guidanceAt, sameGuidance, withCell, withColumn } from './guidance-matrix';
 import type { Reference } from './quality-reference';
 import { danceDuration } from './selectors';
+import { NOTHING_SHOWN } from './shows';
 import type {
   AppState,
   Camera,
@@ -41,7 +42,7 @@ export function initialState(theme: Theme): AppState {
   return {
     theme,
     camera: 'orbit',
-    shown: { skeleton: false, trails: false, contacts: false, facing: false, hands: false, ghost: false },
+    shown: NOTHING_SHOWN,
     coarse: { motion: null, decoding: false },
     visiting: true,
     demo: 'loading',
