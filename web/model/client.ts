@@ -7,7 +7,8 @@ import type { CoarseRequest, GenerateRequest } from './inputs';
 import type { Status } from './load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './parts';
-import type { GenerateOptions, GenerateResult, Made, Preview, Progress } from './pipeline';
+import type { GenerateOptions, GenerateResult, Made, Preview } from './pipeline';
+import type { Progress } from './progress';
 import type { Failure, ModelWorker, Outcome, WorkerEvent } from './protocol';
 
 export type {

@@ -7,22 +7,13 @@ import { ModelError } from './error';
 import { checkCoarse, checkRequest, type CoarseRequest, type GenerateRequest, prepareInput } from './inputs';
 import type { Manifest } from './manifest';
 import { noise } from './noise';
-import { around, blockAt, blockRuns, worthPreview } from './preview';
-import { sample, type Sampling } from './sampler';
+import { around, blockAt, worthPreview, worthReach } from './preview';
+import { type Progress, tell, tellRuns } from './progress';
+import { partitions, sample, type Sampling } from './sampler';
 import { ddim } from './schedule';
 import type { ModelSession } from './session';
+import { reachesAround } from './spread';
 import { nextTurn } from './turn';
-
-export type Stage = 'condition' | 'preview' | 'step' | 'decode' | 'solve';
-
-export interface Progress {
-  readonly stage: Stage;
-  /** Pieces of this stage that are done, of `total`. */
-  readonly done: number;
-  readonly total: number;
-  /** Of the whole generation, 0 to 1. */
-  readonly fraction: number;
-}
 
 /** The partner, at the leader's size and as long as the leader. */
 export interface Made {
@@ -31,7 +22,7 @@ export interface Made {
   readonly locked: SolvedMotion;
 }
 
-/** A partner of whom one part is made already, close to what it will be; around it stands what was there before. */
+/** A partner of whom one part is made already; around it stands what was there before. */
 export interface Preview extends Made {
   /** Motion frames that are new, `to` excluded. */
   readonly fresh: { readonly from: number; readonly to: number };
@@ -48,7 +39,10 @@ export interface GenerateOptions {
   /** Stops the work before the next graph run; the promise is then rejected with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ((progress: Progress) => void) | undefined;
-  /** Motion frame that someone is looking at: its block is made first and handed to `onPreview`, if that is worth it. */
+  /**
+   * Motion frame that someone is looking at: its block is made first and handed to `onPreview`, then growing parts
+   * around it, as far as each is worth it.
+   */
   readonly at?: number | undefined;
   readonly onPreview?: ((preview: Preview) => void) | undefined;
 }
@@ -56,14 +50,6 @@ export interface GenerateOptions {
 // A minute of dance at a time bounds the memory of the convolutions; sixteen blocks that of attention.
 const LATENTS_PER_RUN = 480;
 const BLOCKS_PER_RUN = 16;
-
-// Shares of the whole, roughly as measured, so that the bar moves evenly.
-const SHARES: Record<Exclude<Stage, 'preview'>, readonly [from: number, to: number]> = {
-  condition: [0, 0.04],
-  step: [0.04, 0.86],
-  decode: [0.86, 0.94],
-  solve: [0.94, 1],
-};
 
 function equal(a: Float32Array, b: Float32Array): boolean {
   return a.length === b.length && a.every((value, i) => value === b[i]);
@@ -78,11 +64,14 @@ function sameInput(a: ConditionInput, b: ConditionInput): boolean {
   );
 }
 
-/** What a generation computes: blocks of the whole, blocks of the preview, and the block that the preview is of. */
+/** What a generation computes, in blocks that go through the step graph. */
 interface Plan {
   readonly runs: number;
+  /** Blocks of the preview, and the block that it is of. */
   readonly before: number;
   readonly block: Block | null;
+  /** Parts of the whole that are shown as they are done; the whole itself is the last. */
+  readonly reaches: readonly Block[] | undefined;
 }
 
 /** From a leader and a song to the partner's solved motion, on an open session. */
@@ -111,31 +100,34 @@ export class Pipeline {
     const memory = await this.#remember(condition, options);
     times.push(this.now());
     const sampling = this.#sampling(request, memory, options);
-    const plan = this.#plan(request, sampling.latents, options);
+    const plan = this.#plan(sampling, options);
     const every = this.manifest.latent.layers.map(() => 1);
     const shape = (latents: Float32Array): Promise<MotionClip> =>
       this.#decode(request.leader, latents, condition.leader, scale, every, options);
-    if (plan.block) {
-      const preview = await this.#preview(request, sampling, plan, shape, options);
-      options.onPreview?.(preview);
+    const show = async (part: Block, made: Float32Array): Promise<void> => {
+      options.onPreview?.(await this.#early(part, made, sampling, shape, options));
       await nextTurn(options.signal);
-    }
+    };
+    if (plan.block)
+      await show(plan.block, await this.#preview(request.seed, plan.block, sampling, plan, options));
     const began = this.now();
     const latents = await sample({
       ...sampling,
-      onProgress: tellRuns(options, 'step', plan.before, plan.runs),
+      reaches: plan.reaches,
+      onReach: show,
+      onProgress: tellRuns(options.onProgress, 'step', plan.before, plan.runs),
     });
     times.push(this.now());
     this.#latents = latents;
     this.#pace = (this.now() - began) / plan.runs;
     const clip = await shape(latents);
-    tell(options, 'decode')(1, 1);
+    tell(options.onProgress, 'decode')(1, 1);
     times.push(this.now());
     await nextTurn(options.signal);
     const motion = solve(clip);
     const locked = lockFeet(motion);
     times.push(this.now());
-    tell(options, 'solve')(1, 1);
+    tell(options.onProgress, 'solve')(1, 1);
     const [conditioned = 0, steps = 0, decoded = 0, solved = 0] = times
       .slice(1)
       .map((time, i) => time - (times[i] ?? 0));
@@ -162,58 +154,68 @@ export class Pipeline {
     return solve(clip);
   }
 
-  /** How many blocks the whole takes, and the block that is made before it, if one is. */
-  #plan({ steps }: GenerateRequest, latents: number, { at, onPreview }: GenerateOptions): Plan {
-    const { latent, diffusion } = this.manifest;
-    const count = (frames: number): number =>
-      blockRuns(frames, latent.block, steps, diffusion.alternating_phase);
-    const runs = count(latents);
-    if (at === undefined || !onPreview) return { runs, before: 0, block: null };
-    const block = blockAt(latents, latent.block, at / latent.stride);
-    const before = count(block.length);
-    return worthPreview(before, runs, this.#pace)
-      ? { runs, before, block }
-      : { runs, before: 0, block: null };
+  #plan(sampling: Sampling, { at, onPreview }: GenerateOptions): Plan {
+    const { latent } = this.manifest;
+    const cut = partitions(sampling);
+    const runs = cut.flat().length;
+    const whole = { runs, before: 0, block: null, reaches: undefined };
+    if (at === undefined || !onPreview) return whole;
+    const place = at / latent.stride;
+    const reaches = reachesAround(cut, place, (left) => worthReach(left, runs, this.#pace));
+    const block = blockAt(sampling.latents, latent.block, place);
+    const before = partitions({ ...sampling, latents: block.length }).flat().length;
+    if (!worthPreview(before, runs, this.#pace)) return { ...whole, reaches };
+    return { runs, before, block, reaches };
   }
 
-  /** One block sampled for itself: without its neighbours it is not quite what it will be, but it is there soon. */
-  async #preview(
-    { seed, leader }: GenerateRequest,
+  /** Latents of one block sampled for itself: without its neighbours it is not quite what it will be, but soon there. */
+  #preview(
+    seed: number,
+    { start, length }: Block,
     sampling: Sampling,
-    { runs, before, block }: Plan,
-    shape: (latents: Float32Array) => Promise<MotionClip>,
-    options: GenerateOptions,
-  ): Promise<Preview> {
+    { runs, before }: Plan,
+    { onProgress }: GenerateOptions,
+  ): Promise<Float32Array> {
     const { latent } = this.manifest;
-    const { start, length } = block ?? { start: 0, length: sampling.latents };
     const width = latent.layers.length * latent.channels;
     const remembered = latent.memory_width;
-    const made = await sample({
+    return sample({
       ...sampling,
       latents: length,
       memory: sampling.memory.subarray(start * remembered, (start + length) * remembered),
       noise: (draw) => noise(seed, length, width, draw, start),
-      onProgress: tellRuns(options, 'preview', 0, before + runs),
+      onProgress: tellRuns(onProgress, 'preview', 0, before + runs),
     });
-    const size = sampling.latents * width;
-    const earlier = this.#latents?.length === size ? this.#latents : null;
-    const clip = await shape(around(made, { start, length }, earlier, sampling.latents, width));
-    await nextTurn(options.signal);
+  }
+
+  /** The partner of whom a part is new. */
+  async #early(
+    part: Block,
+    made: Float32Array,
+    { latents }: Sampling,
+    shape: (latents: Float32Array) => Promise<MotionClip>,
+    { signal }: GenerateOptions,
+  ): Promise<Preview> {
+    const { latent } = this.manifest;
+    const width = latent.layers.length * latent.channels;
+    const earlier = this.#latents?.length === latents * width ? this.#latents : null;
+    const clip = await shape(around(made, part, earlier, latents, width));
+    await nextTurn(signal);
     const motion = solve(clip);
-    const from = start * latent.stride;
-    const to = Math.min(leader.frames, (start + length) * latent.stride);
+    const from = part.start * latent.stride;
+    const to = Math.min(clip.frames, (part.start + part.length) * latent.stride);
     return { motion, locked: lockFeet(motion), fresh: { from, to } };
   }
 
   /** Memory of this leader and song, computed once however often guidance, seed or steps change. */
   async #remember(input: ConditionInput, options: GenerateOptions): Promise<Float32Array> {
     if (this.#memory !== undefined && sameInput(this.#memory.input, input)) {
-      tell(options, 'condition')(1, 1);
+      tell(options.onProgress, 'condition')(1, 1);
       return this.#memory.memory;
     }
     const memory = await conditionClip(this.session.condition, input, this.manifest, LATENTS_PER_RUN, {
       signal: options.signal,
-      onProgress: tell(options, 'condition'),
+      onProgress: tell(options.onProgress, 'condition'),
     });
     this.#memory = { input, memory };
     return memory;
@@ -258,26 +260,4 @@ export class Pipeline {
     }
     return { fps, frames, positions };
   }
-}
-
-/** Progress of one stage as progress of the whole. */
-function tell(
-  { onProgress }: GenerateOptions,
-  stage: keyof typeof SHARES,
-): (done: number, total: number) => void {
-  const [from, to] = SHARES[stage];
-  return (done, total) => onProgress?.({ stage, done, total, fraction: from + ((to - from) * done) / total });
-}
-
-/** Progress of preview or steps, which share the stretch of the steps: `before` blocks were done ahead of `total`. */
-function tellRuns(
-  { onProgress }: GenerateOptions,
-  stage: 'preview' | 'step',
-  before: number,
-  runs: number,
-): (done: number, total: number) => void {
-  const [from, to] = SHARES.step;
-  const all = before + runs;
-  return (done, total) =>
-    onProgress?.({ stage, done, total, fraction: from + ((to - from) * (before + done)) / all });
 }

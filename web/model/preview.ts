@@ -1,17 +1,12 @@
 /** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
-import { type Block, partition } from './blocks';
+import type { Block } from './blocks';
 
 /** A run that is over sooner than this needs no preview, seconds. */
 const SOON = 0.3;
 /** A preview that costs more of the whole than this is not worth waiting for. */
 const WORTH = 0.5;
-
-/** Blocks that go through the step graph in all steps of a sampling. */
-export function blockRuns(latents: number, size: number, steps: number, alternating: boolean): number {
-  let runs = 0;
-  for (let k = 0; k < steps; k++) runs += partition(latents, size, alternating && k % 2 === 1).length;
-  return runs;
-}
+/** Less than this of the whole is not worth drawing a picture before it. */
+const LAST = 0.2;
 
 /** The block of the plain partition that holds a latent frame; frames outside the clip count as its ends. */
 export function blockAt(latents: number, size: number, latent: number): Block {
@@ -29,7 +24,16 @@ export function worthPreview(preview: number, whole: number, pace: number | unde
 }
 
 /**
- * Latents of a whole clip in which one block is new. What the decode graph makes of a block depends on its
+ * Whether a part that is done is worth showing before the whole is.
+ * @param left share of the block computations that come after it
+ * @param pace as in `worthPreview`
+ */
+export function worthReach(left: number, whole: number, pace: number | undefined): boolean {
+  return left >= LAST && (pace === undefined || pace * whole * left >= SOON);
+}
+
+/**
+ * Latents of a whole clip in which one part is new. What the decode graph makes of a part depends on its
  * neighbours and on the clip's statistics, so around it stand the latents of an earlier run; without one the block
  * itself, over and over, which keeps the statistics of a dance where zeros would not.
  * @param block length x width

@@ -5,7 +5,8 @@ import { ModelError, type ModelErrorCode } from './error';
 import type { CoarseRequest, GenerateRequest } from './inputs';
 import type { LoadOptions, Status } from './load';
 import type { Manifest } from './manifest';
-import type { GenerateResult, Preview, Progress } from './pipeline';
+import type { GenerateResult, Preview } from './pipeline';
+import type { Progress } from './progress';
 
 export type Failure =
   | { readonly kind: 'model'; readonly code: ModelErrorCode; readonly message: string; readonly hint: string }

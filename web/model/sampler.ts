@@ -1,6 +1,7 @@
-import { gather, partition, scatter, validity } from './blocks';
+import { type Block, gather, partition, scatter, validity } from './blocks';
 import type { Manifest } from './manifest';
 import type { ScheduleStep } from './schedule';
+import { rings } from './spread';
 import { nextTurn } from './turn';
 
 /** Inputs of the step graph; `width` is layers x channels. */
@@ -45,14 +46,30 @@ export interface Sampling {
   /** Blocks that go through the graph together: bounds the memory of a long clip, changes nothing else. */
   readonly blocksPerRun: number;
   readonly signal?: AbortSignal | undefined;
+  /** Growing parts of the clip that are wanted one after the other, the last of them the whole; without, only that. */
+  readonly reaches?: readonly Block[] | undefined;
   /** Called as blocks are done: `done` of `total` block computations of the whole sampling. */
   readonly onProgress?: ((done: number, total: number) => void) | undefined;
-  /** Called after every step with the state (latents x width, valid during the call only). */
+  /** Called when a step is done for the whole clip (state latents x width, valid during the call only). */
   readonly onStep?: ((step: number, x: Float32Array, x0: Float32Array) => void) | undefined;
+  /** Called when all steps are done for a part but not for the whole: its latents, length x width. */
+  readonly onReach?: ((reach: Block, x: Float32Array) => Promise<void>) | undefined;
+}
+
+/** Blocks of each step: with alternating phase every second step begins with half a block. */
+export function partitions({ latent, latents, schedule, alternatingPhase }: Sampling): Block[][] {
+  return schedule.map((_, k) => partition(latents, latent.block, alternatingPhase && k % 2 === 1));
+}
+
+/** What one step leaves for the next, latents x width each. */
+interface Level {
+  readonly x: Float32Array;
+  readonly x0: Float32Array;
 }
 
 /**
- * Sample latents for a whole clip, all blocks of a step before the next step.
+ * Sample latents for a whole clip. The order of the work changes nothing in the result: blocks of a step know of each
+ * other only through the step before.
  * @returns latents x layers x channels, normalised
  * @throws the signal's reason, between two graph runs
  */
@@ -60,40 +77,66 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
   const { latent, latents, schedule, signal, blocksPerRun } = sampling;
   const width = latent.layers.length * latent.channels;
   const size = latent.block;
-  const partitions = schedule.map((_, k) =>
-    partition(latents, size, sampling.alternatingPhase && k % 2 === 1),
-  );
-  const total = partitions.reduce((sum, blocks) => sum + blocks.length, 0);
+  const cut = partitions(sampling);
+  const total = cut.flat().length;
+  const zeros = new Float32Array(latents * width);
+  const empty = (): Level => ({
+    x: new Float32Array(latents * width),
+    x0: new Float32Array(latents * width),
+  });
+  const levels = new Map<number, Level>([[0, { x: sampling.noise(0), x0: zeros }]]);
+  const draws = new Map<number, Float32Array>();
+  const left = cut.map((blocks) => blocks.length);
   let done = 0;
-  let x = sampling.noise(0);
-  let x0 = new Float32Array(latents * width);
-  for (const [k, { time, coefficients }] of schedule.entries()) {
-    const noise = coefficients[3] === 0 ? new Float32Array(latents * width) : sampling.noise(k + 1);
-    const nextX = new Float32Array(latents * width);
-    const nextX0 = new Float32Array(latents * width);
-    const blocks = partitions[k] ?? [];
-    for (let first = 0; first < blocks.length; first += blocksPerRun) {
-      await nextTurn(signal);
-      const group = blocks.slice(first, first + blocksPerRun);
-      const output = await sampling.runStep({
-        blocks: group.length,
-        x: gather(x, width, group, size),
-        x0Prev: gather(x0, width, group, size),
-        noise: gather(noise, width, group, size),
-        memory: gather(sampling.memory, latent.memory_width, group, size),
-        valid: validity(group, size),
-        time,
-        guidance: sampling.guidance,
-        coefficients,
-      });
-      scatter(nextX, width, output.x, group, size);
-      scatter(nextX0, width, output.x0, group, size);
-      done += group.length;
-      sampling.onProgress?.(done, total);
+
+  const compute = async (k: number, group: readonly Block[]): Promise<void> => {
+    const step = schedule[k];
+    if (!step) return;
+    const before = kept(levels, k, empty);
+    const after = kept(levels, k + 1, empty);
+    const noise = step.coefficients[3] === 0 ? zeros : kept(draws, k, () => sampling.noise(k + 1));
+    await nextTurn(signal);
+    const output = await sampling.runStep({
+      blocks: group.length,
+      x: gather(before.x, width, group, size),
+      x0Prev: gather(before.x0, width, group, size),
+      noise: gather(noise, width, group, size),
+      memory: gather(sampling.memory, latent.memory_width, group, size),
+      valid: validity(group, size),
+      time: step.time,
+      guidance: sampling.guidance,
+      coefficients: step.coefficients,
+    });
+    scatter(after.x, width, output.x, group, size);
+    scatter(after.x0, width, output.x0, group, size);
+    done += group.length;
+    sampling.onProgress?.(done, total);
+    const rest = (left[k] ?? 0) - group.length;
+    left[k] = rest;
+    if (rest > 0) return;
+    sampling.onStep?.(k, after.x, after.x0);
+    levels.delete(k); // nothing will read it any more
+    draws.delete(k);
+  };
+
+  for (const { runs, reach } of rings(cut, sampling.reaches ?? [{ start: 0, length: latents }])) {
+    for (const { step, blocks } of runs) {
+      for (let first = 0; first < blocks.length; first += blocksPerRun) {
+        await compute(step, blocks.slice(first, first + blocksPerRun));
+      }
     }
-    x = nextX;
-    x0 = nextX0;
-    sampling.onStep?.(k, x, x0);
+    const { x } = kept(levels, schedule.length, empty);
+    if (done === total) return x;
+    await sampling.onReach?.(reach, x.slice(reach.start * width, (reach.start + reach.length) * width));
   }
-  return x;
+  throw new Error('the last reach of a sampling has to be the whole clip');
+}
+
+/** The value of a key, made when it is first asked for. */
+function kept<K, V>(map: Map<K, V>, key: K, make: () => V): V {
+  const found = map.get(key);
+  if (found !== undefined) return found;
+  const made = make();
+  map.set(key, made);
+  return made;
 }

@@ -2,7 +2,8 @@
 import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { ConditionInput } from '../../../web/model/chunks';
 import type { GenerateRequest } from '../../../web/model/inputs';
-import { Pipeline, type Progress } from '../../../web/model/pipeline';
+import { Pipeline } from '../../../web/model/pipeline';
+import type { Progress } from '../../../web/model/progress';
 import type { ModelSession } from '../../../web/model/session';
 import type { MotionClip } from '../../../web/motion/clip';
 import { bodyHeight, scaleClip } from '../../../web/motion/scale';

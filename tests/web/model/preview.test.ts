@@ -1,8 +1,9 @@
 /** The block under the playhead first: near to what it will be, and no change of what comes out in the end. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { GenerateRequest } from '../../../web/model/inputs';
-import { type GenerateResult, Pipeline, type Preview, type Progress } from '../../../web/model/pipeline';
-import { around, blockAt, blockRuns, worthPreview } from '../../../web/model/preview';
+import { type GenerateResult, Pipeline, type Preview } from '../../../web/model/pipeline';
+import { around, blockAt, worthPreview, worthReach } from '../../../web/model/preview';
+import type { Progress } from '../../../web/model/progress';
 import { type OpenedModel, openModel, TINY } from './open-model';
 
 let model: OpenedModel;
@@ -14,10 +15,10 @@ afterAll(() => model.session.release());
 /** On a machine so slow that a preview of the tiny model is worth its while. */
 const open = (): Pipeline => new Pipeline(model.manifest, model.session, () => performance.now() / 10);
 
-/** Four blocks: the golden leader, forth and back, so that it does not jump. */
-function request(changes: Partial<GenerateRequest> = {}): GenerateRequest {
+/** Four blocks unless told otherwise: the golden leader, forth and back, so that it does not jump. */
+function request(changes: Partial<GenerateRequest> = {}, blocks = 4): GenerateRequest {
   const { golden, manifest } = model;
-  const [frames, there] = [4 * 240 - 7, golden.leader.length / 66];
+  const [frames, there] = [blocks * 240 - 7, golden.leader.length / 66];
   const at = (frame: number): number => {
     const turn = frame % (2 * there);
     return turn < there ? turn : 2 * there - 1 - turn;
@@ -41,10 +42,11 @@ async function generate(
   pipeline: Pipeline,
   changes: Partial<GenerateRequest>,
   at: number,
+  blocks?: number,
 ): Promise<{ result: GenerateResult; previews: Preview[]; progress: Progress[] }> {
   const previews: Preview[] = [];
   const progress: Progress[] = [];
-  const result = await pipeline.generate(request(changes), {
+  const result = await pipeline.generate(request(changes, blocks), {
     at,
     onPreview: (preview) => previews.push(preview),
     onProgress: (told) => progress.push(told),
@@ -74,6 +76,39 @@ describe('a generation with someone looking', () => {
     const early = inside(preview!.motion.positions);
     expect(preview!.motion.frames).toBe(request().leader.frames);
     expect(mean(early, after)).toBeLessThan(0.5 * mean(before, after));
+  });
+
+  it('spreads from there: what is shown grows, is exactly what stays, and costs nothing', async () => {
+    const blocks = 8;
+    const [plain, watched] = [open(), open()];
+    const steps: number[] = [0, 0];
+    const counted = async (pipeline: Pipeline, i: number, at?: number): Promise<Preview[]> => {
+      const previews: Preview[] = [];
+      await pipeline.generate(request({}, blocks), {
+        at,
+        onPreview: (preview) => previews.push(preview),
+        onProgress: ({ stage, done }) => {
+          if (stage === 'step') steps[i] = done;
+        },
+      });
+      return previews;
+    };
+    const first = await plain.generate(request({ seed: 4 }, blocks));
+    await watched.generate(request({ seed: 4 }, blocks));
+    const previews = await counted(watched, 0, 5.5 * 240);
+    await counted(plain, 1);
+    expect(steps[0]).toBe(steps[1]);
+    expect(previews.map(({ fresh }) => fresh)).toEqual([
+      { from: 5 * 240, to: 6 * 240 },
+      { from: 4 * 240, to: 7 * 240 },
+    ]);
+    const whole = await open().generate(request({}, blocks));
+    const inner = ({ motion }: Pick<Preview, 'motion'>): Float32Array =>
+      motion.positions.subarray(4.5 * 240 * 66, 6.5 * 240 * 66);
+    const moved = mean(inner(first), inner(whole));
+    expect(moved).toBeGreaterThan(0.001);
+    // The bones are those of the whole clip, so the last millimetre waits for it.
+    expect(mean(inner(previews[1]!), inner(whole))).toBeLessThan(0.1 * moved);
   });
 
   it('shows something on the very first run too, and at the end of the clip', async () => {
@@ -107,16 +142,17 @@ describe('a generation with someone looking', () => {
 });
 
 describe('what is worth a preview', () => {
-  it('counts blocks as the sampler cuts them', () => {
-    expect(blockRuns(60, 60, 5, true)).toBe(3 * 1 + 2 * 2);
-    expect(blockRuns(233, 60, 5, true)).toBe(3 * 4 + 2 * 5);
-    expect(blockRuns(233, 60, 5, false)).toBe(5 * 4);
-  });
   it('is a small part of something that takes a while', () => {
     expect(worthPreview(7, 22, undefined)).toBe(true);
     expect(worthPreview(7, 12, undefined)).toBe(false);
     expect(worthPreview(7, 22, 0.1)).toBe(true);
     expect(worthPreview(7, 22, 0.01)).toBe(false);
+  });
+  it('is a growing part while enough is left', () => {
+    expect(worthReach(0.3, 22, undefined)).toBe(true);
+    expect(worthReach(0.1, 22, undefined)).toBe(false);
+    expect(worthReach(0.3, 22, 0.1)).toBe(true);
+    expect(worthReach(0.3, 22, 0.01)).toBe(false);
   });
   it('is the block that someone looks at', () => {
     expect(blockAt(100, 60, 59.9)).toEqual({ start: 0, length: 60 });

@@ -1,7 +1,15 @@
 import { describe, expect, it } from 'vitest';
+import type { Block } from '../../../web/model/blocks';
 import { noise } from '../../../web/model/noise';
-import { sample, type Sampling, type StepInput, type StepRunner } from '../../../web/model/sampler';
+import {
+  partitions,
+  sample,
+  type Sampling,
+  type StepInput,
+  type StepRunner,
+} from '../../../web/model/sampler';
 import { ddim } from '../../../web/model/schedule';
+import { reachesAround } from '../../../web/model/spread';
 import { small } from './small-manifest';
 
 const { latent } = small;
@@ -73,6 +81,43 @@ describe('sample', () => {
       expect(await sample(sampling(50, { alternatingPhase: true, blocksPerRun }))).toEqual(whole);
     }
   });
+
+  it.each([
+    [4, false],
+    [4, true],
+    [5, true],
+  ])(
+    'gives the same from any place outwards, each block computed once (%s steps, alternating: %s)',
+    async (steps, alternatingPhase) => {
+      const schedule = ddim(small.diffusion, steps);
+      const plain = sampling(58, { schedule, alternatingPhase, blocksPerRun: 2 });
+      const whole = await sample(plain);
+      for (const place of [0, 7, 30, 57, 1000]) {
+        const seen: Block[] = [];
+        let computed = 0;
+        const result = await sample({
+          ...plain,
+          reaches: reachesAround(partitions(plain), place, () => true),
+          runStep: (input) => {
+            computed += input.blocks;
+            return mixing(input);
+          },
+          onReach: (reach, x) => {
+            seen.push(reach);
+            expect(x).toEqual(whole.slice(reach.start * width, (reach.start + reach.length) * width));
+            return Promise.resolve();
+          },
+        });
+        expect(result).toEqual(whole);
+        expect(computed).toBe(partitions(plain).flat().length);
+        expect(seen.length).toBeGreaterThan(1);
+        for (const { start, length } of seen) {
+          expect(start).toBeLessThanOrEqual(Math.min(place, 57));
+          expect(start + length).toBeGreaterThan(Math.min(place, 57));
+        }
+      }
+    },
+  );
 
   it('gives the graph the noise of each step only when the step adds noise, and the x0 of the step before', async () => {
     const seen: StepInput[] = [];
