@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+import torch.nn.functional as F
 from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
@@ -142,6 +143,13 @@ def slice_padded(values: Tensor, start: int, stop: int) -> Tensor:
     return out
 
 
+def slow_noise(random: np.random.Generator, frames: int, channels: int, every: int = 15) -> Tensor:
+    """(frames, channels) of noise with standard deviation 1 at one frame in `every`, linear between these."""
+    knots = random.standard_normal((1, channels, frames // every + 2), dtype=np.float32)
+    line = F.interpolate(torch.from_numpy(knots), size=frames, mode="linear", align_corners=True)
+    return line[0].T
+
+
 class Windows:
     """Dense sliding windows (stride of one latent frame = 4 frames by default), some cut short at either
     end.
@@ -157,6 +165,7 @@ class Windows:
             for s in range(0, max(len(clip) - block, 0) + 1, max(stride // STRIDE, 1))
         ]
         self.random = np.random.default_rng(seed)
+        self.spread = torch.cat([clip.features for clip in clips]).std(0)
 
     def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05) -> Batch:
         chosen = self.random.integers(len(self.starts), size=n)
@@ -181,6 +190,9 @@ class Windows:
         shift = int(self.random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
         shift *= int(self.random.integers(2))
         features = clip.blurred if self.random.random() < self.config.blurred else clip.features
+        features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
+        noise = slow_noise(self.random, *features.shape) * self.spread
+        features = features + noise * (self.config.leader_noise * self.random.random())
         music = clip.music[int(self.random.integers(len(clip.music)))]
         heard = by_frame.clone()
         if self.random.random() < self.config.drop_music:
@@ -193,7 +205,7 @@ class Windows:
         return (
             slice_padded(clip.latents, start, start + block) * valid[:, None, None],
             valid,
-            slice_padded(features, STRIDE * low + shift, STRIDE * high + shift),
+            features,
             slice_padded(music, STRIDE * low, STRIDE * high),
             heard,
             inside,
