@@ -9,7 +9,7 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.frame import smoothed_heading
-from training.sampler import Model, guided_x0
+from training.sampler import Model, guided_x0, sampled_layers
 from training.streams import leader_features, reactor_motion
 
 
@@ -58,10 +58,10 @@ class Decode(nn.Module):
 
     def __init__(self, model: Model) -> None:
         super().__init__()
+        self.model = model
         self.hfsq = model.hfsq
-        self.frame = model.frame
 
     def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        raw = self.hfsq.denormalise(latents) * layers[:, None]
+        raw = sampled_layers(self.model, latents, layers)
         streams = [s[0] for s in self.hfsq.decode(raw[None])]
-        return reactor_motion(streams, leader, smoothed_heading(leader, self.frame))
+        return reactor_motion(streams, leader, smoothed_heading(leader, self.model.frame))

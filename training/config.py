@@ -91,6 +91,9 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
+    # Sampled coarse and fine latents are multiplied by this before they are decoded: few steps leave the mean of
+    # what could be, whose spread is smaller than that of a dance.
+    spread: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True)

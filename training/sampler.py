@@ -143,14 +143,18 @@ def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, 
     return encoder(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
 
 
+def sampled_layers(model: Model, latents: Tensor, layers: Tensor) -> Tensor:
+    """What the decoder gets (L, R, C) of sampled normalised latents; `layers` (R,) multiplies each layer."""
+    spread = [model.diffusion.spread[min(r, 1)] for r in range(model.denoiser.layers)]
+    return model.hfsq.denormalise(latents) * (layers * layers.new_tensor(spread))[:, None]
+
+
 @torch.no_grad()
 def decode(model: Model, latents: Tensor, leader: Tensor, layers: Tensor | None = None) -> Tensor:
     """Normalised latents (L, R, C) to reactor joints (T, 22, 3); `layers` (R,) multiplies each residual
     layer.
     """
-    raw = model.hfsq.denormalise(latents)
-    if layers is not None:
-        raw = raw * layers[:, None]
+    raw = sampled_layers(model, latents, torch.ones(model.denoiser.layers) if layers is None else layers)
     streams = [s[0] for s in model.hfsq.decode(raw[None])]
     return reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
 
