@@ -93,19 +93,19 @@ def constant_bones(motion: Tensor) -> Tensor:
     return motion[..., :1, :] + _DESCENT.to(motion) @ bones
 
 
-def keep_footing(motion: Tensor, before: Tensor) -> Tensor:
-    """`motion` raised or lowered until its lower toe is as high as it was `before`, and not below a toe that
-    rests on the floor; both (N, T, 22, 3) metres, the floor at y = 0.
+def keep_footing(motion: Tensor, before: Tensor, lowest: float = LOWEST_TOE) -> Tensor:
+    """`motion` raised or lowered until its lower toe is as high as it was `before`, and not below `lowest`;
+    both (N, T, 22, 3) metres, the floor at y = 0.
 
     Legs that have been given their length push the feet through the floor. The pelvis gives way, smoothly:
     a lower toe that changes from one foot to the other must not jolt the body.
     """
     toes = torch.tensor(TOES, device=motion.device)
     lower, was = (m.index_select(-2, toes)[..., 1].amin(-1) for m in (motion, before))
-    rise = gaussian_mean(was.clamp_min(LOWEST_TOE) - lower, GIVING_WAY, 3 * GIVING_WAY)
+    rise = gaussian_mean(was.clamp_min(lowest) - lower, GIVING_WAY, 3 * GIVING_WAY)
     return motion + torch.stack([torch.zeros_like(rise), rise, torch.zeros_like(rise)], dim=-1)[..., None, :]
 
 
-def as_body(motion: Tensor) -> Tensor:
+def as_body(motion: Tensor, lowest: float = LOWEST_TOE) -> Tensor:
     """Decoded joints (N, T, 22, 3) as a body that can exist: bones of constant length, feet where they were."""
-    return keep_footing(constant_bones(motion), motion)
+    return keep_footing(constant_bones(motion), motion, lowest)

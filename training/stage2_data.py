@@ -164,14 +164,18 @@ class Windows:
             for i, clip in enumerate(clips)
             for s in range(0, max(len(clip) - block, 0) + 1, max(stride // STRIDE, 1))
         ]
+        # How a couple comes together and parts is in few windows, and nothing else is like it.
+        self.ends = [(i, s) for i, clip in enumerate(clips) for s in (0, max(len(clip) - block, 0))]
         self.random = np.random.default_rng(seed)
         self.spread = torch.cat([clip.features for clip in clips]).std(0)
 
-    def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05) -> Batch:
-        chosen = self.random.integers(len(self.starts), size=n)
-        windows = [
-            self._window(index, start, short, song_ends) for index, start in (self.starts[i] for i in chosen)
-        ]
+    def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05, ends: float = 0.15) -> Batch:
+        """short: share of windows cut short at either end; song_ends: of those in which the song stops; ends: of
+        those at the beginning or the end of a dance."""
+        windows = []
+        for at_end in self.random.random(n) < ends:
+            among = self.ends if at_end else self.starts
+            windows.append(self._window(*among[int(self.random.integers(len(among)))], short, song_ends))
         stacked = [torch.stack([w[k] for w in windows]) for k in range(10)]
         return Batch(*stacked)
 

@@ -87,6 +87,19 @@ def test_a_noisy_leader_moves_slowly_off_the_truth_by_at_most_so_much(clip: Clip
     assert min(sizes) < 0.1 < 0.3 < max(sizes) < 0.6
 
 
+def test_beginnings_and_ends_of_dances_are_seen_often(clip: Clip) -> None:
+    last = len(clip) - BLOCK
+    for share in (0.0, 0.5):
+        batch = windows(clip, PLAIN).batch(300, short=0.0, song_ends=0.0, ends=share)
+        first, final = (
+            sum(torch.equal(latents, clip.latents[s : s + BLOCK]) for latents in batch.latents)
+            for s in (0, last)
+        )
+        expected = 300 * (share / 2 + (1 - share) / (last + 1))
+        assert expected / 1.6 < first < expected * 1.6
+        assert expected / 1.6 < final < expected * 1.6
+
+
 def test_slow_noise_has_unit_spread_at_its_knots_and_no_jerks() -> None:
     noise = slow_noise(np.random.default_rng(0), 301, 200, every=15)
     assert noise.shape == (301, 200)
