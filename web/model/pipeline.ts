@@ -7,12 +7,11 @@ import { ModelError } from './error';
 import { checkCoarse, checkRequest, type CoarseRequest, type GenerateRequest, prepareInput } from './inputs';
 import type { Manifest } from './manifest';
 import { noise } from './noise';
-import { around, blockAt, worthPreview, worthReach } from './preview';
+import { around, type Plan, planWork } from './preview';
 import { type Progress, tell, tellRuns } from './progress';
-import { partitions, sample, type Sampling } from './sampler';
+import { sample, type Sampling } from './sampler';
 import { ddim } from './schedule';
 import type { ModelSession } from './session';
-import { reachesAround } from './spread';
 import { nextTurn } from './turn';
 
 /** The partner, at the leader's size and as long as the leader. */
@@ -64,16 +63,6 @@ function sameInput(a: ConditionInput, b: ConditionInput): boolean {
   );
 }
 
-/** What a generation computes, in blocks that go through the step graph. */
-interface Plan {
-  readonly runs: number;
-  /** Blocks of the preview, and the block that it is of. */
-  readonly before: number;
-  readonly block: Block | null;
-  /** Parts of the whole that are shown as they are done; the whole itself is the last. */
-  readonly reaches: readonly Block[] | undefined;
-}
-
 /** From a leader and a song to the partner's solved motion, on an open session. */
 export class Pipeline {
   #memory: { input: ConditionInput; memory: Float32Array } | undefined;
@@ -100,7 +89,9 @@ export class Pipeline {
     const memory = await this.#remember(condition, options);
     times.push(this.now());
     const sampling = this.#sampling(request, memory, options);
-    const plan = this.#plan(sampling, options);
+    const place =
+      options.onPreview && options.at !== undefined ? options.at / this.manifest.latent.stride : null;
+    const plan = planWork(sampling, place, this.#pace);
     const every = this.manifest.latent.layers.map(() => 1);
     const shape = (latents: Float32Array): Promise<MotionClip> =>
       this.#decode(request.leader, latents, condition.leader, scale, every, options);
@@ -152,20 +143,6 @@ export class Pipeline {
     const clip = await this.#decode(leader, latents, condition.leader, scale, layers, { signal });
     await nextTurn(signal);
     return solve(clip);
-  }
-
-  #plan(sampling: Sampling, { at, onPreview }: GenerateOptions): Plan {
-    const { latent } = this.manifest;
-    const cut = partitions(sampling);
-    const runs = cut.flat().length;
-    const whole = { runs, before: 0, block: null, reaches: undefined };
-    if (at === undefined || !onPreview) return whole;
-    const place = at / latent.stride;
-    const reaches = reachesAround(cut, place, (left) => worthReach(left, runs, this.#pace));
-    const block = blockAt(sampling.latents, latent.block, place);
-    const before = partitions({ ...sampling, latents: block.length }).flat().length;
-    if (!worthPreview(before, runs, this.#pace)) return { ...whole, reaches };
-    return { runs, before, block, reaches };
   }
 
   /** Latents of one block sampled for itself: without its neighbours it is not quite what it will be, but soon there. */

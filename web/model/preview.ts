@@ -1,5 +1,7 @@
 /** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
 import type { Block } from './blocks';
+import { partitions, type Sampling } from './sampler';
+import { reachesAround } from './spread';
 
 /** A run that is over sooner than this needs no preview, seconds. */
 const SOON = 0.3;
@@ -7,6 +9,32 @@ const SOON = 0.3;
 const WORTH = 0.5;
 /** Less than this of the whole is not worth drawing a picture before it. */
 const LAST = 0.2;
+
+/** What a generation computes, counted in blocks that go through the step graph. */
+export interface Plan {
+  readonly runs: number;
+  /** Blocks of the preview, and the block that it is of. */
+  readonly before: number;
+  readonly block: Block | null;
+  /** Parts of the whole that are shown as they are done; the whole itself is the last. */
+  readonly reaches: readonly Block[] | undefined;
+}
+
+/**
+ * The work of a sampling in the order that serves someone who looks at one place.
+ * @param place latent frame, null when nobody looks
+ * @param pace seconds that one block took in one step before; undefined when it was not measured
+ */
+export function planWork(sampling: Sampling, place: number | null, pace: number | undefined): Plan {
+  const cut = partitions(sampling);
+  const runs = cut.flat().length;
+  const whole = { runs, before: 0, block: null, reaches: undefined };
+  if (place === null) return whole;
+  const reaches = reachesAround(cut, place, (left) => worthReach(left, runs, pace));
+  const block = blockAt(sampling.latents, sampling.latent.block, place);
+  const before = partitions({ ...sampling, latents: block.length }).flat().length;
+  return worthPreview(before, runs, pace) ? { runs, before, block, reaches } : { ...whole, reaches };
+}
 
 /** The block of the plain partition that holds a latent frame; frames outside the clip count as its ends. */
 export function blockAt(latents: number, size: number, latent: number): Block {
