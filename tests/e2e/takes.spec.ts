@@ -7,6 +7,14 @@ import { expect, test } from './fixtures';
 /** The list of takes as a visitor sees it. */
 const takes = (page: Page): Locator => page.getByRole('grid', { name: 'Takes' }).getByRole('row');
 const take = (page: Page, name: string): Locator => takes(page).filter({ hasText: name });
+/** The numbers of the coarse ghost, decoded from what the take on the stage was kept with. */
+async function coarseGhost(app: App): Promise<number[]> {
+  await app.page.keyboard.press('g');
+  await app.until(({ coarse, shown }) => shown.ghost && coarse.motion && !coarse.decoding);
+  const positions = await app.read(({ coarse }) => Array.from(coarse.motion?.positions ?? []));
+  await app.page.keyboard.press('g');
+  return positions;
+}
 const titles = (page: Page): Promise<string[]> => takes(page).locator('b').allTextContents();
 
 /** A page with two takes of its own: `Take 1` and, on the stage, `Take 2`. */
@@ -121,6 +129,8 @@ test('everything survives a reload, and a project file a page that starts afresh
   await page.keyboard.press('Enter');
   const before = await summary();
   const motion = await app.reactor();
+  const ghost = await coarseGhost(app);
+  expect(farthest(ghost, motion)).toBeGreaterThan(1e-4);
   expect(before.takes).toHaveLength(2);
   expect(before.answers).toBe(true);
 
@@ -134,8 +144,9 @@ test('everything survives a reload, and a project file a page that starts afresh
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
     await app.until(({ model, job }) => model.phase === 'ready' && !job);
-    // All of it was there: nothing had to be made.
+    // All of it was there, also what the coarse ghost is decoded from: nothing had to be made.
     expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
     expect(await summary()).toEqual(before);
   });
 
@@ -167,6 +178,7 @@ test('everything survives a reload, and a project file a page that starts afresh
     await app.until(({ takes }) => takes.length === 2);
     expect(await summary()).toEqual(before);
     expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
     await app.drop({ name: 'torn.reactdance', mimeType: '', buffer: saved.subarray(0, saved.length / 2) });
     await expect(app.alert).toContainText('torn.reactdance: The project is cut off or damaged.');
     await page.keyboard.press('Escape');

@@ -102,5 +102,8 @@ export const mountShowMenu: Mount = (root, store, services) => {
 function noteWords(state: AppState): string {
   if (!coarseIsMissing(state)) return 'Decoding the coarse layer';
   if (state.job) return 'Being generated';
-  return `The ${state.reaction?.label ?? 'reaction'} came ready-made, without its layers.`;
+  const label = state.reaction?.label ?? null;
+  return label === null
+    ? 'This take was made by another model, or kept without its layers.'
+    : `The ${label} came ready-made, without its layers.`;
 }

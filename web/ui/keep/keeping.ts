@@ -117,16 +117,16 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
     apply(store, visitEnded());
     const before = store.getState();
     await readers.manifest();
-    const revival = reviving(kept, store.getState(), knownAs);
+    const revival = reviving(kept, knownAs);
     await revival.readPage(inSight);
     const { leader, song, takes } = store.getState();
     // Files that the visitor was quicker with stay.
     const overtaken = leader !== before.leader || song !== before.song || takes.length > 0;
-    if (overtaken) apply(store, takesBroughtBack(revival.content().takes ?? []));
-    else apply(store, broughtBack(revival.content()));
+    if (overtaken) apply(store, takesBroughtBack(revival.content(store.getState()).takes ?? []));
+    else apply(store, broughtBack(revival.content(store.getState())));
     begin();
     void revival.readRest(aside).then(() => {
-      apply(store, takesBroughtBack(revival.content().takes ?? []));
+      apply(store, takesBroughtBack(revival.content(store.getState()).takes ?? []));
       for (const loss of revival.losses()) apply(store, remarked(loss));
     });
     return true;
@@ -138,13 +138,13 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       const kept = readProject(new Uint8Array(await file.arrayBuffer()));
       await readers.manifest();
       const before = store.getState();
-      const revival = reviving(kept, before);
+      const revival = reviving(kept);
       await revival.readPage(inSight);
       await revival.readRest(aside);
       const now = store.getState();
       // A file that the visitor chose meanwhile is the newer wish.
       if (now.leader !== before.leader || now.song !== before.song) return false;
-      const content = revival.content();
+      const content = revival.content(now);
       if (kept.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
       for (const loss of revival.losses()) apply(store, remarked(loss));
