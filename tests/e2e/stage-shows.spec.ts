@@ -18,11 +18,12 @@ const SHOWS = [
 const onStage = <T>(page: Page, use: (stage: Stage) => T): Promise<T> =>
   page.evaluate<T>(`(${use.toString()})(window.reactdance.stage)`);
 
-/** Another reactor, made of the one that is there: the coarse layer. Called in the page. */
+/** Another reactor, made of the one that is there: the coarse layer, which is its own ghost too. */
 const compare = (page: Page, mode: 'ghost' | 'side' | null): Promise<void> =>
   page.evaluate(`
     const { stage, store } = window.reactdance;
     const { motion } = store.getState().coarse;
+    stage.setCoarse(motion, ${mode === 'side' ? 'motion' : 'null'});
     stage.setOther(${mode === null} ? null : { motion, mode: '${mode}', labels: { a: 'A Softer', b: 'B Sharper' } });
   `);
 

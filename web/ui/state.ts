@@ -214,9 +214,11 @@ export interface Shown {
   readonly ghost: boolean;
 }
 
-/** The reactor that the coarse layer alone says. While another is being decoded, the one before stays. */
+/** The made dancer whom the coarse layer alone says. While another is being decoded, the one before stays. */
 export interface CoarseLayer {
   readonly motion: SolvedMotion | null;
+  /** That of the other take, while it stands beside the one on the stage; null until it is decoded. */
+  readonly other: SolvedMotion | null;
   readonly decoding: boolean;
 }
 

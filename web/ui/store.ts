@@ -43,7 +43,7 @@ export function initialState(theme: Theme): AppState {
     theme,
     camera: 'orbit',
     shown: NOTHING_SHOWN,
-    coarse: { motion: null, decoding: false },
+    coarse: { motion: null, other: null, decoding: false },
     visiting: true,
     demo: 'loading',
     open: null,
