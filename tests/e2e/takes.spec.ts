@@ -18,11 +18,11 @@ async function coarseGhost(app: App): Promise<number[]> {
 const titles = (page: Page): Promise<string[]> => takes(page).locator('b').allTextContents();
 
 /** A page with two takes of its own: `Take 1` and, on the stage, `Take 2`. */
-async function withTwoTakes(page: Page): Promise<App> {
+async function withTwoTakes(page: Page, frames = 90): Promise<App> {
   await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
   await app.openWithoutPicture();
-  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames, name: 'mine.bvh' }));
   await app.until(({ reaction, song, job }) => reaction?.inputs.song === song && song && !job);
   await page.getByRole('spinbutton', { name: 'Seed' }).fill('77');
   await page.keyboard.press('Enter');
@@ -32,8 +32,8 @@ async function withTwoTakes(page: Page): Promise<App> {
   return app;
 }
 
-/** Waits until the browser has kept what is on the page. */
-async function kept(page: Page, name: string): Promise<void> {
+/** Waits until the browser has kept so many takes, one of them by this name. */
+async function kept(page: Page, name: string, count = 2): Promise<void> {
   const names = `new Promise((resolve, reject) => {
     const open = indexedDB.open('reactdance');
     open.onerror = () => reject(open.error);
@@ -42,7 +42,12 @@ async function kept(page: Page, name: string): Promise<void> {
       all.onsuccess = () => { open.result.close(); resolve(all.result.map((take) => take.name)); };
     };
   })`;
-  await expect.poll(() => page.evaluate<(string | null)[]>(names)).toContain(name);
+  await expect
+    .poll(async () => {
+      const all = await page.evaluate<(string | null)[]>(names);
+      return [all.length, all.includes(name)];
+    })
+    .toEqual([count, true]);
 }
 
 test('takes are named, starred, flipped on the same beat, deleted and brought back', async ({ page }) => {
@@ -194,6 +199,53 @@ test('everything survives a reload, and a project file a page that starts afresh
     await expect(takes(page)).toHaveCount(1);
     await expect(takes(page)).toContainText(['Softer hands']);
   });
+});
+
+test('a browser that is full says so, loses nothing on the page, and keeps on when there is room', async ({
+  page,
+}) => {
+  const app = await withTwoTakes(page, 900);
+  const [, oldest = ''] = await titles(page);
+  const rename = async (row: Locator, name: string): Promise<void> => {
+    await row.dblclick();
+    await page.keyboard.type(name);
+    await page.keyboard.press('Enter');
+  };
+  await rename(takes(page).first(), 'Softer hands');
+  await kept(page, 'Softer hands');
+  // As if the disk were nearly full: one more take, of 30 s, has no room.
+  const session = await page.context().newCDPSession(page);
+  const used = await page.evaluate(async () => (await navigator.storage.estimate()).usage ?? 0);
+  await session.send('Storage.overrideQuotaForOrigin', {
+    origin: new URL(page.url()).origin,
+    quotaSize: used + 300_000,
+  });
+  await page.getByRole('spinbutton', { name: 'Seed' }).fill('78');
+  await page.keyboard.press('Enter');
+  await expect(app.alert).toContainText('The space that this browser has for the page is full.');
+  await expect(app.alert).toContainText('Delete takes that you don’t need');
+  await expect(app.alert.getByRole('button', { name: 'Save project' })).toBeVisible();
+  await app.alert.getByRole('button', { name: 'Close' }).click();
+  const note = page.getByRole('list', { name: 'Notes' }).getByText(/^The space .* is full/);
+  await expect(note).toBeVisible();
+  await expect(takes(page)).toHaveCount(3);
+  const newest = await app.reactor();
+  expect(newest).toHaveLength(900 * 66);
+
+  // What is small is kept all the same, and it is said only once.
+  await rename(take(page, 'Softer hands'), 'Harder hands');
+  await kept(page, 'Harder hands');
+  await expect(app.alert).toBeHidden();
+
+  await take(page, oldest).focus();
+  await page.keyboard.press('Delete');
+  await expect(note).toBeHidden();
+  await rename(takes(page).first(), 'There at last');
+  await kept(page, 'There at last');
+  await page.reload();
+  await app.until(({ takes }) => takes.length === 2);
+  await expect(takes(page)).toContainText(['There at last', 'Harder hands']);
+  expect(farthest(newest, await app.reactor())).toBe(0);
 });
 
 test('a browser that keeps nothing says so, and the page goes on', async ({ page }) => {

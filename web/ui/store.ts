@@ -65,6 +65,7 @@ export function initialState(theme: Theme): AppState {
     letter: 'A',
     compare: 'off',
     history: NO_HISTORY,
+    keeping: 'kept',
     footLock: true,
     quality: null,
     reference: null,
