@@ -36,10 +36,10 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
   const place = await mark.boundingBox();
   await page.keyboard.press('Escape');
   await expect(card).toBeHidden();
-  await feet.hover();
+  await page.mouse.move(400, 5);
   await mark.hover();
   await expect(card).toBeVisible();
-  await feet.hover();
+  await page.mouse.move(400, 5);
   await page.evaluate('document.activeElement.blur()');
   await expect(card).toBeHidden();
   expect(await mark.boundingBox()).toEqual(place);
