@@ -80,7 +80,7 @@ export function mountQualityStrip(
     });
     all.draw({
       ...empty,
-      sentence: PARTS.map((part) => words[part].sentence).join('\n'),
+      sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
       rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
       fps: reactor.fps,
       marks: flagged(marksInOne(marks, (MARK_ROOM * (to - from) * reactor.fps) / all.lane.clientWidth)),
