@@ -34,7 +34,7 @@ import { mountProgress } from './ui/progress';
 import { couple, madeRole } from './ui/couple';
 import { createQuality } from './ui/quality';
 import { readReference } from './ui/quality-reference';
-import { coarseMotion } from './ui/reactor-motion';
+import { coarseMotion, otherCoarseMotion } from './ui/reactor-motion';
 import { saveFile } from './ui/save';
 import type { Services } from './ui/services';
 import { isProject } from './ui/sniff';
@@ -102,6 +102,11 @@ watch(
     showTheme(theme);
   },
 );
+
+// Style sheets colour what acts on the made dancer as the stage does.
+watch(store, madeRole, (role) => {
+  document.documentElement.dataset['made'] = role;
+});
 
 // ---- the page on this device, for the next visit ----
 
@@ -206,7 +211,11 @@ function showOn(shown: Stage): () => void {
         shownAs = now;
       },
     ),
-    watch(store, coarseMotion, (coarse) => shown.setCoarse(coarse)),
+    watchAll(
+      store,
+      (state) => [coarseMotion(state), otherCoarseMotion(state)],
+      (state) => shown.setCoarse(coarseMotion(state), otherCoarseMotion(state)),
+    ),
     watch(
       store,
       (state) => state.shown,

@@ -72,6 +72,13 @@ test('the seed is rolled, locked and kept, and roles are swapped in every word',
   await app.until(({ job, reaction }) => !job && reaction?.inputs.settings.role === 'leader');
   expect(farthest(reactor, await app.reactor())).toBeGreaterThan(1e-3);
   await expect(page.getByRole('button', { name: /^Reactor: mine\.bvh/ })).toBeVisible();
+  // The letter of the take on the stage has the colour of the dancer that it made.
+  const letter = page.getByRole('button', { name: /^Use .* as A$/, pressed: true });
+  const leader = await page
+    .getByRole('listitem')
+    .filter({ hasText: 'Leader' })
+    .evaluate((item) => getComputedStyle(item).color);
+  await expect(letter).toHaveCSS('background-color', leader);
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   const menu = page.getByRole('dialog', { name: 'Download' });
   await expect(menu.getByRole('radio', { name: 'Leader' })).toBeChecked();

@@ -23,11 +23,31 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
 
   const mark = timeline.getByRole('button', { name: /^1\. .* (at|around) 0:\d\d\.\d$/ });
   await expect(mark).toHaveText('1');
-  const [, seconds = ''] = /0:(\d\d\.\d)$/.exec((await mark.getAttribute('title')) ?? '') ?? [];
+  const [, seconds = ''] = /0:(\d\d\.\d)$/.exec((await mark.getAttribute('aria-label')) ?? '') ?? [];
   expect(await app.read(({ playback }) => playback.time)).not.toBeCloseTo(Number(seconds), 0);
   await mark.click();
   expect(Math.abs((await app.read(({ playback }) => playback.time)) - Number(seconds))).toBeLessThan(0.11);
   await expect(page.getByRole('slider', { name: 'Playhead' })).toHaveAttribute('aria-valuetext', /./);
+
+  // What a mark means is seen under the pointer, with the focus and after a tap, and nothing moves for it.
+  const card = page.getByRole('tooltip');
+  await expect(card).toContainText(`0:${seconds}`);
+  await expect(mark).toHaveAccessibleDescription(/\. (Up|By|Around) .*\.$/);
+  const place = await mark.boundingBox();
+  await page.keyboard.press('Escape');
+  await expect(card).toBeHidden();
+  await page.mouse.move(400, 5);
+  await mark.hover();
+  await expect(card).toBeVisible();
+  await page.mouse.move(400, 5);
+  await page.evaluate('document.activeElement.blur()');
+  await expect(card).toBeHidden();
+  expect(await mark.boundingBox()).toEqual(place);
+  const label = timeline.getByRole('button', { name: /^Feet/ });
+  await label.focus();
+  await expect(card).toContainText('of the time they touch the floor');
+  await page.keyboard.press('Tab');
+  await expect(card).not.toContainText('of the time they touch the floor');
 
   const share = async (): Promise<number> =>
     Number(/(\d+) %/.exec((await feet.getAttribute('aria-label')) ?? '')?.[1]);

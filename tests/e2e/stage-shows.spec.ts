@@ -18,11 +18,12 @@ const SHOWS = [
 const onStage = <T>(page: Page, use: (stage: Stage) => T): Promise<T> =>
   page.evaluate<T>(`(${use.toString()})(window.reactdance.stage)`);
 
-/** Another reactor, made of the one that is there: the coarse layer. Called in the page. */
+/** Another reactor, made of the one that is there: the coarse layer, with the whole reactor for its ghost. */
 const compare = (page: Page, mode: 'ghost' | 'side' | null): Promise<void> =>
   page.evaluate(`
     const { stage, store } = window.reactdance;
-    const { motion } = store.getState().coarse;
+    const { reaction, coarse: { motion } } = store.getState();
+    stage.setCoarse(motion, ${mode === 'side' ? 'reaction.motion' : 'null'});
     stage.setOther(${mode === null} ? null : { motion, mode: '${mode}', labels: { a: 'A Softer', b: 'B Sharper' } });
   `);
 
@@ -41,10 +42,10 @@ async function rest(page: Page): Promise<void> {
     .toBe(0);
 }
 
-/** How many pixels of the stage differ between two pictures of it. */
-async function differing(page: Page, [a, b]: readonly [Buffer, Buffer]): Promise<number> {
+/** How many pixels of the stage differ between two pictures of it, right of a share of its width. */
+async function differing(page: Page, [a, b]: readonly [Buffer, Buffer], rightOf = 0): Promise<number> {
   return page.evaluate(
-    async (pictures) => {
+    async ({ pictures, rightOf }) => {
       const [one, two] = await Promise.all(
         pictures.map(async (base64) => {
           const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -52,7 +53,8 @@ async function differing(page: Page, [a, b]: readonly [Buffer, Buffer]): Promise
           const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
           if (!context) throw new Error('No canvas to look at the picture with.');
           context.drawImage(image, 0, 0);
-          return context.getImageData(0, 0, image.width, image.height).data;
+          const left = Math.round(rightOf * image.width);
+          return context.getImageData(left, 0, image.width - left, image.height).data;
         }),
       );
       if (!one || !two) throw new Error('Two pictures are compared.');
@@ -61,7 +63,7 @@ async function differing(page: Page, [a, b]: readonly [Buffer, Buffer]): Promise
         if ([0, 1, 2].some((channel) => Math.abs(one[i + channel]! - two[i + channel]!) > 12)) count++;
       return count;
     },
-    [a.toString('base64'), b.toString('base64')],
+    { pictures: [a.toString('base64'), b.toString('base64')], rightOf },
   );
 }
 
@@ -138,6 +140,15 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   const left = onTheLeft(both);
   expect(left).toBeGreaterThan(0.3 * warm.size);
   expect(both.size - left).toBeGreaterThan(0.3 * warm.size);
+
+  // Each half has the coarse ghost of its own take.
+  const without = await picture(page);
+  await page.keyboard.press('g');
+  await onStage(page, (stage) => stage.ready());
+  await compare(page, 'side');
+  await rest(page);
+  expect(await differing(page, [without, await picture(page)], 0.5)).toBeGreaterThan(300);
+  await page.keyboard.press('g');
 
   await compare(page, 'ghost');
   await rest(page);

@@ -7,14 +7,23 @@ import { expect, test } from './fixtures';
 /** The list of takes as a visitor sees it. */
 const takes = (page: Page): Locator => page.getByRole('grid', { name: 'Takes' }).getByRole('row');
 const take = (page: Page, name: string): Locator => takes(page).filter({ hasText: name });
+/** The numbers of the coarse ghost, decoded from what the take on the stage was kept with. */
+async function coarseGhost(app: App): Promise<number[]> {
+  await app.page.keyboard.press('g');
+  await app.until(({ coarse, shown }) => shown.ghost && coarse.motion && !coarse.decoding);
+  const positions = await app.read(({ coarse }) => Array.from(coarse.motion?.positions ?? []));
+  await app.page.keyboard.press('g');
+  return positions;
+}
 const titles = (page: Page): Promise<string[]> => takes(page).locator('b').allTextContents();
 
 /** A page with two takes of its own: `Take 1` and, on the stage, `Take 2`. */
-async function withTwoTakes(page: Page): Promise<App> {
+async function withTwoTakes(page: Page, frames = 90, before?: (app: App) => Promise<void>): Promise<App> {
   await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
   await app.openWithoutPicture();
-  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames: 90, name: 'mine.bvh' }));
+  await before?.(app);
+  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames, name: 'mine.bvh' }));
   await app.until(({ reaction, song, job }) => reaction?.inputs.song === song && song && !job);
   await page.getByRole('spinbutton', { name: 'Seed' }).fill('77');
   await page.keyboard.press('Enter');
@@ -24,17 +33,21 @@ async function withTwoTakes(page: Page): Promise<App> {
   return app;
 }
 
-/** Waits until the browser has kept what is on the page. */
-async function kept(page: Page, name: string): Promise<void> {
-  const names = `new Promise((resolve, reject) => {
+/** The names of the takes that the browser has kept; null for those that have only a number. */
+async function keptNames(page: Page): Promise<(string | null)[]> {
+  return page.evaluate(`new Promise((resolve, reject) => {
     const open = indexedDB.open('reactdance');
     open.onerror = () => reject(open.error);
     open.onsuccess = () => {
       const all = open.result.transaction('takes').objectStore('takes').getAll();
       all.onsuccess = () => { open.result.close(); resolve(all.result.map((take) => take.name)); };
     };
-  })`;
-  await expect.poll(() => page.evaluate<(string | null)[]>(names)).toContain(name);
+  })`);
+}
+
+/** Waits until the browser has kept a take by this name. */
+async function kept(page: Page, name: string): Promise<void> {
+  await expect.poll(() => keptNames(page)).toContain(name);
 }
 
 test('takes are named, starred, flipped on the same beat, deleted and brought back', async ({ page }) => {
@@ -121,6 +134,8 @@ test('everything survives a reload, and a project file a page that starts afresh
   await page.keyboard.press('Enter');
   const before = await summary();
   const motion = await app.reactor();
+  const ghost = await coarseGhost(app);
+  expect(farthest(ghost, motion)).toBeGreaterThan(1e-4);
   expect(before.takes).toHaveLength(2);
   expect(before.answers).toBe(true);
 
@@ -134,8 +149,9 @@ test('everything survives a reload, and a project file a page that starts afresh
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
     await app.until(({ model, job }) => model.phase === 'ready' && !job);
-    // All of it was there: nothing had to be made.
+    // All of it was there, also what the coarse ghost is decoded from: nothing had to be made.
     expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
     expect(await summary()).toEqual(before);
   });
 
@@ -167,6 +183,7 @@ test('everything survives a reload, and a project file a page that starts afresh
     await app.until(({ takes }) => takes.length === 2);
     expect(await summary()).toEqual(before);
     expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
     await app.drop({ name: 'torn.reactdance', mimeType: '', buffer: saved.subarray(0, saved.length / 2) });
     await expect(app.alert).toContainText('torn.reactdance: The project is cut off or damaged.');
     await page.keyboard.press('Escape');
@@ -182,6 +199,58 @@ test('everything survives a reload, and a project file a page that starts afresh
     await expect(takes(page)).toHaveCount(1);
     await expect(takes(page)).toContainText(['Softer hands']);
   });
+});
+
+test('a browser that is full says so, loses nothing on the page, and keeps on when there is room', async ({
+  page,
+}) => {
+  // As if the disk were nearly full: there is room for a few takes of 30 s.
+  const app = await withTwoTakes(page, 900, async (opened) => {
+    await opened.until(({ model }) => model.phase === 'ready');
+    const used = await page.evaluate(async () => (await navigator.storage.estimate()).usage ?? 0);
+    const origin = new URL(page.url()).origin;
+    const session = await page.context().newCDPSession(page);
+    await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: used + 2_500_000 });
+  });
+  const rename = async (row: Locator, name: string): Promise<void> => {
+    await row.dblclick();
+    await page.keyboard.type(name);
+    await page.keyboard.press('Enter');
+  };
+  const oldest = (await titles(page)).at(-1) ?? '';
+  const isFull = () => app.read(({ keeping }) => keeping === 'full');
+  let count = 2;
+  for (; !(await isFull()) && count < 12; count++) {
+    await expect.poll(async () => (await keptNames(page)).length).toBe(count);
+    await page.getByRole('spinbutton', { name: 'Seed' }).fill(String(100 + count));
+    await page.keyboard.press('Enter');
+    await app.until(({ takes }, before) => takes.length > before, count);
+    await expect.poll(async () => (await isFull()) || (await keptNames(page)).length > count).toBe(true);
+  }
+  await expect(app.alert).toContainText('The space that this browser has for the page is full.');
+  await expect(app.alert).toContainText('Delete takes that you don’t need');
+  await expect(app.alert.getByRole('button', { name: 'Save project' })).toBeVisible();
+  await app.alert.getByRole('button', { name: 'Close' }).click();
+  const note = page.getByRole('list', { name: 'Notes' }).getByText(/^The space .* is full/);
+  await expect(note).toBeVisible();
+  await expect(takes(page)).toHaveCount(count);
+  expect(await keptNames(page)).toHaveLength(count - 1);
+  const newest = await app.reactor();
+
+  // What is small is kept all the same, and it is said only once.
+  await rename(takes(page).nth(1), 'Softer hands');
+  await kept(page, 'Softer hands');
+  await expect(app.alert).toBeHidden();
+
+  await take(page, oldest).focus();
+  await page.keyboard.press('Delete');
+  await expect(note).toBeHidden();
+  await rename(takes(page).first(), 'There at last');
+  await kept(page, 'There at last');
+  await page.reload();
+  await app.until(({ takes }, rest) => takes.length === rest, count - 1);
+  await take(page, 'There at last').click();
+  expect(farthest(newest, await app.reactor())).toBe(0);
 });
 
 test('a browser that keeps nothing says so, and the page goes on', async ({ page }) => {

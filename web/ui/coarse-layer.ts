@@ -3,14 +3,22 @@ import type { SolvedMotion } from '../motion/clip';
 import { coarseProblem, isAbort } from './problems';
 import type { AppState, Reaction } from './state';
 import { apply, coarseChanged, shownToggled, told, watchAll, type Store } from './store';
+import { otherTake } from './takes/take';
 
 /** Whether the reaction on the stage can't tell its coarse layer, since it was not made here. */
 export const coarseIsMissing = ({ reaction }: Pick<AppState, 'reaction'>): boolean =>
   reaction !== null && reaction.latents === null;
 
+/** The reaction that stands beside the one on the stage, each in its own half of the picture. */
+export const besideStage = (state: AppState): Reaction | null =>
+  state.compare === 'side' ? (otherTake(state)?.reaction ?? null) : null;
+
+/** A reaction that can tell its coarse layer. */
+type Layered = Reaction & { readonly latents: Float32Array };
+
 /**
- * Decodes the coarse layer of the reaction on the stage when somebody wants to see it: once for each reaction, dropped
- * when another reaction takes its place.
+ * Decodes the coarse layer of the reaction on the stage, and of the one beside it, when somebody wants to see it: once
+ * for each reaction, dropped when another reaction takes its place.
  * @param model resolves with the model that makes the reactions
  * @returns how to stop
  */
@@ -19,19 +27,35 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
   const known = new WeakMap<Float32Array, SolvedMotion>();
   let running: AbortController | null = null;
 
-  const decode = async ({ inputs }: Reaction, latents: Float32Array): Promise<void> => {
+  const decoded = (reaction: Reaction | null): SolvedMotion | null =>
+    (reaction?.latents && known.get(reaction.latents)) ?? null;
+
+  /** Shows what is known by now. */
+  const show = (decoding: boolean): void => {
+    const state = store.getState();
+    const { reaction, coarse } = state;
+    const before = decoding && reaction?.latents ? coarse.motion : null;
+    const now = { motion: decoded(reaction) ?? before, other: decoded(besideStage(state)), decoding };
+    if (now.motion !== coarse.motion || now.other !== coarse.other || decoding !== coarse.decoding)
+      apply(store, coarseChanged(now));
+  };
+
+  const decode = async (missing: readonly Layered[]): Promise<void> => {
     const controller = new AbortController();
     running = controller;
     const { signal } = controller;
-    apply(store, coarseChanged({ decoding: true }));
+    show(true);
     try {
       const generator = await model();
-      const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
-      known.set(latents, motion);
-      if (!signal.aborted) apply(store, coarseChanged({ motion, decoding: false }));
+      for (const { inputs, latents } of missing) {
+        const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
+        known.set(latents, motion);
+        if (signal.aborted) return;
+        show(latents !== missing.at(-1)?.latents);
+      }
     } catch (error) {
       if (signal.aborted) return;
-      apply(store, coarseChanged({ motion: null, decoding: false }));
+      show(false);
       if (isAbort(error)) return;
       apply(store, told(coarseProblem(error)));
       // Asked for again by hand, not by itself.
@@ -41,15 +65,15 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
 
   const stop = watchAll(
     store,
-    ({ reaction, shown }) => [reaction?.latents, shown.ghost],
-    ({ reaction, shown, coarse }) => {
+    (state) => [state.reaction?.latents, besideStage(state)?.latents, state.shown.ghost],
+    (state) => {
       running?.abort();
       running = null;
-      const latents = reaction?.latents;
-      const motion = latents && known.get(latents);
-      if (reaction && latents && !motion && shown.ghost) void decode(reaction, latents);
-      else if (coarse.decoding || coarse.motion !== (motion ?? null))
-        apply(store, coarseChanged({ motion: motion ?? null, decoding: false }));
+      const missing = [state.reaction, besideStage(state)].filter(
+        (reaction): reaction is Layered => Boolean(reaction?.latents) && !decoded(reaction),
+      );
+      if (state.shown.ghost && missing.length > 0) void decode(missing);
+      else show(false);
     },
   );
   return () => {

@@ -77,7 +77,6 @@ export const mountGuidance: Mount = (root, store, services) => {
       (state) => [state.settings, state.manifest, state.job !== null],
       ({ settings, manifest, job }) => {
         reset.disabled = !settings;
-        section.dataset['made'] = settings?.role ?? 'reactor';
         // A fader is touched a moment before its job begins, and is done with when that job ends.
         if (worked && !job) touched = null;
         worked = job !== null;

@@ -84,7 +84,6 @@ export const mountOptions: Mount = (root, store, services) => {
 
   const show = (state: AppState): void => {
     const { settings, manifest } = state;
-    section.dataset['made'] = madeRole(state);
     for (const control of [fewer, more, swap]) control.disabled = !settings;
     if (settings && manifest) {
       const { min, max } = manifest.diffusion.steps;

@@ -87,6 +87,8 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
       return { text: 'Try again', run: services.retryModel };
     case 'generate':
       return { text: 'Try again', run: services.generate };
+    case 'project':
+      return { text: 'Save project', run: services.saveProject };
     case 'none':
       return null;
   }

@@ -53,6 +53,19 @@ export function projectProblem(error: unknown, name: string, remedy: Problem['re
   };
 }
 
+/** The browser has no more space for what is made here. */
+export function fullProblem(): Problem {
+  return {
+    code: 'storage-full',
+    title: 'The space that this browser has for the page is full.',
+    hint:
+      'All is still here, but what does not fit is lost when the page is closed. Delete takes that you don’t need, ' +
+      'or free space on this device: the rest is then kept by itself. Or save a project file.',
+    remedy: 'project',
+    refused: null,
+  };
+}
+
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
   const told = isTold(error);

@@ -62,7 +62,6 @@ export const mountProgress: Mount = (root, store, services) => {
     }, PATIENCE);
     if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
     setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
-    pill.dataset['made'] = madeRole(state);
     setText(words, jobWords(job, state));
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));

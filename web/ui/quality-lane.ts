@@ -1,4 +1,5 @@
-import { el, setText, setVariable } from './dom';
+import { el, setAttribute, setText, setVariable } from './dom';
+import type { Explainer, Explanation } from './explainer';
 import { surface, token } from './lane-canvas';
 import type { Mark } from './quality-marks';
 
@@ -8,6 +9,13 @@ export interface Shown {
   readonly to: number;
 }
 
+/** A mark with its name and what there is to explain about it. */
+export interface MarkWords {
+  readonly mark: Mark;
+  readonly words: string;
+  readonly explained: Explanation;
+}
+
 /** What a lane shows. */
 export interface LanePicture {
   readonly value: string;
@@ -15,7 +23,7 @@ export interface LanePicture {
   /** Concern per frame, one row or several above each other. */
   readonly rows: readonly Float32Array[];
   readonly fps: number;
-  readonly marks: readonly { readonly mark: Mark; readonly words: string }[];
+  readonly marks: readonly MarkWords[];
   readonly shown: Shown;
 }
 
@@ -38,12 +46,35 @@ export function createQualityLane(
   name: string,
   className: string,
   onMark: (mark: Mark) => void,
+  { explain }: Explainer,
 ): QualityLane {
   const value = el('b');
-  const label = el('div', { class: `lab q ${className}` }, name, value);
+  const label = el('button', { class: `lab q ${className}`, attributes: { type: 'button' } }, name, value);
   const canvas = el('canvas', { attributes: { role: 'img', 'aria-label': `${name}: not measured yet` } });
   const flags = el('div', { class: 'flags' });
   const lane = el('div', { class: `lane q ${className}` }, canvas, flags);
+  /** By place in the list: a mark that only moves stays the same button, with its focus. */
+  const buttons: { readonly flag: HTMLButtonElement; mark: Mark }[] = [];
+  const button = (index: number, mark: Mark): HTMLButtonElement => {
+    const known = buttons[index];
+    if (known) {
+      known.mark = mark;
+      return known.flag;
+    }
+    const flag = el('button', {
+      class: 'flag',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          onMark(made.mark);
+        },
+      },
+    });
+    const made = { flag, mark };
+    buttons.push(made);
+    flags.append(flag);
+    return flag;
+  };
   return {
     label,
     lane,
@@ -53,28 +84,20 @@ export function createQualityLane(
     },
     draw: (picture) => {
       setText(value, picture.value);
-      label.title = picture.sentence;
+      explain(label, { title: name, aside: picture.value, text: picture.sentence });
       canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
       drawHeat(canvas, picture);
       const { from, to } = picture.shown;
-      flags.replaceChildren(
-        ...picture.marks.flatMap(({ mark, words }) => {
-          const at = (mark.moment.frame / picture.fps - from) / Math.max(1e-9, to - from);
-          if (at < 0 || at > 1) return [];
-          const flag = el('button', {
-            class: 'flag',
-            text: String(mark.rank),
-            attributes: { type: 'button', 'aria-label': `${mark.rank}. ${words}`, title: words },
-            on: {
-              click: () => {
-                onMark(mark);
-              },
-            },
-          });
-          setVariable(flag, '--at', at);
-          return [flag];
-        }),
-      );
+      picture.marks.forEach(({ mark, words, explained }, index) => {
+        const flag = button(index, mark);
+        const at = (mark.moment.frame / picture.fps - from) / Math.max(1e-9, to - from);
+        flag.hidden = at < 0 || at > 1;
+        setText(flag, String(mark.rank));
+        setAttribute(flag, 'aria-label', `${mark.rank}. ${words}`);
+        setVariable(flag, '--at', at);
+        explain(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
+      });
+      for (const { flag } of buttons.splice(picture.marks.length)) flag.remove();
     },
   };
 }

@@ -10,9 +10,8 @@ export interface Mark {
 
 /** Marks over all lanes, so that each one still says: look here first. */
 const MOST = 5;
-/** Marks in the one row of low windows, and how close they may lie, as a share of the dance. */
+/** Marks in the one row of low windows and phones. */
 const MOST_IN_ONE = 3;
-const APART_IN_ONE = 1 / 30;
 
 /** The worst moments of all measures, the worst first. */
 export function marksOf(report: Report): Mark[] {
@@ -24,13 +23,14 @@ export function marksOf(report: Report): Mark[] {
     .map((mark, index) => ({ ...mark, rank: index + 1 }));
 }
 
-/** Those that fit into one row without lying on each other; they keep their numbers' order. */
-export function marksInOne(marks: readonly Mark[], frames: number): Mark[] {
+/**
+ * Those that fit into one row without lying on each other; they keep their numbers' order.
+ * @param apart frames that the width of a mark stands for
+ */
+export function marksInOne(marks: readonly Mark[], apart: number): Mark[] {
   const kept: Mark[] = [];
   for (const mark of marks) {
-    const free = kept.every(
-      ({ moment }) => Math.abs(moment.frame - mark.moment.frame) >= APART_IN_ONE * frames,
-    );
+    const free = kept.every(({ moment }) => Math.abs(moment.frame - mark.moment.frame) >= apart);
     if (free && kept.length < MOST_IN_ONE) kept.push({ ...mark, rank: kept.length + 1 });
   }
   return kept;

@@ -1,7 +1,8 @@
 import { together } from './dom';
+import { createExplainer } from './explainer';
 import { createQualityLane, type LanePicture, type Shown } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
-import { laneWords, momentWords, type Part, PART_NAMES } from './quality-words';
+import { laneWords, momentExplained, momentWords, type Part, PART_NAMES } from './quality-words';
 import { reactorMotion } from './reactor-motion';
 import { danceDuration, upToDate } from './selectors';
 import type { Services } from './services';
@@ -11,6 +12,9 @@ import { type Store, watchAll } from './store';
 const PARTS: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
 /** While it plays, a click lands this much before the moment, so that it is seen coming, seconds. */
 const LEAD_IN = 0.5;
+
+/** Room that a mark takes in a row, CSS pixels. */
+const MARK_ROOM = 28;
 
 /** All of the dance. */
 function whole(state: AppState): Shown {
@@ -34,8 +38,9 @@ export function mountQualityStrip(
     const time = moment.frame / (quality?.reactor.fps ?? 30);
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
-  const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo));
-  const all = createQualityLane('Quality', 'q-all', goTo);
+  const explainer = createExplainer();
+  const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo, explainer));
+  const all = createQualityLane('Quality', 'q-all', goTo, explainer);
   root.append(...[...lanes, all].flatMap(({ label, lane }) => [label, lane]));
 
   const draw = (state: AppState): void => {
@@ -53,12 +58,17 @@ export function mountQualityStrip(
       return;
     }
     const { report, reactor } = quality;
+    const { from, to } = empty.shown;
     const reference = state.reference?.model === manifest.id ? state.reference : null;
     const block = (manifest.latent.block * manifest.latent.stride) / manifest.fps;
     const words = laneWords(report, block, reference);
     const marks = marksOf(report);
     const flagged = (some: readonly Mark[]): LanePicture['marks'] =>
-      some.map((mark) => ({ mark, words: momentWords(mark.moment, reactor.fps) }));
+      some.map((mark) => ({
+        mark,
+        words: momentWords(mark.moment, reactor.fps),
+        explained: momentExplained(mark.moment, reactor.fps, report, manifest.quality),
+      }));
     PARTS.forEach((part, index) => {
       lanes[index]?.draw({
         ...empty,
@@ -70,10 +80,10 @@ export function mountQualityStrip(
     });
     all.draw({
       ...empty,
-      sentence: PARTS.map((part) => words[part].sentence).join('\n'),
+      sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
       rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
       fps: reactor.fps,
-      marks: flagged(marksInOne(marks, reactor.frames)),
+      marks: flagged(marksInOne(marks, (MARK_ROOM * (to - from) * reactor.fps) / all.lane.clientWidth)),
     });
   };
 
@@ -101,6 +111,7 @@ export function mountQualityStrip(
     ),
     () => {
       sizes.disconnect();
+      explainer.dispose();
       for (const { label, lane } of [...lanes, all]) {
         label.remove();
         lane.remove();

@@ -1,4 +1,5 @@
-import type { Moment, Report } from '../quality/client';
+import type { Moment, MomentKind, Report, Rules } from '../quality/client';
+import type { Explanation } from './explainer';
 import { clockTime } from './format';
 import type { Reference } from './quality-reference';
 
@@ -22,6 +23,7 @@ export const PART_NAMES: Readonly<Record<Part, string>> = {
 const percent = (share: number): string => `${Math.round(share * 100)} %`;
 const metres = (length: number): string => `${length.toFixed(2)} m`;
 const centimetres = (length: number): string => `${(length * 100).toFixed(length < 0.095 ? 1 : 0)} cm`;
+const speed = (value: number): string => `${value.toFixed(2)} m/s`;
 const score = (value: number): string => value.toFixed(2);
 const NOTHING = '–';
 
@@ -59,7 +61,7 @@ function feetWords(
     sentence:
       `Feet slide ${percent(skateShare)} of the time they touch the floor` +
       `${recorded(reference?.skateShare, percent)}. Less is steadier. ` +
-      `They touch it ${percent(contactShare)} of the dance and move ${slideSpeed.toFixed(2)} m/s then.`,
+      `They touch it ${percent(contactShare)} of the dance and move ${speed(slideSpeed)} then.`,
   };
 }
 
@@ -103,19 +105,58 @@ function seamWords({ seams, ratio }: Report['seams']['whole'], block: number): L
   };
 }
 
-/** What a mark says: `Foot slide, 0.71 m/s at 0:25.1`. */
+const KIND_NAMES: Readonly<Record<MomentKind, string>> = {
+  slide: 'Foot slide',
+  overlap: 'Bodies overlap',
+  music: 'Off the music’s beat',
+  leader: 'Off the leader’s beat',
+  seam: 'Rough seam',
+};
+
+/** What a mark is called: `Foot slide, 0.71 m/s at 0:25.1`. */
 export function momentWords({ kind, value, frame }: Moment, fps: number): string {
   const at = clockTime(frame / fps);
+  const name = KIND_NAMES[kind];
   switch (kind) {
     case 'slide':
-      return `Foot slide, ${value.toFixed(2)} m/s at ${at}`;
+      return `${name}, ${speed(value)} at ${at}`;
     case 'overlap':
-      return `Bodies overlap, ${centimetres(value)} at ${at}`;
+      return `${name}, ${centimetres(value)} at ${at}`;
     case 'music':
-      return `Off the music's beat, ${score(value)} around ${at}`;
     case 'leader':
-      return `Off the leader's beat, ${score(value)} around ${at}`;
+      return `${name}, ${score(value)} around ${at}`;
     case 'seam':
-      return `Rough seam, ${score(value)} times the rest at ${at}`;
+      return `${name}, ${score(value)} times the rest at ${at}`;
   }
+}
+
+/** What a mark means, for somebody who has never heard of the measure: what happens there, and how bad that is. */
+export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): Explanation {
+  const { kind, value, frame } = moment;
+  const text = (): string => {
+    switch (kind) {
+      case 'slide':
+        return (
+          `A foot that stands on the floor slides at ${speed(value)}. ` +
+          `Up to ${speed(rules.contact.slide_speed)} counts as standing still.`
+        );
+      case 'overlap':
+        return (
+          `The two bodies go ${centimetres(value)} into each other. ` +
+          `Up to ${centimetres(rules.penetration.deep)} counts as a touch.`
+        );
+      case 'music':
+      case 'leader':
+        return (
+          `Around here the partner’s moves miss most beats of the ${kind}: ${score(value)} on a scale from ` +
+          `0 (none met) to 1 (all). By accident it would be ${score(beats.whole[kind].chance)}.`
+        );
+      case 'seam':
+        return (
+          `Two blocks of the dance meet here, and movement changes ${score(value)} times as abruptly ` +
+          'as elsewhere. Around 1 nobody sees the seam.'
+        );
+    }
+  };
+  return { title: KIND_NAMES[kind], aside: clockTime(frame / fps), text: text() };
 }

@@ -33,6 +33,15 @@ export function coarseMotion({
   return shown.ghost && coarse.motion ? asDrawn(coarse.motion, footLock) : null;
 }
 
+/** The same of the take that stands beside the one on the stage. */
+export function otherCoarseMotion({
+  coarse,
+  shown,
+  footLock,
+}: Pick<AppState, 'coarse' | 'shown' | 'footLock'>): SolvedMotion | null {
+  return shown.ghost && coarse.other ? asDrawn(coarse.other, footLock) : null;
+}
+
 /** Keeps a motion whose feet were locked elsewhere, so that it is not done again. */
 export function rememberLocked(free: SolvedMotion, motion: SolvedMotion): void {
   locked.set(free, motion);

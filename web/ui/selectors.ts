@@ -1,6 +1,6 @@
 import { bytesOf, duration, rate } from './format';
 import { guidanceAt, sameGuidance } from './guidance-matrix';
-import type { AppState, Inputs, Job, Settings } from './state';
+import type { AppState, Inputs, Job, KeepingState, Settings } from './state';
 
 /** Length of what plays, seconds: the leader rules it; a song alone plays for itself. */
 export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number {
@@ -102,6 +102,15 @@ export function beingRead({ reading }: Pick<AppState, 'reading'>): [boolean, boo
   return [reading.song !== null, reading.leader !== null];
 }
 
+const KEEPING_NOTES: Readonly<Record<KeepingState, string | null>> = {
+  kept: null,
+  full:
+    'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
+    'Delete takes that you don’t need, or save a project file.',
+  refused:
+    'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
+};
+
 /** Sentences worth reading before trusting the result; `look` marks the ones that may change it. */
 export function notes(state: AppState): { text: string; look: boolean }[] {
   const { song, leader } = state;
@@ -113,6 +122,8 @@ export function notes(state: AppState): { text: string; look: boolean }[] {
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', look: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
+  const keeping = KEEPING_NOTES[state.keeping];
+  if (keeping) list.push({ text: keeping, look: true });
   for (const remark of state.remarks) list.push({ text: remark, look: true });
   return list;
 }

@@ -1,8 +1,8 @@
-import { coarseIsMissing } from './coarse-layer';
+import { besideStage, coarseIsMissing } from './coarse-layer';
 import { el, setAttribute, setText, together } from './dom';
 import type { Mount } from './services';
 import { SHOWS } from './shows';
-import type { AppState } from './state';
+import type { AppState, Reaction } from './state';
 import { apply, opened, shownToggled, watch, watchAll } from './store';
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
@@ -72,7 +72,7 @@ export const mountShowMenu: Mount = (root, store, services) => {
     setText(count, on > 0 ? String(on) : '');
     button.setAttribute('aria-label', on > 0 ? `Show, ${on} on` : 'Show');
     const missing = coarseIsMissing(state);
-    note.hidden = !missing && !coarse.decoding;
+    note.hidden = noteWords(state) === '';
     make.hidden = !missing || job !== null;
     setText(words, noteWords(state));
     setAttribute(ghost!, 'aria-busy', coarse.decoding ? 'true' : undefined);
@@ -89,7 +89,11 @@ export const mountShowMenu: Mount = (root, store, services) => {
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
-    watchAll(store, (state) => [state.shown, state.coarse, state.reaction, state.job === null], showState),
+    watchAll(
+      store,
+      (state) => [state.shown, state.coarse, state.reaction, besideStage(state), state.job === null],
+      showState,
+    ),
     watch(store, (state) => state.open === 'show', showOpen),
     () => {
       document.removeEventListener('pointerdown', closeOutside);
@@ -98,9 +102,17 @@ export const mountShowMenu: Mount = (root, store, services) => {
   );
 };
 
-/** What there is to say about the coarse ghost while it can't be seen. */
+/** What there is to say about the coarse ghost while it can't be seen; nothing when it can. */
 function noteWords(state: AppState): string {
-  if (!coarseIsMissing(state)) return 'Decoding the coarse layer';
-  if (state.job) return 'Being generated';
-  return `The ${state.reaction?.label ?? 'reaction'} came ready-made, without its layers.`;
+  const { reaction, coarse, job } = state;
+  if (reaction && coarseIsMissing(state)) return job ? 'Being generated' : missingWords(reaction);
+  if (coarse.decoding) return 'Decoding the coarse layer';
+  const beside = besideStage(state);
+  return beside && coarseIsMissing({ reaction: beside }) ? `Beside it: ${missingWords(beside)}` : '';
+}
+
+function missingWords({ label }: Reaction): string {
+  return label === null
+    ? 'This take was made by another model, or kept without its layers.'
+    : `The ${label} came ready-made, without its layers.`;
 }

@@ -19,7 +19,7 @@ export const NOTHING_SHOWN: Shown = {
 };
 
 export const SHOWS: readonly ShowWords[] = [
-  { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The reactor without its fine layer' },
+  { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The partner without the fine layer' },
   { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },
   { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },
   { what: 'contacts', label: 'Foot contacts', key: 'N', hint: 'Rings under feet that stand' },

@@ -14,7 +14,7 @@ const CAMERAS: readonly (readonly [Camera, string])[] = [
 
 /** Over the picture: who is who, and from where it is seen. */
 export const mountStageControls: Mount = (root, store, services) => {
-  const coarse = el('li', { class: 'reac' }, el('span', { class: 'dot hollow' }), 'Coarse only');
+  const coarse = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Coarse only');
   const legend = el(
     'ul',
     { class: 'over legend' },

@@ -88,6 +88,9 @@ export interface Take {
 /** The two places of a comparison; one is on the stage. */
 export type Letter = 'A' | 'B';
 
+/** Whether the browser keeps what is on the page: it does, its space is full, or it gives the page none. */
+export type KeepingState = 'kept' | 'full' | 'refused';
+
 /** How the other take is seen beside the one on the stage. */
 export type Compare = 'off' | 'side' | 'ghost';
 
@@ -164,7 +167,7 @@ export interface Problem {
   readonly title: string;
   readonly hint: string;
   /** The way out that the dialog offers first. */
-  readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'none';
+  readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
   /** The file that was refused, if it was a file. */
   readonly refused: { readonly side: Side | null; readonly name: string } | null;
 }
@@ -214,9 +217,11 @@ export interface Shown {
   readonly ghost: boolean;
 }
 
-/** The reactor that the coarse layer alone says. While another is being decoded, the one before stays. */
+/** The made dancer whom the coarse layer alone says. While another is being decoded, the one before stays. */
 export interface CoarseLayer {
   readonly motion: SolvedMotion | null;
+  /** That of the other take, while it stands beside the one on the stage; null until it is decoded. */
+  readonly other: SolvedMotion | null;
   readonly decoding: boolean;
 }
 
@@ -255,6 +260,7 @@ export interface AppState {
   readonly letter: Letter;
   readonly compare: Compare;
   readonly history: History;
+  readonly keeping: KeepingState;
   /** Whether planted feet of the reactor are kept from sliding. */
   readonly footLock: boolean;
   /** Of the newest reactor that was measured; that may be the one before the one on the stage. */

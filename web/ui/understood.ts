@@ -52,6 +52,7 @@ export const mountUnderstood: Mount = (root, store, services) => {
         state.manifest,
         state.model,
         state.remarks,
+        state.keeping,
         state.settings?.role,
       ],
       show,

@@ -8,9 +8,9 @@ import type { Figure } from './shows/show';
 import { NOTHING_SHOWN, type Shown } from './shows/shows';
 import { ROLES, type Look, type Role } from './theme';
 
-/** Leader and reactor; the reactor of the coarse layer alone; another take of the reactor. */
-export type Part = Role | 'coarse' | 'other';
-const PARTS = ['leader', 'reactor', 'coarse', 'other'] as const satisfies readonly Part[];
+/** Leader and reactor; the reactor of the coarse layer alone; another take of the reactor, and its coarse layer. */
+export type Part = Role | 'coarse' | 'other' | 'otherCoarse';
+const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const satisfies readonly Part[];
 
 /** How another take is seen: through the reactor, or in the right half of the picture, the reactor in the left. */
 export type OtherMode = 'ghost' | 'side';
@@ -34,7 +34,7 @@ export interface Cast {
   pose(seconds: number): Couple;
   /**
    * Lets those be seen who are in a picture, as they were posed: in the left half the couple, in the right half the
-   * loaded dancer with the other take, turned to it.
+   * loaded dancer with the other take, turned to it. Each half has the coarse layer of its own take.
    */
   arrange(picture: Picture): readonly Figure[];
   joints(part: Part): Float32Array;
@@ -52,8 +52,10 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
     reactor: dancer('reactor'),
     coarse: dancer('reactor'),
     other: dancer('reactor'),
+    otherCoarse: dancer('reactor'),
   };
   dancers.coarse.setMatter('coarse');
+  dancers.otherCoarse.setMatter('coarse');
   const object = new Group();
   for (const part of PARTS) object.add(dancers[part].object);
 
@@ -93,8 +95,7 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
     advance: (dt) => PARTS.filter((part) => dancers[part].advance(dt)).length > 0,
     setMade(role) {
       made = role;
-      dancers.coarse.colourAs(role);
-      dancers.other.colourAs(role);
+      for (const part of ['coarse', 'other', 'otherCoarse'] as const) dancers[part].colourAs(role);
     },
     setOtherMode(next) {
       mode = next;
@@ -128,6 +129,7 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
       dancers[made].show(picture !== 'right');
       dancers.coarse.show(picture !== 'right' && shown.ghost);
       dancers.other.show(picture === 'right' || (picture === 'whole' && mode === 'ghost'));
+      dancers.otherCoarse.show(picture === 'right' && shown.ghost);
       return [...figure(loaded(), loaded()), ...figure(made, partner)];
     },
     joints: (part) => dancers[part].jointPositions(),

@@ -50,8 +50,11 @@ export interface Entrance {
 export interface Stage {
   /** Puts dancers on the stage or takes them off (null); a role that is left out stays as it is. */
   setDancers(dancers: { leader?: SolvedMotion | null; reactor?: SolvedMotion | null }, how?: Entrance): void;
-  /** Sets the reactor of the coarse layer alone, which `shown.ghost` lets be seen through the reactor. */
-  setCoarse(motion: SolvedMotion | null): void;
+  /**
+   * Sets the reactor of the coarse layer alone, which `shown.ghost` lets be seen through the reactor, and that of the
+   * other take, which is seen where the other take has a half of its own.
+   */
+  setCoarse(motion: SolvedMotion | null, other?: SolvedMotion | null): void;
   /** Shows another reactor to compare with, or none. */
   setOther(other: Other | null): void;
   setShown(shown: Shown): void;
@@ -229,8 +232,9 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
       }
       loop.invalidate();
     },
-    setCoarse(motion) {
+    setCoarse(motion, other = null) {
       cast.setMotion('coarse', motion);
+      cast.setMotion('otherCoarse', other);
       posed = false;
       loop.invalidate();
     },

@@ -2,9 +2,10 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { CoarseRequest, GenerateOptions, Generator } from '../../../web/model/client';
 import type { SolvedMotion } from '../../../web/motion/clip';
 import { coarseIsMissing, createCoarseLayer } from '../../../web/ui/coarse-layer';
-import { coarseMotion } from '../../../web/ui/reactor-motion';
+import { coarseMotion, otherCoarseMotion } from '../../../web/ui/reactor-motion';
 import type { Reaction } from '../../../web/ui/state';
 import * as change from '../../../web/ui/store';
+import { compareSet, flipped, letterGiven } from '../../../web/ui/takes/changes';
 import { small } from '../model/small-manifest';
 import { alike, leader, still } from './made';
 
@@ -63,12 +64,12 @@ describe('the coarse layer', () => {
     expect(hand.calls).toHaveLength(0);
     toggle();
     await turn();
-    expect(state().coarse).toEqual({ motion: null, decoding: true });
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
     expect(hand.calls[0]?.request).toEqual({ leader: shown.inputs.leader.file.clip, latents: shown.latents });
     const motion = still(60);
     hand.calls[0]?.answer(motion);
     await turn();
-    expect(state().coarse).toEqual({ motion, decoding: false });
+    expect(state().coarse).toEqual({ motion, other: null, decoding: false });
     expect(coarseMotion(state())).toBe(motion);
     toggle();
     expect(coarseMotion(state())).toBeNull();
@@ -89,11 +90,47 @@ describe('the coarse layer', () => {
     toggle();
     show({ ...one });
     toggle();
-    expect(state().coarse).toEqual({ motion: motions[0], decoding: false });
+    expect(state().coarse).toEqual({ motion: motions[0], other: null, decoding: false });
     show(two);
     expect(state().coarse.motion).toBe(motions[1]);
     await turn();
     expect(hand.calls).toHaveLength(2);
+  });
+
+  it('is decoded for both halves of a comparison, the stage first, and goes along when they are flipped', async () => {
+    const dancer = leader(60);
+    const made = (seed: number): Reaction => {
+      const { inputs, ...rest } = reaction(new Float32Array([seed]));
+      return { ...rest, inputs: { ...inputs, leader: dancer, settings: { ...inputs.settings, seed } } };
+    };
+    change.apply(store, change.manifestArrived(small, 1));
+    change.apply(store, change.leaderLoaded(dancer));
+    change.apply(store, change.reacted(made(1), { id: 'one', at: 1 }));
+    change.apply(store, change.reacted(made(2), { id: 'two', at: 2 }));
+    change.apply(store, letterGiven('one', 'B'));
+    toggle();
+    change.apply(store, compareSet('ghost'));
+    await turn();
+    // In one picture, the other take's would only be in the way.
+    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2]]);
+    change.apply(store, compareSet('side'));
+    await turn();
+    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2], [2]]);
+    const [two, one] = [still(60), still(60)];
+    hand.calls[1]?.answer(two);
+    await turn();
+    expect(state().coarse).toEqual({ motion: two, other: null, decoding: true });
+    expect([...hand.calls[2]!.request.latents]).toEqual([1]);
+    hand.calls[2]?.answer(one);
+    await turn();
+    expect(state().coarse).toEqual({ motion: two, other: one, decoding: false });
+    expect(otherCoarseMotion(state())).toBe(one);
+    change.apply(store, flipped());
+    expect(state().coarse).toEqual({ motion: one, other: two, decoding: false });
+    change.apply(store, compareSet('side'));
+    expect(state().coarse).toEqual({ motion: one, other: null, decoding: false });
+    await turn();
+    expect(hand.calls).toHaveLength(3);
   });
 
   it('drops what it decodes when another reaction comes, and keeps the ghost until the next is there', async () => {
@@ -105,7 +142,7 @@ describe('the coarse layer', () => {
     await turn();
     show(reaction(new Float32Array([2])));
     await turn();
-    expect(state().coarse).toEqual({ motion: first, decoding: true });
+    expect(state().coarse).toEqual({ motion: first, other: null, decoding: true });
     show(reaction(new Float32Array([3])));
     await turn();
     expect(hand.calls[1]?.signal?.aborted).toBe(true);
@@ -113,9 +150,9 @@ describe('the coarse layer', () => {
     const last = still(60);
     hand.calls[2]?.answer(last);
     await turn();
-    expect(state().coarse).toEqual({ motion: last, decoding: false });
+    expect(state().coarse).toEqual({ motion: last, other: null, decoding: false });
     change.apply(store, change.leaderLoaded(leader(30)));
-    expect(state().coarse).toEqual({ motion: null, decoding: false });
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
   });
 
   it('is missing from a reaction that came ready-made, or was made by a model that has gone', async () => {
@@ -139,7 +176,7 @@ describe('the coarse layer', () => {
     await turn();
     expect(state().problem).toMatchObject({ code: 'coarse-failed', remedy: 'generate' });
     expect(state().shown.ghost).toBe(false);
-    expect(state().coarse).toEqual({ motion: null, decoding: false });
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
     await turn();
     expect(hand.calls).toHaveLength(1);
   });

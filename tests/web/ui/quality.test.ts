@@ -3,7 +3,7 @@ import type { QualityQuestion, Report } from '../../../web/quality/client';
 import { measure } from '../../../web/quality/measure';
 import { createQuality } from '../../../web/ui/quality';
 import { marksInOne, marksOf, worstRow } from '../../../web/ui/quality-marks';
-import { laneWords, momentWords } from '../../../web/ui/quality-words';
+import { laneWords, momentExplained, momentWords } from '../../../web/ui/quality-words';
 import * as change from '../../../web/ui/store';
 import { madeStander } from '../motion/made-stander';
 import { small } from '../model/small-manifest';
@@ -102,7 +102,7 @@ describe('what is shown', () => {
       rank: index + 1,
       moment: at(frame),
     }));
-    expect(marksInOne(marks, 900).map(({ rank, moment }) => [rank, moment.frame])).toEqual([
+    expect(marksInOne(marks, 30).map(({ rank, moment }) => [rank, moment.frame])).toEqual([
       [1, 100],
       [2, 300],
       [3, 600],
@@ -128,5 +128,15 @@ describe('what is shown', () => {
     expect(words.seams.sentence).toContain('blocks of 8 s');
     const slide = { kind: 'slide' as const, frame: 753, value: 0.714, concern: 2 };
     expect(momentWords(slide, 30)).toBe('Foot slide, 0.71 m/s at 0:25.1');
+  });
+
+  it.each([
+    ['slide', 0.714, 'Foot slide', /slides at 0\.71 m\/s\. Up to 0\.20 m\/s counts as standing/],
+    ['overlap', 0.041, 'Bodies overlap', /go 4\.1 cm into each other\. Up to 1\.0 cm counts as a touch/],
+    ['leader', 0.05, 'Off the leader’s beat', /beats of the leader: 0\.05 .* would be \d\.\d\d\./],
+    ['seam', 3.2, 'Rough seam', /changes 3\.20 times as abruptly/],
+  ] as const)('explains a mark: what it is, how bad and when (%s)', (kind, value, title, text) => {
+    const explained = momentExplained({ kind, value, frame: 753, concern: 2 }, 30, report, small.quality);
+    expect(explained).toEqual({ title, aside: '0:25.1', text: expect.stringMatching(text) as string });
   });
 });

@@ -12,8 +12,9 @@ const motions = {
   reactor: randomMotion(30, 2),
   coarse: randomMotion(30, 3),
   other: randomMotion(30, 4),
+  otherCoarse: randomMotion(30, 5),
 };
-const PARTS = ['leader', 'reactor', 'coarse', 'other'] as const;
+const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
 
 describe('the cast', () => {
   let cast: Cast;
@@ -34,29 +35,32 @@ describe('the cast', () => {
 
   it('shows another take as a ghost beside both, and the coarse layer when it is asked for', () => {
     cast.arrange('whole');
-    expect(seen()).toEqual([true, true, false, true]);
+    expect(seen()).toEqual([true, true, false, true, false]);
     cast.setShown({ ...NOTHING_SHOWN, ghost: true });
     cast.arrange('whole');
-    expect(seen()).toEqual([true, true, true, true]);
+    expect(seen()).toEqual([true, true, true, true, false]);
     expect(cast.split).toBe(false);
   });
 
-  it('shows the leader in both halves, the reactor in the left and the other take in the right', () => {
+  it('shows the leader in both halves, the reactor in the left, the other take in the right, each with its coarse layer', () => {
     cast.setOtherMode('side');
     cast.setShown({ ...NOTHING_SHOWN, ghost: true });
     expect(cast.split).toBe(true);
     const left = cast.arrange('left');
-    expect(seen()).toEqual([true, true, true, false]);
+    expect(seen()).toEqual([true, true, true, false, false]);
     expect(left.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.reactor],
     ]);
     const right = cast.arrange('right');
-    expect(seen()).toEqual([true, false, false, true]);
+    expect(seen()).toEqual([true, false, false, true, true]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.other],
     ]);
+    cast.setShown(NOTHING_SHOWN);
+    cast.arrange('right');
+    expect(seen()).toEqual([true, false, false, true, false]);
     cast.setMotion('other', null);
     expect(cast.split).toBe(false);
   });
@@ -67,7 +71,7 @@ describe('the cast', () => {
     cast.setMade('leader');
     await cast.dressed();
     const right = cast.arrange('right');
-    expect(seen()).toEqual([false, true, false, true]);
+    expect(seen()).toEqual([false, true, false, true, false]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['reactor', motions.reactor],
       ['leader', motions.other],

@@ -1,8 +1,13 @@
 import type { Manifest } from '../../model/client';
-import type { AppState, Take } from '../state';
+import type { AppState, KeepingState, Take } from '../state';
 import { type Change, manifestArrived } from '../store';
 import { NO_HISTORY, replacing } from '../takes/history';
 import { withTake } from '../takes/take';
+
+/** The browser keeps what is on the page, or has stopped to. */
+export function keepingChanged(keeping: KeepingState): Change {
+  return () => ({ keeping });
+}
 
 /** What an earlier visit left is there again. */
 export function broughtBack(content: Partial<AppState>): Change {

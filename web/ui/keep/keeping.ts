@@ -1,19 +1,21 @@
 import type { Files, Readers } from '../files';
 import { rolledSeed } from '../seed';
-import { projectProblem } from '../problems';
+import { fullProblem, projectProblem } from '../problems';
 import { slug } from '../format';
-import type { AppState } from '../state';
+import type { AppState, KeepingState } from '../state';
 import { apply, dismissed, remarked, type Store, told, visitEnded } from '../store';
 import { presentInputs } from '../takes/take';
-import { broughtBack, projectOpened, startedAfresh, takesBroughtBack } from './changes';
+import { broughtBack, keepingChanged, projectOpened, startedAfresh, takesBroughtBack } from './changes';
 import { ProjectError } from './error';
 import { type Kept, keep, knownAs, worthKeeping } from './kept';
 import { readProject, writeProject } from './project-file';
 import { type Rereaders, reviving } from './revive';
-import type { Storage } from './storage';
+import { isFull, type Storage } from './storage';
 
 /** Rest after the last change before it is written, milliseconds; a drag is written once. */
 const REST = 700;
+/** After a failure it is tried again this often, milliseconds: room may have been made elsewhere. */
+const AGAIN = 20_000;
 
 export interface Keeping {
   /** Brings back what an earlier visit left; false when there is nothing. What happens from then on is kept. */
@@ -55,40 +57,52 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
 
   let timer: ReturnType<typeof setTimeout> | undefined;
   let unsubscribe = (): void => undefined;
-  let written: readonly unknown[] | null = null;
+  /** The parts that were written last, or are to be written when the timer runs out. */
+  let seen: readonly unknown[] = [];
   let writing: Promise<void> = Promise.resolve();
   let anythingKept = false;
 
+  const writeAfter = (rest: number): void => {
+    clearTimeout(timer);
+    timer = setTimeout(write, rest);
+  };
   const write = (): void => {
     clearTimeout(timer);
     timer = undefined;
     const state = store.getState();
-    const parts = keptParts(state);
-    if (written?.every((part, index) => part === parts[index])) return;
-    written = parts;
+    seen = keptParts(state);
     writing = writing.then(async () => {
       try {
         if (worthKeeping(state)) {
           anythingKept = true;
           await storage.write(keep(state));
+          tell('kept');
         } else if (anythingKept) {
-          anythingKept = false;
           await storage.clear();
+          anythingKept = false;
+          tell('kept');
         }
       } catch (error) {
-        // The next change tries again.
-        written = null;
-        apply(store, remarked(storageRemark(error)));
+        tell(isFull(error) ? 'full' : 'refused');
+        // Unless a newer change is about to be written anyway.
+        if (timer === undefined) writeAfter(AGAIN);
       }
     });
+  };
+  /** Says once that the space is full, and stops saying so when there is room again. */
+  const tell = (keeping: KeepingState): void => {
+    if (store.getState().keeping === keeping) return;
+    apply(store, keepingChanged(keeping));
+    if (keeping === 'full') apply(store, told(fullProblem()));
   };
   const begin = (): void => {
     write();
     unsubscribe = store.subscribe((state) => {
       const parts = keptParts(state);
-      if (written?.every((part, index) => part === parts[index])) return;
-      clearTimeout(timer);
-      timer = setTimeout(write, REST);
+      // The playhead moves all the time: what waits already must not wait for it to stop.
+      if (parts.every((part, index) => part === seen[index])) return;
+      seen = parts;
+      writeAfter(REST);
     });
   };
   const onHide = (): void => {
@@ -101,8 +115,8 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
   const stored = async (): Promise<Kept | null> => {
     try {
       return await storage.read();
-    } catch (error) {
-      apply(store, remarked(storageRemark(error)));
+    } catch {
+      tell('refused');
       return null;
     }
   };
@@ -117,16 +131,16 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
     apply(store, visitEnded());
     const before = store.getState();
     await readers.manifest();
-    const revival = reviving(kept, store.getState(), knownAs);
+    const revival = reviving(kept, knownAs);
     await revival.readPage(inSight);
     const { leader, song, takes } = store.getState();
     // Files that the visitor was quicker with stay.
     const overtaken = leader !== before.leader || song !== before.song || takes.length > 0;
-    if (overtaken) apply(store, takesBroughtBack(revival.content().takes ?? []));
-    else apply(store, broughtBack(revival.content()));
+    if (overtaken) apply(store, takesBroughtBack(revival.content(store.getState()).takes ?? []));
+    else apply(store, broughtBack(revival.content(store.getState())));
     begin();
     void revival.readRest(aside).then(() => {
-      apply(store, takesBroughtBack(revival.content().takes ?? []));
+      apply(store, takesBroughtBack(revival.content(store.getState()).takes ?? []));
       for (const loss of revival.losses()) apply(store, remarked(loss));
     });
     return true;
@@ -138,13 +152,13 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       const kept = readProject(new Uint8Array(await file.arrayBuffer()));
       await readers.manifest();
       const before = store.getState();
-      const revival = reviving(kept, before);
+      const revival = reviving(kept);
       await revival.readPage(inSight);
       await revival.readRest(aside);
       const now = store.getState();
       // A file that the visitor chose meanwhile is the newer wish.
       if (now.leader !== before.leader || now.song !== before.song) return false;
-      const content = revival.content();
+      const content = revival.content(now);
       if (kept.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
       for (const loss of revival.losses()) apply(store, remarked(loss));
@@ -202,12 +216,4 @@ function keptParts(state: AppState): readonly unknown[] {
 function projectName({ song, leader }: AppState): string {
   const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
   return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
-}
-
-function storageRemark(error: unknown): string {
-  const full = error instanceof DOMException && error.name === 'QuotaExceededError';
-  const why = full
-    ? 'The space that this browser gives the page is full'
-    : 'This browser keeps nothing for the page';
-  return `${why}: takes are lost when the page is closed. Save a project file to keep them.`;
 }

@@ -1,3 +1,4 @@
+import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/clip';
 import type { AppState, Compare, Inputs, Letter, LoadedLeader, LoadedSong, Reaction } from '../state';
 import { presentInputs, takeOnStage } from '../takes/take';
@@ -21,6 +22,20 @@ export interface KeptLeader {
 export interface KeptMotion {
   readonly id: string;
   readonly motion: SolvedMotion;
+  /** Left out where the motion came ready-made, or was kept before latents were. */
+  readonly latents?: KeptLatents;
+}
+
+/** What a motion was decoded from, as in `Reaction`. */
+export interface KeptLatents {
+  /** The decoder to which they mean something, as `decoderOf` names it. */
+  readonly decoder: string;
+  readonly values: Float32Array;
+}
+
+/** Tells decoders apart, whatever their models are called: by the hash of their graph. */
+export function decoderOf({ graphs }: Manifest): string {
+  return graphs.decode.files.wasm.sha256;
 }
 
 /** What a reaction is made from besides song and leader: settings, and whatever else `Inputs` has. */
@@ -103,9 +118,10 @@ export function keep(state: AppState): Kept {
     leaders.set(id, { id, name, label, text, fps });
     return id;
   };
-  const motion = ({ motion: part }: Reaction): string => {
+  const motion = ({ motion: part, latents: values }: Reaction): string => {
     const id = idOf(part);
-    motions.set(id, { id, motion: part });
+    const latents = values && state.manifest && { decoder: decoderOf(state.manifest), values };
+    motions.set(id, { id, motion: part, ...(latents && { latents }) });
     return id;
   };
 

@@ -10,11 +10,14 @@ export const MOTION_BYTES = (frames: number): number => 4 * (SKELETON + frames *
 
 /** A motion as float32, little-endian: offsets, root, rotations, positions, each as in `SolvedMotion`. */
 export function packMotion({ offsets, root, rotations, positions }: SolvedMotion): Uint8Array<ArrayBuffer> {
-  const view = new DataView(
-    new ArrayBuffer(4 * [offsets, root, rotations, positions].reduce((sum, { length }) => sum + length, 0)),
-  );
+  return packFloats(offsets, root, rotations, positions);
+}
+
+/** The parts one after the other as float32, little-endian. */
+export function packFloats(...parts: readonly Float32Array[]): Uint8Array<ArrayBuffer> {
+  const view = new DataView(new ArrayBuffer(4 * parts.reduce((sum, { length }) => sum + length, 0)));
   let at = 0;
-  for (const part of [offsets, root, rotations, positions])
+  for (const part of parts)
     for (const value of part) {
       view.setFloat32(at, value, true);
       at += 4;
@@ -22,18 +25,20 @@ export function packMotion({ offsets, root, rotations, positions }: SolvedMotion
   return new Uint8Array(view.buffer);
 }
 
+/** All that `packFloats` has packed, in one. */
+export function unpackFloats({ buffer, byteOffset, byteLength }: Uint8Array): Float32Array {
+  const view = new DataView(buffer, byteOffset, byteLength);
+  return Float32Array.from({ length: byteLength / 4 }, (_, index) => view.getFloat32(4 * index, true));
+}
+
 /** @param bytes as many as `MOTION_BYTES(frames)` */
 export function unpackMotion(
   bytes: Uint8Array,
   { fps, frames, fitError }: Pick<SolvedMotion, 'fps' | 'frames' | 'fitError'>,
 ): SolvedMotion {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const values = unpackFloats(bytes);
   let at = 0;
-  const take = (length: number): Float32Array => {
-    const part = new Float32Array(length);
-    for (let i = 0; i < length; i++, at += 4) part[i] = view.getFloat32(at, true);
-    return part;
-  };
+  const take = (length: number): Float32Array => values.slice(at, (at += length));
   return {
     fps,
     frames,

@@ -3,7 +3,7 @@ import * as v from 'valibot';
 import { slug } from '../format';
 import { ProjectError } from './error';
 import type { Kept, KeptInputs } from './kept';
-import { MOTION_BYTES, packMotion, unpackMotion } from './motion-bytes';
+import { MOTION_BYTES, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 
 /** Counted up when an older page could not read the file any more. */
 const VERSION = 1;
@@ -22,13 +22,16 @@ const shape = {
   fitError: v.number(),
 };
 
+/** Latents lie beside their motion where it has any. */
+const latents = v.object({ decoder: text, count, file: text });
+
 /** project.json: what is on the page and in the list, and which file of the archive holds what. */
 const schema = v.object({
   format: v.literal(FORMAT),
   version: v.number(),
   songs: v.array(v.object({ id: text, name: text, label, type: v.string(), file: text })),
   leaders: v.array(v.object({ id: text, name: text, label, fps: v.nullable(v.number()), file: text })),
-  motions: v.array(v.object({ id: text, file: text, ...shape })),
+  motions: v.array(v.object({ id: text, file: text, ...shape, latents: v.optional(latents) })),
   takes: v.array(
     v.object({
       id: text,
@@ -60,7 +63,7 @@ const schema = v.object({
 
 type Manifest = v.InferOutput<typeof schema>;
 
-/** Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, takes as float32. */
+/** Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, motion and latents of takes as float32. */
 export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>> {
   const files: Zippable = {};
   // Songs are compressed already and motion hardly can be.
@@ -80,9 +83,17 @@ export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>>
       kept.leaders.length === 1 ? 'leader.bvh' : `leaders/${index + 1}-${slug(name, 'leader')}.bvh`;
     return { id, name, label, fps, file: add(path, strToU8(text), 1) };
   });
-  const motions = kept.motions.map(({ id, motion }, index) => {
+  const motions = kept.motions.map(({ id, motion, latents }, index) => {
     const { fps, frames, fitError } = motion;
-    return { id, fps, frames, fitError, file: add(`takes/${index + 1}.f32`, packMotion(motion), 0) };
+    const path = `takes/${index + 1}`;
+    return {
+      ...{ id, fps, frames, fitError, file: add(`${path}.f32`, packMotion(motion), 0) },
+      latents: latents && {
+        decoder: latents.decoder,
+        count: latents.values.length,
+        file: add(`${path}-latents.f32`, packFloats(latents.values), 0),
+      },
+    };
   });
   const manifest = {
     format: FORMAT,
@@ -109,6 +120,15 @@ export function readProject(bytes: Uint8Array): Kept {
     if (content) return content;
     throw new ProjectError('missing-part', `The project lacks its part ${file}.`, HINT_AGAIN);
   };
+  const partOf = (file: string, bytes: number, what: string): Uint8Array<ArrayBuffer> => {
+    const content = part(file);
+    if (content.byteLength === bytes) return content;
+    throw new ProjectError(
+      'damaged-project',
+      `${file} in the project has ${content.byteLength} bytes where ${what} have ${bytes}.`,
+      HINT_AGAIN,
+    );
+  };
   return {
     songs: manifest.songs.map(({ id, name, label, type, file }) => ({
       id,
@@ -123,15 +143,13 @@ export function readProject(bytes: Uint8Array): Kept {
       fps,
       text: strFromU8(part(file)),
     })),
-    motions: manifest.motions.map(({ id, fps, frames, fitError, file }) => {
-      const content = part(file);
-      if (content.byteLength !== MOTION_BYTES(frames))
-        throw new ProjectError(
-          'damaged-project',
-          `${file} in the project has ${content.byteLength} bytes where ${frames} frames have ${MOTION_BYTES(frames)}.`,
-          HINT_AGAIN,
-        );
-      return { id, motion: unpackMotion(content, { fps, frames, fitError }) };
+    motions: manifest.motions.map(({ id, fps, frames, fitError, file, latents }) => {
+      const content = partOf(file, MOTION_BYTES(frames), `${frames} frames`);
+      const motion = unpackMotion(content, { fps, frames, fitError });
+      if (!latents) return { id, motion };
+      const { decoder, count } = latents;
+      const values = unpackFloats(partOf(latents.file, 4 * count, `${count} latents`));
+      return { id, motion, latents: { decoder, values } };
     }),
     takes: manifest.takes,
     page: manifest.page,

@@ -1,8 +1,15 @@
-import { el, listen, setAttribute, together } from '../dom';
+import { el, listen, setAttribute, setText, together } from '../dom';
 import { icon, type IconName } from '../icons';
 import type { Mount } from '../services';
+import type { KeepingState } from '../state';
 import { apply, opened, watch, watchAll } from '../store';
 import { worthKeeping } from './kept';
+
+const HEADS: Readonly<Record<KeepingState, string>> = {
+  kept: 'Kept in this browser until you start afresh',
+  full: 'Not all of it is kept: this browser’s space is full',
+  refused: 'This browser keeps nothing for the page',
+};
 
 /** The project in the bar: saving and opening all of it as one file, and starting afresh. */
 export const mountProjectMenu: Mount = (root, store, services) => {
@@ -49,13 +56,14 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     'Empties the page; undo brings it back',
     services.startAfresh,
   );
+  const head = el('h2');
   const menu = el(
     'div',
     { class: 'float menu project', attributes: { role: 'dialog', 'aria-label': 'Project' } },
     el(
       'div',
       { class: 'row' },
-      el('h2', { text: 'Kept in this browser until you start afresh' }),
+      head,
       el(
         'button',
         { class: 'icon', attributes: { type: 'button', 'aria-label': 'Close' }, on: { click: toggle } },
@@ -79,6 +87,13 @@ export const mountProjectMenu: Mount = (root, store, services) => {
         setAttribute(door, 'aria-expanded', isOpen ? 'true' : 'false');
         if (isOpen) (save.disabled ? open : save).focus();
         else if (inside) door.focus();
+      },
+    ),
+    watch(
+      store,
+      (state) => state.keeping,
+      (keeping) => {
+        setText(head, HEADS[keeping]);
       },
     ),
     watchAll(

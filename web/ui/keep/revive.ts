@@ -2,6 +2,7 @@ import type { SolvedMotion } from '../../motion/clip';
 import type { AppState, Inputs, LoadedLeader, LoadedSong, Take } from '../state';
 import { presentInputs } from '../takes/take';
 import {
+  decoderOf,
   type Kept,
   type KeptInputs,
   type KeptLeader,
@@ -22,26 +23,22 @@ export interface Revival {
   readonly readPage: (readers: Rereaders) => Promise<void>;
   /** Reads those that only takes speak of, and tries again what failed. */
   readonly readRest: (readers: Rereaders) => Promise<void>;
-  /** What has come back so far, for the state of the page. */
-  readonly content: () => Partial<AppState>;
+  /**
+   * What has come back so far, for the page.
+   * @param state the page's, with its settings: it shows what inputs look like, so that a value that is missing or of
+   *   another kind than today's is the page's own, and which model is there to read latents
+   */
+  readonly content: (state: AppState) => Partial<AppState>;
   /** Sentences about what could not be brought back. */
   readonly losses: () => string[];
 }
 
-/**
- * @param state the page's, with its settings: it shows what inputs look like, so that a value that is missing or of
- *   another kind than today's is the page's own
- * @param known hears of each part that comes back under which id it was kept
- */
-export function reviving(
-  kept: Kept,
-  state: AppState,
-  known: (part: object, id: string) => void = () => undefined,
-): Revival {
+/** @param known hears of each part that comes back under which id it was kept */
+export function reviving(kept: Kept, known: (part: object, id: string) => void = () => undefined): Revival {
   const songs = new Map<string, LoadedSong | null>();
   const leaders = new Map<string, LoadedLeader | null>();
-  const motions = new Map(kept.motions.map(({ id, motion }) => [id, motion]));
-  for (const [id, motion] of motions) known(motion, id);
+  const motions = new Map(kept.motions.map((motion) => [motion.id, motion]));
+  for (const [id, { motion }] of motions) known(motion, id);
   const { page } = kept;
 
   const readSong = async (song: KeptSong, readers: Rereaders): Promise<void> => {
@@ -55,15 +52,17 @@ export function reviving(
     leaders.set(leader.id, read);
   };
   /** A take becomes one again when its leader is there; a song that is lost leaves it without a song. */
-  const reviveTake = (take: KeptTake): Take | null => {
+  const reviveTake = (take: KeptTake, state: AppState): Take | null => {
     const leader = leaders.get(take.leader);
     const song = take.song === null ? null : songs.get(take.song);
-    const motion = motions.get(take.motion);
-    if (!leader || song === undefined || !motion) return null;
+    const made = motions.get(take.motion);
+    if (!leader || song === undefined || !made) return null;
     const { id, number, name, starred, createdAt, label, seconds } = take;
     const inputs = likeToday(take.inputs, state, leader, song);
-    // Latents are not kept: another model may be here by now, to which they mean nothing.
-    const reaction = { motion, latents: null, inputs, label, seconds };
+    // Another model may be here by now, to which the latents mean nothing.
+    const readable = state.manifest && made.latents?.decoder === decoderOf(state.manifest);
+    const latents = (readable && made.latents?.values) || null;
+    const reaction = { motion: made.motion, latents, inputs, label, seconds };
     return { id, number, name, starred, createdAt, reaction };
   };
 
@@ -78,9 +77,9 @@ export function reviving(
       for (const leader of kept.leaders) if (!leaders.get(leader.id)) await readLeader(leader, readers);
       for (const song of kept.songs) if (!songs.get(song.id)) await readSong(song, readers);
     },
-    content: () => {
+    content: (state) => {
       const takes = kept.takes
-        .map(reviveTake)
+        .map((take) => reviveTake(take, state))
         .filter((take) => take !== null)
         .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number);
       const leader = (page.leader !== null && leaders.get(page.leader)) || null;

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/clip';
 import { projectOpened, startedAfresh } from '../../../../web/ui/keep/changes';
 import { ProjectError } from '../../../../web/ui/keep/error';
-import { type Kept, keep, worthKeeping } from '../../../../web/ui/keep/kept';
+import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/keep/kept';
 import { readProject, writeProject } from '../../../../web/ui/keep/project-file';
 import { type Rereaders, reviving } from '../../../../web/ui/keep/revive';
 import type { AppState } from '../../../../web/ui/state';
@@ -23,7 +23,11 @@ function numbered(frames: number, from: number): SolvedMotion {
   return motion;
 }
 
-/** A page with a song, two leaders and three takes, the second compared with the third. */
+/** Latents of a dance, each of them another number; not all have a short form. */
+const latents = (frames: number, from: number): Float32Array =>
+  Float32Array.from({ length: Math.ceil(frames / 4) * 6 }, (_, index) => Math.sin(from + index));
+
+/** A page with a song, two leaders and three takes, the first without latents, the second compared with the third. */
 function filled(): change.Store {
   const store = change.createAppStore('dark');
   const react = (at: number): void => {
@@ -33,7 +37,7 @@ function filled(): change.Store {
     change.apply(
       store,
       change.reacted(
-        { motion, latents: null, inputs, label: null, seconds: 2 },
+        { motion, latents: at === 1 ? null : latents(60, at), inputs, label: null, seconds: 2 },
         { id: `t${at}`, at: at * 1e6 },
       ),
     );
@@ -71,10 +75,10 @@ function empty(): change.Store {
 }
 
 async function contentOf(kept: Kept, state: AppState, how = readers) {
-  const revival = reviving(kept, state);
+  const revival = reviving(kept);
   await revival.readPage(how);
   await revival.readRest(how);
-  return { content: revival.content(), losses: revival.losses() };
+  return { content: revival.content(state), losses: revival.losses() };
 }
 
 const summary = (state: AppState) => ({
@@ -86,6 +90,7 @@ const summary = (state: AppState) => ({
     leader: take.reaction.inputs.leader.name,
     song: take.reaction.inputs.song?.name,
     motion: take.reaction.motion,
+    latents: take.reaction.latents,
   })),
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
@@ -116,11 +121,14 @@ describe('a project', () => {
       'leaders/2-fruher.bvh',
       'project.json',
       'songs/1-descarga.mp3',
+      'takes/1-latents.f32',
       'takes/1.f32',
+      'takes/2-latents.f32',
       'takes/2.f32',
       'takes/3.f32',
     ]);
     expect(files['takes/1.f32']?.byteLength).toBe(4 * (66 + 60 * 157));
+    expect(files['takes/1-latents.f32']?.byteLength).toBe(4 * 15 * 6);
   });
 
   it('takes the place of what is there, and undoing brings that back', async () => {
@@ -153,6 +161,33 @@ describe('a project', () => {
     expect(worthKeeping(store.getState())).toBe(false);
     change.apply(store, undone());
     expect(summary(store.getState())).toEqual(summary(before));
+  });
+});
+
+describe('latents', () => {
+  const latentsIn = async (kept: Kept, state: AppState) =>
+    (await contentOf(kept, state)).content.takes?.map(({ reaction }) => reaction.latents);
+
+  it('are left out where another decoder would read them, whatever its model is called', async () => {
+    const kept = keep(filled().getState());
+    const { decode, ...graphs } = small.graphs;
+    const { wasm, webgpu } = decode.files;
+    const tuned = { ...decode, files: { wasm: { ...wasm, sha256: '1'.repeat(64) }, webgpu } };
+    const store = change.createAppStore('dark');
+    change.apply(store, change.manifestArrived({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
+    expect(decoderOf(store.getState().manifest!)).not.toBe(decoderOf(small));
+    expect(await latentsIn(kept, store.getState())).toEqual([null, null, null]);
+    expect(await latentsIn(kept, empty().getState())).toEqual([latents(60, 3), latents(60, 2), null]);
+  });
+
+  it('are missing from takes that were kept without them, which open all the same', async () => {
+    const files = unzipSync(await writeProject(keep(filled().getState())));
+    const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as {
+      motions: Record<string, unknown>[];
+    };
+    for (const motion of manifest.motions) delete motion['latents'];
+    const bytes = zipSync({ ...files, 'project.json': strToU8(JSON.stringify(manifest)) });
+    expect(await latentsIn(readProject(bytes), empty().getState())).toEqual([null, null, null]);
   });
 });
 
@@ -247,6 +282,12 @@ describe('a broken project', () => {
       () => changed((files) => delete files['songs/1-descarga.mp3']),
       'missing-part',
       /songs\/1/,
+    ],
+    [
+      'with half the latents',
+      () => changed((files) => (files['takes/1-latents.f32'] = new Uint8Array(80))),
+      'damaged-project',
+      /takes\/1-latents\.f32 .* 80 bytes where 90 latents have 360/,
     ],
     [
       'with half a take',

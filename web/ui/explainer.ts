@@ -1,0 +1,124 @@
+import { el, setText, setVariable, together } from './dom';
+
+/** What a card says: what it is about, a number or a moment beside it, and what that means in sentences. */
+export interface Explanation {
+  readonly title: string;
+  readonly aside: string;
+  readonly text: string;
+}
+
+export interface Explainer {
+  /**
+   * Explains a button while the pointer rests on it, while it has the focus, and after a tap; Escape or a tap elsewhere
+   * puts the card away. Called again, the words change.
+   */
+  readonly explain: (button: HTMLElement, words: Explanation) => void;
+  readonly dispose: () => void;
+}
+
+/** Rest of the pointer before the card comes, and time to move over to the card before it goes, milliseconds. */
+const REST = 150;
+/** Room between button and card, and between card and the window's edge, CSS pixels. */
+const GAP = 8;
+
+/** One card for many small things, floating beside the one it explains, so that nothing on the page moves. */
+export function createExplainer(): Explainer {
+  const title = el('b');
+  const aside = el('span');
+  const text = el('p');
+  const card = el(
+    'div',
+    { class: 'explained', attributes: { id: 'explained', role: 'tooltip', popover: 'auto' } },
+    el('div', { class: 'top' }, title, aside),
+    text,
+  );
+  document.body.append(card);
+
+  const words = new WeakMap<HTMLElement, Explanation>();
+  let about: HTMLElement | null = null;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  const place = (): void => {
+    if (!about) return;
+    const at = about.getBoundingClientRect();
+    const { offsetWidth: width, offsetHeight: height } = card;
+    const middle = at.left + Math.min(at.width, width) / 2;
+    const left = Math.min(document.documentElement.clientWidth - GAP - width, middle - width / 2);
+    const above = at.top - GAP - height;
+    setVariable(card, '--x', Math.round(Math.max(GAP, left)));
+    setVariable(card, '--y', Math.round(above >= GAP ? above : at.bottom + GAP));
+  };
+  const fill = (button: HTMLElement): void => {
+    const explanation = words.get(button);
+    setText(title, explanation?.title ?? '');
+    setText(aside, explanation?.aside ?? '');
+    setText(text, explanation?.text ?? '');
+  };
+  const show = (button: HTMLElement): void => {
+    clearTimeout(timer);
+    if (about !== button) about?.removeAttribute('aria-describedby');
+    about = button;
+    fill(button);
+    button.setAttribute('aria-describedby', card.id);
+    if (!card.matches(':popover-open')) card.showPopover();
+    place();
+  };
+  const hide = (): void => {
+    clearTimeout(timer);
+    if (card.matches(':popover-open')) card.hidePopover();
+  };
+  /** The pointer has left button and card: the one that the keyboard is on keeps its card. */
+  const leave = ({ pointerType }: PointerEvent): void => {
+    if (pointerType !== 'mouse') return;
+    clearTimeout(timer);
+    if (!about?.matches(':focus-visible')) timer = setTimeout(hide, REST);
+  };
+  card.addEventListener('pointerenter', () => {
+    clearTimeout(timer);
+  });
+  card.addEventListener('pointerleave', leave);
+  card.addEventListener('toggle', ({ newState }) => {
+    if (newState !== 'closed') return;
+    about?.removeAttribute('aria-describedby');
+    about = null;
+  });
+  const listenTo = (button: HTMLElement): void => {
+    button.addEventListener('pointerenter', ({ pointerType }) => {
+      if (pointerType !== 'mouse') return;
+      clearTimeout(timer);
+      timer = setTimeout(() => {
+        if (button.isConnected) show(button);
+      }, REST);
+    });
+    button.addEventListener('pointerleave', leave);
+    button.addEventListener('focus', () => {
+      show(button);
+    });
+    // A tap need not give the focus, and the press itself has put an open card away.
+    button.addEventListener('click', () => {
+      show(button);
+    });
+    button.addEventListener('blur', hide);
+  };
+  const resized = new ResizeObserver(hide);
+  resized.observe(document.documentElement);
+
+  return {
+    explain: (button, explanation) => {
+      if (!words.has(button)) listenTo(button);
+      words.set(button, explanation);
+      if (about !== button) return;
+      fill(button);
+      place();
+    },
+    dispose: together(
+      () => {
+        clearTimeout(timer);
+        resized.disconnect();
+      },
+      () => {
+        card.remove();
+      },
+    ),
+  };
+}
