@@ -5,11 +5,14 @@ import tseslint from 'typescript-eslint';
 
 /** What a folder of web/ must not import: a pattern of relative paths and the reason. */
 const towards = (folders, message) => ({ regex: `^(\\.\\./)+(${folders})(/|\\.ts$|$)`, message });
-const everywhere = towards('main|tests|tools', 'main.ts, tests and tools know the app, never the reverse');
+const everywhere = towards(
+  'main|on-stage|tests|tools',
+  'main.ts, tests and tools know the app, never the reverse',
+);
 
 /**
  * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
- * motion, audio, motion and offline see nobody, and only main.ts knows everyone.
+ * motion, audio, motion and offline see nobody, and only main.ts and on-stage.ts know everyone.
  */
 const directions = {
   offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],

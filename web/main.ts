@@ -2,14 +2,14 @@ import { createPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
 import { clearKept, measureKept } from './offline/kept';
 import { keepPage } from './offline/register';
+import { openCamera, showOn } from './on-stage';
 import { measureDance } from './quality/client';
 import { mountBar } from './ui/bar';
 import { createChoices } from './ui/choices';
 import { createChooser } from './ui/chooser';
 import { createCoarseLayer } from './ui/coarse-layer';
 import { loadDemo } from './ui/demo';
-import { together } from './ui/dom';
-import { type Camera, createDownloads } from './ui/downloads';
+import { createDownloads } from './ui/downloads';
 import { mountDropTarget } from './ui/drop-target';
 import { createFiles } from './ui/files';
 import { mountFirstVisit } from './ui/first-visit';
@@ -31,24 +31,25 @@ import { keepPreferences } from './ui/preferences';
 import { mountProblemDialog } from './ui/problem-dialog';
 import { stageProblem } from './ui/problems';
 import { mountProgress } from './ui/progress';
-import { couple, madeRole } from './ui/couple';
+import { madeRole } from './ui/couple';
 import { createQuality } from './ui/quality';
 import { readReference } from './ui/quality-reference';
-import { coarseMotion, otherCoarseMotion } from './ui/reactor-motion';
 import { saveFile } from './ui/save';
 import type { Services } from './ui/services';
 import { isProject } from './ui/sniff';
 import { mountStageControls } from './ui/stage-controls';
-import { apply, createAppStore, referenceKnown, told, updateSet, watch, watchAll } from './ui/store';
+import { referenceKnown } from './ui/reaction-changes';
+import { apply, createAppStore, watch } from './ui/store';
+import { told } from './ui/telling-changes';
+import { updateSet } from './ui/view-changes';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
-import { showOther } from './ui/takes/other-dancer';
 import { mountUndoKeys } from './ui/takes/undo-keys';
 import { mountTakes } from './ui/takes/takes-panel';
 import { showTheme, systemTheme, watchSystemTheme } from './ui/theme';
 import { mountTimeline } from './ui/timeline';
 import { mountTransport } from './ui/transport';
 import { mountUnderstood } from './ui/understood';
-import { createStage, type PictureSize, type Stage } from './view/stage';
+import { createStage, type Stage } from './view/stage';
 
 /** The places that index.html leaves for the panels. */
 function place(id: string): HTMLElement {
@@ -136,7 +137,7 @@ const services: Services = {
   seek: playback.seek,
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
-    camera: stage && ((size) => openCamera(stage, size)),
+    camera: stage && ((size) => openCamera(stage, store, size)),
     stageSize: () => stage?.pictureSize() ?? null,
     save: saveFile,
   }),
@@ -190,75 +191,7 @@ mountUndoKeys(store);
 
 // ---- state to stage and page ----
 
-const calm = matchMedia('(prefers-reduced-motion: reduce)');
-
-/** Shows on a stage what the state says; returns how to let go of it. */
-function showOn(shown: Stage): () => void {
-  let shownAs = '';
-  return together(
-    watch(
-      store,
-      (state) => state.theme,
-      (theme) => shown.setTheme(theme),
-    ),
-    watchAll(
-      store,
-      (state) => Object.values(couple(state)),
-      (state) => {
-        // One reaction passes over into the next; what is switched, the parts and the foot lock, is there at once.
-        const now = `${madeRole(state)} ${state.footLock}`;
-        shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
-        shownAs = now;
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [coarseMotion(state), otherCoarseMotion(state)],
-      (state) => shown.setCoarse(coarseMotion(state), otherCoarseMotion(state)),
-    ),
-    watch(
-      store,
-      (state) => state.shown,
-      (what) => shown.setShown(what),
-    ),
-    showOther(store, shown),
-    watch(
-      store,
-      (state) => state.playback.time,
-      (time) => shown.setTime(time),
-    ),
-    watch(
-      store,
-      (state) => state.camera,
-      (camera) => shown.setCamera(camera),
-    ),
-  );
-}
-if (stage) showOn(stage);
-
-/** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
-async function openCamera(from: Stage, size: PictureSize): Promise<Camera> {
-  const film = from.film(size);
-  try {
-    showOn(film)();
-    const framing = from.framing();
-    await film.ready();
-    film.setTime(0);
-    film.frameAs(framing);
-  } catch (error) {
-    film.dispose();
-    throw error;
-  }
-  let before = 0;
-  return {
-    canvas: film.canvas,
-    shoot: (seconds) => {
-      film.shoot(seconds, seconds - before);
-      before = seconds;
-    },
-    dispose: () => film.dispose(),
-  };
-}
+if (stage) showOn(stage, store);
 
 /** The couple stands beside the words of the first visit, where there is room beside them. */
 const roomBeside = matchMedia('(min-width: 761px)');

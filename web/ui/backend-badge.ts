@@ -4,7 +4,8 @@ import { icon } from './icons';
 import { loadingWords } from './loading-words';
 import type { Mount } from './services';
 import type { ModelState } from './state';
-import { apply, opened, watch } from './store';
+import { apply, watch } from './store';
+import { opened } from './view-changes';
 
 const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
 

@@ -5,7 +5,8 @@ import { mountDownloadMenu } from './download-menu';
 import { brandMark, icon } from './icons';
 import { mountProjectMenu } from './keep/project-menu';
 import type { Mount } from './services';
-import { apply, opened, themeSet, watch } from './store';
+import { apply, watch } from './store';
+import { opened, themeSet } from './view-changes';
 import { mountUndo } from './takes/undo-buttons';
 
 /** The bar: what this is, the two files, what computes, light or dark, and the way out with the motion. */

@@ -15,7 +15,10 @@ import { rolledSeed } from './seed';
 import { generationProblem, isAbort } from './problems';
 import { sameInputs, upToDate, wantedInputs } from './selectors';
 import type { Choice } from './state';
-import { apply, reacted, seedRolled, settingsSet, type Store, told } from './store';
+import { reacted } from './reaction-changes';
+import { seedRolled, settingsSet } from './settings-changes';
+import { apply, type Store } from './store';
+import { told } from './telling-changes';
 
 export interface ChoiceMaker {
   /** Makes three reactions that differ in their seed; where three are there already, three others. */

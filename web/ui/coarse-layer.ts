@@ -2,7 +2,9 @@ import type { Generator } from '../model/client';
 import type { SolvedMotion } from '../motion/clip';
 import { coarseProblem, isAbort } from './problems';
 import type { AppState, Reaction } from './state';
-import { apply, coarseChanged, shownToggled, told, watchAll, type Store } from './store';
+import { apply, watchAll, type Store } from './store';
+import { told } from './telling-changes';
+import { coarseChanged, shownToggled } from './view-changes';
 import { otherTake } from './takes/take';
 
 /** Whether the reaction on the stage can't tell its coarse layer, since it was not made here. */

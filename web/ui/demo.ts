@@ -2,7 +2,11 @@ import * as v from 'valibot';
 import type { SolvedMotion } from '../motion/clip';
 import type { Files } from './files';
 import type { LoadedLeader, LoadedSong, Reaction, Settings } from './state';
-import { apply, demoChanged, playbackSet, reacted, settingsSet, type Store } from './store';
+import { demoChanged } from './file-changes';
+import { reacted } from './reaction-changes';
+import { settingsSet } from './settings-changes';
+import { apply, type Store } from './store';
+import { playbackSet } from './view-changes';
 import { unremembered } from './takes/history';
 
 const text = v.pipe(v.string(), v.minLength(1));

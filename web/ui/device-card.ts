@@ -3,7 +3,8 @@ import { byteSize } from './format';
 import { icon } from './icons';
 import type { Services } from './services';
 import type { Kept, ModelState } from './state';
-import { apply, opened, watch, watchAll, type Store } from './store';
+import { apply, watch, watchAll, type Store } from './store';
+import { opened } from './view-changes';
 
 const PARTS = [
   ['page', 'Page and demo'],

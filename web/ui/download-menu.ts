@@ -4,7 +4,8 @@ import { createDownloadVideo } from './download-video';
 import { icon } from './icons';
 import type { Mount } from './services';
 import type { AppState } from './state';
-import { apply, opened, watch, watchAll } from './store';
+import { apply, watch, watchAll } from './store';
+import { opened } from './view-changes';
 import { mountTakesDoor } from './takes/takes-door';
 
 /**

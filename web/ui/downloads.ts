@@ -11,10 +11,11 @@ import { danceOf, namedAfter } from './dance';
 import { downloadChosen, filmingChanged, savedChanged, writingChanged } from './download-changes';
 import { motionFileName, videoFileName } from './file-name';
 import { isAbort, savingProblem } from './problems';
-import { danceDuration } from './selectors';
 import { songStart } from './song-shift';
 import type { Services } from './services';
-import { apply, opened, type Store, told } from './store';
+import { apply, type Store } from './store';
+import { told } from './telling-changes';
+import { opened } from './view-changes';
 
 interface Pixels {
   readonly width: number;
@@ -43,8 +44,6 @@ export type Downloads = Pick<
   'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'stageSize'
 >;
 
-/** Pictures a second of a video: those of the motion. */
-const FPS = 30;
 /** The page is told of a video's progress at most this often, milliseconds. */
 const BETWEEN_REPORTS = 100;
 
@@ -71,7 +70,7 @@ export function createDownloads(store: Store, { camera, stageSize, save }: Downl
     if (!named || !camera) return;
     const size = pixels();
     const sound = song();
-    const frames = Math.round(danceDuration(state) * FPS);
+    const { fps, frames } = named.inputs.leader.file.clip; // a picture for each frame of the motion
     apply(store, filmingChanged({ frame: 0, frames, left: null }));
     const plan = await planVideo(size, sound !== null);
     signal.throwIfAborted();
@@ -83,11 +82,11 @@ export function createDownloads(store: Store, { camera, stageSize, save }: Downl
       const file = await writeVideo(
         {
           ...size,
-          fps: FPS,
+          fps,
           frames,
           canvas: shot.canvas,
           draw: (frame) => {
-            shot.shoot(frame / FPS);
+            shot.shoot(frame / fps);
           },
           sound: sound && { file: sound, start: songStart(named.inputs) },
         },

@@ -4,17 +4,9 @@ import type { LeaderQuestion, ReadLeader } from './leader-reader';
 import { emptyFileProblem, fileProblem, isAbort, otherMotionProblem, unknownFileProblem } from './problems';
 import { HEAD_BYTES, kindOf } from './sniff';
 import type { LoadedLeader, LoadedSong, Side } from './state';
-import {
-  apply,
-  type Change,
-  leaderLoaded,
-  told,
-  dismissed,
-  readingSet,
-  songLoaded,
-  type Store,
-  visitEnded,
-} from './store';
+import { leaderLoaded, readingSet, songLoaded, visitEnded } from './file-changes';
+import { apply, type Change, type Store } from './store';
+import { told, dismissed } from './telling-changes';
 import { unremembered } from './takes/history';
 
 /**

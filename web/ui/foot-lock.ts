@@ -1,6 +1,7 @@
 import { el, together } from './dom';
 import type { Mount } from './services';
-import { apply, footLockSet, watch } from './store';
+import { footLockSet } from './reaction-changes';
+import { apply, watch } from './store';
 
 const WORDS = 'Keeps planted feet from sliding';
 

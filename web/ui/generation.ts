@@ -11,7 +11,9 @@ import { reactorMotion, rememberLocked } from './reactor-motion';
 import { guidanceMatrix, sameInputs, wantedInputs } from './selectors';
 import { splice } from './splice';
 import type { Inputs, Reaction } from './state';
-import { apply, jobChanged, previewed, told, reacted, type Store } from './store';
+import { jobChanged, previewed, reacted } from './reaction-changes';
+import { apply, type Store } from './store';
+import { told } from './telling-changes';
 
 /** Stillness after the last change before a new reaction is begun, milliseconds. */
 const STILLNESS = 60;

@@ -6,7 +6,8 @@ import { mountMatrix } from './matrix';
 import { mountPresetMenu } from './preset-menu';
 import type { Mount } from './services';
 import type { Guidance, Layer } from './state';
-import { apply, guidanceReset, guidanceSet, watchAll } from './store';
+import { guidanceReset, guidanceSet } from './settings-changes';
+import { apply, watchAll } from './store';
 
 const FADERS: readonly (readonly [Layer, string, string])[] = [
   ['coarse', 'Coarse', 'The big shape: path, turns, weight.'],

@@ -5,18 +5,10 @@ import { danceDuration } from './selectors';
 import type { Services } from './services';
 import { SHOWS } from './shows';
 import type { Camera, Shown } from './state';
-import {
-  apply,
-  cameraSet,
-  guidanceReset,
-  opened,
-  playbackSet,
-  dismissed,
-  seedRolled,
-  shownToggled,
-  SPEEDS,
-  type Store,
-} from './store';
+import { guidanceReset, seedRolled } from './settings-changes';
+import { apply, type Store } from './store';
+import { dismissed } from './telling-changes';
+import { cameraSet, opened, playbackSet, shownToggled, SPEEDS } from './view-changes';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from './timeline-changes';
 import { ZOOM_STEP } from './zoom-control';
 import { takeStarred } from './takes/changes';

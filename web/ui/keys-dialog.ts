@@ -2,7 +2,8 @@ import { el, together } from './dom';
 import { icon } from './icons';
 import type { Mount } from './services';
 import { SHOWS } from './shows';
-import { apply, opened, watch } from './store';
+import { apply, watch } from './store';
+import { opened } from './view-changes';
 
 const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Space'], 'Play or pause'],

@@ -4,7 +4,8 @@ import { columnOf, guidanceAt } from './guidance-matrix';
 import { icon } from './icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
 import type { Mount } from './services';
-import { apply, guidanceCellReset, guidanceCellSet, watch, watchAll } from './store';
+import { guidanceCellReset, guidanceCellSet } from './settings-changes';
+import { apply, watch, watchAll } from './store';
 
 /** The streams in words; a model of other streams shows their own names. */
 const PARTS: Readonly<Record<string, { name: string; label: string; hint: string }>> = {

@@ -2,7 +2,9 @@ import type { Generator, Manifest, ModelFolder, Status } from '../model/client';
 import { rolledSeed } from './seed';
 import { modelProblem } from './problems';
 import type { ModelState } from './state';
-import { apply, manifestArrived, modelChanged, modelOpened, told, remarked, type Store } from './store';
+import { manifestArrived, modelChanged, modelOpened } from './model-changes';
+import { apply, type Store } from './store';
+import { told, remarked } from './telling-changes';
 
 export interface ModelLink {
   /** The model when it is ready; rejects when this attempt to load it has failed. */

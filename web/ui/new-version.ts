@@ -1,6 +1,7 @@
 import { el, setText, together } from './dom';
 import type { Mount } from './services';
-import { apply, updateSet, watch } from './store';
+import { apply, watch } from './store';
+import { updateSet } from './view-changes';
 
 /** Says that a newer build of the page is here; nothing reloads by itself, for work may be on the stage. */
 export const mountNewVersion: Mount = (root, store, services) => {

@@ -2,7 +2,8 @@ import { type DroppedFile, modelAmong } from './dropped';
 import type { Files } from './files';
 import type { ModelLink } from './model-link';
 import { dropProblem, emptyDropProblem } from './problems';
-import { apply, told, type Store } from './store';
+import { apply, type Store } from './store';
+import { told } from './telling-changes';
 
 /**
  * Opens what was dropped: the folder of a model, or songs and leaders. What can't be read is told.

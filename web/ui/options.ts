@@ -8,7 +8,8 @@ import { rolledSeed } from './seed';
 import { beingRead, upToDate } from './selectors';
 import type { Mount } from './services';
 import type { AppState } from './state';
-import { apply, rolesSwapped, seedRolled, stepsSet, watchAll } from './store';
+import { rolesSwapped, seedRolled, stepsSet } from './settings-changes';
+import { apply, watchAll } from './store';
 
 /** Which of the many possible reactions, how carefully it is made, whose part it is, and the order to make it. */
 export const mountOptions: Mount = (root, store, services) => {

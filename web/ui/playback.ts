@@ -3,7 +3,10 @@ import { isAbort, playbackProblem } from './problems';
 import { danceDuration } from './selectors';
 import { songStart } from './song-shift';
 import type { AppState } from './state';
-import { apply, playbackSet, told, type Store, visitEnded, watch, watchAll } from './store';
+import { visitEnded } from './file-changes';
+import { apply, type Store, watch, watchAll } from './store';
+import { told } from './telling-changes';
+import { playbackSet } from './view-changes';
 import { together } from './dom';
 import type { Span } from './time-scale';
 

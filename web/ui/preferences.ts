@@ -2,7 +2,8 @@ import * as v from 'valibot';
 import { together } from './dom';
 import { NOTHING_SHOWN } from './shows';
 import type { AppState, Theme } from './state';
-import { apply, SPEEDS, themeSet, watch, watchAll, type Change, type Store } from './store';
+import { apply, watch, watchAll, type Change, type Store } from './store';
+import { SPEEDS, themeSet } from './view-changes';
 
 const KEY = 'reactdance.preferences';
 

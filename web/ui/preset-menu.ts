@@ -2,7 +2,8 @@ import { el, setText, together } from './dom';
 import { icon } from './icons';
 import { type Preset, presetOf, presets } from './presets';
 import type { Mount } from './services';
-import { apply, guidanceMatrixSet, watch, watchAll } from './store';
+import { guidanceMatrixSet } from './settings-changes';
+import { apply, watch, watchAll } from './store';
 
 const CUSTOM = 'Custom';
 

@@ -1,7 +1,8 @@
 import { el, together } from './dom';
 import type { Mount, Services } from './services';
 import type { AppState, Problem } from './state';
-import { apply, dismissed, watch, type Store } from './store';
+import { apply, watch, type Store } from './store';
+import { dismissed } from './telling-changes';
 
 /** A failure in words over the stage: what is wrong, what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {

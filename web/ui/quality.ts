@@ -3,7 +3,9 @@ import { isAbort } from './problems';
 import { reactorMotion } from './reactor-motion';
 import { musicBeats } from './song-shift';
 import type { AppState } from './state';
-import { apply, measured, remarked, type Store, watchAll } from './store';
+import { measured } from './reaction-changes';
+import { apply, type Store, watchAll } from './store';
+import { remarked } from './telling-changes';
 
 /** What the measures follow from; compared by identity. */
 function parts(state: AppState): readonly unknown[] {

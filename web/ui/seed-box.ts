@@ -2,7 +2,8 @@ import { el, together } from './dom';
 import { icon } from './icons';
 import { rolledSeed } from './seed';
 import type { Mount } from './services';
-import { apply, seedLockSet, seedRolled, seedSet, watchAll } from './store';
+import { seedLockSet, seedRolled, seedSet } from './settings-changes';
+import { apply, watchAll } from './store';
 
 /** The seed: typed, rolled, or locked so that nothing but typing changes it. */
 export const mountSeedBox: Mount = (root, store) => {

@@ -3,7 +3,8 @@ import { el, setAttribute, setText, together } from './dom';
 import type { Mount } from './services';
 import { SHOWS } from './shows';
 import type { AppState, Reaction } from './state';
-import { apply, opened, shownToggled, watch, watchAll } from './store';
+import { apply, watch, watchAll } from './store';
+import { opened, shownToggled } from './view-changes';
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
 export const mountShowMenu: Mount = (root, store, services) => {

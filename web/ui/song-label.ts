@@ -45,14 +45,14 @@ export function createSongLabel(store: Store): SongLabel {
       back.hidden = shift === 0;
       setText(back, `${signed(shift)} ×`);
       back.setAttribute('aria-label', `Song shift ${frameWords(shift)}: put it back`);
-      back.title = `The song is shifted by ${shiftWords(shift)}. Click to put it back.`;
+      back.title = `The song is shifted by ${shiftWords(shift, state)}. Click to put it back.`;
       const found = suggestedShift(state);
       align.hidden = found === null;
       if (!found) return;
       setText(align, `Align ${frameWords(found.by)}`);
       align.title =
         `The leader's accents, the moments of least speed, meet the song's beats better ` +
-        `${shiftWords(found.by).split(', ')[1] ?? ''}: ${percent(found.score)} instead of ${percent(found.before)}. ` +
+        `${shiftWords(found.by, state).split(', ')[1] ?? ''}: ${percent(found.score)} instead of ${percent(found.before)}. ` +
         'Click to shift the song.';
     },
   };

@@ -65,7 +65,7 @@ export function createSongLane(store: Store, services: Services, { scale, onTry 
     const { from, to, width } = scale();
     const { min, max } = shiftRange(store.getState());
     const { leader, shift } = store.getState();
-    const frames = (distance / width) * (to - from) * (leader?.file.clip.fps ?? 30);
+    const frames = (distance / width) * (to - from) * (leader?.file.clip.fps ?? 0);
     return Math.min(max, Math.max(min, shift + Math.round(frames)));
   };
   const canShift = (): boolean => {
@@ -75,7 +75,7 @@ export function createSongLane(store: Store, services: Services, { scale, onTry 
   let silence: ReturnType<typeof setTimeout> | undefined;
   const say = (shift: number): void => {
     trying.hidden = false;
-    setText(trying, shiftWords(shift));
+    setText(trying, shiftWords(shift, store.getState()));
   };
   const settle = (): void => {
     trying.hidden = true;
@@ -139,7 +139,7 @@ export function createSongLane(store: Store, services: Services, { scale, onTry 
     grip.setAttribute('aria-valuemin', String(min));
     grip.setAttribute('aria-valuemax', String(max));
     grip.setAttribute('aria-valuenow', String(shift));
-    grip.setAttribute('aria-valuetext', shiftWords(shift));
+    grip.setAttribute('aria-valuetext', shiftWords(shift, state));
   };
 
   return {

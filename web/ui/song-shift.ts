@@ -2,9 +2,6 @@ import { betterShift, type BetterShift } from '../motion/beat-match';
 import { motionBeats } from '../motion/motion-beats';
 import type { AppState, LoadedLeader, LoadedSong } from './state';
 
-/** Frames per second of everything past the readers. */
-const FPS = 30;
-
 type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;
 
 /** Time of the dance at which the song begins, seconds; below 0 its beginning is not heard. */
@@ -39,10 +36,11 @@ export function frameWords(frames: number): string {
   return `${signed(frames)} ${Math.abs(frames) === 1 ? 'frame' : 'frames'}`;
 }
 
-/** `+7 frames, 0.23 s later`. */
-export function shiftWords(frames: number, fps = FPS): string {
-  if (frames === 0) return 'as the files begin';
-  return `${frameWords(frames)}, ${(Math.abs(frames) / fps).toFixed(2)} s ${frames > 0 ? 'later' : 'earlier'}`;
+/** `+7 frames, 0.23 s later`; without a leader there is nothing to shift against. */
+export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>): string {
+  if (frames === 0 || !leader) return 'as the files begin';
+  const seconds = (Math.abs(frames) / leader.file.clip.fps).toFixed(2);
+  return `${frameWords(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
 }
 
 let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: BetterShift | null } | null =

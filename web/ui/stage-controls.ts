@@ -3,7 +3,8 @@ import { coarseMotion } from './reactor-motion';
 import type { Mount } from './services';
 import { mountShowMenu } from './show-menu';
 import type { Camera } from './state';
-import { apply, cameraSet, watch } from './store';
+import { apply, watch } from './store';
+import { cameraSet } from './view-changes';
 
 const CAMERAS: readonly (readonly [Camera, string])[] = [
   ['orbit', 'Orbit'],

@@ -4,7 +4,8 @@ import { icon, type IconName } from './icons';
 import { barAt, beingRead, danceDuration, lengthNote } from './selectors';
 import type { Mount } from './services';
 import { musicBeats } from './song-shift';
-import { apply, playbackSet, SPEEDS, watch, watchAll } from './store';
+import { apply, watch, watchAll } from './store';
+import { playbackSet, SPEEDS } from './view-changes';
 import { createZoomControl } from './zoom-control';
 
 /** Play, where we are, how fast. */

@@ -4,7 +4,7 @@ import type { SolvedMotion } from '../../../web/motion/clip';
 import { coarseIsMissing, createCoarseLayer } from '../../../web/ui/coarse-layer';
 import { coarseMotion, otherCoarseMotion } from '../../../web/ui/reactor-motion';
 import type { Reaction } from '../../../web/ui/state';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { compareSet, flipped, letterGiven } from '../../../web/ui/takes/changes';
 import { small } from '../model/small-manifest';
 import { alike, leader, still } from './made';

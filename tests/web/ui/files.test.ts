@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { MotionError } from '../../../web/motion/error';
 import { createFiles, type Files, type Readers } from '../../../web/ui/files';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { small } from '../model/small-manifest';
 import { heard, leaderFile, still } from './made';
 

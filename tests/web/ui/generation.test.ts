@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createGeneration } from '../../../web/ui/generation';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { shiftSet } from '../../../web/ui/timeline-changes';
 import { small } from '../model/small-manifest';
 import { Hand, result } from './hand';

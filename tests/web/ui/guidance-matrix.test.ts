@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import * as matrix from '../../../web/ui/guidance-matrix';
 import { presetOf, presets } from '../../../web/ui/presets';
 import type { Guidance } from '../../../web/ui/state';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { small } from '../model/small-manifest';
 import { alike } from './made';
 

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Player } from '../../../web/audio/client';
 import { createPlayback, type PlaybackControl } from '../../../web/ui/playback';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { regionSet, shiftSet } from '../../../web/ui/timeline-changes';
 import { leader, song } from './made';
 

@@ -1,15 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { keepPreferences, type PreferenceStorage } from '../../../web/ui/preferences';
 import type { Theme } from '../../../web/ui/state';
-import {
-  apply,
-  cameraSet,
-  createAppStore,
-  footLockSet,
-  playbackSet,
-  shownToggled,
-  themeSet,
-} from '../../../web/ui/store';
+import { footLockSet } from '../../../web/ui/reaction-changes';
+import { apply, createAppStore } from '../../../web/ui/store';
+import { cameraSet, playbackSet, shownToggled, themeSet } from '../../../web/ui/view-changes';
 
 const KEY = 'reactdance.preferences';
 

@@ -4,7 +4,7 @@ import { measure } from '../../../web/quality/measure';
 import { createQuality } from '../../../web/ui/quality';
 import { marksInOne, marksOf, worstRow } from '../../../web/ui/quality-marks';
 import { laneWords, momentExplained, momentWords } from '../../../web/ui/quality-words';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import { madeStander } from '../motion/made-stander';
 import { small } from '../model/small-manifest';
 import { alike, leader, song } from './made';

@@ -1,7 +1,8 @@
 import { expect, test } from 'vitest';
 import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
 import { reactorMotion } from '../../../web/ui/reactor-motion';
-import { createAppStore, apply, footLockSet, reacted } from '../../../web/ui/store';
+import { footLockSet, reacted } from '../../../web/ui/reaction-changes';
+import { createAppStore, apply } from '../../../web/ui/store';
 import { madeStander } from '../motion/made-stander';
 import { alike, leader } from './made';
 

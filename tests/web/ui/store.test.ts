@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import * as change from '../../../web/ui/store';
+import * as change from './all-changes';
 import type { Problem } from '../../../web/ui/state';
 import { small } from '../model/small-manifest';
 import { alike, leader, song, still } from './made';

@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import * as store from '../../../web/ui/store';
+import * as store from './all-changes';
 import * as shift from '../../../web/ui/song-shift';
 import * as change from '../../../web/ui/timeline-changes';
 import { wantedInputs, sameInputs } from '../../../web/ui/selectors';
@@ -97,7 +97,7 @@ describe('timeline changes', () => {
   it('says shifts in words', () => {
     expect(shift.frameWords(7)).toBe('+7 frames');
     expect(shift.frameWords(-1)).toBe('−1 frame');
-    expect(shift.shiftWords(15)).toBe('+15 frames, 0.50 s later');
-    expect(shift.shiftWords(-3)).toBe('−3 frames, 0.10 s earlier');
+    expect(shift.shiftWords(15, now())).toBe('+15 frames, 0.50 s later');
+    expect(shift.shiftWords(-3, now())).toBe('−3 frames, 0.10 s earlier');
   });
 });

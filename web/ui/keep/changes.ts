@@ -1,6 +1,7 @@
 import type { Manifest } from '../../model/client';
 import type { AppState, KeepingState, Take } from '../state';
-import { type Change, manifestArrived } from '../store';
+import { manifestArrived } from '../model-changes';
+import { type Change } from '../store';
 import { NO_HISTORY, replacing } from '../takes/history';
 import { withTake } from '../takes/take';
 

@@ -2,7 +2,8 @@ import { el, listen, setAttribute, setText, together } from '../dom';
 import { icon, type IconName } from '../icons';
 import type { Mount } from '../services';
 import type { KeepingState } from '../state';
-import { apply, opened, watch, watchAll } from '../store';
+import { apply, watch, watchAll } from '../store';
+import { opened } from '../view-changes';
 import { worthKeeping } from './kept';
 
 const HEADS: Readonly<Record<KeepingState, string>> = {

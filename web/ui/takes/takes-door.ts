@@ -1,6 +1,7 @@
 import { el } from '../dom';
 import type { Mount } from '../services';
-import { apply, opened } from '../store';
+import { apply } from '../store';
+import { opened } from '../view-changes';
 
 /** On the phone, the way from the sheet of the share button to the one with the takes. */
 export const mountTakesDoor: Mount = (root, store) => {

@@ -3,7 +3,7 @@ import { createFiles, type Readers } from '../../../../web/ui/files';
 import type { Kept } from '../../../../web/ui/keep/kept';
 import { createKeeping, type Keeping } from '../../../../web/ui/keep/keeping';
 import { notes } from '../../../../web/ui/selectors';
-import * as change from '../../../../web/ui/store';
+import * as change from '../all-changes';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/takes/changes';
 import { presentInputs } from '../../../../web/ui/takes/take';
 import { small } from '../../model/small-manifest';

@@ -7,7 +7,7 @@ import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/kee
 import { readProject, writeProject } from '../../../../web/ui/keep/project-file';
 import { type Rereaders, reviving } from '../../../../web/ui/keep/revive';
 import type { AppState } from '../../../../web/ui/state';
-import * as change from '../../../../web/ui/store';
+import * as change from '../all-changes';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/takes/changes';
 import { redone, undone } from '../../../../web/ui/takes/history';
 import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/takes/take';

@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { AppState, LoadedLeader, Reaction, Settings } from '../../../../web/ui/state';
 import { columnOf } from '../../../../web/ui/guidance-matrix';
-import * as change from '../../../../web/ui/store';
+import * as change from '../all-changes';
 import { MOST_TAKES } from '../../../../web/ui/takes/arrival';
 import * as edit from '../../../../web/ui/takes/changes';
 import { redone, undone, unremembered } from '../../../../web/ui/takes/history';
