@@ -13,11 +13,13 @@ const installed = (): ServiceWorker =>
  */
 async function visit(keptBefore: boolean): Promise<number> {
   const coming = installed();
-  const registration = Object.assign(new EventTarget(), { installing: coming, waiting: null });
-  const container = Object.assign(new EventTarget(), {
-    controller: keptBefore ? installed() : null,
-    register: () => Promise.resolve(registration),
-  });
+  const workers: Pick<ServiceWorkerRegistration, 'installing'> & { waiting: ServiceWorker | null } = {
+    installing: coming,
+    waiting: null,
+  };
+  const registration = Object.assign(new EventTarget(), workers);
+  const page: { controller: ServiceWorker | null } = { controller: keptBefore ? installed() : null };
+  const container = Object.assign(new EventTarget(), page, { register: () => Promise.resolve(registration) });
   vi.stubGlobal('navigator', { serviceWorker: container });
   vi.stubGlobal('document', { readyState: 'complete' });
   let offers = 0;
