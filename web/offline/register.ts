@@ -13,10 +13,12 @@ export interface OfflinePage {
 export function keepPage(script: URL, onUpdate: () => void): OfflinePage {
   let waiting: ServiceWorker | null = null;
   const container = navigator.serviceWorker as ServiceWorkerContainer | undefined;
+  // A page that came from the server is what will be kept first: nothing newer waits for it. Asked now, for WebKit
+  // may tell that a worker was installed only when that one has already taken the page over.
+  const wasKept = Boolean(container?.controller);
 
   const offer = (worker: ServiceWorker | null): void => {
-    // Without a controller this is the first build that is kept, not a newer one.
-    if (!worker || !container?.controller) return;
+    if (!worker || !wasKept) return;
     waiting = worker;
     onUpdate();
   };

@@ -17,6 +17,11 @@ const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
   ['json', 'JSON', 'Joints with all settings, readable'],
 ];
 
+/** What a tool has to be told when it reads a format, where the file cannot say it itself. */
+const READING: Partial<Record<MotionFormat, string>> = {
+  bvh: 'In centimetres: in Blender import it with scale 0.01 and “Update Scene FPS”',
+};
+
 /** Part of the download menu: whose motion, in which format, under which name. */
 export interface DownloadMotion {
   readonly parts: readonly HTMLElement[];
@@ -50,7 +55,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
       'button',
       {
         class: 'it',
-        attributes: { type: 'button' },
+        attributes: { type: 'button', title: READING[format] },
         on: {
           click: () => {
             services.saveMotion(format);

@@ -14,7 +14,7 @@ export interface Drag {
 }
 
 /** Way that a pointer makes before a press is a drag, CSS pixels. */
-const SLOP = 4;
+export const SLOP = 4;
 
 /** Makes an element draggable to the left and right; returns the undo. */
 export function draggable(element: HTMLElement, drag: Drag): () => void {

@@ -96,7 +96,10 @@ export function mountLaneZoom(
   );
 }
 
-/** Two fingers: the place between them, by how much they spread and how far they moved since the last time. */
+/**
+ * Two fingers: the place between them, by how much they spread and how far they moved since the last time. Whatever
+ * the first finger had begun is taken back when the second one comes.
+ */
 function onPinch(
   element: HTMLElement,
   change: (middle: number, factor: number, by: number) => void,
@@ -108,8 +111,20 @@ function onPinch(
       ? null
       : { middle: (a + b) / 2, apart: Math.max(20, Math.abs(a - b)) };
   };
+  /** Where the first finger came down. */
+  let begun: EventTarget | null = null;
   const down = (event: PointerEvent): void => {
-    if (event.pointerType === 'touch' && fingers.size < 2) fingers.set(event.pointerId, event.clientX);
+    if (event.pointerType !== 'touch' || fingers.size === 2) return;
+    const [first] = fingers.keys();
+    fingers.set(event.pointerId, event.clientX);
+    if (first === undefined) {
+      begun = event.target;
+      return;
+    }
+    event.stopPropagation();
+    begun?.dispatchEvent(new PointerEvent('pointercancel', { pointerId: first, bubbles: true }));
+    // Fingers that slide off the lanes go on zooming, and are missed nowhere when they are lifted.
+    for (const finger of fingers.keys()) element.setPointerCapture(finger);
   };
   const move = (event: PointerEvent): void => {
     if (!fingers.has(event.pointerId)) return;
@@ -117,21 +132,15 @@ function onPinch(
     fingers.set(event.pointerId, event.clientX);
     const after = look();
     if (!before || !after) return;
-    // Two fingers zoom; neither of them scrubs or draws a loop.
-    event.stopPropagation();
     change(before.middle, after.apart / before.apart, after.middle - before.middle);
   };
   const up = (event: PointerEvent): void => {
-    fingers.delete(event.pointerId);
+    if (event.isTrusted) fingers.delete(event.pointerId);
   };
-  element.addEventListener('pointerdown', down, { capture: true });
-  element.addEventListener('pointermove', move, { capture: true });
-  element.addEventListener('pointerup', up, { capture: true });
-  element.addEventListener('pointercancel', up, { capture: true });
+  const heard = { pointerdown: down, pointermove: move, pointerup: up, pointercancel: up } as const;
+  const types = Object.keys(heard) as (keyof typeof heard)[];
+  for (const type of types) element.addEventListener(type, heard[type], { capture: true });
   return () => {
-    element.removeEventListener('pointerdown', down, { capture: true });
-    element.removeEventListener('pointermove', move, { capture: true });
-    element.removeEventListener('pointerup', up, { capture: true });
-    element.removeEventListener('pointercancel', up, { capture: true });
+    for (const type of types) element.removeEventListener(type, heard[type], { capture: true });
   };
 }

@@ -1,4 +1,5 @@
 import { el, setVariable, together } from './dom';
+import { SLOP } from './drag';
 import { barAt, danceDuration } from './selectors';
 import type { Services } from './services';
 import { musicBeats } from './song-shift';
@@ -26,6 +27,8 @@ export function createPlayhead(
   );
 
   let pointer: number | null = null;
+  /** Where a finger came down that may yet turn out to scroll the page or to zoom. */
+  let waiting: { readonly x: number; readonly y: number } | null = null;
   const toPointer = (event: PointerEvent): void => {
     const time = scale().time(event.clientX - slider.getBoundingClientRect().left);
     services.seek(Math.min(danceDuration(store.getState()), Math.max(0, time)));
@@ -38,18 +41,28 @@ export function createPlayhead(
     pointer = event.pointerId;
     // Clicks go to whoever holds the pointer: the grip passes a double click on.
     target.setPointerCapture(pointer);
-    toPointer(event);
+    waiting = event.pointerType === 'touch' ? { x: event.clientX, y: event.clientY } : null;
+    if (!waiting) toPointer(event);
   };
   const move = (event: PointerEvent): void => {
-    if (event.pointerId === pointer) toPointer(event);
+    if (event.pointerId !== pointer) return;
+    const along = waiting ? Math.abs(event.clientX - waiting.x) : Infinity;
+    if (along < SLOP || (waiting && along < Math.abs(event.clientY - waiting.y))) return;
+    waiting = null;
+    toPointer(event);
   };
   const up = (event: PointerEvent): void => {
+    if (event.pointerId !== pointer) return;
+    if (waiting) toPointer(event);
+    pointer = null;
+  };
+  const cancel = (event: PointerEvent): void => {
     if (event.pointerId === pointer) pointer = null;
   };
   lanes.addEventListener('pointerdown', down);
   lanes.addEventListener('pointermove', move);
   lanes.addEventListener('pointerup', up);
-  lanes.addEventListener('pointercancel', up);
+  lanes.addEventListener('pointercancel', cancel);
 
   const draw = (): void => {
     const now = scale();
@@ -80,7 +93,7 @@ export function createPlayhead(
         lanes.removeEventListener('pointerdown', down);
         lanes.removeEventListener('pointermove', move);
         lanes.removeEventListener('pointerup', up);
-        lanes.removeEventListener('pointercancel', up);
+        lanes.removeEventListener('pointercancel', cancel);
       },
     ),
   };

@@ -125,7 +125,8 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
   controls.addEventListener('start', () => {
     move = null;
     touched = true;
-    held = current();
+    // When one of two fingers is lifted, the other starts anew: it is all one gesture.
+    held ??= current();
   });
   controls.addEventListener('end', () => {
     const now = current();

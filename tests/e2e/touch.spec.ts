@@ -1,0 +1,82 @@
+import type { Page } from '@playwright/test';
+import { App } from './app-page';
+import { expect, test } from './fixtures';
+import { demoSettings, serveDemo } from './made-demo';
+
+// A small phone: what draws here is the processor.
+test.use({ viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
+
+type Finger = readonly [x: number, y: number];
+
+/** Puts fingers down one after the other, moves them together to where they go and lifts them. */
+async function fingers(page: Page, from: readonly Finger[], to: readonly Finger[]): Promise<void> {
+  const hand = await page.context().newCDPSession(page);
+  const at = (part: number): { x: number; y: number; id: number }[] =>
+    from.map(([x, y], id) => ({
+      x: x + ((to[id]?.[0] ?? x) - x) * part,
+      y: y + ((to[id]?.[1] ?? y) - y) * part,
+      id,
+    }));
+  const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', touchPoints: ReturnType<typeof at>) =>
+    hand.send('Input.dispatchTouchEvent', { type, touchPoints });
+  for (let down = 1; down <= from.length; down++) await touch('touchStart', at(0).slice(0, down));
+  for (const part of [0.25, 0.5, 0.75, 1]) await touch('touchMove', at(part));
+  await touch('touchEnd', []);
+  await hand.detach();
+}
+
+/** How far the camera stands from what it looks at, metres. */
+const distance = (page: Page): Promise<number> =>
+  page.evaluate<number>('window.reactdance.stage.framing().shot.distance');
+
+/** How the page itself is zoomed and scrolled; fingers on stage and timeline leave that alone. */
+const pageView = (page: Page): Promise<number[]> => page.evaluate('[visualViewport.scale, scrollX, scrollY]');
+
+async function middle(page: Page, selector: string): Promise<Finger> {
+  const box = await page.locator(selector).boundingBox();
+  if (!box) throw new Error(`Nothing is seen of ${selector}.`);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
+
+test('two fingers zoom stage and timeline, and the page stays where it is', async ({ page }) => {
+  await serveDemo(page, demoSettings);
+  const app = new App(page);
+  await app.open();
+  await app.settled();
+  await page.getByRole('button', { name: 'Play the demo' }).tap();
+  await page.getByRole('button', { name: 'Pause' }).tap();
+  await app.until(({ playback }) => !playback.playing);
+  const time = await app.read(({ playback }) => playback.time);
+
+  await test.step('the stage, which keeps the distance that was chosen', async () => {
+    const [x, y] = await middle(page, '.picture');
+    const far = await distance(page);
+    await fingers(page, [[x - 50, y], [x + 50, y]], [[x - 90, y], [x + 90, y]]); // prettier-ignore
+    await expect.poll(() => distance(page)).toBeLessThan(0.8 * far);
+    const near = await distance(page);
+    await page.waitForTimeout(800);
+    expect(await distance(page)).toBeCloseTo(near, 1);
+  });
+
+  await test.step('the timeline, without a jump of the playhead', async () => {
+    const [x, y] = await middle(page, '.lane.song');
+    await fingers(page, [[x - 40, y], [x + 40, y]], [[x - 120, y], [x + 120, y]]); // prettier-ignore
+    await expect.poll(() => app.read(({ zoom }) => zoom && zoom.to - zoom.from)).toBeLessThan(2);
+    expect(await app.read(({ playback }) => playback.time)).toBe(time);
+  });
+
+  await test.step('one finger drags the playhead', async () => {
+    const [x, y] = await middle(page, '.lane.song');
+    await fingers(page, [[x, y]], [[x + 60, y]]);
+    await expect.poll(() => app.read(({ playback }) => playback.time)).not.toBe(time);
+    expect(await pageView(page)).toEqual([1, 0, 0]);
+  });
+
+  await test.step('a swipe over the timeline scrolls and moves no playhead', async () => {
+    const before = await app.read(({ playback }) => playback.time);
+    const [x, y] = await middle(page, '.lane.song');
+    await fingers(page, [[x, y]], [[x, y - 120]]);
+    await expect.poll(() => pageView(page).then(([, , scrolled]) => scrolled)).toBeGreaterThan(50);
+    expect(await app.read(({ playback }) => playback.time)).toBe(before);
+  });
+});
