@@ -79,7 +79,8 @@ export const mountTransport: Mount = (root, store, services) => {
         setText(of, `/ ${clockTime(whole)}`);
         setText(note, lengthNote(state) ?? '');
         note.title = note.textContent;
-        counted.hidden = !state.song || state.song.data.beats.length === 0;
+        // Its room stays, so that nothing beside it moves when a song comes.
+        counted.classList.toggle('none', !state.song || state.song.data.beats.length === 0);
       },
     ),
     watchAll(

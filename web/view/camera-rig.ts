@@ -1,7 +1,7 @@
 import { PerspectiveCamera, Spherical, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { cutAlong, glideAlong, type Seen } from './following';
 import {
-  easing,
   FIELD_OF_VIEW,
   fitDistance,
   measureCouple,
@@ -19,6 +19,8 @@ export interface CameraRig {
   readonly camera: PerspectiveCamera;
   /** Where the eye stands around the target, radians about y. */
   readonly heading: number;
+  /** Whether it jumps instead of gliding. */
+  readonly jumps: boolean;
   resize(width: number, height: number): void;
   /** Moves the middle of the picture to the right by `pixels`. */
   shift(pixels: number): void;
@@ -44,20 +46,19 @@ export interface CameraRig {
 }
 
 const MOVE_SECONDS = 0.6;
-/** How far the couple may stray in the orbit view before the camera goes along, metres; less in a narrow picture. */
-const SLACK = 0.4;
-const TRACK_TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
-const BACK_TAU = 1;
-const CLOSER_TAU = 4;
-const STILL = 5e-4;
 
 const inOut = (t: number): number => (t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2);
 
 /**
  * @param surface element that takes the pointer.
  * @param onChange called when the person moves the camera.
+ * @param calm the person's wish for less movement, with which the camera jumps; null for pictures that leave the page
  */
-export function createCameraRig(surface: HTMLElement, onChange: () => void): CameraRig {
+export function createCameraRig(
+  surface: HTMLElement,
+  onChange: () => void,
+  calm: MediaQueryList | null,
+): CameraRig {
   const camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 80);
   const controls = new OrbitControls(camera, surface);
   controls.enableDamping = true;
@@ -77,13 +78,7 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
   const tracked = new Vector3();
   const spherical = new Spherical();
   const offset = new Vector3();
-  const still = matchMedia('(prefers-reduced-motion: reduce)');
-  /** Without flights the camera stops with the hand. */
-  const glide = (): void => {
-    controls.enableDamping = !still.matches;
-  };
-  glide();
-  still.addEventListener('change', glide);
+  const jumps = (): boolean => calm?.matches ?? false;
 
   let size = { width: 1, height: 1 };
   let aside = 0;
@@ -111,7 +106,7 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
     tracked.set(...shot.target);
     const from = current();
     const to = { ...shot, heading: nearestTurn(shot.heading, from.heading) };
-    if (still.matches) {
+    if (jumps()) {
       move = null;
       stand(to);
     } else move = { from, to, done: 0 };
@@ -119,6 +114,16 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
   };
 
   stand(shotOf(view, measureCouple([]), camera.aspect, 0));
+  /** A camera that does not glide stops with the hand; what is on its way is there at once. */
+  const settle = (): void => {
+    controls.enableDamping = !jumps();
+    if (!jumps() || move === null) return;
+    stand(move.to);
+    move = null;
+    onChange();
+  };
+  settle();
+  calm?.addEventListener('change', settle);
 
   // Dollying and panning are told apart from turning by what they change.
   let held: Shot | null = null;
@@ -139,6 +144,9 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
     camera,
     get heading() {
       return current().heading;
+    },
+    get jumps() {
+      return jumps();
     },
     resize(width, height) {
       camera.aspect = width / height;
@@ -215,40 +223,28 @@ export function createCameraRig(surface: HTMLElement, onChange: () => void): Cam
       return controls.update(dt) || moving;
     },
     dispose() {
-      still.removeEventListener('change', glide);
+      calm?.removeEventListener('change', settle);
       controls.dispose();
     },
   };
 
   /** Goes along with the couple; true while it moves. */
   function track(dt: number, couple: Couple, danced: boolean): boolean {
-    let [dx, dz] = [couple.x - tracked.x, couple.z - tracked.z];
-    if (view === 'orbit') {
-      const away = Math.hypot(dx, dz);
-      const slack = SLACK * Math.min(1, camera.aspect);
-      const beyond = away > slack ? (away - slack) / away : 0;
-      dx *= beyond;
-      dz *= beyond;
-    }
-    const share = easing(dt, TRACK_TAU[view]);
-    let moving = false;
-    if (Math.hypot(dx, dz) > STILL) {
-      offset.set(dx * share, 0, dz * share);
-      tracked.add(offset);
-      controls.target.add(offset);
-      camera.position.add(offset);
-      moving = true;
-    }
     const shot = current();
-    const goal = fitDistance(couple, camera.aspect);
-    // Stepping back is quick, nobody may be cut off; coming closer again takes its time, and waits while they rest.
-    const off = goal / shot.distance - 1;
-    const wanted = off > 0.002 || (off < -0.03 && danced);
-    if (wanted && !ownDistance && held === null && view !== 'top') {
-      const share = easing(dt, off > 0 ? BACK_TAU : CLOSER_TAU);
-      stand({ ...shot, distance: shot.distance + (goal - shot.distance) * share });
-      moving ||= off > 0;
-    }
+    const seen: Seen = {
+      view,
+      aspect: camera.aspect,
+      away: [couple.x - tracked.x, couple.z - tracked.z],
+      distance: shot.distance,
+      goal: fitDistance(couple, camera.aspect),
+      free: !ownDistance && held === null && view !== 'top',
+    };
+    const { by, distance, moving } = jumps() ? cutAlong(seen) : glideAlong(seen, dt, danced);
+    offset.set(by[0], 0, by[1]);
+    tracked.add(offset);
+    controls.target.add(offset);
+    camera.position.add(offset);
+    if (distance !== null) stand({ ...current(), distance });
     return moving;
   }
 }

@@ -100,6 +100,9 @@ export interface Other {
 /** Time constant with which the lights follow the camera's heading, seconds. */
 const LIGHT_TAU = 0.7;
 
+/** The person's wish for less movement. */
+const CALM = '(prefers-reduced-motion: reduce)';
+
 const WHOLE = ['whole'] as const satisfies readonly Picture[];
 const HALVES = ['left', 'right'] as const satisfies readonly Picture[];
 
@@ -138,7 +141,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   const shows = createShows();
   scene.add(cast.object, shows.object);
   const halves = createHalves(host);
-  const rig = createCameraRig(renderer.domElement, () => loop.invalidate());
+  const rig = createCameraRig(renderer.domElement, () => loop.invalidate(), filmed ? null : matchMedia(CALM));
   const listeners = new Set<(stats: StageStats) => void>();
   let seconds = 0;
   let posed = false;
@@ -176,7 +179,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     pose();
     const moving = rig.update(dt, couple, danced);
     const turn = nearestTurn(rig.heading, lightHeading) - lightHeading;
-    lightHeading += turn * easing(dt, LIGHT_TAU);
+    lightHeading += rig.jumps ? turn : turn * easing(dt, LIGHT_TAU);
     lights.aim(couple.x, couple.z, lightHeading);
     floor.setCentre(couple.x, couple.z);
     renderer.info.reset();
@@ -184,7 +187,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     frames++;
     const now = stats();
     for (const listener of listeners) listener(now);
-    return moving || passing || Math.abs(turn) > 0.01;
+    return moving || passing || (!rig.jumps && Math.abs(turn) > 0.01);
   }
   const loop = filmed ? idleLoop : createLoop(draw);
 

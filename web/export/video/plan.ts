@@ -1,5 +1,6 @@
 import type { AudioCodec, VideoCodec } from 'mediabunny';
 import { canEncodeAudio, canEncodeVideo } from 'mediabunny';
+import { canEncodeAac } from './aac';
 
 export type Container = 'mp4' | 'webm';
 
@@ -43,8 +44,9 @@ export async function plan(
   if ('VideoEncoder' in globalThis) {
     for (const { container, video, audio } of ENCODED) {
       const seen = await canEncodeVideo(video, { width, height });
-      const heard = !withSound || ('AudioEncoder' in globalThis && (await canEncodeAudio(audio)));
-      if (seen && heard) return { way: 'encode', container, video, audio: withSound ? audio : null };
+      if (!seen) continue;
+      const heard = !withSound || (audio === 'aac' ? await canEncodeAac() : await canEncodeAudio(audio));
+      if (heard) return { way: 'encode', container, video, audio: withSound ? audio : null };
     }
   }
   if (!('MediaRecorder' in globalThis) || !('captureStream' in HTMLCanvasElement.prototype)) return null;

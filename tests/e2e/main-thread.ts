@@ -1,0 +1,65 @@
+/** What a task of the page's own thread took, milliseconds. */
+export interface Task {
+  /** From beginning to end, as `longtask` entries have it. */
+  readonly whole: number;
+  /** In which the thread computed: neither waited nor stood aside for other programs on the same core. */
+  readonly busy: number;
+  /** In which it waited for the graphics card: by drawing of ours, and to bring what was drawn on the screen. */
+  readonly waited: { readonly inScripts: number; readonly onScreen: number };
+}
+
+/** The kinds of events that `tasksOf` reads. */
+export const TRACED = ['toplevel', 'gpu', 'devtools.timeline', 'blink.user_timing'];
+
+/** One event of a trace (Chromium's trace event format), microseconds. */
+interface Traced {
+  readonly name: string;
+  readonly ph: string;
+  readonly pid: number;
+  readonly tid: number;
+  readonly ts: number;
+  readonly dur?: number;
+  /** Of `dur`, what the thread computed. */
+  readonly tdur?: number;
+}
+
+/**
+ * The tasks that a page's own thread ran between two of its marks, in a trace of Chromium's.
+ *
+ * @param from name of the performance mark at the beginning
+ * @param to name of the one at the end
+ * @throws when the trace has no such marks
+ */
+export function tasksOf(trace: Buffer, from: string, to: string): Task[] {
+  const { traceEvents } = JSON.parse(trace.toString()) as { traceEvents: readonly Traced[] };
+  const mark = (name: string): Traced => {
+    const found = traceEvents.find((event) => event.name === name);
+    if (!found) throw new Error(`The trace has no mark "${name}".`);
+    return found;
+  };
+  const [begin, end] = [mark(from), mark(to)];
+  const events = traceEvents.filter(
+    ({ ph, pid, tid, ts }) =>
+      ph === 'X' && pid === begin.pid && tid === begin.tid && ts >= begin.ts && ts <= end.ts,
+  );
+  const scripts = events.filter(({ name }) => name === 'FunctionCall' || name === 'FireAnimationFrame');
+  const waits = events.filter(({ name }) => name.startsWith('CommandBufferProxyImpl::Wait'));
+  return events
+    .filter(({ name }) => name === 'ThreadControllerImpl::RunTask')
+    .map((task) => {
+      const here = waits.filter((wait) => within(wait, task));
+      const scripted = here.filter((wait) => scripts.some((script) => within(wait, script)));
+      const [all, inScripts] = [here, scripted].map((some) => sum(some.map(({ dur = 0 }) => dur)));
+      return {
+        whole: (task.dur ?? 0) / 1000,
+        // The shortest tasks come without: no time was counted for them.
+        busy: (task.tdur ?? 0) / 1000,
+        waited: { inScripts: inScripts! / 1000, onScreen: (all! - inScripts!) / 1000 },
+      };
+    });
+}
+
+const within = (inner: Traced, outer: Traced): boolean =>
+  inner.ts >= outer.ts && inner.ts + (inner.dur ?? 0) <= outer.ts + (outer.dur ?? 0);
+
+const sum = (numbers: readonly number[]): number => numbers.reduce((all, one) => all + one, 0);
