@@ -8,7 +8,7 @@ const MOST = 0.02;
 /** What may go elsewhere in a step: what asked for it, and what it is part of. */
 const NOTHING = /^$/;
 const OWN_BADGE = /^button\.about /;
-const OWN_LIST = /^button\S* .*"(Star|Use) |Frame rate/;
+const OWN_LIST = /^button\S* .*"(Star|Use) |Frame rate|^button\.flag /;
 
 for (const [width, height] of [
   [1440, 900],
