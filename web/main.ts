@@ -36,6 +36,7 @@ import { createQuality } from './ui/quality';
 import { readReference } from './ui/quality-reference';
 import { saveFile } from './ui/save';
 import type { Services } from './ui/services';
+import { canShare, shareFile } from './ui/share';
 import { isProject } from './ui/sniff';
 import { mountStageControls } from './ui/stage-controls';
 import { referenceKnown } from './ui/reaction-changes';
@@ -140,6 +141,7 @@ const services: Services = {
     camera: stage && ((size) => openCamera(stage, store, size)),
     stageSize: () => stage?.pictureSize() ?? null,
     save: saveFile,
+    share: { can: canShare, pass: shareFile },
   }),
   saveProject: () => void saveProject(),
   startAfresh: () => {

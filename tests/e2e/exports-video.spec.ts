@@ -9,7 +9,7 @@ const FRAMES = 24;
 const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
 
 // A small stage: what draws here is the processor.
-test.use({ viewport: { width: 480, height: 540 } });
+test.use({ viewport: { width: 480, height: 580 } });
 
 async function openMenu(page: Page, frames = FRAMES): Promise<App> {
   await serveDemo(page, settings, frames);
@@ -69,6 +69,14 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
   // As in Safari 18, where pages may encode pictures but no sound: the page brings its own encoder along.
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'AudioEncoder');
+    // And as on a phone, where the system passes films on; a desktop's Chromium does not.
+    Object.assign(navigator, {
+      canShare: ({ files }: { files: File[] }) => files.every(({ type }) => type.startsWith('video/')),
+      share: ({ files }: { files: File[] }) => {
+        Object.assign(window, { shared: files.map(({ name, size, type }) => ({ name, size, type })) });
+        return Promise.resolve();
+      },
+    });
   });
   const app = await openMenu(page);
   const size = await page.evaluate('window.reactdance.stage.pictureSize()');
@@ -90,7 +98,12 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
   expect(loudest).toBeGreaterThan(0.2);
   // The song begins with a kick; a twentieth of a second is less than anyone sees or hears.
   expect(begins).toBeLessThan(0.05);
-  await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Saved, \d+ KB/);
+  const region = page.getByRole('region', { name: 'Video' });
+  await expect(region).toContainText(/Saved, \d+ KB/);
+  await region.getByRole('button', { name: 'Share the video' }).click();
+  expect(await page.evaluate('window.shared')).toEqual([
+    { name: `${PREFIX}_stage.mp4`, size: Number(format.size), type: 'video/mp4' },
+  ]);
   expect(await app.onScreen()).toEqual(before);
   expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
 });

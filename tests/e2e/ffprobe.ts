@@ -4,7 +4,7 @@ import ffprobe from '@ffprobe-installer/ffprobe';
 
 /** What FFmpeg finds in a film. */
 export interface Probed {
-  readonly format: { readonly format_name: string; readonly duration?: string };
+  readonly format: { readonly format_name: string; readonly duration?: string; readonly size: string };
   readonly streams: readonly {
     readonly codec_type: 'video' | 'audio';
     readonly codec_name: string;

@@ -19,8 +19,8 @@ def quick_report(
     """The numbers that select a model while it trains; all motions (T, 22, 3) metres.
 
     mpjpe_mm and root_error_mm are errors; the median beside the mean shows whether seconds in which the
-    couple stands far apart, as before it comes together, make the difference. speed_ratio (mean joint speed) and distance_ratio (median
-    distance of the roots) are generated over true, 1 is right.
+    couple stands far apart, as before it comes together, make the difference. speed_ratio (mean joint
+    speed) and distance_ratio (median distance of the roots) are generated over true, 1 is right.
     """
     return {
         "mpjpe_mm": mpjpe(truth, generated),

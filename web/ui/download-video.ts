@@ -7,7 +7,7 @@ import { byteSize, duration } from './format';
 import { radioGroup } from './radio-group';
 import { danceDuration } from './selectors';
 import type { Services } from './services';
-import type { AppState } from './state';
+import type { AppState, Saved } from './state';
 import { apply, type Store, watchAll } from './store';
 
 /** Part of the download menu: the video of the stage, its size, how far it is, and its end. */
@@ -27,6 +27,8 @@ export function createDownloadVideo(
   const about = el('span', { class: 'soft' });
   const save = action('Save video', services.saveVideo);
   const cancel = action('Cancel', services.cancelVideo);
+  const share = action('Share', services.shareSaved);
+  share.setAttribute('aria-label', 'Share the video');
   cancel.setAttribute('aria-label', 'Cancel the video');
   const fill = el('i');
   const meter = el(
@@ -44,7 +46,7 @@ export function createDownloadVideo(
   const part = el(
     'section',
     { class: 'film', attributes: { 'aria-label': 'Video' } },
-    el('div', { class: 'row' }, el('h3', { text: 'Video with the song' }), about, save, cancel),
+    el('div', { class: 'row' }, el('h3', { text: 'Video with the song' }), about, share, save, cancel),
     choosing,
     telling,
   );
@@ -55,6 +57,7 @@ export function createDownloadVideo(
     const focused = document.activeElement;
     save.hidden = filming !== null;
     cancel.hidden = filming === null;
+    share.hidden = filming !== null || !savedVideo(plan, state)?.shareable;
     choosing.hidden = filming !== null;
     telling.hidden = filming === null;
     if (hadFocus && focused instanceof HTMLElement && !focused.offsetParent)
@@ -105,12 +108,17 @@ function action(text: string, run: () => void): HTMLButtonElement {
   return el('button', { class: 'btn tint', text, attributes: { type: 'button' }, on: { click: run } });
 }
 
+/** What was written last, if that is a video. */
+function savedVideo(plan: VideoPlan | null | undefined, { saved }: AppState): Saved | null {
+  return plan && saved?.name.endsWith(`.${plan.container}`) ? saved : null;
+}
+
 /** Beside the heading: what will be written, what was, or why it cannot be. */
 function aboutWords(plan: VideoPlan | null | undefined, state: AppState): string {
-  const { saved, filming } = state;
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
-  if (saved?.name.endsWith(`.${plan.container}`) && !filming) return `Saved, ${byteSize(saved.bytes)}`;
+  const saved = savedVideo(plan, state);
+  if (saved && !state.filming) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
   const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as framed';
   return `${container}${pace}`;

@@ -37,23 +37,27 @@ export interface DownloadTools {
   readonly stageSize: () => Pixels | null;
   /** Hands a file to the browser's downloads. */
   readonly save: (file: Blob, name: string) => void;
+  /** Passes a file on to another app; `can` says whether the system takes it. */
+  readonly share: { readonly can: (file: File) => boolean; readonly pass: (file: File) => Promise<void> };
 }
 
 export type Downloads = Pick<
   Services,
-  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'stageSize'
+  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'stageSize'
 >;
 
 /** The page is told of a video's progress at most this often, milliseconds. */
 const BETWEEN_REPORTS = 100;
 
 /** Writing files to take home. A failure becomes a sentence and changes nothing else. */
-export function createDownloads(store: Store, { camera, stageSize, save }: DownloadTools): Downloads {
+export function createDownloads(store: Store, { camera, stageSize, save, share }: DownloadTools): Downloads {
   let filming: AbortController | null = null;
+  let last: File | null = null;
 
   const handOver = (file: Blob, name: string): void => {
     save(file, name);
-    apply(store, savedChanged({ name, bytes: file.size }));
+    last = new File([file], name, { type: file.type });
+    apply(store, savedChanged({ name, bytes: file.size, shareable: share.can(last) }));
   };
 
   const pixels = (): Pixels => {
@@ -151,6 +155,12 @@ export function createDownloads(store: Store, { camera, stageSize, save }: Downl
     },
     cancelVideo: () => {
       filming?.abort();
+    },
+    shareSaved: () => {
+      if (!last) return;
+      share.pass(last).catch((error: unknown) => {
+        if (!isAbort(error)) apply(store, told(savingProblem(error)));
+      });
     },
   };
 }

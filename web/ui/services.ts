@@ -35,6 +35,8 @@ export interface Services {
   /** Films the dance in the chosen size and hands it to the browser's downloads. */
   readonly saveVideo: () => void;
   readonly cancelVideo: () => void;
+  /** Passes the file that was written last on to another app, by the system's own sheet. */
+  readonly shareSaved: () => void;
   /** Size of the picture on the stage in pixels; null without a stage. */
   readonly stageSize: () => { readonly width: number; readonly height: number } | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */

@@ -225,6 +225,14 @@ export interface CoarseLayer {
   readonly decoding: boolean;
 }
 
+/** The file that was written last. */
+export interface Saved {
+  readonly name: string;
+  readonly bytes: number;
+  /** Whether the system can pass it on to other apps. */
+  readonly shareable: boolean;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
@@ -273,7 +281,7 @@ export interface AppState {
   readonly writing: MotionFormat | null;
   readonly filming: Filming | null;
   /** The file that was handed to the browser's downloads last. */
-  readonly saved: { readonly name: string; readonly bytes: number } | null;
+  readonly saved: Saved | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was being told. */
   readonly waitingProblems: readonly Problem[];
