@@ -63,6 +63,8 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
   let seen: readonly unknown[] = [];
   let writing: Promise<void> = Promise.resolve();
   let anythingKept = false;
+  /** Whether a write has ever fitted: who could never keep anything has nothing to lose by it. */
+  let hasFitted = false;
 
   const writeAfter = (rest: number): void => {
     clearTimeout(timer);
@@ -78,6 +80,7 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
         if (worthKeeping(state)) {
           anythingKept = true;
           await storage.write(keep(state));
+          hasFitted = true;
           tell('kept');
         } else if (anythingKept) {
           await storage.clear();
@@ -91,11 +94,11 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       }
     });
   };
-  /** Says once that the space is full, and stops saying so when there is room again. */
+  /** Says once that the space has become full, and stops saying so when there is room again. */
   const tell = (keeping: KeepingState): void => {
     if (store.getState().keeping === keeping) return;
     apply(store, keepingChanged(keeping));
-    if (keeping === 'full') apply(store, told(fullProblem()));
+    if (keeping === 'full' && hasFitted) apply(store, told(fullProblem()));
   };
   const begin = (): void => {
     write();
@@ -130,6 +133,7 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       return false;
     }
     anythingKept = true;
+    hasFitted = true;
     apply(store, visitEnded());
     const before = store.getState();
     await readers.manifest();

@@ -29,10 +29,10 @@ describe('keeping what is on the page', () => {
   const pass = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
   const warnings = () => notes(store.getState()).filter(({ look }) => look);
 
-  beforeEach(async () => {
-    vi.useFakeTimers();
+  /** Opens the page in a browser with room for so many takes, -1 for nothing at all. */
+  const visit = async (takes: number) => {
     writes = [];
-    room = 9;
+    room = takes;
     failure = new DOMException('No room.', 'QuotaExceededError');
     store = change.createAppStore('dark');
     change.apply(store, change.manifestArrived(small, 7));
@@ -49,6 +49,11 @@ describe('keeping what is on the page', () => {
     await keeping.restore();
     await pass(1000);
     writes = [];
+  };
+
+  beforeEach(async () => {
+    vi.useFakeTimers();
+    await visit(9);
   });
   afterEach(() => {
     keeping.dispose();
@@ -95,6 +100,16 @@ describe('keeping what is on the page', () => {
     await pass(1000);
     expect(writes).toEqual([[null]]);
     expect(store.getState().keeping).toBe('kept');
+  });
+
+  it('says only in the notes that there never was any room', async () => {
+    keeping.dispose();
+    await visit(-1);
+    made('a');
+    await pass(1000);
+    expect(store.getState().keeping).toBe('full');
+    expect(store.getState().problem).toBeNull();
+    expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
   });
 
   it('says only in the notes that the browser keeps nothing at all', async () => {
