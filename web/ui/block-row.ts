@@ -3,6 +3,7 @@ import { el, setVariable } from './dom';
 import { clockTime } from './format';
 import type { AppState } from './state';
 import type { Span, TimeScale } from './time-scale';
+import { danceFps } from './selectors';
 
 /** The reactor's blocks under its curve: where the model's blocks meet, and how far a new reaction has come. */
 export interface BlockRow {
@@ -33,7 +34,7 @@ export function createBlockRow(): BlockRow {
     fill,
     draw: (state, scale) => {
       const { leader, manifest } = state;
-      const fps = leader?.file.clip.fps ?? 30;
+      const fps = danceFps(state);
       const frames = leader?.file.clip.frames ?? 0;
       const length = manifest ? manifest.latent.block * manifest.latent.stride : frames;
       const coming = blocksOf(frames, length);

@@ -1,6 +1,6 @@
+import { closeButton } from './close-button';
 import { el, setText, together } from './dom';
 import { byteSize } from './format';
-import { icon } from './icons';
 import type { Services } from './services';
 import type { Kept, ModelState } from './state';
 import { apply, watch, watchAll, type Store } from './store';
@@ -32,19 +32,9 @@ export function mountDeviceCard(
       },
     },
   });
-  const close = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Close' },
-      on: {
-        click: () => {
-          apply(store, opened('device'));
-        },
-      },
-    },
-    icon('close'),
-  );
+  const close = closeButton(() => {
+    apply(store, opened('device'));
+  });
   const card = el(
     'section',
     { class: 'float device', attributes: { role: 'dialog', 'aria-label': 'On this device' } },

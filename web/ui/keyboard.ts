@@ -1,7 +1,7 @@
 import { coarseIsMissing } from './coarse-layer';
 import { listen, together } from './dom';
 import { rolledSeed } from './seed';
-import { danceDuration } from './selectors';
+import { danceDuration, danceFps } from './selectors';
 import type { Services } from './services';
 import { SHOWS } from './shows';
 import type { Camera, Shown } from './state';
@@ -68,7 +68,7 @@ function escape(store: Store, services: Services): boolean {
 function press(event: KeyboardEvent, store: Store, services: Services): boolean {
   const state = store.getState();
   const { time, speed, loop } = state.playback;
-  const frame = 1 / (state.leader?.file.clip.fps ?? 30);
+  const frame = 1 / danceFps(state);
   const hop = event.shiftKey ? 1 : frame;
   switch (event.key) {
     case ' ':

@@ -1,5 +1,5 @@
+import { closeButton } from './close-button';
 import { el, together } from './dom';
-import { icon } from './icons';
 import type { Mount } from './services';
 import { SHOWS } from './shows';
 import { apply, watch } from './store';
@@ -31,19 +31,9 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
 
 /** The list of keys. */
 export const mountKeysDialog: Mount = (root, store) => {
-  const close = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Close' },
-      on: {
-        click: () => {
-          apply(store, opened('keys'));
-        },
-      },
-    },
-    icon('close'),
-  );
+  const close = closeButton(() => {
+    apply(store, opened('keys'));
+  });
   const rows = KEYS.flatMap(([keys, what]) => [
     el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
     el('dd', { text: what }),

@@ -1,7 +1,7 @@
 import { el, setAttribute, setVariable, together } from './dom';
 import { draggable } from './drag';
 import { clockTime } from './format';
-import { danceDuration } from './selectors';
+import { danceDuration, danceFps } from './selectors';
 import type { Services } from './services';
 import { apply, type Store, watchAll } from './store';
 import { regionEndSet, regionSet } from './timeline-changes';
@@ -98,7 +98,7 @@ export function mountLoopRegion(
       if (!region || by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
       event.preventDefault();
       event.stopPropagation();
-      const hop = event.shiftKey ? 1 : 1 / (store.getState().leader?.file.clip.fps ?? 30);
+      const hop = event.shiftKey ? 1 : 1 / danceFps(store.getState());
       apply(store, regionEndSet(end, region[end] + by * hop));
     });
     return draggable(each, {

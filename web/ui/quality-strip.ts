@@ -4,7 +4,7 @@ import { createQualityLane, type LanePicture, type Shown } from './quality-lane'
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { laneWords, momentExplained, momentWords, type Part, PART_NAMES } from './quality-words';
 import { reactorMotion } from './reactor-motion';
-import { danceDuration, upToDate } from './selectors';
+import { danceDuration, danceFps, upToDate } from './selectors';
 import type { Services } from './services';
 import type { AppState } from './state';
 import { type Store, watchAll } from './store';
@@ -35,7 +35,8 @@ export function mountQualityStrip(
 ): () => void {
   const goTo = ({ moment }: Mark): void => {
     const { playback, quality } = store.getState();
-    const time = moment.frame / (quality?.reactor.fps ?? 30);
+    if (!quality) return;
+    const time = moment.frame / quality.reactor.fps;
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
   const explainer = createExplainer();
@@ -49,7 +50,7 @@ export function mountQualityStrip(
       value: '',
       sentence: 'Nothing to measure yet.',
       rows: [],
-      fps: 30,
+      fps: danceFps(state),
       marks: [],
       shown: shown(state),
     };

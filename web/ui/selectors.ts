@@ -8,6 +8,11 @@ export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number 
   return state.song?.data.duration ?? 0;
 }
 
+/** Frames per second of the dance; while there is no leader, of what the model makes. */
+export function danceFps({ leader, manifest }: Pick<AppState, 'leader' | 'manifest'>): number {
+  return leader?.file.clip.fps ?? manifest?.fps ?? 1; // without either nothing has a length
+}
+
 /** What a reaction would be made from now, or null while something is missing or still being read. */
 export function wantedInputs(state: AppState): Inputs | null {
   const { leader, song, shift, settings, reading } = state;

@@ -7,7 +7,7 @@ import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } f
 import { createPlayhead } from './playhead';
 import { mountQualityStrip } from './quality-strip';
 import { rulerMarks } from './ruler';
-import { beingRead, jobWords, upToDate } from './selectors';
+import { beingRead, danceFps, jobWords, upToDate } from './selectors';
 import type { Mount } from './services';
 import { createSongLabel } from './song-label';
 import { createSongLane } from './song-lane';
@@ -101,7 +101,7 @@ export const mountTimeline: Mount = (root, store, services) => {
     songLane.draw(state, { scale: now, shift, musicBeats: beats });
     songLane.played(state.playback.time, now);
     const { job } = state;
-    const fps = state.leader?.motion.fps ?? 30;
+    const fps = danceFps(state);
     const made: MotionPicture = {
       ...still,
       stale: job !== null && !upToDate(state),

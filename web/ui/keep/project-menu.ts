@@ -1,3 +1,4 @@
+import { closeButton } from '../close-button';
 import { el, listen, setAttribute, setText, together } from '../dom';
 import { icon, type IconName } from '../icons';
 import type { Mount } from '../services';
@@ -61,16 +62,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
   const menu = el(
     'div',
     { class: 'float menu project', attributes: { role: 'dialog', 'aria-label': 'Project' } },
-    el(
-      'div',
-      { class: 'row' },
-      head,
-      el(
-        'button',
-        { class: 'icon', attributes: { type: 'button', 'aria-label': 'Close' }, on: { click: toggle } },
-        icon('close'),
-      ),
-    ),
+    el('div', { class: 'row' }, head, closeButton(toggle)),
     save,
     open,
     afresh,

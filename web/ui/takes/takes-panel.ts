@@ -1,5 +1,5 @@
+import { closeButton } from '../close-button';
 import { el, listen, setText, together } from '../dom';
-import { icon } from '../icons';
 import type { Mount } from '../services';
 import type { AppState } from '../state';
 import { apply, watch, watchAll } from '../store';
@@ -39,19 +39,10 @@ export const mountTakes: Mount = (root, store, services) => {
     text: 'Every partner that is made becomes a take. Mark two of them A and B to compare them on the same beat.',
   });
   const count = el('span', { class: 'muted' });
-  const close = el(
-    'button',
-    {
-      class: 'icon phone-only',
-      attributes: { type: 'button', 'aria-label': 'Close' },
-      on: {
-        click: () => {
-          apply(store, opened('takes'));
-        },
-      },
-    },
-    icon('close'),
-  );
+  const close = closeButton(() => {
+    apply(store, opened('takes'));
+  });
+  close.classList.add('phone-only');
   const project = el('button', {
     class: 'btn tint phone-only',
     text: 'Project',
