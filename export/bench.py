@@ -80,10 +80,11 @@ def run_native(options: Options, given: dict[str, np.ndarray]) -> Seconds:
     """onnxruntime's own CPU build on the graphs that the browser loads."""
     model, watch = open_model(options.model, options.threads), Watch()
     steps, guidance = plan(model.manifest, options.steps), default_guidance(model.manifest)
+    louder = model.manifest["guidance"]["music"]["default"]
     layers = np.ones(len(model.manifest["latent"]["layers"]))
     for _ in range(1 + options.repeats):
         (memory,) = watch("condition", lambda: model.run("condition", **given, role=np.zeros(1)))
-        latents = watch("steps", lambda m=memory: sample_exported(model, m, SEED, steps, guidance))
+        latents = watch("steps", lambda m=memory: sample_exported(model, m, SEED, steps, guidance, louder))
         watch(
             "decode", lambda x=latents: model.run("decode", latents=x, leader=given["leader"], layers=layers)
         )
@@ -102,7 +103,9 @@ def run_eager(options: Options, given: dict[str, np.ndarray]) -> Seconds:
         initial = torch.from_numpy(noise(SEED, len(memory), layers * width, draw=0)).unflatten(
             1, (layers, width)
         )
-        return sample(model.denoiser, memory, initial, steps, guidance, model.diffusion)
+        return sample(
+            model.denoiser, memory, initial, steps, guidance, model.diffusion.music, model.diffusion
+        )
 
     for _ in range(1 + options.repeats):
         memory = watch("condition", lambda: condition(model, leader, music, valid))

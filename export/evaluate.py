@@ -66,6 +66,8 @@ class Options:
     steps: int | None = None
     guidance: tuple[float, float] | None = None
     """Coarse and fine, Eq. 9's s; the model's default when left out."""
+    music_guidance: float | None = None
+    """How much of what the song changes is added; the model's default when left out."""
     threads: int = 0
     pictures: bool = True
     """Spectra and filmstrips."""
@@ -98,10 +100,13 @@ def condition_inputs(
     return padded, heard, features, valid, scale
 
 
-def exported_dancer(model: Exported, steps: int | None, default: tuple[float, float] | None) -> Dancer:
+def exported_dancer(
+    model: Exported, steps: int | None, default: tuple[float, float] | None, louder: float | None
+) -> Dancer:
     """The exported graphs as a dancer: what the page computes."""
     manifest = model.manifest
     height, layers = manifest["skeleton"]["reference_height"], len(manifest["latent"]["layers"])
+    heard_more = manifest["guidance"]["music"]["default"] if louder is None else louder
 
     def dance(
         leader: np.ndarray,
@@ -120,7 +125,8 @@ def exported_dancer(model: Exported, steps: int | None, default: tuple[float, fl
         weights = (
             default_guidance(manifest) if chosen is None else np.tile(np.array(chosen), (len(STREAMS), 1))
         )
-        latents = sample(model, memory, seed, plan(manifest, steps), weights.astype(np.float32))
+        schedule = plan(manifest, steps)
+        latents = sample(model, memory, seed, schedule, weights.astype(np.float32), heard_more)
         kept = np.array([1] + [0 if coarse_only else 1] * (layers - 1))
         (reactor,) = model.run("decode", latents=latents, leader=padded, layers=kept)
         return reactor[: len(leader)] / scale
@@ -129,7 +135,11 @@ def exported_dancer(model: Exported, steps: int | None, default: tuple[float, fl
 
 
 def torch_dancer(
-    model: Model, height: float, steps: int | None, default: tuple[float, float] | None
+    model: Model,
+    height: float,
+    steps: int | None,
+    default: tuple[float, float] | None,
+    louder: float | None,
 ) -> Dancer:
     """A checkpoint under PyTorch as a dancer."""
     layers, width = model.denoiser.layers, model.denoiser.latent_width
@@ -151,7 +161,13 @@ def torch_dancer(
         initial = torch.from_numpy(noise(seed, len(memory), layers * width, draw=0)).float()
         weights = torch.tensor(guidance or default or model.diffusion.guidance).repeat(len(STREAMS), 1)
         latents = torch_sample(
-            model.denoiser, memory, initial.unflatten(1, (layers, width)), schedule, weights, model.diffusion
+            model.denoiser,
+            memory,
+            initial.unflatten(1, (layers, width)),
+            schedule,
+            weights,
+            model.diffusion.music if louder is None else louder,
+            model.diffusion,
         )
         kept = torch.tensor([1.0] + [0.0 if coarse_only else 1.0] * (layers - 1))
         return decode(model, latents, torch.from_numpy(padded), kept)[: len(leader)].numpy() / scale
@@ -222,30 +238,36 @@ def main(options: Options) -> None:
             }
     if options.model is not None:
         exported = open_model(options.model, options.threads)
-        dancer = exported_dancer(exported, options.steps, options.guidance)
+        dancer = exported_dancer(exported, options.steps, options.guidance, options.music_guidance)
         alternating = exported.manifest["diffusion"]["alternating_phase"]
         facts |= {"model": exported.manifest["id"], "runtime": "onnxruntime"}
         facts["graphs"] = {k: g["files"]["wasm"]["sha256"] for k, g in exported.manifest["graphs"].items()}
         sampled = exported.manifest["diffusion"]["steps"]["default"]
         guided = tuple(exported.manifest["guidance"]["default"].values())
+        louder = exported.manifest["guidance"]["music"]["default"]
         name = exported.manifest["name"]
     else:
         assert checkpoint is not None and options.checkpoint is not None
         height = read_config(options.checkpoint, "card")["reference_height"]
-        dancer = torch_dancer(checkpoint, height, options.steps, options.guidance)
+        dancer = torch_dancer(checkpoint, height, options.steps, options.guidance, options.music_guidance)
         alternating = checkpoint.diffusion.alternating_phase
         facts |= {"model": options.checkpoint.name, "runtime": "pytorch"}
         sampled, guided = checkpoint.diffusion.steps, checkpoint.diffusion.guidance
+        louder = checkpoint.diffusion.music
         name = options.checkpoint.name
     if options.plain is not None:
         height = read_config(options.plain, "card")["reference_height"]
-        plain = torch_dancer(load_model(options.plain), height, None, None)
+        plain = torch_dancer(load_model(options.plain), height, None, None, None)
         given["plain model"] = generate(plain, trials, options.settings.seeds)[0]
     spacing = Settings.seam_spacing // 2 if alternating else Settings.seam_spacing
     settings = replace(options.settings, seam_spacing=spacing)
     facts |= {
         "commit": commit(),
-        "sampling": {"steps": options.steps or sampled, "guidance": options.guidance or guided},
+        "sampling": {
+            "steps": options.steps or sampled,
+            "guidance": options.guidance or guided,
+            "music": louder if options.music_guidance is None else options.music_guidance,
+        },
     }
     evaluation = evaluate(
         dancer,

@@ -26,7 +26,7 @@ class Scene:
 
 
 def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
-    """leader, music, music_valid, role, guidance (different for each stream and layer)."""
+    """leader, music, music_valid, role, guidance (different for each stream and layer), music_guidance."""
     random = np.random.default_rng(scene.seed)
     valid = np.ones(scene.frames, dtype=np.float32)
     if scene.silent_from is not None:
@@ -38,6 +38,7 @@ def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         "music_valid": valid,
         "role": np.zeros(1, dtype=np.float32),
         "guidance": guidance.reshape(len(STREAMS), model.denoiser.layers),
+        "music_guidance": np.ones(1, dtype=np.float32) * 1.5,
     }
 
 
@@ -60,6 +61,7 @@ def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, 
         initial,
         ddim_steps(alphas_cumprod(model.diffusion), scene.steps),
         tensors["guidance"],
+        float(given["music_guidance"][0]),
         model.diffusion,
         on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
     )

@@ -23,14 +23,14 @@ class Condition(nn.Module):
 
     def forward(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
         features = leader_features(leader, smoothed_heading(leader, self.frame))
-        return self.encoder(features[None], music[None], music_valid[None], role)[0]
+        return self.encoder.with_silence(features[None], music[None], music_valid[None], role)[0]
 
 
 class SamplerStep(nn.Module):
-    """One guided denoising step over B blocks; see `guided_x0` for Eq. 9.
+    """One guided denoising step over B blocks; see `guided_x0` for Eq. 9 and the music's guidance.
 
     x, x0_prev, noise (B, block, R, C), memory (B, block, M), valid (B, block), time (1), guidance (S, R),
-    coefficients (4) to x_next and x0 (B, block, R, C).
+    music_guidance (1), coefficients (4) to x_next and x0 (B, block, R, C).
     """
 
     def __init__(self, model: Model) -> None:
@@ -46,9 +46,10 @@ class SamplerStep(nn.Module):
         valid: Tensor,
         time: Tensor,
         guidance: Tensor,
+        music_guidance: Tensor,
         coefficients: Tensor,
     ) -> tuple[Tensor, Tensor]:
-        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance)
+        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance, music_guidance)
         a, b, c, d = coefficients.unbind(0)
         return a * x + b * x0 + c * x0_prev + d * noise, x0
 

@@ -92,7 +92,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "channels": model.denoiser.latent_width,
             "streams": list(STREAMS),
             "layers": names,
-            "memory_width": 2 * model.denoiser.config.width,
+            "memory_width": 3 * model.denoiser.config.width,
             "receptive_field": {"condition": condition_field(model)},
         },
         "diffusion": {
@@ -108,6 +108,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "max": 3,
             "step": 0.05,
             "default": {name: diffusion.guidance[min(r, 1)] for r, name in enumerate(names)},
+            "music": {"min": 0, "max": 4, "default": diffusion.music},
         },
         "noise": {"algorithm": "philox4x32-10"},
         "audio": AudioRecipe().to_dict(),

@@ -34,7 +34,7 @@ class Graph:
 def graphs(model: Model) -> list[Graph]:
     """Shapes: `frames` is a multiple of 4 and four times `latents`; `blocks` is any number from 1."""
     layers, channels = model.denoiser.layers, model.denoiser.latent_width
-    block, memory = model.denoiser.config.block, 2 * model.denoiser.config.width
+    block, memory = model.denoiser.config.block, 3 * model.denoiser.config.width
     state = ("blocks", block, layers, channels)
     return [
         Graph(
@@ -54,6 +54,7 @@ def graphs(model: Model) -> list[Graph]:
                 "valid": ("blocks", block),
                 "time": (1,),
                 "guidance": (len(STREAMS), layers),
+                "music_guidance": (1,),
                 "coefficients": (4,),
             },
             {"x_next": state, "x0": state},

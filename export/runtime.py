@@ -56,9 +56,10 @@ def sample(
     seed: int,
     steps: list[Step],
     guidance: np.ndarray,
+    music_guidance: float,
     on_step: OnStep | None = None,
 ) -> np.ndarray:
-    """Normalised latents (L, R, C) for memory (L, M), in blocks; guidance (S, R)."""
+    """Normalised latents (L, R, C) for memory (L, M), in blocks; guidance and music_guidance as in `guided_x0`."""
     latent = model.manifest["latent"]
     size, frames, layers, channels = latent["block"], len(memory), len(latent["layers"]), latent["channels"]
     x = torch.from_numpy(noise(seed, frames, layers * channels, draw=0)).reshape(frames, layers, channels)
@@ -78,6 +79,7 @@ def sample(
             **{name: value.numpy() for name, value in parts.items()},
             time=np.array([step.time]),
             guidance=guidance,
+            music_guidance=np.array([music_guidance]),
             coefficients=np.array([step.a, step.b, step.c, step.d]),
         )
         x = scatter(torch.from_numpy(x_next), blocks, frames)
@@ -100,6 +102,7 @@ def react(
     seed: int,
     steps: int | None = None,
     guidance: np.ndarray | None = None,
+    music_guidance: float | None = None,
     role: float = 0.0,
     layers: np.ndarray | None = None,
 ) -> np.ndarray:
@@ -115,7 +118,8 @@ def react(
         heard[:n], valid[:n] = music[:n], 1
     (memory,) = model.run("condition", leader=padded, music=heard, music_valid=valid, role=np.array([role]))
     weights = default_guidance(model.manifest) if guidance is None else guidance
-    latents = sample(model, memory, seed, plan(model.manifest, steps), weights)
+    louder = model.manifest["guidance"]["music"]["default"] if music_guidance is None else music_guidance
+    latents = sample(model, memory, seed, plan(model.manifest, steps), weights, louder)
     names = model.manifest["latent"]["layers"]
     (reactor,) = model.run(
         "decode", latents=latents, leader=padded, layers=np.ones(len(names)) if layers is None else layers

@@ -42,6 +42,7 @@ def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, flo
         scene.seed,
         plan(exported.manifest, scene.steps),
         truth["guidance"],
+        float(truth["music_guidance"][0]),
         on_step=lambda _, x, x0: states.append((x.copy(), x0.copy())),
     )
     layers = len(exported.manifest["latent"]["layers"])

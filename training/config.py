@@ -48,7 +48,7 @@ class HfsqConfig:
     weight_position: float = 1.0
     weight_velocity: float = 5.0
     weight_acceleration: float = 5.0
-    weight_energy: float = 2.0
+    weight_energy: float = 3.0
     weight_latent: float = 0.02
     beta: float = 0.25  # Eq. 5
     weight_kl: float = 1e-4
@@ -91,6 +91,7 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
+    music: float = 0.0  # default of music guidance, see `guided_x0`
     # Sampled coarse and fine latents are multiplied by this before they are decoded: few steps leave the mean of
     # what could be, whose spread is smaller than that of a dance.
     spread: tuple[float, float] = (1.0, 1.0)

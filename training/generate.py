@@ -37,6 +37,8 @@ class Options:
     coarse: float | None = None
     """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
     fine: float | None = None
+    music: float | None = None
+    """How much of what the song changes is added; the model's default when left out."""
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
 
@@ -68,7 +70,10 @@ def main(options: Options) -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     made: dict[str, np.ndarray] = {}
     for seed in options.seeds:
-        reactor = react(model, leader * scale, music, seed, options.steps, guidance) / scale
+        scaled = react(
+            model, leader * scale, music, seed, options.steps, guidance, music_guidance=options.music
+        )
+        reactor = scaled / scale
         made[f"seed_{seed}/leader"], made[f"seed_{seed}/follower"] = leader, reactor
         filmstrip(leader, reactor, options.out / f"seed_{seed}.png")
         print(f"seed {seed}: {len(reactor) / 30:.1f} s", flush=True)

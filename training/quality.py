@@ -144,6 +144,12 @@ QUALITY: tuple[Rule, ...] = (
     ("variation of raw bones", of_row("generated", "bone_variation"), -inf, 0.02),
     *_quality_of("solved", "solved: "),
     (
+        "foot lock: skating over the truth's",
+        _beside("solved, foot lock", "skate_share", "truth", _ratio),
+        -inf,
+        1.15,
+    ),
+    (
         "foot lock: skating over without",
         _beside("solved, foot lock", "skate_share", "solved", _ratio),
         -inf,

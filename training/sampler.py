@@ -64,24 +64,39 @@ def scatter(values: Tensor, blocks: list[Block], frames: int) -> Tensor:
 
 
 def guided_x0(
-    denoiser: Denoiser, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor, guidance: Tensor
+    denoiser: Denoiser,
+    x: Tensor,
+    time: Tensor,
+    memory: Tensor,
+    valid: Tensor,
+    guidance: Tensor,
+    music: Tensor,
 ) -> Tensor:
-    """Eq. 9 per stream and layer: (1 + s) G(x, c) - s G(x, null).
+    """Eq. 9 per stream and layer, and what the song adds: (1 + s) G(x, c) - s G(x, null) + m (G(x, c) - G(x, l)).
 
-    x (B, block, R, C), time (1,), memory (B, block, M), valid (B, block), guidance (S, R). Coarse sees no
-    fine weight: the network's coarse trunk never reads the fine layer and each layer is combined with its
-    own s. What lies beyond the quantiser's range is brought back to its end (static thresholding, Saharia et
-    al. 2022): the decoder has never seen a latent out there.
+    c is leader and music, l the leader in silence. The last term, guidance by a single condition (as in Liu et
+    al. 2022), is not in the paper; m = 0 leaves Eq. 9. x (B, block, R, C), time (1,), memory (B, block, M) of
+    `condition`, valid (B, block), guidance s (S, R), music m (1,). Coarse sees no fine weight: the network's
+    coarse trunk never reads the fine layer and each layer is combined with its own s. What lies beyond the
+    quantiser's range is brought back to its end (static thresholding, Saharia et al. 2022): the decoder has
+    never seen a latent out there.
     """
+    leader, heard, silence = memory.chunk(3, dim=-1)
+    full, silent = torch.cat([leader, heard], dim=-1), torch.cat([leader, silence], dim=-1)
     kept = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
-    keep = torch.cat([kept, kept * 0])
-    both = denoiser(
-        torch.cat([x, x]), time, torch.cat([memory, memory]), torch.cat([valid, valid]), keep, keep
+    keep = torch.cat([kept, kept * 0, kept])
+    each = denoiser(
+        torch.cat([x, x, x]),
+        time,
+        torch.cat([full, full, silent]),
+        torch.cat([valid, valid, valid]),
+        keep,
+        keep,
     )
-    # Conditional half first; written so that the exported graph needs no shape arithmetic.
-    conditional, unconditional = both.reshape(2, -1, *both.shape[1:]).unbind(0)
+    # Written so that the exported graph needs no shape arithmetic.
+    conditional, unconditional, unheard = each.reshape(3, -1, *each.shape[1:]).unbind(0)
     s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
-    x0 = (1 + s) * conditional - s * unconditional
+    x0 = (1 + s) * conditional - s * unconditional + music * (conditional - unheard)
     return torch.minimum(torch.maximum(x0, denoiser.lowest), denoiser.highest)
 
 
@@ -95,10 +110,12 @@ def sample(
     initial: Tensor,
     steps: list[Step],
     guidance: Tensor,
+    music: float,
     config: DiffusionConfig,
     on_step: Progress | None = None,
 ) -> Tensor:
-    """Clean normalised latents (L, R, C) for memory (L, M) from noise (L, R, C); guidance (S, R).
+    """Clean normalised latents (L, R, C) for memory (L, M) from noise (L, R, C); guidance and music as in
+    `guided_x0`.
 
     All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
     """
@@ -113,7 +130,7 @@ def sample(
         valid = gather(torch.ones(frames), blocks, size)
         x0 = guided_x0(
             denoiser, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
-            gather(memory, blocks, size), valid, guidance,
+            gather(memory, blocks, size), valid, guidance, torch.tensor([music]),
         )  # fmt: skip
         x0 = scatter(x0, blocks, frames)
         x = step.a * x + step.b * x0 + step.c * x0_before
@@ -135,12 +152,13 @@ class Model:
 
 @torch.no_grad()
 def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, role: float = 0.0) -> Tensor:
-    """Memory (L, M) of a whole clip: leader (T, 22, 3) metres, music (T, 54), music_valid (T); T a multiple
-    of 4.
+    """Memory (L, M) of a whole clip, with and without its song.
+
+    leader (T, 22, 3) metres, music (T, 54), music_valid (T); T a multiple of 4.
     """
     features = leader_features(leader, smoothed_heading(leader, model.frame))
     encoder = model.denoiser.condition
-    return encoder(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
+    return encoder.with_silence(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
 
 
 def sampled_layers(model: Model, latents: Tensor, layers: Tensor) -> Tensor:
@@ -174,12 +192,13 @@ def react(
     steps: int | None = None,
     guidance: np.ndarray | None = None,
     role: float = 0.0,
+    music_guidance: float | None = None,
 ) -> np.ndarray:
     """The reactor (T, 22, 3) for a leader (T, 22, 3) at the model's reference height and music (T', 54) or
     None.
 
-    guidance: (S, R), Eq. 9's s; None takes the model's default. Where the music is shorter than the dance
-    there is silence.
+    guidance: (S, R), Eq. 9's s, and music_guidance, see `guided_x0`; None takes the model's default. Where the
+    music is shorter than the dance there is silence.
     """
     frames = len(leader)
     padded = torch.from_numpy(pad_to_stride(leader)).float()
@@ -197,7 +216,8 @@ def react(
     if guidance is None:
         guidance = np.tile(np.array(model.diffusion.guidance, dtype=np.float32), (len(STREAMS), 1))
     plan = ddim_steps(alphas_cumprod(model.diffusion), steps or model.diffusion.steps)
+    louder = model.diffusion.music if music_guidance is None else music_guidance
     latents = sample(
-        model.denoiser, memory, initial, plan, torch.from_numpy(guidance).float(), model.diffusion
+        model.denoiser, memory, initial, plan, torch.from_numpy(guidance).float(), louder, model.diffusion
     )
     return decode(model, latents, padded)[:frames].numpy()

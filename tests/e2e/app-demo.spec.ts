@@ -49,7 +49,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
 test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {
   const column = { coarse: 0.5, fine: 0.25 };
   const guidance = { upper: column, lower: column, placement: column };
-  const settings = { guidance, steps: 3, seed: 77, role: 'reactor' };
+  const settings = { guidance, music: 1.5, steps: 3, seed: 77, role: 'reactor' };
   await serveDemo(page, settings);
   let release: () => void = () => undefined;
   const held = new Promise<void>((resolve) => (release = resolve));

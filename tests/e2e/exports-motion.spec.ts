@@ -6,7 +6,7 @@ import { App } from './app-page';
 import { expect, test } from './fixtures';
 import { demoSettings as settings, serveDemo } from './made-demo';
 
-const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25_footlock';
+const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25-m1.50_footlock';
 
 test('leader, reactor or both are saved in four formats that say what they hold', async ({ page }) => {
   await serveDemo(page, settings, 60);

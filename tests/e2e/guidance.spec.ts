@@ -1,4 +1,4 @@
-import { bvh } from './app-files';
+import { bvh, wav } from './app-files';
 import { App, farthest } from './app-page';
 import { expect, test } from './fixtures';
 
@@ -37,6 +37,43 @@ test('guidance by body part, presets and reset', async ({ page }) => {
   await expect(fold).toContainText('Same for all');
   await page.getByRole('button', { name: 'Reset guidance' }).click();
   await expect(preset.locator('option:checked')).toHaveText(/^Balanced/);
+});
+
+test('the music has a guidance of its own, which sleeps without a song', async ({ page }) => {
+  await page.route('**/demo/demo.json', (route) => route.fulfill({ status: 404 }));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const music = page.getByRole('slider', { name: 'Music guidance' });
+  await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  await expect(music).toBeDisabled();
+
+  await app.drop(wav({ seconds: 3 }));
+  await expect(music).toBeEnabled();
+  const made = (value: number) =>
+    app.until(
+      ({ reaction, job }, m) => !job && reaction?.inputs.song && reaction.inputs.settings.music === m,
+      value,
+    );
+  await made(1);
+  const before = await app.reactor();
+  await page.keyboard.press('m');
+  await expect(music).toBeFocused();
+  await page.keyboard.press('End');
+  await made(4);
+  expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-3);
+  await expect(music).toHaveAttribute('aria-valuetext', '4.00, the song is heard strongly');
+
+  // Eq. 9 of the paper knows nothing of it; the model's own preset does.
+  const preset = page.getByRole('combobox', { name: 'Guidance preset' });
+  await preset.selectOption({ label: "Paper's choice  (1.2, 1.2)" });
+  await made(0);
+  await preset.selectOption({ index: 0 });
+  await made(1);
+  expect(farthest(before, await app.reactor())).toBeLessThan(1e-6);
+  await music.dblclick();
+  await expect(music).toHaveValue('1');
 });
 
 test('the seed is rolled, locked and kept, and roles are swapped in every word', async ({ page }) => {

@@ -8,6 +8,7 @@ export const demoSettings = {
     lower: { coarse: 0.5, fine: 0.25 },
     placement: { coarse: 0.5, fine: 0.25 },
   },
+  music: 1.5,
   steps: 3,
   seed: 77,
   role: 'reactor',

@@ -33,6 +33,7 @@ test('numbers that differ from the reference move the work to the processor, wit
       npy('music_valid', [8], () => 0),
       npy('role', [1], () => 0),
       npy('guidance', [3, 2], () => 0),
+      npy('music_guidance', [1], () => 0),
       npy('seed', [1], () => 0),
       npy('steps', [1], () => 1),
       npy('reactor', [8, 22, 3], () => 0),

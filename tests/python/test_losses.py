@@ -111,8 +111,8 @@ def test_energy_loss_speaks_of_pace_not_of_place() -> None:
     assert float(energy_loss(truth, truth)) == 0
     assert float(energy_loss(truth, truth + 1)) == pytest.approx(0, abs=1e-6)
     assert float(energy_loss(truth, turned(truth, 1.0))) == pytest.approx(0, abs=1e-4)
-    # Half the pace in speed and in acceleration: twice the square of log 2.
-    assert float(energy_loss(truth, truth / 2)) == pytest.approx(2 * np.log(2) ** 2, rel=0.1)
+    # Half the pace in speed, in acceleration and in jerk: three times the square of log 2.
+    assert float(energy_loss(9 * truth, 4.5 * truth)) == pytest.approx(3 * np.log(2) ** 2, rel=0.1)
 
 
 def test_noise_weights_turn_from_noise_to_detail() -> None:

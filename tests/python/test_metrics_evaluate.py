@@ -276,7 +276,7 @@ def test_the_shipped_numbers_are_those_of_the_shipped_graphs():
     options = Options(data=real_file("cmu_salsa/duets.npz"), out=Path())
     trial = paired_trials(options, read_split(options.data, options.val, options.test))[0]
     sampling = stored["sampling"]
-    dancer = exported_dancer(model, sampling["steps"], tuple(sampling["guidance"]))
+    dancer = exported_dancer(model, sampling["steps"], tuple(sampling["guidance"]), sampling["music"])
     made = dancer(trial.duet.leader, trial.music, stored["seeds"][0])
     known = stored["rows"]["generated"]["trials"][trial.duet.name]["seeds"][0]
     again = duet_metrics(trial.duet.leader, trial.duet.reactor, made, trial.music)

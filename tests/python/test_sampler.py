@@ -30,10 +30,12 @@ def model() -> Model:
     return tiny_model()
 
 
-def run(model: Model, length: int, guidance: np.ndarray, start: int = 0, **changes: bool) -> torch.Tensor:
+def run(
+    model: Model, length: int, guidance: np.ndarray, start: int = 0, music: float = 0.0, **changes: bool
+) -> torch.Tensor:
     d = model.denoiser
     torch.manual_seed(3)
-    memory = torch.randn(200, 2 * d.config.width)[start : start + length]
+    memory = torch.randn(200, 3 * d.config.width)[start : start + length]
     initial = torch.from_numpy(noise(5, length, d.layers * d.latent_width, draw=0, start=start))
     config = replace(model.diffusion, **changes)
     steps = ddim_steps(alphas_cumprod(config), 4)
@@ -43,6 +45,7 @@ def run(model: Model, length: int, guidance: np.ndarray, start: int = 0, **chang
         initial.reshape(length, d.layers, d.latent_width),
         steps,
         torch.from_numpy(guidance).float(),
+        music,
         config,
     )
 
@@ -101,14 +104,15 @@ def test_fine_guidance_leaves_the_coarse_latents_bit_identical(model: Model, alt
 def test_guidance_is_equation_9(model: Model) -> None:
     torch.manual_seed(0)
     d = model.denoiser
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 2 * d.config.width)
+    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 3 * d.config.width)
+    heard = memory[..., : 2 * d.config.width]
     valid, time = torch.ones(2, 60), torch.tensor([0.4])
     yes, no = torch.ones(2, 2), torch.zeros(2, 2)
     with torch.no_grad():
-        conditional = d(x, time, memory, valid, yes, yes)
-        unconditional = d(x, time, memory, valid, no, no)
+        conditional = d(x, time, heard, valid, yes, yes)
+        unconditional = d(x, time, heard, valid, no, no)
         s = torch.tensor([[0.5, -1.0], [1.2, 0.0], [3.0, 2.0]])
-        guided = guided_x0(d, x, time, memory, valid, s)
+        guided = guided_x0(d, x, time, memory, valid, s, torch.zeros(1))
     per_stream = d.latent_width // 3
     for stream in range(3):
         for layer in range(2):
@@ -117,6 +121,32 @@ def test_guidance_is_equation_9(model: Model) -> None:
             expected = (1 + w) * conditional[:, :, layer, channels] - w * unconditional[:, :, layer, channels]
             expected = expected.clamp(d.lowest[layer, channels], d.highest[layer, channels])
             assert torch.allclose(guided[:, :, layer, channels], expected, atol=1e-5)
+
+
+def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
+    torch.manual_seed(0)
+    d = model.denoiser
+    width = d.config.width
+    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 3 * width)
+    valid, time = torch.ones(2, 60), torch.tensor([0.4])
+    yes, none = torch.ones(2, 2), torch.zeros(3, 2)
+    leader, _, silence = memory.chunk(3, dim=-1)
+    with torch.no_grad():
+        with_song = d(x, time, memory[..., : 2 * width], valid, yes, yes)
+        without = d(x, time, torch.cat([leader, silence], dim=-1), valid, yes, yes)
+        guided = guided_x0(d, x, time, memory, valid, none, torch.tensor([1.5]))
+    expected = (with_song + 1.5 * (with_song - without)).clamp(d.lowest, d.highest)
+    assert torch.allclose(guided, expected, atol=1e-5)
+    assert not torch.allclose(guided, with_song.clamp(d.lowest, d.highest), atol=1e-2)
+
+
+def test_without_a_song_music_guidance_has_nothing_to_say(model: Model) -> None:
+    leader = made_dancer(100, 1)
+    music = np.random.default_rng(0).normal(size=(100, 54)).astype(np.float32)
+    silent = react(model, leader, None, seed=1, music_guidance=3.0)
+    assert np.allclose(silent, react(model, leader, None, seed=1, music_guidance=0.0), atol=1e-5)
+    loud = react(model, leader, music, seed=1, music_guidance=3.0)
+    assert not np.allclose(loud, react(model, leader, music, seed=1, music_guidance=0.0), atol=1e-3)
 
 
 def test_guidance_never_leaves_the_range_of_the_quantiser(model: Model) -> None:

@@ -78,6 +78,14 @@ class ConditionEncoder(nn.Module):
     def receptive_field(self) -> int:
         return 2 * self.config.depth
 
+    def with_silence(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
+        """Memory of a whole clip with a third part, (N, L, 3 D): the music's where there is no song."""
+        heard = self(leader, music, music_valid, role)
+        silence = torch.zeros_like(heard).chunk(2, dim=-1)[1].transpose(1, 2)
+        if self.config.music:
+            silence = self.music.context(silence + self.silence[None, :, None], None)
+        return torch.cat([heard, silence.transpose(1, 2)], dim=-1)
+
     def forward(
         self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None
     ) -> Tensor:

@@ -13,6 +13,7 @@ export interface Golden {
   readonly musicValid: Float32Array;
   readonly role: number;
   readonly guidance: Float32Array;
+  readonly musicGuidance: number;
   readonly seed: number;
   readonly steps: number;
   /** T x 22 x 3 metres. */
@@ -35,6 +36,7 @@ export function readGolden(bytes: Uint8Array): Golden {
     musicValid: floats('music_valid'),
     role: number('role'),
     guidance: floats('guidance'),
+    musicGuidance: number('music_guidance'),
     seed: number('seed'),
     steps: number('steps'),
     reactor: floats('reactor'),
@@ -60,6 +62,7 @@ export async function goldenError(
     latents,
     memory,
     guidance: golden.guidance,
+    musicGuidance: golden.musicGuidance,
     noise: (draw) => noise(golden.seed, latents, latent.layers.length * latent.channels, draw),
     runStep: session.step,
     blocksPerRun: latents,

@@ -19,6 +19,8 @@ export interface GenerateRequest {
   } | null;
   /** streams x layers, s of the paper's Eq. 9. */
   readonly guidance: Float32Array;
+  /** How much of what the song changes is added. */
+  readonly musicGuidance: number;
   readonly steps: number;
   /** Its lowest 32 bits count. */
   readonly seed: number;
@@ -47,7 +49,7 @@ function refuse(message: string, hint: string): never {
 
 /** @throws {ModelError} `bad-request`, a sentence about the first thing that the model cannot take */
 export function checkRequest(
-  { leader, music, guidance, steps, seed }: GenerateRequest,
+  { leader, music, guidance, musicGuidance, steps, seed }: GenerateRequest,
   manifest: Manifest,
 ): void {
   const { skeleton, fps, diffusion, latent, audio } = manifest;
@@ -83,6 +85,9 @@ export function checkRequest(
       `The guidance is not ${latent.streams.length} x ${latent.layers.length} numbers.`,
       'Set the guidance sliders again.',
     );
+  }
+  if (!Number.isFinite(musicGuidance)) {
+    refuse('The guidance of the music is not a number.', 'Set the music slider again.');
   }
   if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
 }

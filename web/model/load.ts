@@ -86,6 +86,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
     latents,
     memory,
     guidance: new Float32Array(latent.streams.length * latent.layers.length),
+    musicGuidance: 0,
     noise: () => new Float32Array(latents * width),
     runStep: session.step,
     blocksPerRun: 1,

@@ -88,6 +88,8 @@ const schema = v.object({
     max: v.number(),
     step: v.number(),
     default: v.record(v.string(), v.number()),
+    /** How much of what the song changes is added; 0 adds nothing. */
+    music: v.object({ min: v.number(), max: v.number(), default: v.number() }),
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
   /** The feature recipe; its other keys are checked by the audio side, which reads them. */

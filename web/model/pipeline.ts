@@ -208,6 +208,7 @@ export class Pipeline {
       latents,
       memory,
       guidance: request.guidance,
+      musicGuidance: request.musicGuidance,
       noise: (draw) => noise(request.seed, latents, latent.layers.length * latent.channels, draw),
       runStep: this.session.step,
       blocksPerRun: BLOCKS_PER_RUN,

@@ -20,6 +20,8 @@ export interface StepInput {
   readonly time: number;
   /** streams x layers, s of the paper's Eq. 9. */
   readonly guidance: Float32Array;
+  /** How much of what the song changes is added to Eq. 9. */
+  readonly musicGuidance: number;
   readonly coefficients: readonly [number, number, number, number];
 }
 
@@ -40,6 +42,7 @@ export interface Sampling {
   /** latents x memory width. */
   readonly memory: Float32Array;
   readonly guidance: Float32Array;
+  readonly musicGuidance: number;
   /** Noise of one draw, latents x width: draw 0 starts the sampling, draw k + 1 belongs to step k. */
   readonly noise: (draw: number) => Float32Array;
   readonly runStep: StepRunner;
@@ -105,6 +108,7 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
       valid: validity(group, size),
       time: step.time,
       guidance: sampling.guidance,
+      musicGuidance: sampling.musicGuidance,
       coefficients: step.coefficients,
     });
     scatter(after.x, width, output.x, group, size);

@@ -21,7 +21,7 @@ type Arrays = Record<string, Float32Array>;
 
 const INPUTS: Record<GraphName, readonly string[]> = {
   condition: ['leader', 'music', 'music_valid', 'role'],
-  step: ['x', 'x0_prev', 'noise', 'memory', 'valid', 'time', 'guidance', 'coefficients'],
+  step: ['x', 'x0_prev', 'noise', 'memory', 'valid', 'time', 'guidance', 'music_guidance', 'coefficients'],
   decode: ['latents', 'leader', 'layers'],
 };
 const OUTPUTS: Record<GraphName, readonly string[]> = {
@@ -148,7 +148,7 @@ export async function openSession(
         });
         return output(results, 'memory');
       }),
-    step: ({ blocks, x, x0Prev, noise, memory, valid, time, guidance, coefficients }: StepInput) =>
+    step: ({ blocks, x, x0Prev, noise, memory, valid, time, guidance, ...rest }: StepInput) =>
       inTurn(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
@@ -159,7 +159,8 @@ export async function openSession(
           valid: tensor(valid, [blocks, latent.block]),
           time: tensor([time], [1]),
           guidance: tensor(guidance, [streams, layers]),
-          coefficients: tensor(coefficients, [4]),
+          music_guidance: tensor([rest.musicGuidance], [1]),
+          coefficients: tensor(rest.coefficients, [4]),
         });
         return { x: output(results, 'x_next'), x0: output(results, 'x0') };
       }),

@@ -26,6 +26,7 @@ const schema = v.object({
       settings: v.object({
         /** By stream and layer. */
         guidance: v.record(v.string(), v.record(v.string(), v.number())),
+        music: v.number(),
         steps: v.number(),
         seed: v.number(),
         role: v.picklist(['leader', 'reactor']),

@@ -13,8 +13,9 @@ export interface Named {
 }
 
 /**
- * `song_leader_take_s1204_c1.20-f0.60_footlock_reactor.bvh`, after what the reaction was made from. The loaded
- * dancer alone depends on nothing but its file. Where body parts differ, `c` and `f` are their means.
+ * `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_reactor.bvh`, after what the reaction was made from. The loaded
+ * dancer alone depends on nothing but its file. Where body parts differ, `c` and `f` are their means; `m`, the
+ * guidance of the music, is there when a song is.
  */
 export function motionFileName(named: Named, who: Who, format: MotionFormat): string {
   const parts =
@@ -24,7 +25,7 @@ export function motionFileName(named: Named, who: Who, format: MotionFormat): st
   return `${[...parts, who].join('_')}${motionEnding(format, who === 'both' ? 2 : 1)}`;
 }
 
-/** `song_leader_take_s1204_c1.20-f0.60_footlock_1080p.webm`. */
+/** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm`. */
 export function videoFileName(named: Named, size: string, container: string): string {
   return `${[...sources(named.inputs), ...made(named), size].join('_')}.${container}`;
 }
@@ -33,12 +34,17 @@ function sources({ song, leader }: Inputs): string[] {
   return [song ? slug(song.name, 'song') : 'no-song', slug(leader.name, 'leader')];
 }
 
-function made({ inputs: { settings }, footLock, take }: Named): string[] {
+function made({ inputs: { song, settings }, footLock, take }: Named): string[] {
   const [coarse, fine] = [columnOf(settings.guidance, 'coarse'), columnOf(settings.guidance, 'fine')];
   return [
     ...(take ? [slug(take, 'take')] : []),
     `s${settings.seed}`,
-    `c${coarse.value.toFixed(2)}-f${fine.value.toFixed(2)}${coarse.mixed || fine.mixed ? '-mixed' : ''}`,
+    [
+      `c${coarse.value.toFixed(2)}`,
+      `f${fine.value.toFixed(2)}`,
+      ...(coarse.mixed || fine.mixed ? ['mixed'] : []),
+      ...(song ? [`m${settings.music.toFixed(2)}`] : []),
+    ].join('-'),
     ...(footLock ? ['footlock'] : []),
   ];
 }

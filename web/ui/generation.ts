@@ -123,6 +123,7 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
     leader: leader.file.clip,
     music: song ? { features: song.data.features, frames: song.data.frames, start: shift } : null,
     guidance: guidanceMatrix(settings, manifest.latent),
+    musicGuidance: settings.music,
     steps: settings.steps,
     seed: settings.seed,
     role: settings.role,

@@ -1,6 +1,6 @@
 import type { Manifest } from '../model/client';
 import { toStep } from './format';
-import type { Guidance, Layer } from './state';
+import type { Guidance, Layer, Settings } from './state';
 
 type Range = Pick<Manifest['guidance'], 'min' | 'max' | 'step'>;
 
@@ -80,16 +80,16 @@ function shiftTo(values: readonly number[], mean: number, { min, max }: Range): 
   return Math.round(high * 1e9) / 1e9;
 }
 
-function held(value: number, { min, max, step }: Range): number {
+/** The value, held to range and step. */
+export function held(value: number, { min, max, step }: Range): number {
   return toStep(Math.min(max, Math.max(min, value)), step, min);
 }
 
-/** `1.20 coarse, 0.60 fine`, with `about` where the body parts differ. */
-export function guidanceWords(guidance: Guidance): string {
-  return (['coarse', 'fine'] as const)
-    .map((layer) => {
-      const { value, mixed } = columnOf(guidance, layer);
-      return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;
-    })
-    .join(', ');
+/** `1.20 coarse, 0.60 fine, 3.00 music`, with `about` where the body parts differ. */
+export function guidanceWords({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): string {
+  const layers = (['coarse', 'fine'] as const).map((layer) => {
+    const { value, mixed } = columnOf(guidance, layer);
+    return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;
+  });
+  return [...layers, `${music.toFixed(2)} music`].join(', ');
 }

@@ -3,6 +3,7 @@ import { createFader } from './fader';
 import { columnOf } from './guidance-matrix';
 import { icon } from './icons';
 import { mountMatrix } from './matrix';
+import { mountMusicFader } from './music-fader';
 import { mountPresetMenu } from './preset-menu';
 import type { Mount } from './services';
 import type { Guidance, Layer } from './state';
@@ -70,6 +71,7 @@ export const mountGuidance: Mount = (root, store, services) => {
   root.append(section);
   const menu = mountPresetMenu(head, store, services);
   head.append(reset);
+  const music = mountMusicFader(section, store, services);
   const matrix = mountMatrix(section, store, services);
 
   return together(
@@ -89,6 +91,7 @@ export const mountGuidance: Mount = (root, store, services) => {
       },
     ),
     menu,
+    music,
     matrix,
     () => {
       section.remove();

@@ -128,6 +128,9 @@ function press(event: KeyboardEvent, store: Store, services: Services): boolean 
     case 'v':
       focusFader('Fine guidance');
       return true;
+    case 'm':
+      focusFader('Music guidance');
+      return true;
     case 'r':
       apply(store, guidanceReset());
       return true;

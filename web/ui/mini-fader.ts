@@ -7,8 +7,13 @@ export interface MiniFader {
   readonly show: (range: FaderRange | null, value: number) => void;
 }
 
-/** A fader of one cell of the matrix: as the large ones, without words of its own. */
-export function createMiniFader(label: string, hint: string, on: FaderEvents): MiniFader {
+/** A small fader, as of one cell of the matrix: as the large ones, without a hint of its own. */
+export function createMiniFader(
+  label: string,
+  hint: string,
+  on: FaderEvents,
+  words: (value: number) => string = valueWords,
+): MiniFader {
   const value = el('output');
   const input = el('input', {
     attributes: {
@@ -30,7 +35,7 @@ export function createMiniFader(label: string, hint: string, on: FaderEvents): M
       input.max = String(range.max);
       input.step = String(range.step);
       if (input.valueAsNumber !== current) input.value = String(current);
-      input.setAttribute('aria-valuetext', valueWords(current));
+      input.setAttribute('aria-valuetext', words(current));
       setVariable(root, '--v', (current - range.min) / (range.max - range.min));
     },
   };

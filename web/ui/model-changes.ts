@@ -12,6 +12,7 @@ export function manifestArrived(manifest: Manifest, seed: number): Change {
     manifest,
     settings: {
       guidance: defaultGuidance(manifest),
+      music: manifest.guidance.music.default,
       steps: manifest.diffusion.steps.default,
       seed,
       role: 'reactor',

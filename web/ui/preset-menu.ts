@@ -2,7 +2,7 @@ import { el, setText, together } from './dom';
 import { icon } from './icons';
 import { type Preset, presetOf, presets } from './presets';
 import type { Mount } from './services';
-import { guidanceMatrixSet } from './settings-changes';
+import { presetChosen } from './settings-changes';
 import { apply, watch, watchAll } from './store';
 
 const CUSTOM = 'Custom';
@@ -16,7 +16,7 @@ export const mountPresetMenu: Mount = (root, store) => {
     on: {
       change: () => {
         const preset = list[menu.selectedIndex];
-        if (preset) apply(store, guidanceMatrixSet(preset.guidance));
+        if (preset) apply(store, presetChosen(preset));
       },
     },
   });
@@ -33,11 +33,11 @@ export const mountPresetMenu: Mount = (root, store) => {
     ),
     watchAll(
       store,
-      ({ manifest, settings }) => [manifest, settings?.guidance],
+      ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music],
       ({ settings }) => {
         menu.disabled = !settings;
         if (!settings) return;
-        const chosen = presetOf(list, settings.guidance);
+        const chosen = presetOf(list, settings);
         menu.selectedIndex = chosen ? list.indexOf(chosen) : list.length;
         setText(name, chosen?.name ?? CUSTOM);
         menu.title = chosen ? chosen.words : 'Your own mix. Choose a preset to start from.';

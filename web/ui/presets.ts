@@ -1,6 +1,6 @@
 import type { Manifest } from '../model/client';
 import { defaultGuidance, sameGuidance, uniform } from './guidance-matrix';
-import type { Guidance } from './state';
+import type { Guidance, Settings } from './state';
 
 /** Guidance with a name. */
 export interface Preset {
@@ -9,6 +9,7 @@ export interface Preset {
   readonly words: string;
   readonly group: 'This model' | 'From the paper, Table 4';
   readonly guidance: Guidance;
+  readonly music: number;
 }
 
 /**
@@ -32,17 +33,23 @@ export function presets(manifest: Pick<Manifest, 'latent' | 'guidance'>): Preset
     words: 'What suits this model best.',
     group: 'This model',
     guidance: defaultGuidance(manifest),
+    music: manifest.guidance.music.default,
   };
   const paper = TABLE_4.map(([coarse, fine, name, words]): Preset => ({
     name,
     words,
     group: 'From the paper, Table 4',
     guidance: uniform(streams, layers, (layer) => (layer === 'coarse' ? coarse : fine)),
+    // Eq. 9 knows no guidance by the song alone.
+    music: 0,
   }));
   return [own, ...paper];
 }
 
 /** The preset whose values these are, if any. */
-export function presetOf(list: readonly Preset[], guidance: Guidance): Preset | null {
-  return list.find((preset) => sameGuidance(preset.guidance, guidance)) ?? null;
+export function presetOf(
+  list: readonly Preset[],
+  { guidance, music }: Pick<Settings, 'guidance' | 'music'>,
+): Preset | null {
+  return list.find((preset) => preset.music === music && sameGuidance(preset.guidance, guidance)) ?? null;
 }

@@ -22,7 +22,11 @@ export function wantedInputs(state: AppState): Inputs | null {
 
 export function sameSettings(a: Settings, b: Settings): boolean {
   return (
-    a.seed === b.seed && a.steps === b.steps && a.role === b.role && sameGuidance(a.guidance, b.guidance)
+    a.seed === b.seed &&
+    a.steps === b.steps &&
+    a.role === b.role &&
+    a.music === b.music &&
+    sameGuidance(a.guidance, b.guidance)
   );
 }
 

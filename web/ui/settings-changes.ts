@@ -1,7 +1,15 @@
 /** What happens to the settings of a generation. */
 import type { Manifest } from '../model/client';
 import { otherRole } from './couple';
-import { columnOf, defaultGuidance, guidanceAt, sameGuidance, withCell, withColumn } from './guidance-matrix';
+import {
+  columnOf,
+  defaultGuidance,
+  guidanceAt,
+  held,
+  sameGuidance,
+  withCell,
+  withColumn,
+} from './guidance-matrix';
 import type { Guidance, Layer, Settings } from './state';
 import type { Change } from './store';
 
@@ -23,16 +31,33 @@ export function guidanceCellSet(stream: string, layer: string, value: number): C
   return guided((guidance, { guidance: range }) => withCell(guidance, stream, layer, value, range));
 }
 
-/** Sets the whole matrix, as a preset does. */
-export function guidanceMatrixSet(guidance: Guidance): Change {
-  return guided(() => guidance);
+/** Sets the whole matrix and the music, as a preset has them. */
+export function presetChosen({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): Change {
+  return heard(
+    () => music,
+    guided(() => guidance),
+  );
 }
 
-/** Back to the manifest's guidance: one layer of all streams, or everything. */
+/** Moves the guidance of the music, held to the manifest's range and step. */
+export function musicSet(value: number): Change {
+  return heard(({ guidance: { music, step } }) => held(value, { ...music, step }));
+}
+
+/** Back to the manifest's guidance of the music. */
+export function musicReset(): Change {
+  return heard(({ guidance }) => guidance.music.default);
+}
+
+/** Back to the manifest's guidance: one layer of all streams, or everything, the music too. */
 export function guidanceReset(layer?: Layer): Change {
+  if (!layer)
+    return heard(
+      ({ guidance }) => guidance.music.default,
+      guided((_, manifest) => defaultGuidance(manifest)),
+    );
   return guided((guidance, manifest) => {
     const own = defaultGuidance(manifest);
-    if (!layer) return own;
     return Object.keys(guidance).reduce(
       (all, stream) => withCell(all, stream, layer, columnOf(own, layer).value, manifest.guidance),
       guidance,
@@ -59,6 +84,17 @@ function guided(next: (guidance: Guidance, manifest: Manifest) => Guidance): Cha
     if (!settings || !manifest) return {};
     const guidance = next(settings.guidance, manifest);
     return sameGuidance(guidance, settings.guidance) ? {} : { settings: { ...settings, guidance } };
+  };
+}
+
+/** A change of the guidance of the music, together with one of the rest. */
+function heard(next: (manifest: Manifest) => number, along: Change = () => ({})): Change {
+  return (state) => {
+    const changes = along(state);
+    const { settings = state.settings } = changes;
+    if (!settings || !state.manifest) return changes;
+    const music = next(state.manifest);
+    return music === settings.music ? changes : { ...changes, settings: { ...settings, music } };
   };
 }
 

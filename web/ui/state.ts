@@ -43,6 +43,8 @@ export interface LoadedLeader {
 
 export interface Settings {
   readonly guidance: Guidance;
+  /** How much of what the song changes is added to Eq. 9. */
+  readonly music: number;
   readonly steps: number;
   /** 0 to 2^32 - 1. */
   readonly seed: number;

@@ -128,11 +128,11 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
 }
 
 function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
-  const { guidance, seed, steps, role } = inputs.settings;
+  const { seed, steps, role } = inputs.settings;
   return [
     group(role === 'leader' ? 'lead' : 'reac', roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
-    ...fact('Guidance', guidanceWords(guidance)),
+    ...fact('Guidance', guidanceWords(inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
       ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)

@@ -119,6 +119,7 @@ export const page = {
       leader: { fps: 30, frames, positions: array('leader').slice(0, frames * 66) },
       music: { features: array('music').slice(0, columns), frames },
       guidance: array('guidance'),
+      musicGuidance: array('music_guidance')[0] ?? NaN,
       steps,
       seed: 1,
     };

@@ -34,6 +34,7 @@ function sampling(changes: Partial<Sampling> = {}): Sampling {
     latents,
     memory: array('memory'),
     guidance: golden.guidance,
+    musicGuidance: golden.musicGuidance,
     noise: (draw) => noise(golden.seed, latents, width, draw),
     runStep: session.step,
     blocksPerRun: 100,

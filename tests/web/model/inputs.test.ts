@@ -15,6 +15,7 @@ function request(frames: number, song: { frames: number; start?: number } | null
       features: Float32Array.from({ length: song.frames * WIDTH }, (_, i) => Math.floor(i / WIDTH) + 1),
     },
     guidance: new Float32Array(small.latent.streams.length * small.latent.layers.length),
+    musicGuidance: 0,
     steps: small.diffusion.steps.min,
     seed: 1,
   };

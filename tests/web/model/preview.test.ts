@@ -32,6 +32,7 @@ function request(changes: Partial<GenerateRequest> = {}, blocks = 4): GenerateRe
     leader: { fps: 30, frames, positions: pick(golden.leader, 66) },
     music: { features: pick(golden.music, manifest.audio.features), frames },
     guidance: new Float32Array(6),
+    musicGuidance: 0,
     steps: 3,
     seed: 1,
     ...changes,

@@ -39,6 +39,7 @@ function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
     latents,
     memory: Float32Array.from({ length: latents * latent.memory_width }, (_, i) => Math.sin(i)),
     guidance: new Float32Array(6),
+    musicGuidance: 0,
     noise: (draw) => noise(9, latents, width, draw),
     runStep: mixing,
     blocksPerRun: 100,

@@ -52,6 +52,7 @@ export function smallJson() {
       max: 3,
       step: 0.05,
       default: { coarse: 0, fine: 0 } as Record<string, number>,
+      music: { min: 0, max: 4, default: 2 },
     },
     noise: { algorithm: 'philox4x32-10' },
     audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },

@@ -39,7 +39,7 @@ describe('the coarse layer', () => {
   const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
   const state = () => store.getState();
   const reaction = (latents: Float32Array | null): Reaction => {
-    const settings = { guidance: alike(0, 0), steps: 10, seed: 1, role: 'reactor' as const };
+    const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
     const inputs = { leader: leader(60), song: null, shift: 0, settings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
   };

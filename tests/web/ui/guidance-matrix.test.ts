@@ -102,11 +102,14 @@ describe('presets', () => {
       [1.2, 1.5],
       [1.5, 1.5],
     ]);
-    expect(presetOf(list, alike(1.2, 1.2))?.name).toBe("Paper's choice");
+    expect(presetOf(list, { guidance: alike(1.2, 1.2), music: 0 })?.name).toBe("Paper's choice");
   });
 
   it('count as chosen exactly while the values match', () => {
-    expect(presetOf(list, alike(0, 0))?.name).toBe('Balanced');
-    expect(presetOf(list, { ...alike(1.2, 1.2), upper: { coarse: 1.2, fine: 1.25 } })).toBeNull();
+    const { music } = small.guidance;
+    expect(presetOf(list, { guidance: alike(0, 0), music: music.default })?.name).toBe('Balanced');
+    expect(presetOf(list, { guidance: alike(0, 0), music: 0 })).toBeNull();
+    const mixed = { ...alike(1.2, 1.2), upper: { coarse: 1.2, fine: 1.25 } };
+    expect(presetOf(list, { guidance: mixed, music: 0 })).toBeNull();
   });
 });

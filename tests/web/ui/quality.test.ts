@@ -9,7 +9,7 @@ import { madeStander } from '../motion/made-stander';
 import { small } from '../model/small-manifest';
 import { alike, leader, song } from './made';
 
-const settings = { guidance: alike(0, 0), steps: 10, seed: 1, role: 'reactor' as const };
+const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });
 

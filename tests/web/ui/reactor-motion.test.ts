@@ -13,7 +13,7 @@ test('the foot lock is on at first, and switching it changes the motion shown, n
   const shown = () => reactorMotion(store.getState());
   expect(shown()).toBeNull();
 
-  const settings = { guidance: alike(0, 0), steps: 10, seed: 1, role: 'reactor' as const };
+  const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
   const inputs = { leader: leader(90), song: null, shift: 0, settings };
   apply(store, reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();

@@ -5,7 +5,7 @@ import { initialState } from '../../../web/ui/store';
 import { small } from '../model/small-manifest';
 import { alike, leader, song, still } from './made';
 
-const settings: Settings = { guidance: alike(1.2, 0.6), steps: 10, seed: 1204, role: 'reactor' };
+const settings: Settings = { guidance: alike(1.2, 0.6), music: 2, steps: 10, seed: 1204, role: 'reactor' };
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),
   manifest: small,
@@ -45,6 +45,7 @@ describe('what is wanted', () => {
     for (const changed of [
       { ...settings, seed: 1 },
       { ...settings, steps: 4 },
+      { ...settings, music: 0 },
       { ...settings, guidance: alike(1.2, 0.65) },
       { ...settings, guidance: { ...settings.guidance, lower: { coarse: 1.2, fine: 0.65 } } },
       { ...settings, role: 'leader' as const },

@@ -15,6 +15,7 @@ describe('settings', () => {
     const store = ready();
     expect(store.getState().settings).toEqual({
       guidance: alike(0, 0),
+      music: 2,
       steps: 10,
       seed: 7,
       role: 'reactor',
@@ -40,10 +41,30 @@ describe('settings', () => {
     expect(store.getState().settings?.guidance).toEqual(alike(0, 0));
   });
 
+  it('hold the guidance of the music to its own range, and reset it with the rest', () => {
+    const store = ready();
+    const music = () => store.getState().settings?.music;
+    change.apply(store, change.musicSet(9));
+    expect(music()).toBe(4);
+    change.apply(store, change.musicSet(1.23));
+    expect(music()).toBe(1.25);
+    change.apply(store, change.musicReset());
+    expect(music()).toBe(2);
+    change.apply(store, change.musicSet(0));
+    change.apply(store, change.guidanceSet('fine', 1));
+    expect(music()).toBe(0);
+    change.apply(store, change.guidanceReset());
+    expect(store.getState().settings).toMatchObject({ guidance: alike(0, 0), music: 2 });
+    change.apply(store, change.presetChosen({ guidance: alike(1, 1.2), music: 0 }));
+    expect(store.getState().settings).toMatchObject({ guidance: alike(1, 1.2), music: 0 });
+  });
+
   it('are the same object while nothing changes, so that nothing is made anew', () => {
     const store = ready();
     const before = store.getState().settings;
     change.apply(store, change.guidanceSet('coarse', 0.01));
+    change.apply(store, change.musicSet(2.01));
+    change.apply(store, change.guidanceReset());
     expect(store.getState().settings).toBe(before);
   });
 

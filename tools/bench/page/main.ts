@@ -46,6 +46,7 @@ export async function measure(threads: number, steps: number, repeats: number): 
       leader: { fps: manifest.fps, frames, positions },
       music,
       guidance,
+      musicGuidance: manifest.guidance.music.default,
       steps,
       seed: 1,
     });

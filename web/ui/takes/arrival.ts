@@ -74,8 +74,8 @@ function foldable(take: Take, { other }: AppState, now: number): boolean {
 }
 
 function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
-  const { guidance } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance } }, b);
+  const { guidance, music } = b.settings;
+  return sameInputs({ ...a, settings: { ...a.settings, guidance, music } }, b);
 }
 
 /** At most `MOST_TAKES`, unless more are starred, named or in use. */

@@ -34,9 +34,9 @@ export function takeTitle({ name, number, reaction }: Take): string {
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
 }
 
-/** `1.20 coarse, 0.60 fine, seed 1204`. */
-export function settingsWords({ guidance, seed }: Settings): string {
-  return `${guidanceWords(guidance)}, seed ${seed}`;
+/** `1.20 coarse, 0.60 fine, 3.00 music, seed 1204`. */
+export function settingsWords(settings: Settings): string {
+  return `${guidanceWords(settings)}, seed ${settings.seed}`;
 }
 
 /** Puts a take in the place of the one with its id, or where its age puts it: the newest first. */

@@ -223,6 +223,7 @@ describe('what cannot be read any more', () => {
     const { content } = await contentOf({ ...before, takes }, empty().getState());
     expect(content.takes?.[0]?.reaction.inputs.settings).toEqual({
       guidance: { ...alike(0, 0), upper: { coarse: 0, fine: 0.6 } },
+      music: 2,
       steps: 10,
       seed: 5,
       role: 'reactor',
