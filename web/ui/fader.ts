@@ -48,6 +48,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
   const hintId = `hint-${layer}`;
   const value = el('output', { class: 'val' });
   const mix = el('small', { class: 'mix', text: 'mixed' });
+  mix.hidden = true;
   const well = el(
     'span',
     { class: 'well' },

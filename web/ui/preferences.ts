@@ -17,6 +17,7 @@ const schema = v.object({
   speed: v.fallback(v.pipe(v.number(), v.check(isSpeed)), 1),
   loop: v.fallback(v.boolean(), false),
   footLock: v.fallback(v.boolean(), true),
+  seedLocked: v.fallback(v.boolean(), false),
   shown: v.fallback(
     v.object({
       skeleton: v.boolean(),
@@ -34,17 +35,18 @@ const schema = v.object({
 export type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
-  ({ theme, camera, speed, loop, footLock, shown }: Preferences): Change =>
+  ({ theme, camera, speed, loop, footLock, seedLocked, shown }: Preferences): Change =>
   (state) => ({
     theme: theme ?? state.theme,
     camera,
     footLock,
+    seedLocked,
     shown,
     playback: { ...state.playback, speed, loop },
   });
 
 const chosen = (
-  { camera, footLock, shown, playback: { speed, loop } }: AppState,
+  { camera, footLock, seedLocked, shown, playback: { speed, loop } }: AppState,
   theme: Theme | null,
 ): Preferences => ({
   theme,
@@ -52,6 +54,7 @@ const chosen = (
   speed,
   loop,
   footLock,
+  seedLocked,
   shown,
 });
 

@@ -120,10 +120,16 @@ const KEEPING_NOTES: Readonly<Record<KeepingState, string | null>> = {
     'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
 };
 
-/** Sentences worth reading before trusting the result; `look` marks the ones that may change it. */
-export function notes(state: AppState): { text: string; look: boolean }[] {
+/** A sentence worth reading before trusting the result; `look` marks one that may change it. */
+export interface Note {
+  readonly text: string;
+  readonly look: boolean;
+}
+
+/** What is to be said of the song and the leader. */
+function fileNotes(state: AppState): Note[] {
   const { song, leader } = state;
-  const list: { text: string; look: boolean }[] = [];
+  const list: Note[] = [];
   const length = lengthNote(state);
   if (length) list.push({ text: length, look: false });
   if (song?.data.silent)
@@ -131,10 +137,22 @@ export function notes(state: AppState): { text: string; look: boolean }[] {
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', look: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
+  return list;
+}
+
+/** All that is to be said. */
+export function notes(state: AppState): Note[] {
+  const list = fileNotes(state);
   const keeping = KEEPING_NOTES[state.keeping];
   if (keeping) list.push({ text: keeping, look: true });
   for (const remark of state.remarks) list.push({ text: remark, look: true });
   return list;
+}
+
+/** What is to be said of the files where there is room for one sentence: what may change the result comes first. */
+export function firstNote(state: AppState): Note | null {
+  const list = fileNotes(state);
+  return list.find(({ look }) => look) ?? list[0] ?? null;
 }
 
 /** `60 to 30 fps`, or `30 fps` when nothing is resampled. */

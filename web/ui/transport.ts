@@ -1,7 +1,7 @@
 import { el, setText, together } from './dom';
 import { clockTime } from './format';
 import { icon, type IconName } from './icons';
-import { barAt, beingRead, danceDuration, lengthNote } from './selectors';
+import { barAt, beingRead, danceDuration, firstNote } from './selectors';
 import type { Mount } from './services';
 import { musicBeats } from './song-shift';
 import { apply, watch, watchAll } from './store';
@@ -77,8 +77,10 @@ export const mountTransport: Mount = (root, store, services) => {
         const whole = danceDuration(state);
         for (const control of [start, play, end, loop]) control.disabled = whole === 0;
         setText(of, `/ ${clockTime(whole)}`);
-        setText(note, lengthNote(state) ?? '');
+        const first = firstNote(state);
+        setText(note, first?.text ?? '');
         note.title = note.textContent;
+        note.classList.toggle('look', first?.look ?? false);
         // Its room stays, so that nothing beside it moves when a song comes.
         counted.classList.toggle('none', !state.song || state.song.data.beats.length === 0);
       },

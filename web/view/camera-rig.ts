@@ -64,7 +64,8 @@ export function createCameraRig(
   controls.enableDamping = true;
   controls.dampingFactor = 0.12;
   controls.minDistance = 1.2;
-  controls.maxDistance = 16;
+  // From farther away the pool of light is too small to stand on.
+  controls.maxDistance = 10;
   controls.maxPolarAngle = Math.PI / 2 + 0.06;
   controls.zoomSpeed = 0.8;
   controls.addEventListener('change', onChange);

@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { keepPreferences, type PreferenceStorage } from '../../../web/ui/preferences';
 import type { Theme } from '../../../web/ui/state';
 import { footLockSet } from '../../../web/ui/reaction-changes';
+import { seedLockSet } from '../../../web/ui/settings-changes';
 import { apply, createAppStore } from '../../../web/ui/store';
 import { cameraSet, playbackSet, shownToggled, themeSet } from '../../../web/ui/view-changes';
 
@@ -39,10 +40,12 @@ describe('preferences', () => {
     apply(store, themeSet('light'));
     apply(store, cameraSet('top'));
     apply(store, footLockSet(false));
+    apply(store, seedLockSet(true));
     apply(store, shownToggled('trails'));
     apply(store, playbackSet({ speed: 0.5, loop: true }));
     stop();
-    const { theme, camera, footLock, shown, playback } = visit().store.getState();
+    const { theme, camera, footLock, seedLocked, shown, playback } = visit().store.getState();
+    expect(seedLocked).toBe(true);
     expect(shown).toMatchObject({ trails: true, skeleton: false });
     expect({ theme, camera, footLock, speed: playback.speed, loop: playback.loop }).toEqual({
       theme: 'light',

@@ -95,6 +95,18 @@ describe('what is said', () => {
     expect(texts({ remarks: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });
 
+  it('in one sentence where there is no room for more: what may change the dance comes first', () => {
+    const silent = song(3, { silent: true, beats: [] });
+    expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
+      text: 'The song is silent: it carries no beat to dance to.',
+      look: true,
+    });
+    expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');
+    expect(
+      select.firstNote(state({ leader: leader(300), song: song(10.2), remarks: ['Elsewhere.'] })),
+    ).toBeNull();
+  });
+
   it('of the job, in words', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
     const job = { done: 2, total: 10, fraction: 0.3, fresh: null };

@@ -13,8 +13,8 @@ import { MOST_FIGURES, type Show } from './show';
 import { contactAt, stepsOf, type Steps } from './steps';
 
 /** Outer size of a ring with its glow, metres. */
-const WIDE = 0.36;
-const LONG = 0.54;
+const WIDE = 0.28;
+const LONG = 0.44;
 /** Highest place of a ring above the floor, metres. */
 const HOVER = 0.08;
 
