@@ -159,6 +159,59 @@ test('a video tells how far it is, with the menu closed too, and is cancelled at
   await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
 });
 
+/** What the page has done beside filming since it began to be counted. */
+interface Beside {
+  readonly milliseconds: number;
+  /** Pictures that went to the encoder. */
+  readonly filmed: number;
+  /** Pictures that the stage on the page has drawn. */
+  readonly drawn: number;
+  /** Times that the progress on the page changed. */
+  readonly told: number;
+}
+
+test('while it films, the page stands still and tells how far it is only now and then', async ({ page }) => {
+  await page.addInitScript(() => {
+    const counts = { filmed: 0, told: 0, drawn: 0, since: performance.now() };
+    Object.assign(window, { counts });
+    globalThis.VideoEncoder = class extends VideoEncoder {
+      override encode(...picture: Parameters<VideoEncoder['encode']>): void {
+        counts.filmed++;
+        super.encode(...picture);
+      }
+    };
+  });
+  const app = await openMenu(page, 300);
+  await page.keyboard.press('Escape');
+  // Without an end: on a busy machine the dance may be over before the film has begun.
+  await page.keyboard.press('l');
+  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  await app.until(({ playback }) => playback.playing && playback.loop && playback.time > 0.1);
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  await page.getByRole('button', { name: 'Save video' }).click();
+  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await page.evaluate(`
+    const { counts } = window;
+    Object.assign(counts, { filmed: 0, since: performance.now() });
+    window.reactdance.stage.onFrame(() => counts.drawn++);
+    const meter = document.querySelector('[role=progressbar][aria-label=Video]');
+    const told = new MutationObserver(() => counts.told++);
+    told.observe(meter.parentElement, { subtree: true, childList: true, characterData: true });
+  `);
+  await expect.poll(() => page.evaluate('window.counts.filmed'), { timeout: 60_000 }).toBeGreaterThan(20);
+  const beside = await page.evaluate<Beside>(
+    '({ ...window.counts, milliseconds: performance.now() - window.counts.since })',
+  );
+  const each = (beside.milliseconds / beside.filmed).toFixed(0);
+  const description = `${each} ms a picture; ${beside.told} times told, ${beside.drawn} drawn on the page`;
+  test.info().annotations.push({ type: 'measured', description });
+  expect(beside.told).toBeGreaterThan(0);
+  expect.soft(beside.told).toBeLessThanOrEqual(1 + beside.milliseconds / 400);
+  // The camera may still come to rest.
+  expect.soft(beside.drawn).toBeLessThan(beside.filmed / 4);
+});
+
 test('where pages may not encode, the video is recorded in real time', async ({ page }) => {
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'VideoEncoder');

@@ -15,7 +15,7 @@ import { songStart } from './song-shift';
 import type { Services } from './services';
 import { apply, type Store } from './store';
 import { told } from './telling-changes';
-import { opened } from './view-changes';
+import { opened, playbackSet } from './view-changes';
 
 interface Pixels {
   readonly width: number;
@@ -46,8 +46,8 @@ export type Downloads = Pick<
   'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'stageSize'
 >;
 
-/** The page is told of a video's progress at most this often, milliseconds. */
-const BETWEEN_REPORTS = 100;
+/** The page is told of a video's progress at most this often, milliseconds: without a graphics card, showing it costs. */
+const BETWEEN_REPORTS = 400;
 
 /** Writing files to take home. A failure becomes a sentence and changes nothing else. */
 export function createDownloads(store: Store, { camera, stageSize, save, share }: DownloadTools): Downloads {
@@ -147,6 +147,8 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
       // Whoever cancels is at once where they were; the rest is tidied up behind.
       controller.signal.addEventListener('abort', over, { once: true });
       apply(store, savedChanged(null));
+      // Two stages that draw at once would each wait for the other.
+      apply(store, playbackSet({ playing: false }));
       film(controller.signal)
         .catch((error: unknown) => {
           if (!controller.signal.aborted && !isAbort(error)) apply(store, told(savingProblem(error)));

@@ -26,6 +26,8 @@ export interface Cast {
   setMade(role: Role): void;
   setOtherMode(mode: OtherMode): void;
   setShown(shown: Shown): void;
+  /** Says whether everybody is so small in the picture that light bodies show no less. */
+  setFar(far: boolean): void;
   /** Whether there is another take to be seen beside the reactor. */
   readonly split: boolean;
   /** How many of leader and reactor are on the stage. */
@@ -104,6 +106,9 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
     setShown(next) {
       shown = next;
       dress();
+    },
+    setFar(far) {
+      for (const part of PARTS) dancers[part].setFar(far);
     },
     get split() {
       return split();

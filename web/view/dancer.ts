@@ -26,6 +26,8 @@ export interface Dancer {
   setMatter(matter: Matter): void;
   /** Takes the colours of a role; its own until then. */
   colourAs(role: Role): void;
+  /** Says whether the body is so small in the picture that its light triangles show no less. */
+  setFar(far: boolean): void;
   /** Hides a dancer who has a motion, or lets them be seen again. */
   show(on: boolean): void;
   /** Resolves when the body for the latest motion is on. */
@@ -67,7 +69,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
   mesh.frustumCulled = false;
   mesh.bind(rig.skeleton);
   mesh.onBeforeShadow = () => geometry?.lighten(true);
-  mesh.onAfterShadow = () => geometry?.lighten(false);
+  mesh.onAfterShadow = () => geometry?.lighten(far);
   const glass = createGlass(rig.skeleton);
   const object = new Group();
   object.add(rig.root);
@@ -83,6 +85,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
   let matter: Matter = 'solid';
   let colours = role;
   let shown = true;
+  let far = false;
   let look: Look | null = null;
   let dressing = Promise.resolve();
   let worn: Body | null = null;
@@ -92,6 +95,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     worn = body;
     geometry?.dispose();
     geometry = toGeometry(body);
+    geometry.lighten(far);
     mesh.geometry = geometry.full;
     glass.setGeometry(geometry.light);
     rig.bind(offsets);
@@ -149,6 +153,11 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
       if (next === colours) return;
       colours = next;
       dress();
+    },
+    setFar(on) {
+      if (on === far) return;
+      far = on;
+      geometry?.lighten(far);
     },
     show(on) {
       shown = on;

@@ -1,34 +1,42 @@
 import {
+  CircleGeometry,
   Color,
-  Group,
   LinearSRGBColorSpace,
   Mesh,
-  PlaneGeometry,
   ShaderMaterial,
-  ShadowMaterial,
+  UniformsLib,
+  UniformsUtils,
   Vector2,
 } from 'three';
 import { SOLE } from './body/leg';
 import type { Look } from './theme';
 
-/** The studio floor: a pool of light with a fading grid, and the shadows that fall on it. */
+/** The studio floor: a pool of light with a fading grid, and the shadows that fall on it, in one pass. */
 export interface Floor {
-  readonly object: Group;
+  readonly object: Mesh;
   /** Keeps the pool of light under the couple (x, z in metres); the grid stays where it is. */
   setCentre(x: number, z: number): void;
   setLook(look: Look): void;
   dispose(): void;
 }
 
-/** Radius of the floor that is drawn at all, metres; beyond the pool it is the background's colour. */
-const REACH = 24;
+/**
+ * Radius of the floor that is drawn at all, metres. Where the grid ends it has faded into the background's colour, and
+ * the shadow map reaches less far.
+ */
+const REACH = 5.4;
+const CORNERS = 64;
 
 const VERTEX = /* glsl */ `
+#include <common>
+#include <shadowmap_pars_vertex>
 varying vec2 vPlace;
 void main() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
-  vPlace = world.xz;
-  gl_Position = projectionMatrix * viewMatrix * world;
+  vec3 transformedNormal = normalMatrix * normal;
+  vec4 worldPosition = modelMatrix * vec4(position, 1.0);
+  vPlace = worldPosition.xz;
+  gl_Position = projectionMatrix * viewMatrix * worldPosition;
+  #include <shadowmap_vertex>
 }`;
 
 // Colours are mixed as they are seen (sRGB), like those of the interface around the stage.
@@ -37,8 +45,14 @@ uniform vec3 background;
 uniform vec3 pool;
 uniform vec3 line;
 uniform float lineOpacity;
+uniform float shadow;
 uniform vec2 centre;
 varying vec2 vPlace;
+
+#include <common>
+#include <lights_pars_begin>
+#include <shadowmap_pars_fragment>
+#include <shadowmask_pars_fragment>
 
 // Coverage of lines 'spacing' apart, as wide as 'width' metres but never thinner than a pixel shows.
 float lines(float spacing, float width) {
@@ -61,47 +75,48 @@ void main() {
   float light = 1.0 - smoothstep(0.0, 5.0, away);
   vec3 colour = mix(background, pool, light);
   float strength = max(lines(1.0, 0.009), 0.5 * lines(0.5, 0.007)) * lineOpacity;
-  colour = mix(colour, line, strength * (1.0 - smoothstep(1.6, 5.4, away)));
+  colour = mix(colour, line, strength * (1.0 - smoothstep(1.6, ${REACH.toFixed(1)}, away)));
+  colour *= 1.0 - shadow * (1.0 - getShadowMask());
   gl_FragColor = vec4(colour + noise(gl_FragCoord.xy) / 255.0, 1.0);
 }`;
 
 export function createFloor(): Floor {
-  const plane = new PlaneGeometry(2 * REACH, 2 * REACH).rotateX(-Math.PI / 2);
-  const uniforms = {
+  const circle = new CircleGeometry(REACH, CORNERS).rotateX(-Math.PI / 2);
+  const own = {
     background: { value: new Color() },
     pool: { value: new Color() },
     line: { value: new Color() },
     lineOpacity: { value: 0 },
+    shadow: { value: 0 },
     centre: { value: new Vector2() },
   };
-  const ground = new ShaderMaterial({ vertexShader: VERTEX, fragmentShader: FRAGMENT, uniforms });
-  const shade = new ShadowMaterial({ depthWrite: false });
-  const groundMesh = new Mesh(plane, ground);
-  const shadeMesh = new Mesh(plane, shade);
-  shadeMesh.receiveShadow = true;
-  shadeMesh.position.y = 0.002;
-  const object = new Group();
-  object.add(groundMesh, shadeMesh);
+  const material = new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    // three.js fills in the lights' part, of which only the shadow is looked at.
+    uniforms: { ...UniformsUtils.clone(UniformsLib.lights), ...own },
+    lights: true,
+  });
+  const object = new Mesh(circle, material);
+  object.receiveShadow = true;
   // Toe joints rest at height 0; the sole is a little below them.
   object.position.y = -SOLE;
   return {
     object,
     setCentre(x, z) {
-      uniforms.centre.value.set(x, z);
-      groundMesh.position.set(x, 0, z);
-      shadeMesh.position.set(x, shadeMesh.position.y, z);
+      own.centre.value.set(x, z);
+      object.position.set(x, -SOLE, z);
     },
     setLook(look) {
-      uniforms.background.value.setHex(look.background, LinearSRGBColorSpace);
-      uniforms.pool.value.setHex(look.pool, LinearSRGBColorSpace);
-      uniforms.line.value.setHex(look.line, LinearSRGBColorSpace);
-      uniforms.lineOpacity.value = look.lineOpacity;
-      shade.opacity = look.shadow;
+      own.background.value.setHex(look.background, LinearSRGBColorSpace);
+      own.pool.value.setHex(look.pool, LinearSRGBColorSpace);
+      own.line.value.setHex(look.line, LinearSRGBColorSpace);
+      own.lineOpacity.value = look.lineOpacity;
+      own.shadow.value = look.shadow;
     },
     dispose() {
-      plane.dispose();
-      ground.dispose();
-      shade.dispose();
+      circle.dispose();
+      material.dispose();
     },
   };
 }

@@ -48,6 +48,8 @@ const BASE_DISTANCE = 5.05;
 /** Room beside the outermost and above the highest joint: half a hand and air, metres. */
 const MARGIN = 0.22;
 const HEADROOM = 0.12;
+/** A pixel that covers this much of a dancer shows no more than the light triangles do, metres. */
+const LIGHT_PIXEL = 0.004;
 
 /** How far to the side of straight ahead somebody alone is seen from: three-quarters from the front, radians. */
 const THREE_QUARTERS = 0.5;
@@ -87,6 +89,22 @@ export function fitDistance(couple: Pick<Couple, 'reach' | 'height'>, aspect: nu
   const tall = (couple.height + HEADROOM - TARGET_HEIGHT) / tangent;
   const wide = (couple.reach + MARGIN) / (tangent * aspect);
   return Math.max(BASE_DISTANCE, tall, wide);
+}
+
+/**
+ * Whether a dancer is so small in the picture that light bodies look like full ones, even the one nearer to the eye.
+ *
+ * @param eye where the camera is, metres
+ * @param height of the picture, in pixels of the screen
+ */
+export function isFar(
+  eye: { readonly x: number; readonly y: number; readonly z: number },
+  couple: Couple,
+  height: number,
+): boolean {
+  const away = Math.hypot(eye.x - couple.x, eye.y - TARGET_HEIGHT, eye.z - couple.z) - couple.reach;
+  const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+  return (2 * away * tangent) / height > LIGHT_PIXEL;
 }
 
 /** The shot each view begins with. `heading` is where the eye stands now, for views that keep it. */

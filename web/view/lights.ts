@@ -20,6 +20,13 @@ const KEY_HEIGHT = 5.4;
 const KEY_DISTANCE = 4.2;
 /** Half the width of what casts shadows, metres. */
 const SHADOW_REACH = 2.6;
+/**
+ * Texels along a side of the shadow map: 2 cm each, a third of what the blur spreads them over. Finer ones are not seen,
+ * and without a graphics card they take longer than the rest of the picture.
+ */
+const SHADOW_TEXELS = 256;
+/** How far the blur goes to each side, texels. */
+const BLUR = 3;
 
 export function createLights(): Lights {
   const hemisphere = new HemisphereLight();
@@ -32,9 +39,10 @@ export function createLights(): Lights {
   for (const light of [key, fill, coolRim, warmRim]) object.add(light, light.target);
 
   key.castShadow = true;
-  key.shadow.mapSize.set(512, 512);
-  key.shadow.radius = 7;
-  key.shadow.blurSamples = 14;
+  key.shadow.mapSize.set(SHADOW_TEXELS, SHADOW_TEXELS);
+  key.shadow.radius = BLUR;
+  // One sample in the middle of every texel: between two texels, rounding would choose.
+  key.shadow.blurSamples = 2 * BLUR + 1;
   key.shadow.bias = -0.001;
   key.shadow.normalBias = 0.035;
   Object.assign(key.shadow.camera, {

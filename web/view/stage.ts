@@ -7,7 +7,7 @@ import { createCast, type OtherMode, type Part } from './cast';
 import { createContacts } from './contacts';
 import { createFloor } from './floor';
 import { ViewError } from './error';
-import { easing, type Framing, measureCouple, nearestTurn, type View } from './framing';
+import { easing, type Framing, isFar, measureCouple, nearestTurn, type View } from './framing';
 import { createHalves, type Labels } from './halves';
 import { createLights } from './lights';
 import { createLoop, idleLoop } from './loop';
@@ -125,7 +125,10 @@ export function createStage(host: HTMLElement): Stage {
 
 /** @param filmed the size of pictures that are drawn one by one; null follows the host and draws by itself. */
 function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize | null): Film {
-  const canvas = createCanvas(host, filmed, () => loop.invalidate());
+  const canvas = createCanvas(host, filmed, () => {
+    shaded = true;
+    loop.invalidate();
+  });
   const { renderer } = canvas;
 
   const scene = new Scene();
@@ -146,6 +149,8 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   let seconds = 0;
   let posed = false;
   let frames = 0;
+  /** Whether the shadow map has more than an empty floor in it, or nothing yet. */
+  let shaded = true;
   let couple = measureCouple([]);
   let lightHeading = rig.heading;
 
@@ -161,6 +166,9 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     const figures = cast.arrange(picture);
     contacts.update(figures.map(({ joints }) => joints));
     shows.update(figures, seconds);
+    // Without a graphics card an empty floor's shadows cost as much as a couple's.
+    renderer.shadowMap.autoUpdate = shaded || figures.length > 0;
+    shaded = figures.length > 0;
     renderer.render(scene, rig.camera);
   }
 
@@ -182,6 +190,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     lightHeading += rig.jumps ? turn : turn * easing(dt, LIGHT_TAU);
     lights.aim(couple.x, couple.z, lightHeading);
     floor.setCentre(couple.x, couple.z);
+    cast.setFar(isFar(rig.camera.position, couple, renderer.domElement.height));
     renderer.info.reset();
     for (const picture of cast.split ? HALVES : WHOLE) drawPicture(picture);
     frames++;

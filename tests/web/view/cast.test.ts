@@ -88,6 +88,23 @@ describe('the cast', () => {
     expect(colour(3)).not.toBe(colour(1));
   });
 
+  it('has light bodies from afar, bodies that come later too, and full ones again', async () => {
+    const triangles = (): number => {
+      let count = 0;
+      cast.object.children[0]!.traverse((object) => {
+        if (object instanceof SkinnedMesh) count = (object as SkinnedMesh).geometry.drawRange.count / 3;
+      });
+      return count;
+    };
+    cast.setFar(true);
+    await cast.dressed();
+    const light = triangles();
+    cast.setFar(false);
+    expect(light).toBeLessThan(0.6 * triangles());
+    cast.setFar(true);
+    expect(triangles()).toBe(light);
+  });
+
   it('lets the leader look at the partner of each half, whichever was drawn before', () => {
     cast.setOtherMode('side');
     const gaze = (picture: 'left' | 'right'): number[] => {

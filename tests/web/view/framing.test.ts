@@ -3,6 +3,7 @@ import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
 import {
   FIELD_OF_VIEW,
   fitDistance,
+  isFar,
   measureCouple,
   nearestTurn,
   reframed,
@@ -80,5 +81,18 @@ describe('framing', () => {
     expect(reframed(wide, couple, 2.4).distance).toBe(3);
     expect(reframed({ ...wide, ownDistance: false }, couple, 0.9).distance).toBe(fitDistance(couple, 0.9));
     expect(reframed({ ...wide, view: 'top' }, couple, 1.8).distance).toBeCloseTo(3, 6);
+  });
+
+  it('has light bodies where they are small, and full ones near the eye or on many pixels', () => {
+    const couple = measureCouple([figure(0.3, 0), figure(-0.3, 0)]);
+    const eye = (z: number) => ({ x: 0, y: 0.84, z });
+    expect(isFar(eye(5), couple, 360)).toBe(true);
+    expect(isFar(eye(5), couple, 1080)).toBe(false);
+    expect(isFar(eye(1.5), couple, 360)).toBe(false);
+    expect(isFar(eye(20), couple, 1080)).toBe(true);
+    // The one who is nearer to the eye decides.
+    const wide = measureCouple([figure(0, 2), figure(0, -2)]);
+    expect(isFar(eye(5), wide, 400)).toBe(false);
+    expect(isFar(eye(5), couple, 400)).toBe(true);
   });
 });
