@@ -37,7 +37,8 @@ class Options:
     skip: int = 1
     """Eight-counts of the duet to leave out at its start, where the couple walks in."""
     leader_seed: int = 3
-    seed: int = 1204
+    seed: int = 1212
+    """Of 32 seeds the one whose bodies overlap in the fewest frames."""
 
 
 def on_the_beat(motion: np.ndarray, danced: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
