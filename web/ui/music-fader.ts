@@ -4,7 +4,7 @@ import type { Mount } from './services';
 import { musicReset, musicSet } from './settings-changes';
 import { apply, watchAll } from './store';
 
-const HINT = 'How much of the song is heard in the dance. 0 leaves it to the other dancer.';
+const HINT = 'How strongly the song shapes the dance, beside the other dancer.';
 
 /** How loudly the song speaks to the model; asleep while there is none. */
 export const mountMusicFader: Mount = (root, store) => {
