@@ -6,7 +6,7 @@ import { App } from './app-page';
 import { expect, test } from './fixtures';
 import { demoSettings as settings, serveDemo } from './made-demo';
 
-const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25-m1.50_footlock';
+const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
 
 test('leader, reactor or both are saved in four formats that say what they hold', async ({ page }) => {
   await serveDemo(page, settings, 60);
@@ -15,11 +15,12 @@ test('leader, reactor or both are saved in four formats that say what they hold'
   await app.settled();
   const menu = page.getByRole('dialog', { name: 'Download' });
   const save = async (format: string): Promise<Download> => {
-    await page.getByRole('button', { name: 'Download', exact: true }).click();
     const coming = page.waitForEvent('download');
     await menu.getByRole('button', { name: new RegExp(format) }).click();
     const download = await coming;
-    await expect(menu).toBeHidden();
+    // The menu stays for the next format and says what was saved.
+    await expect(menu).toContainText(/Saved, [\d.]+ [KM]B/);
+    await expect(menu).toContainText(download.suggestedFilename());
     return download;
   };
   const bytes = async (download: Download): Promise<Uint8Array> =>
@@ -37,7 +38,6 @@ test('leader, reactor or both are saved in four formats that say what they hold'
     await expect(menu).toContainText(`${PREFIX}_both-bvh.zip`);
     await expect(menu.getByRole('button', { name: 'Save video' })).toBeDisabled();
     await expect(menu).toContainText('A video needs the 3D picture');
-    await page.keyboard.press('Escape');
   });
 
   await test.step('GLB: without a fault, two dancers in one animation', async () => {
@@ -59,6 +59,8 @@ test('leader, reactor or both are saved in four formats that say what they hold'
   });
 
   await test.step('the last format has the focus when the menu opens again', async () => {
+    await page.keyboard.press('Escape');
+    await expect(menu).toBeHidden();
     await page.keyboard.press('e');
     await expect(menu.getByRole('button', { name: /NPZ/ })).toBeFocused();
     await expect(menu.getByRole('radio', { name: 'Both' })).toBeChecked();

@@ -6,7 +6,7 @@ import { probe } from './ffprobe';
 import { demoSettings as settings, serveDemo } from './made-demo';
 
 const FRAMES = 24;
-const PREFIX = 'made-demo-song_made-demo-leader_s77_c0.50-f0.25-m1.50_footlock';
+const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
 
 // A small stage: what draws here is the processor.
 test.use({ viewport: { width: 480, height: 580 } });

@@ -3,12 +3,18 @@ import { otherRole } from './couple';
 import type { Named } from './file-name';
 import { reactorMotion } from './reactor-motion';
 import type { AppState, Who } from './state';
-import { takeOnStage } from './takes/take';
+import { takeOnStage, takeTitle } from './takes/take';
 
 /** What files of the reaction on the stage are named after; null without a reaction. */
 export function namedAfter(state: AppState): Named | null {
   const { reaction, footLock } = state;
-  return reaction && { inputs: reaction.inputs, footLock, take: takeOnStage(state)?.name ?? null };
+  return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state) };
+}
+
+/** `Take 3`, or what it was named; null for a reaction whose take was deleted. */
+function titleOnStage(state: AppState): string | null {
+  const take = takeOnStage(state);
+  return take && takeTitle(take);
 }
 
 /** The couple on the stage or one of it, as they are taken home; null without a reaction. */
@@ -25,7 +31,7 @@ export function danceOf(state: AppState, who: Who): Dance | null {
     about: {
       song: song?.name ?? null,
       leader: leader.name,
-      take: takeOnStage(state)?.name ?? null,
+      take: titleOnStage(state),
       model: manifest && { id: manifest.id, name: manifest.name },
       settings,
       shift,

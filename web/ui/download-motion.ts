@@ -72,12 +72,16 @@ export function createDownloadMotion(store: Store, services: Services): Download
     );
     return { format, button, size, words, purpose };
   });
+  const fileState = el('span');
   const fileName = el('b');
 
   const showName = (state: AppState): void => {
     const named = namedAfter(state);
     const { who: whose, format } = state.download;
-    setText(fileName, named ? motionFileName(named, whose, looked ?? format) : '');
+    const name = named ? motionFileName(named, whose, looked ?? format) : '';
+    const { saved } = state;
+    setText(fileState, saved?.name === name ? `Saved, ${byteSize(saved.bytes)}` : 'Saved as');
+    setText(fileName, name);
   };
   const show = (state: AppState): void => {
     who.show(state.download.who);
@@ -102,7 +106,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
     parts: [
       el('div', { class: 'row' }, el('h2', { text: 'Motion of' }), who.element),
       ...rows.map(({ button }) => button),
-      el('div', { class: 'file' }, 'Saved as', fileName),
+      el('div', { class: 'file' }, fileState, fileName),
     ],
     focus: () => {
       const { format } = store.getState().download;
@@ -111,7 +115,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
     dispose: together(
       watchAll(
         store,
-        (state) => [state.reaction, state.footLock, state.download, state.writing],
+        (state) => [state.reaction, state.footLock, state.download, state.writing, state.saved],
         (state) => {
           show(state);
           showSizes(state);

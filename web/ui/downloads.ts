@@ -15,7 +15,7 @@ import { songStart } from './song-shift';
 import type { Services } from './services';
 import { apply, type Store } from './store';
 import { told } from './telling-changes';
-import { opened, playbackSet } from './view-changes';
+import { playbackSet } from './view-changes';
 
 interface Pixels {
   readonly width: number;
@@ -126,7 +126,6 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
       writeMotion(format, dance, state.theme)
         .then((file) => {
           handOver(file, motionFileName(named, who, format));
-          if (store.getState().open === 'download') apply(store, opened(null));
         })
         .catch((error: unknown) => {
           apply(store, told(savingProblem(error)));

@@ -8,7 +8,7 @@ import type { Inputs, Who } from './state';
 export interface Named {
   readonly inputs: Inputs;
   readonly footLock: boolean;
-  /** Name of the take, if the reaction is one. */
+  /** Name of the take or its number in words, if the reaction is one. */
   readonly take?: string | null;
 }
 
