@@ -137,6 +137,7 @@ function fileNotes(state: AppState): Note[] {
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', look: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
+  for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, look: false });
   return list;
 }
 

@@ -37,6 +37,7 @@ export function leaderFile(frames: number, warnings: string[] = []): LeaderFile 
       unit: 'centimetres',
       upAxis: 'y',
       warnings,
+      remarks: [],
     } as unknown as LeaderFile['report'],
   };
 }
