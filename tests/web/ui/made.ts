@@ -24,7 +24,7 @@ export function still(frames: number): SolvedMotion {
   };
 }
 
-export function leaderFile(frames: number, warnings: string[] = []): LeaderFile {
+export function leaderFile(frames: number, warnings: string[] = [], remarks: string[] = []): LeaderFile {
   return {
     clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
     report: {
@@ -37,18 +37,23 @@ export function leaderFile(frames: number, warnings: string[] = []): LeaderFile 
       unit: 'centimetres',
       upAxis: 'y',
       warnings,
-      remarks: [],
+      remarks,
     } as unknown as LeaderFile['report'],
   };
 }
 
-export function leader(frames: number, name = 'lead_0412.bvh', warnings: string[] = []): LoadedLeader {
+export function leader(
+  frames: number,
+  name = 'lead_0412.bvh',
+  warnings: string[] = [],
+  remarks: string[] = [],
+): LoadedLeader {
   return {
     name,
     label: null,
     text: 'HIERARCHY',
     fps: null,
-    file: leaderFile(frames, warnings),
+    file: leaderFile(frames, warnings, remarks),
     motion: still(frames),
   };
 }
