@@ -1,12 +1,13 @@
 import { findUnit, findUp, floorHeight } from './axes-units';
 import { assemble, type Body, measure, nodesOfBody, withToes } from './body';
+import { cutOff } from './bvh-frames';
 import { sampleNodes } from './bvh-sample';
 import { type BvhFile, parseBvhText } from './bvh-text';
 import type { MotionClip } from './clip';
 import { OWN_DIALECT } from './dialects';
 import { MotionError } from './error';
 import { frameRate, givenRate } from './frame-rate';
-import { type JointMap, mapJoints } from './joint-map';
+import { type JointMap, mapJoints, TRUNK_JOINTS } from './joint-map';
 import { restFrames } from './rest-frame';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from './skeleton';
 import { median } from './statistics';
@@ -27,6 +28,8 @@ export interface LeaderReport {
   readonly joints: Readonly<Record<JointName, string | null>>;
   /** Joints that were made by rule. */
   readonly filled: readonly JointName[];
+  /** Those of them that the file has too, cut into other pieces: the back, on which our pelvis and spine are placed. */
+  readonly recut: readonly JointName[];
   /** Frame rate that was used: the file's, or the one given. */
   readonly sourceFps: number;
   /** Frames of the file that were used. */
@@ -119,9 +122,12 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
   const sourceFps = options.fps === undefined ? frameRate(file.frameTime) : givenRate(options.fps);
   const motion = sampleNodes(file, nodesOfBody(file.nodes, map), sourceFps, FPS);
   if (motion.frames < 2) {
+    const count = file.frameLines.length;
+    if (file.cutOff)
+      throw cutOff(`The file breaks off: only ${count} whole frames are there, too few for a dance.`);
     throw new MotionError(
       'too-few-frames',
-      `At ${sourceFps} frames per second the ${file.frameLines.length} frames last less than two frames at ${FPS}.`,
+      `At ${sourceFps} frames per second the ${count} frames last less than two frames at ${FPS}.`,
       'Choose a longer dance, or correct the frame rate.',
     );
   }
@@ -161,6 +167,7 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
     dialect: map.dialect,
     joints: sourceNames(file, map, body, filled),
     filled,
+    recut: map.back.length > 0 ? filled.filter((name) => TRUNK_JOINTS.includes(name)) : [],
     sourceFps,
     sourceFrames: file.frameLines.length,
     sourceDuration: file.frameLines.length / sourceFps,

@@ -31,6 +31,7 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
       dialect: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
       filled: [],
+      recut: [],
       sourceFps: 60,
       sourceFrames: frames * 2,
       sourceDuration: frames / 30,
