@@ -18,5 +18,4 @@ test('a leader that breaks off is read as far as it goes, without its rest pose,
     'The file ends in the middle of frame 41 of 60; the 40 whole frames are used.',
   );
   await expect(notes).toContainText('The first frame is a rest pose and is left out.');
-  await expect(page.getByText('all found; pelvis and spine placed along its back')).toBeVisible();
 });

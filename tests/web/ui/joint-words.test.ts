@@ -5,6 +5,9 @@ import { solve } from '../../../web/motion/solve';
 import { jointCount, jointWords } from '../../../web/ui/joint-words';
 import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../motion/made-bvh';
 
+const withoutToes: BodyNames = Object.fromEntries(
+  Object.entries(MIXAMO).filter(([part]) => part !== 'toe'),
+) as unknown as BodyNames;
 const report = (names: BodyNames) => readBvh(madeBvh({ joints: madeBody(names) }).text).report;
 
 test('a whole body whose back is cut otherwise lacks nothing', () => {
@@ -17,8 +20,7 @@ test('a whole body whose back is cut otherwise lacks nothing', () => {
 });
 
 test('joints that are missing are named', () => {
-  const { toe: _, ...noToes } = MIXAMO;
-  const lacking = report(noToes);
+  const lacking = report(withoutToes);
   expect(jointWords(lacking)).toBe(
     '20 of 22 found; filled in: left foot, right foot; pelvis and spine placed along its back',
   );
