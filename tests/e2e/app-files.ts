@@ -168,11 +168,20 @@ function row(names: readonly string[], t: number, sway: number): string {
   return [...place, ...angles].map((value) => value.toFixed(4)).join(' ');
 }
 
+/** A leader that begins with its rest pose and breaks off within its frame 41, as a broken download does. */
+export function hurt(): TestFile {
+  const lines = bvhText({ frames: 60 }).split('\n');
+  const first = lines.findIndex((line) => line.startsWith('Frame Time')) + 1;
+  const rest = lines[first]!.split(' ').map((_, column) => (column === 1 ? 97 : 0));
+  const kept = [rest.join(' '), ...lines.slice(first + 1, first + 40), '1.5 97 -'];
+  return file('hurt.bvh', '', [...lines.slice(0, first), ...kept].join('\n'));
+}
+
 /** Broken leaders, each after one real way for a file to be broken. */
 export const brokenLeaders = {
   truncated: (): TestFile => {
     const text = bvhText({ frames: 60 });
-    return file('cut off.bvh', '', text.slice(0, Math.round(text.length * 0.8)));
+    return file('cut off.bvh', '', text.slice(0, text.indexOf('\n', text.indexOf('Frame Time')) + 20));
   },
   noLegs: (): TestFile => bvh({ frames: 60, legs: false, name: 'arms only.bvh' }),
   oneFrame: (): TestFile => bvh({ frames: 1, name: 'statue.bvh' }),

@@ -12,6 +12,7 @@ from real_data import real_duets, real_file
 from training.data.bvh import read_bvh, read_bvh_folder
 from training.data.bvh_body import find_unit
 from training.data.bvh_file import frame_rate, parse_bvh
+from training.data.bvh_rest import rest_frames
 from training.data.floor import put_on_floor
 from training.skeleton import JOINTS
 
@@ -114,6 +115,40 @@ def test_folder_of_pairs_keeps_the_distance_of_partners(tmp_path: Path) -> None:
         read_bvh_folder(tmp_path)
 
 
+def test_a_rest_pose_before_the_dance_is_left_out(tmp_path: Path, dancer: MadeDancer) -> None:
+    plain = write_bvh(tmp_path / "plain.bvh", dancer, "CMU", unit=0.01)
+    begun = tmp_path / "begun.bvh"
+    begun.write_text(_with_rest_pose(plain.read_text()))
+    assert rest_frames(parse_bvh(plain)) == 0
+    assert rest_frames(parse_bvh(begun)) == 1
+    np.testing.assert_array_equal(read_bvh(begun).motion, read_bvh(plain).motion)
+
+
+def test_partners_begin_together_where_one_has_a_rest_pose(tmp_path: Path) -> None:
+    for role, seed in (("leader", 2), ("reactor", 3)):
+        write_bvh(tmp_path / f"rumba_{role}.bvh", MadeDancer(frames=40, seed=seed), "CMU", unit=0.01)
+    (whole,) = read_bvh_folder(tmp_path)
+    path = tmp_path / "rumba_leader.bvh"
+    path.write_text(_with_rest_pose(path.read_text(), instead=True))
+    (late,) = read_bvh_folder(tmp_path)
+    assert len(late) == 39
+    np.testing.assert_allclose(late.reactor[:, :, [0, 2]], whole.reactor[1:, :, [0, 2]], atol=1e-4)
+    np.testing.assert_allclose(late.leader[:, :, [0, 2]], whole.leader[1:, :, [0, 2]], atol=1e-4)
+
+
+def _with_rest_pose(text: str, instead: bool = False) -> str:
+    """A file that begins with its rest pose over the origin, before its own first frame or instead of it."""
+    head, time, frames = text.partition("Frame Time:")
+    first, *rest = frames.splitlines()
+    pose = " ".join(["0"] + ["95"] + ["0"] * (len(rest[0].split()) - 2))
+    if instead:
+        return "\n".join([head + time + first, pose, *rest[1:], ""])
+    count = len(rest)
+    return "\n".join(
+        [head.replace(f"Frames: {count}", f"Frames: {count + 1}") + time + first, pose, *rest, ""]
+    )
+
+
 def test_broken_files_are_named(tmp_path: Path, dancer: MadeDancer) -> None:
     path = write_bvh(tmp_path / "a.bvh", dancer, "own", unit=1.0)
     text = path.read_text()
@@ -135,8 +170,8 @@ def test_real_daz_file_is_the_dance_of_the_archive() -> None:
     path = real_file("bvh/cmu_60_10_daz.bvh")
     truth = next(duet for duet in real_duets() if duet.name == "salsa_10").leader
     assert parse_bvh(path).fps == 120
-    # The file states twice its true rate. It begins two frames earlier than the archive.
-    read = read_bvh(path, fps=60).motion[2 : 2 + len(truth)]
+    # The file states twice its true rate.
+    read = read_bvh(path, fps=60).motion[: len(truth)]
     truth = truth[: len(read)]
     # Both were put on other bodies (arms most of all), so trunk and legs are compared, after the best fit.
     joints = [JOINTS.index(name) for name in JOINTS if name in TRUNK or "knee" in name or "ankle" in name]

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from training.data.bvh_body import assemble, find_unit, find_up, read_body
 from training.data.bvh_file import parse_bvh
+from training.data.bvh_rest import rest_frames
 from training.data.duet import Duet, Solo
 from training.data.floor import put_on_floor
 
@@ -15,8 +19,9 @@ SONG_SUFFIXES = (".wav", ".mp3", ".ogg", ".flac")
 
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
-    """One dancer: metres, y up, 30 fps, floor at 0. fps: overrides the frame rate that the file states.
+    """One dancer: metres, y up, 30 fps, floor at 0, without the rest pose before the dance.
 
+    fps: overrides the frame rate that the file states.
     Raises ValueError, naming the file, for what is no complete BVH file of a whole body.
     """
     (motion,) = _read_together([Path(path)], fps)
@@ -53,14 +58,26 @@ def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
     return duets
 
 
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Puts the file's name before the words of a ValueError."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
+
+
 def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
-    """Dancers of one world, (T, 22, 3) each; two files of one recording have one unit and one up axis."""
-    bodies = []
+    """Dancers of one world, (T, 22, 3) each; files of one recording have one unit, one up axis and one beginning."""
+    files, rests, bodies = [], [], []
     for path in paths:
-        try:
-            bodies.append(read_body(parse_bvh(path), fps))
-        except ValueError as error:
-            raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
+        with _naming(path):
+            file = parse_bvh(path)
+            rests.append(rest_frames(file))
+            files.append(file)
+    for path, file in zip(paths, files, strict=True):
+        with _naming(path):
+            bodies.append(read_body(replace(file, values=file.values[max(rests) :]), fps))
     up = find_up(sum((body.upright() / body.size() for body in bodies), start=np.zeros(3)))
     metres = find_unit(float(np.exp(np.mean([np.log(body.size()) for body in bodies]))))
     return [assemble(body, up, metres) for body in bodies]

@@ -8,8 +8,8 @@ const AS_GOOD = 0.98;
 const LEAST_GAIN = 0.1;
 const LEAST_CONFIDENCE = 2;
 
-/** A better place for the music. Scores go from 0 to 1, the mean over the motion beats while there is music. */
-export interface BetterShift {
+/** The best place for the music. Scores go from 0 to 1, the mean over the motion beats while there is music. */
+export interface BestShift {
   /** Frames by which the music has to start later. */
   readonly by: number;
   readonly score: number;
@@ -17,6 +17,8 @@ export interface BetterShift {
   readonly before: number;
   /** The gain in units of its own standard error. */
   readonly confidence: number;
+  /** Is it clearly better than what is? Among so many shifts one always looks a little better by accident. */
+  readonly clear: boolean;
 }
 
 /**
@@ -35,13 +37,13 @@ export function beatScores(motion: readonly number[], music: readonly number[], 
  * @param beats frames of the motion's beats; those in silence do not count
  * @param music frames of the music's beats as they are heard now, ascending
  * @param tolerance as of `beatScores`
- * @returns null when nothing is clearly better than what is
+ * @returns null when there are too few beats to tell
  */
-export function betterShift(
+export function bestShift(
   beats: readonly number[],
   music: readonly number[],
   tolerance: number,
-): BetterShift | null {
+): BestShift | null {
   const [first = 0, last = 0] = [music[0], music.at(-1)];
   const motion = beats.filter((beat) => beat >= first - tolerance && beat <= last + tolerance);
   if (motion.length < FEWEST || music.length < FEWEST) return null;
@@ -65,8 +67,8 @@ export function betterShift(
   const gain = mean(gains);
   const spread = Math.sqrt(mean(gains.map((each) => (each - gain) ** 2)) / (gains.length - 1));
   const confidence = gain / Math.max(spread, 1e-9);
-  if (by === 0 || gain < LEAST_GAIN || confidence < LEAST_CONFIDENCE) return null;
-  return { by, score: mean(after), before: mean(now), confidence };
+  const clear = by !== 0 && gain >= LEAST_GAIN && confidence >= LEAST_CONFIDENCE;
+  return { by, score: mean(after), before: mean(now), confidence, clear };
 }
 
 /** From a place to the nearest of the ascending ones; infinite where there is none. */

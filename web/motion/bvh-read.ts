@@ -1,12 +1,14 @@
 import { findUnit, findUp, floorHeight } from './axes-units';
 import { assemble, type Body, measure, nodesOfBody, withToes } from './body';
+import { cutOff } from './bvh-frames';
 import { sampleNodes } from './bvh-sample';
 import { type BvhFile, parseBvhText } from './bvh-text';
 import type { MotionClip } from './clip';
 import { OWN_DIALECT } from './dialects';
 import { MotionError } from './error';
 import { frameRate, givenRate } from './frame-rate';
-import { type JointMap, mapJoints } from './joint-map';
+import { type JointMap, mapJoints, TRUNK_JOINTS } from './joint-map';
+import { restFrames } from './rest-frame';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from './skeleton';
 import { median } from './statistics';
 import { add, distance, lerp, readVec, scale, type Vec3, ZERO } from './vec3';
@@ -26,8 +28,11 @@ export interface LeaderReport {
   readonly joints: Readonly<Record<JointName, string | null>>;
   /** Joints that were made by rule. */
   readonly filled: readonly JointName[];
+  /** Those of them that the file has too, cut into other pieces: the back, on which our pelvis and spine are placed. */
+  readonly recut: readonly JointName[];
   /** Frame rate that was used: the file's, or the one given. */
   readonly sourceFps: number;
+  /** Frames of the file that were used. */
   readonly sourceFrames: number;
   /** Seconds at `sourceFps`. */
   readonly sourceDuration: number;
@@ -36,6 +41,8 @@ export interface LeaderReport {
   readonly upAxis: string;
   /** Sentences about what may be wrong. */
   readonly warnings: readonly string[];
+  /** Sentences about what was done to the motion and is right. */
+  readonly remarks: readonly string[];
 }
 
 /** A dancer from a file: 22 joints, 30 fps, metres, y up, floor at 0, the file's own body size. */
@@ -90,24 +97,37 @@ function sourceNames(file: BvhFile, map: JointMap, body: Body, filled: readonly 
   ) as Record<JointName, string | null>;
 }
 
+/** What is said of `frames` left out at the beginning. */
+function restWords(frames: number): string {
+  const first = 'The first frame is a rest pose and is left out';
+  if (frames === 1) return `${first}.`;
+  const landing = frames === 2 ? 'the next one' : `the ${frames - 1} after it`;
+  return `${first}, with ${landing}, in which the body jumps from it into the dance.`;
+}
+
 /**
  * Reads a dancer from the text of a BVH file.
  *
- * Joints are found by name, missing ones are filled by rule, unit and up axis come from the body, the motion is
- * resampled to 30 fps and its floor put at 0.
+ * Joints are found by name, missing ones are filled by rule, a rest pose before the dance is left out, unit and up axis
+ * come from the body, the motion is resampled to 30 fps and its floor put at 0.
  *
  * @param options.fps frame rate to use instead of the file's own
  * @throws MotionError a sentence and a hint for everything that can be wrong with the file
  */
 export function readBvh(text: string, options: { readonly fps?: number } = {}): LeaderFile {
-  const file = parseBvhText(text);
-  const map = mapJoints(file.nodes);
+  const whole = parseBvhText(text);
+  const map = mapJoints(whole.nodes);
+  const rest = restFrames(whole, map);
+  const file: BvhFile = { ...whole, frameLines: whole.frameLines.slice(rest) };
   const sourceFps = options.fps === undefined ? frameRate(file.frameTime) : givenRate(options.fps);
   const motion = sampleNodes(file, nodesOfBody(file.nodes, map), sourceFps, FPS);
   if (motion.frames < 2) {
+    const count = file.frameLines.length;
+    if (file.cutOff)
+      throw cutOff(`The file breaks off: only ${count} whole frames are there, too few for a dance.`);
     throw new MotionError(
       'too-few-frames',
-      `At ${sourceFps} frames per second the ${file.frameLines.length} frames last less than two frames at ${FPS}.`,
+      `At ${sourceFps} frames per second the ${count} frames last less than two frames at ${FPS}.`,
       'Choose a longer dance, or correct the frame rate.',
     );
   }
@@ -147,12 +167,14 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
     dialect: map.dialect,
     joints: sourceNames(file, map, body, filled),
     filled,
+    recut: map.back.length > 0 ? filled.filter((name) => TRUNK_JOINTS.includes(name)) : [],
     sourceFps,
     sourceFrames: file.frameLines.length,
     sourceDuration: file.frameLines.length / sourceFps,
     unit: unit.name,
     upAxis: up.name,
     warnings,
+    remarks: rest > 0 ? [restWords(rest)] : [],
   };
   return { clip, report };
 }

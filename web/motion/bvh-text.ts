@@ -11,6 +11,8 @@ export interface BvhFile {
   /** Frame time as written, seconds. */
   readonly frameTime: string;
   readonly warnings: readonly string[];
+  /** Does the file end before its last frame does? `frameLines` are then those that are whole. */
+  readonly cutOff: boolean;
 }
 
 /** The line of a header entry such as "Frames: 12" and its value; both are undefined where it is missing. */
@@ -25,7 +27,7 @@ function header(lines: readonly string[], from: number, key: RegExp): { line: nu
 }
 
 /**
- * Takes a BVH file apart and looks at every number of it.
+ * Takes a BVH file apart and looks at every number of it. Of a file that ends too early the whole frames are used.
  *
  * @throws MotionError `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
  *   `too-few-frames` or `several-roots`, naming the line, and the joint where there is one
@@ -67,7 +69,7 @@ export function parseBvhText(text: string): BvhFile {
     const where = `Line ${frames.line + 1}: "${frames.value}" is no number of frames.`;
     throw new MotionError('bad-number', where, AGAIN);
   }
-  const { frameLines, warnings } = readFrames(lines, time.line + 1, stated, nodes);
+  const { frameLines, warnings, cutOff } = readFrames(lines, time.line + 1, stated, nodes);
   if (stated < 2) {
     throw new MotionError(
       'too-few-frames',
@@ -75,5 +77,5 @@ export function parseBvhText(text: string): BvhFile {
       'Export the whole animation, not only its current frame.',
     );
   }
-  return { nodes, frameLines, frameTime: time.value, warnings };
+  return { nodes, frameLines, frameTime: time.value, warnings, cutOff };
 }

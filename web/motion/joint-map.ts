@@ -26,7 +26,8 @@ const OURS: Readonly<Record<LimbJoint, string>> = {
   wrist: 'wrist',
   collar: 'collar',
 };
-const OUR_TRUNK = ['pelvis', 'spine1', 'spine2', 'spine3'] as const;
+/** The joints of the trunk, which nearly every family of programs puts elsewhere. */
+export const TRUNK_JOINTS: readonly JointName[] = ['pelvis', 'spine1', 'spine2', 'spine3'];
 const LEG: readonly LimbJoint[] = ['hip', 'knee', 'ankle'];
 const ARM: readonly LimbJoint[] = ['shoulder', 'elbow', 'wrist'];
 const FINDABLE = new Set<LimbJoint>([...LEG, ...ARM]);
@@ -76,13 +77,13 @@ function find(
   }
   take('neck', dialect.neck);
   take('head', dialect.head);
-  OUR_TRUNK.forEach((joint, i) => dialect.trunk && take(joint, [dialect.trunk[i]!]));
+  TRUNK_JOINTS.forEach((joint, i) => dialect.trunk && take(joint, [dialect.trunk[i]!]));
   return found;
 }
 
 /** How many of the joints that cannot be guessed were found; a family with our trunk must have that trunk. */
 function score(dialect: Dialect, found: ReadonlyMap<JointName, number>): number {
-  if (dialect.trunk !== undefined && !OUR_TRUNK.every((joint) => found.has(joint))) return 0;
+  if (dialect.trunk !== undefined && !TRUNK_JOINTS.every((joint) => found.has(joint))) return 0;
   const limbs = [...FINDABLE].flatMap((limb) => [`left_${OURS[limb]}`, `right_${OURS[limb]}`] as JointName[]);
   return limbs.filter((joint) => found.has(joint)).length + (found.has('head') || found.has('neck') ? 1 : 0);
 }

@@ -1,5 +1,6 @@
 import { loadedRole, roleName } from './couple';
 import { duration, tempo } from './format';
+import { jointCount } from './joint-words';
 import { el, setText, setVariable, together } from './dom';
 import { icon } from './icons';
 import { rateWords } from './selectors';
@@ -86,8 +87,7 @@ function describe(state: AppState, side: Side): Words {
     const { name, label, file } = state.leader;
     if (label) return { name, short: label, long: '', ...plain };
     const { clip, report } = file;
-    const joints = Object.values(report.joints).filter((source) => source !== null).length;
-    const long = ` · ${joints} joints · ${rateWords(report.sourceFps, clip.fps)}`;
+    const long = ` · ${jointCount(report)} joints · ${rateWords(report.sourceFps, clip.fps)}`;
     return { name, short: duration(clip.frames / clip.fps), long, ...plain };
   }
   return { name: null, short: '', long: '', ...plain };

@@ -60,7 +60,7 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
         'data-code': problem.code,
       },
     },
-    el('h1', { text: problem.title, attributes: { id: 'problem-title' } }),
+    el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
     el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
     el(
       'div',
@@ -69,6 +69,13 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
       action(keepWords(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
     ),
   );
+}
+
+/** A sentence whose short quotations stay on one line. */
+function unbroken(sentence: string): (Node | string)[] {
+  return sentence
+    .split(/("[^"]{0,24}")/)
+    .map((part, index) => (index % 2 === 1 ? el('span', { class: 'quoted', text: part }) : part));
 }
 
 function remedyOf(problem: Problem, services: Services): { text: string; run: () => void } | null {

@@ -52,8 +52,16 @@ export function guidanceMatrix(
   );
 }
 
-/** Bar and count, both from 1, counted in four from the first beat found; null before it or without beats. */
+/** How long a beat lasts that is the only one, seconds. */
+const LONE_BEAT = 0.5;
+
+/**
+ * Bar and count, both from 1, counted in four from the first beat found; null before it, without beats, and once the
+ * last one has lasted as long as the one before it.
+ */
 export function barAt(beats: readonly number[], time: number): { bar: number; count: number } | null {
+  const [last = 0, before = last - LONE_BEAT] = [beats.at(-1), beats.at(-2)];
+  if (time >= 2 * last - before) return null;
   let low = 0;
   let high = beats.length;
   while (low < high) {
@@ -137,6 +145,7 @@ function fileNotes(state: AppState): Note[] {
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', look: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
+  for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, look: false });
   return list;
 }
 

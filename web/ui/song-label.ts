@@ -1,5 +1,5 @@
 import { el, setText } from './dom';
-import { frameWords, shiftWords, signed, suggestedShift } from './song-shift';
+import { fitOf, frameWords, percent, shiftWords, signed } from './song-shift';
 import type { AppState } from './state';
 import { apply, type Store } from './store';
 import { shiftSet } from './timeline-changes';
@@ -10,7 +10,7 @@ export interface SongLabel {
   readonly show: (state: AppState) => void;
 }
 
-/** The label; its two buttons come and go without moving anything. */
+/** The label; its buttons and its quiet words come and go without moving anything. */
 export function createSongLabel(store: Store): SongLabel {
   const back = el('button', {
     class: 'shifted',
@@ -27,16 +27,18 @@ export function createSongLabel(store: Store): SongLabel {
     on: {
       click: () => {
         const state = store.getState();
-        const found = suggestedShift(state);
-        if (found) apply(store, shiftSet(state.shift + found.by));
+        const better = fitOf(state)?.better;
+        if (better) apply(store, shiftSet(state.shift + better.by));
       },
     },
   });
+  const none = el('span', { class: 'no-align' });
   const root = el(
     'div',
     { class: 'lab song' },
     el('span', { class: 'of-song' }, el('span', { text: 'Song' }), back),
     align,
+    none,
   );
   return {
     root,
@@ -46,18 +48,21 @@ export function createSongLabel(store: Store): SongLabel {
       setText(back, `${signed(shift)} ×`);
       back.setAttribute('aria-label', `Song shift ${frameWords(shift)}: put it back`);
       back.title = `The song is shifted by ${shiftWords(shift, state)}. Click to put it back.`;
-      const found = suggestedShift(state);
-      align.hidden = found === null;
-      if (!found) return;
-      setText(align, `Align ${frameWords(found.by)}`);
+      const fit = fitOf(state);
+      align.hidden = !fit?.better;
+      none.hidden = !fit || fit.better !== null;
+      if (!fit) return;
+      if (!fit.better) {
+        setText(none, fit.words);
+        none.title = fit.reason;
+        return;
+      }
+      const { by, score, before } = fit.better;
+      setText(align, `Align ${frameWords(by)}`);
       align.title =
         `The leader's accents, the moments of least speed, meet the song's beats better ` +
-        `${shiftWords(found.by, state).split(', ')[1] ?? ''}: ${percent(found.score)} instead of ${percent(found.before)}. ` +
+        `${shiftWords(by, state).split(', ')[1] ?? ''}: ${percent(score)} instead of ${percent(before)}. ` +
         'Click to shift the song.';
     },
   };
-}
-
-function percent(part: number): string {
-  return `${Math.round(part * 100)} %`;
 }

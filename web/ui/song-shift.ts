@@ -1,4 +1,4 @@
-import { betterShift, type BetterShift } from '../motion/beat-match';
+import { bestShift, type BestShift } from '../motion/beat-match';
 import { motionBeats } from '../motion/motion-beats';
 import type { AppState, LoadedLeader, LoadedSong } from './state';
 
@@ -43,28 +43,49 @@ export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>)
   return `${frameWords(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
 }
 
-let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: BetterShift | null } | null =
-  null;
+/** How song and leader fit: a better shift, or why none is suggested, in a few words and in a sentence. */
+export type Fit =
+  { readonly better: BestShift } | { readonly better: null; readonly words: string; readonly reason: string };
+
+let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: Fit } | null = null;
 
 /**
- * How much later the song should start than it does now so that its beats meet the leader's; null when nothing is
- * clearly better. The last answer is remembered: many parts of the page ask.
+ * How much later the song should start than it does now so that its beats meet the leader's, where that is clearly
+ * better; null without song or leader. The last answer is remembered: many parts of the page ask.
  */
-export function suggestedShift({
-  song,
-  leader,
-  shift,
-  manifest,
-}: Parts & Pick<AppState, 'manifest'>): BetterShift | null {
+export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 'manifest'>): Fit | null {
   if (!song || !leader || !manifest) return null;
   if (answered?.leader === leader && answered.song === song && answered.shift === shift)
     return answered.answer;
   const { fps } = leader.file.clip;
   const music = musicBeats({ song, leader, shift }).map((beat) => beat * fps);
   const { smoothing, tolerance } = manifest.quality.beats;
-  const found = betterShift(motionBeats(leader.motion, smoothing), music, tolerance);
+  const best = bestShift(motionBeats(leader.motion, smoothing), music, tolerance);
   const { min, max } = shiftRange({ song, leader });
-  const answer = found && shift + found.by >= min && shift + found.by <= max ? found : null;
+  const possible = best !== null && shift + best.by >= min && shift + best.by <= max;
+  const answer = best?.clear && possible ? { better: best } : noBetter(best, leader);
   answered = { leader, song, shift, answer };
   return answer;
+}
+
+function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Fit {
+  if (best === null)
+    return {
+      better: null,
+      words: 'too few beats',
+      reason: 'Leader and song have too few beats together to tell how they fit. Drag the song to shift it.',
+    };
+  const now = `The leader's accents, the moments of least speed, meet the song's beats by ${percent(best.before)}`;
+  const seconds = (Math.abs(best.by) / clip.fps).toFixed(2);
+  const other =
+    best.by === 0
+      ? ', the best within two seconds'
+      : `; the best within two seconds is ${percent(best.score)}, ${seconds} s ${best.by > 0 ? 'later' : 'earlier'}` +
+        (best.clear ? '' : ', too little to tell from accident');
+  return { better: null, words: 'no better shift', reason: `${now}${other}. Drag the song to shift it.` };
+}
+
+/** `58 %`. */
+export function percent(part: number): string {
+  return `${Math.round(part * 100)} %`;
 }

@@ -3,6 +3,7 @@ import { loadedRole, roleName } from './couple';
 import { el, together } from './dom';
 import { clockTime, rate, tempo } from './format';
 import { guidanceWords } from './guidance-matrix';
+import { jointWords } from './joint-words';
 import { beingRead, notes } from './selectors';
 import type { Mount, Services } from './services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from './state';
@@ -87,18 +88,12 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
   const head = group(role === 'leader' ? 'lead' : 'reac', roleName(role));
   if (!leader) return [head, ...fact('File', reading.leader ? 'being read' : 'none yet')];
   const { clip, report } = leader.file;
-  const sources = Object.values(report.joints);
-  const found = sources.filter((source) => source !== null).length;
-  const joints =
-    report.filled.length === 0
-      ? `all ${sources.length} found`
-      : `${found} of ${sources.length} found; filled in: ${report.filled.join(', ').replaceAll('_', ' ')}`;
   return [
     head,
     ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Skeleton', report.dialect),
-    ...fact('Joints', joints),
+    ...fact('Joints', jointWords(report)),
     ...fact('Space', `${report.unit}, ${report.upAxis} up`),
   ];
 }

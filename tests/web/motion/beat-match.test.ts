@@ -1,10 +1,14 @@
 import { describe, expect, it } from 'vitest';
-import { betterShift as better } from '../../../web/motion/beat-match';
+import { bestShift } from '../../../web/motion/beat-match';
 import { motionBeats } from '../../../web/motion/motion-beats';
 import { small } from '../model/small-manifest';
 
 const { smoothing, tolerance } = small.quality.beats;
-const betterShift = (beats: readonly number[], music: readonly number[]) => better(beats, music, tolerance);
+/** The shift where it is clearly better, else null. */
+const betterShift = (beats: readonly number[], music: readonly number[]) => {
+  const best = bestShift(beats, music, tolerance);
+  return best?.clear ? best : null;
+};
 
 /**
  * A leader of one joint that swings once in `period` frames: it stands still twice as often, never midway between two
@@ -60,8 +64,10 @@ describe('the better shift', () => {
 
   it('is none where nothing fits, and with too few beats', () => {
     const unrelated = [13, 31, 64, 71, 102, 137, 149, 184, 203, 241, 249, 283, 320, 331, 367, 402, 411, 449];
-    expect(betterShift(unrelated, clicks(0, 17, 460))).toBeNull();
-    expect(betterShift(leader, [1, 2, 3])).toBeNull();
-    expect(betterShift([], clicks(0, 20, frames))).toBeNull();
+    const best = bestShift(unrelated, clicks(0, 17, 460), tolerance);
+    expect(best).toMatchObject({ clear: false });
+    expect(best?.score).toBeGreaterThanOrEqual(best?.before ?? 1);
+    expect(bestShift(leader, [1, 2, 3], tolerance)).toBeNull();
+    expect(bestShift([], clicks(0, 20, frames), tolerance)).toBeNull();
   });
 });

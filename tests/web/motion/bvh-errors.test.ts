@@ -48,10 +48,21 @@ describe('what is no BVH file', () => {
 });
 
 describe('cut off', () => {
-  test('at every place of the file, it is an error and never a crash', () => {
-    for (let end = 0; end < good.length - 200; end += 97) {
-      const { code } = failure(good.slice(0, end));
-      expect(['empty-file', 'not-bvh', 'truncated', 'bad-hierarchy', 'bad-number']).toContain(code);
+  test('at every place of the file, it is an error or its whole frames, and never a crash', () => {
+    const starts = lines.map((_, i) => lines.slice(0, i).join('\n').length + 1);
+    for (let end = 0; end < good.length; end += 97) {
+      const whole = starts.filter((start, i) => i >= firstFrame && start <= end).length;
+      const text = good.slice(0, end);
+      if (whole < 2) {
+        const { code } = failure(text);
+        expect(['empty-file', 'not-bvh', 'truncated', 'bad-hierarchy', 'bad-number']).toContain(code);
+      } else {
+        const { clip, report } = readBvh(text);
+        expect(clip.frames).toBe(whole);
+        expect(report.warnings.join()).toMatch(
+          new RegExp(`^The file ends .* of 12; the ${whole} whole frames are used\\.$`),
+        );
+      }
     }
   });
   test('in the skeleton', () => {
@@ -61,13 +72,57 @@ describe('cut off', () => {
   test('after the skeleton', () => {
     expectFailure(lines.slice(0, lineOf(/^MOTION/) - 1).join('\n'), 'truncated', 'its motion is missing');
   });
-  test('between two frames', () => {
-    const text = lines.slice(0, firstFrame + 6).join('\n');
-    expectFailure(text, 'truncated', 'says that it has 12 frames, but only 7 are there');
+  const upTo = (frames: number): string => lines.slice(0, firstFrame - 1 + frames).join('\n') + '\n';
+  test.each([
+    ['a value', '-', 'in the middle of frame 8'],
+    ['an exponent', '1.0 2.0 1e', 'in the middle of frame 8'],
+    ['a frame', '1.0 '.repeat(30), 'in the middle of frame 8'],
+    ['the last value', lines[firstFrame + 6]!, 'in the middle of frame 8'],
+    ['a frame, and filled up', '1.0 2.0 \0\0\0\0', 'in the middle of frame 8'],
+    ['nothing', '', 'after frame 7'],
+    ['nothing, with empty lines', '\r\n \n', 'after frame 7'],
+  ])('in the motion, within %s', (_, rest, where) => {
+    const { clip, report } = readBvh(upTo(7) + rest);
+    expect(report.warnings).toEqual([`The file ends ${where} of 12; the 7 whole frames are used.`]);
+    expect(clip.frames).toBe(7);
+    expect(clip.frames).toBe(report.sourceFrames);
+    const whole = readBvh(upTo(7).replace('Frames: 12', 'Frames: 7'));
+    expect(whole.report.warnings).toEqual([]);
+    expect(clip.positions).toEqual(whole.clip.positions);
   });
-  test('in a frame', () => {
-    const text = lines.slice(0, firstFrame + 6).join('\n') + '\n' + '1.0 '.repeat(30);
-    expectFailure(text, 'truncated', `frame 8 of 12: line ${firstFrame + 7} holds 30 of ${columns} values`);
+  test('in the last frame', () => {
+    const { report } = readBvh(upTo(11) + '1.0 2.0 -');
+    expect(report.warnings).toEqual([
+      'The file ends in the middle of frame 12 of 12; the 11 whole frames are used.',
+    ]);
+    const complete = good.trimEnd();
+    expect(readBvh(complete).report.warnings).toEqual([]);
+  });
+  test('too early for a motion', () => {
+    expectFailure(
+      upTo(1) + '1.0 -',
+      'truncated',
+      'in the middle of frame 2 of 12: only one whole frame is there',
+    );
+    expectFailure(upTo(0) + '1.0 -', 'truncated', 'in the middle of frame 1 of 12: no whole frame is there');
+    expectFailure(upTo(1), 'truncated', 'says that it has 12 frames, but only one whole frame is there');
+    expectFailure(upTo(0), 'truncated', 'says that it has 12 frames, but no whole frame is there');
+    const quick = upTo(3).replace(/Frame Time: .*/, 'Frame Time: 0.008333');
+    expectFailure(quick, 'truncated', 'The file breaks off: only 3 whole frames are there');
+    expect(failure(upTo(1)).hint).toMatch(/download, copy or export it again/);
+  });
+  test('nowhere, but wrong in the last line', () => {
+    const at = firstFrame + 11;
+    expectFailure(
+      withLine(at, (line) => line.replace(/^\S+/, 'abc')),
+      'bad-number',
+      `Line ${at}, frame 12`,
+    );
+    expectFailure(
+      upTo(0) + lines[firstFrame - 1]!.replaceAll('.', ',') + '\n',
+      'bad-number',
+      `Line ${firstFrame}`,
+    );
   });
   test('before the number of frames', () => {
     expectFailure(lines.slice(0, lineOf(/^MOTION/)).join('\n'), 'bad-hierarchy', '"Frames:" is missing');

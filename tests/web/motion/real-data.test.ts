@@ -4,7 +4,7 @@ import { describe, expect, test } from 'vitest';
 import { readBvh } from '../../../web/motion/bvh-read';
 import { writeBvh } from '../../../web/motion/bvh-write';
 import { bodyHeight } from '../../../web/motion/scale';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
+import { J, JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton';
 import { solve } from '../../../web/motion/solve';
 import { percentile } from '../../../web/motion/statistics';
 import { distance, readVec } from '../../../web/motion/vec3';
@@ -55,6 +55,21 @@ test.runIf(present)('the rate that a header states wrongly is noticed', () => {
   expect(report.sourceFps).toBe(120);
   expect(report.warnings.join()).toMatch(/frame rate of the file \(120\) is wrong/);
   expect(readBvh(text('cmu_60_10_daz.bvh'), { fps: 60 }).report.warnings).toEqual([]);
+});
+
+test.runIf(present)('a T-pose at the beginning is not danced', () => {
+  for (const file of files) {
+    const { clip, report } = readBvh(text(file), trueRate(file));
+    const daz = file.includes('daz');
+    expect(report.remarks.join()).toMatch(
+      daz ? /^The first frame is a rest pose and is left out, with the 3 after/ : /^$/,
+    );
+    const speeds = SMPL22.map(
+      (_, joint) =>
+        30 * distance(readVec(clip.positions, joint), readVec(clip.positions, JOINT_COUNT + joint)),
+    );
+    expect(Math.max(...speeds)).toBeLessThan(daz ? 2 : 5);
+  }
 });
 
 test.runIf(present)('leader and reactor of one dance keep their distance', () => {

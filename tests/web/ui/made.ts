@@ -24,30 +24,37 @@ export function still(frames: number): SolvedMotion {
   };
 }
 
-export function leaderFile(frames: number, warnings: string[] = []): LeaderFile {
+export function leaderFile(frames: number, warnings: string[] = [], remarks: string[] = []): LeaderFile {
   return {
     clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
     report: {
       dialect: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
       filled: [],
+      recut: [],
       sourceFps: 60,
       sourceFrames: frames * 2,
       sourceDuration: frames / 30,
       unit: 'centimetres',
       upAxis: 'y',
       warnings,
+      remarks,
     } as unknown as LeaderFile['report'],
   };
 }
 
-export function leader(frames: number, name = 'lead_0412.bvh', warnings: string[] = []): LoadedLeader {
+export function leader(
+  frames: number,
+  name = 'lead_0412.bvh',
+  warnings: string[] = [],
+  remarks: string[] = [],
+): LoadedLeader {
   return {
     name,
     label: null,
     text: 'HIERARCHY',
     fps: null,
-    file: leaderFile(frames, warnings),
+    file: leaderFile(frames, warnings, remarks),
     motion: still(frames),
   };
 }

@@ -69,8 +69,14 @@ describe('bar and count', () => {
     expect(select.barAt(beats, 0.4)).toBeNull();
     expect(select.barAt(beats, 0.5)).toEqual({ bar: 1, count: 1 });
     expect(select.barAt(beats, 2.2)).toEqual({ bar: 1, count: 4 });
-    expect(select.barAt(beats, 9)).toEqual({ bar: 2, count: 1 });
     expect(select.barAt([], 1)).toBeNull();
+  });
+  it('ends with the last beat', () => {
+    expect(select.barAt(beats, 2.9)).toEqual({ bar: 2, count: 1 });
+    expect(select.barAt(beats, 3)).toBeNull();
+    expect(select.barAt(beats, 9)).toBeNull();
+    expect(select.barAt([2], 2.4)).toEqual({ bar: 1, count: 1 });
+    expect(select.barAt([2], 2.6)).toBeNull();
   });
 });
 
@@ -91,6 +97,11 @@ describe('what is said', () => {
     expect(texts({ song: song(5, { beats: [] }) })).toEqual(['No steady beat was found in the song.']);
     expect(texts({ leader: leader(30, 'a.bvh', ['The feet slide.']), song: song(1) })).toEqual([
       'The feet slide.',
+    ]);
+    const moved = leader(30, 'a.bvh', ['The feet slide.'], ['The first frame is left out.']);
+    expect(select.notes(state({ leader: moved, song: song(1) }))).toEqual([
+      { text: 'The feet slide.', look: true },
+      { text: 'The first frame is left out.', look: false },
     ]);
     expect(texts({ remarks: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });

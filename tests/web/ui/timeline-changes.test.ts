@@ -100,4 +100,29 @@ describe('timeline changes', () => {
     expect(shift.shiftWords(15, now())).toBe('+15 frames, 0.50 s later');
     expect(shift.shiftWords(-3, now())).toBe('−3 frames, 0.10 s earlier');
   });
+
+  it('suggests the shift that brings accents and beats together, and says why it suggests none', () => {
+    expect(shift.fitOf({ ...now(), song: null })).toBeNull();
+    expect(shift.fitOf(now())).toMatchObject({ better: null, words: 'too few beats' });
+    // It swings once in 30 frames and stands still every half second; the song has its beats 4 frames earlier.
+    const swinging = (still: number) => {
+      const made = leader(300);
+      for (let frame = 0; frame < 300; frame++)
+        made.motion.positions.fill(
+          Math.cos((Math.PI * (frame + 0.3 - still)) / 15),
+          frame * 66,
+          frame * 66 + 66,
+        );
+      return made;
+    };
+    does(store.songLoaded(song(10)));
+    does(store.leaderLoaded(swinging(5)));
+    expect(shift.fitOf(now())?.better?.by).toBe(4);
+    does(change.shiftSet(4));
+    expect(shift.fitOf(now())).toMatchObject({
+      better: null,
+      words: 'no better shift',
+      reason: expect.stringMatching(/the best within two seconds/) as string,
+    });
+  });
 });

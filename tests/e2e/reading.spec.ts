@@ -1,0 +1,21 @@
+import { hurt } from './app-files';
+import { App } from './app-page';
+import { expect, test } from './fixtures';
+
+test.use({ viewport: { width: 1280, height: 720 } });
+
+test('a leader that breaks off is read as far as it goes, without its rest pose, and the page says so', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop(hurt());
+  await app.until(({ leader }) => leader?.name === 'hurt.bvh');
+  await expect(app.alert).toBeHidden();
+  expect(await app.read(({ leader }) => leader?.file.clip.frames)).toBe(39);
+  const notes = page.getByRole('list', { name: 'Notes' });
+  await expect(notes).toContainText(
+    'The file ends in the middle of frame 41 of 60; the 40 whole frames are used.',
+  );
+  await expect(notes).toContainText('The first frame is a rest pose and is left out.');
+});
