@@ -19,12 +19,12 @@ const onStage = <T>(page: Page, use: (stage: Stage) => T): Promise<T> =>
   page.evaluate<T>(`(${use.toString()})(window.reactdance.stage)`);
 
 /** Another reactor, made of the one that is there: the coarse layer, with the whole reactor for its ghost. */
-const compare = (page: Page, mode: 'ghost' | 'side' | null): Promise<void> =>
+const compare = (page: Page, mode: 'ghost' | 'right' | null): Promise<void> =>
   page.evaluate(`
     const { stage, store } = window.reactdance;
     const { reaction, coarse: { motion } } = store.getState();
-    stage.setCoarse(motion, ${mode === 'side' ? 'reaction.motion' : 'null'});
-    stage.setOther(${mode === null} ? null : { motion, mode: '${mode}', labels: { a: 'A Softer', b: 'B Sharper' } });
+    stage.setCoarse(motion, ${mode === 'right' ? 'reaction.motion' : 'null'});
+    stage.setOther(${mode === null} ? null : { motion, mode: '${mode}', labels: { left: 'A Softer', right: 'B Sharper' } });
   `);
 
 /** Waits until the stage has come to rest. */
@@ -132,7 +132,7 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   const onTheLeft = (pixels: Set<number>): number =>
     [...pixels].filter((pixel) => pixel % width < width / 2).length;
 
-  await compare(page, 'side');
+  await compare(page, 'right');
   await rest(page);
   await expect(page.getByText('A Softer')).toBeVisible();
   await expect(page.getByText('B Sharper')).toBeVisible();
@@ -145,7 +145,7 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   const without = await picture(page);
   await page.keyboard.press('g');
   await onStage(page, (stage) => stage.ready());
-  await compare(page, 'side');
+  await compare(page, 'right');
   await rest(page);
   expect(await differing(page, [without, await picture(page)], 0.5)).toBeGreaterThan(300);
   await page.keyboard.press('g');
@@ -195,7 +195,7 @@ test('everything at once, twice over, is within the budget, and nothing is drawn
   const app = await dancing(page);
   for (const [, key] of SHOWS) await page.keyboard.press(key);
   await app.until(({ coarse }) => coarse.motion);
-  await compare(page, 'side');
+  await compare(page, 'right');
   await onStage(page, (stage) => stage.ready());
   for (const bodies of ['of glass', 'solid']) {
     const milliseconds = await frameTime(page);

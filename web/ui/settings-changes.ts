@@ -107,7 +107,15 @@ export function rolesSwapped(): Change {
     if (!settings) return {};
     const role = otherRole(settings.role);
     const who = download.who === 'both' ? 'both' : role;
-    return { settings: { ...settings, role }, download: { ...download, who }, reaction: null, preview: null };
+    return {
+      settings: { ...settings, role },
+      download: { ...download, who },
+      reaction: null,
+      preview: null,
+      // A leader and a reactor are not compared.
+      other: null,
+      compare: 'off',
+    };
   };
 }
 

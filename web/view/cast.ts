@@ -12,8 +12,8 @@ import { ROLES, type Look, type Role } from './theme';
 export type Part = Role | 'coarse' | 'other' | 'otherCoarse';
 const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const satisfies readonly Part[];
 
-/** How another take is seen: through the reactor, or in the right half of the picture, the reactor in the left. */
-export type OtherMode = 'ghost' | 'side';
+/** How another take is seen: through the reactor, or in this half of the picture, the reactor in the other half. */
+export type OtherMode = 'ghost' | 'left' | 'right';
 
 /** Everybody who can be on the stage, and who of them is to be seen in which picture. */
 export interface Cast {
@@ -35,8 +35,8 @@ export interface Cast {
   /** Poses everybody at a moment and measures where they are. */
   pose(seconds: number): Couple;
   /**
-   * Lets those be seen who are in a picture, as they were posed: in the left half the couple, in the right half the
-   * loaded dancer with the other take, turned to it. Each half has the coarse layer of its own take.
+   * Lets those be seen who are in a picture, as they were posed: in one half the couple, in the other half the loaded
+   * dancer with the other take, turned to it. Each half has the coarse layer of its own take.
    */
   arrange(picture: Picture): readonly Figure[];
   joints(part: Part): Float32Array;
@@ -69,12 +69,12 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
   const loaded = (): Role => (made === 'reactor' ? 'leader' : 'reactor');
 
   const there = (part: Part): boolean => dancers[part].motion !== null;
-  const split = (): boolean => mode === 'side' && there('other');
+  const split = (): boolean => mode !== 'ghost' && there('other');
   function dress(): void {
     const matter = shown.skeleton ? 'glass' : 'solid';
     dancers.leader.setMatter(matter);
     dancers.reactor.setMatter(matter);
-    dancers.other.setMatter(mode === 'side' ? matter : 'other');
+    dancers.other.setMatter(mode === 'ghost' ? 'other' : matter);
   }
   dress();
   /** The loaded dancer looks at a partner, posed anew if it looked at another one before. */
@@ -128,13 +128,14 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
       return measureCouple(ROLES.filter(there).map(joints), there('other') ? [joints('other')] : []);
     },
     arrange(picture) {
-      const partner = picture === 'right' ? 'other' : made;
+      const others = picture === mode;
+      const partner = others ? 'other' : made;
       attend(partner);
       dancers[loaded()].show(true);
-      dancers[made].show(picture !== 'right');
-      dancers.coarse.show(picture !== 'right' && shown.ghost);
-      dancers.other.show(picture === 'right' || (picture === 'whole' && mode === 'ghost'));
-      dancers.otherCoarse.show(picture === 'right' && shown.ghost);
+      dancers[made].show(!others);
+      dancers.coarse.show(!others && shown.ghost);
+      dancers.other.show(others || (picture === 'whole' && mode === 'ghost'));
+      dancers.otherCoarse.show(others && shown.ghost);
       return [...figure(loaded(), loaded()), ...figure(made, partner)];
     },
     joints: (part) => dancers[part].jointPositions(),

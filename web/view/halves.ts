@@ -1,7 +1,7 @@
 /** What the two halves are called. */
 export interface Labels {
-  readonly a: string;
-  readonly b: string;
+  readonly left: string;
+  readonly right: string;
 }
 
 /** The seam between the halves of the picture and the words at its foot. */
@@ -16,16 +16,16 @@ export function createHalves(host: HTMLElement): Halves {
     element.className = className;
     return element;
   };
-  const [a, b] = [make('half a'), make('half b')];
+  const [left, right] = [make('half a'), make('half b')];
   const seam = make('halves');
-  seam.append(a, b);
+  seam.append(left, right);
   seam.hidden = true;
   host.append(seam);
   return {
     show(labels) {
       seam.hidden = labels === null;
-      a.textContent = labels?.a ?? '';
-      b.textContent = labels?.b ?? '';
+      left.textContent = labels?.left ?? '';
+      right.textContent = labels?.right ?? '';
     },
     dispose() {
       seam.remove();

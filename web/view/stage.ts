@@ -91,7 +91,7 @@ export interface Stage {
 /** Another reactor beside the one on the stage. */
 export interface Other {
   readonly motion: SolvedMotion;
-  /** `ghost`: seen through, in the same picture; `side`: in the right half of the picture, the reactor in the left. */
+  /** `ghost`: seen through, in the same picture; else the half of the picture that it has, the reactor has the other. */
   readonly mode: OtherMode;
   /** What the halves are called. */
   readonly labels: Labels;

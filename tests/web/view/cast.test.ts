@@ -43,7 +43,7 @@ describe('the cast', () => {
   });
 
   it('shows the leader in both halves, the reactor in the left, the other take in the right, each with its coarse layer', () => {
-    cast.setOtherMode('side');
+    cast.setOtherMode('right');
     cast.setShown({ ...NOTHING_SHOWN, ghost: true });
     expect(cast.split).toBe(true);
     const left = cast.arrange('left');
@@ -61,12 +61,18 @@ describe('the cast', () => {
     cast.setShown(NOTHING_SHOWN);
     cast.arrange('right');
     expect(seen()).toEqual([true, false, false, true, false]);
+    // The other take may have the left half as well; the reactor has the right one then.
+    cast.setOtherMode('left');
+    cast.arrange('left');
+    expect(seen()).toEqual([true, false, false, true, false]);
+    cast.arrange('right');
+    expect(seen()).toEqual([true, true, false, false, false]);
     cast.setMotion('other', null);
     expect(cast.split).toBe(false);
   });
 
   it('shows another leader beside the loaded reactor when the leader is who was made, in the colour of a leader', async () => {
-    cast.setOtherMode('side');
+    cast.setOtherMode('right');
     cast.setLook(LOOKS.dark);
     cast.setMade('leader');
     await cast.dressed();
@@ -106,7 +112,7 @@ describe('the cast', () => {
   });
 
   it('lets the leader look at the partner of each half, whichever was drawn before', () => {
-    cast.setOtherMode('side');
+    cast.setOtherMode('right');
     const gaze = (picture: 'left' | 'right'): number[] => {
       cast.arrange(picture);
       return cast.object.children[0]!.getObjectByName('head')!.quaternion.toArray();

@@ -1,5 +1,5 @@
 import { danceDuration, upToDate } from '../selectors';
-import type { AppState, Compare, Letter, Take } from '../state';
+import type { AppState, Compare, Letter, Reaction, Take } from '../state';
 import type { Change } from '../store';
 import { opposite, otherTake, takeOnStage } from './take';
 
@@ -11,8 +11,7 @@ function shown(state: AppState, { reaction }: Take): Partial<AppState> {
   const { inputs } = reaction;
   const time = Math.min(state.playback.time, danceDuration(inputs));
   const other = otherTake(state);
-  // Beside a dance to another leader there is nothing to compare.
-  const alone = other !== null && other.reaction.inputs.leader !== inputs.leader;
+  const alone = other !== null && hindrance(other.reaction, reaction) !== null;
   return {
     ...inputs,
     reaction,
@@ -49,9 +48,25 @@ export function flipped(): Change {
   };
 }
 
-/** Whether a take can be compared with the one on the stage: another one, to the same leader. */
+/** Why two reactions can't be compared, in a sentence; null when they can. */
+function hindrance(one: Reaction, other: Reaction): string | null {
+  if (one.inputs.leader !== other.inputs.leader) return 'Made for another leader.';
+  return one.inputs.settings.role === other.inputs.settings.role ? null : 'Dances the other part.';
+}
+
+/** Whether a take can be compared with the one on the stage: another one, of the same part to the same leader. */
 export function comparable({ reaction }: Take, state: AppState): boolean {
-  return reaction !== state.reaction && reaction.inputs.leader === state.leader;
+  return (
+    reaction !== state.reaction && state.reaction !== null && hindrance(reaction, state.reaction) === null
+  );
+}
+
+/** Why a letter can't be given to a take, in a sentence; null when it can. */
+export function whyNoLetter(take: Take, letter: Letter, state: AppState): string | null {
+  if (letter === state.letter) return null;
+  if (take.reaction !== state.reaction) return state.reaction && hindrance(take.reaction, state.reaction);
+  const partner = otherTake(state) ?? state.takes.find((one) => comparable(one, state));
+  return partner ? null : 'There is no other take to compare it with.';
 }
 
 /** Gives a letter of the comparison to a take, or takes that of the other take away again. */
@@ -59,7 +74,11 @@ export function letterGiven(id: string, letter: Letter): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
     if (!take) return {};
-    if (take.reaction === state.reaction) return { letter };
+    if (take.reaction === state.reaction) {
+      // The letter that it leaves goes to the other take; without one to the newest that can be compared.
+      const other = otherTake(state) ?? state.takes.find((one) => comparable(one, state));
+      return other && letter !== state.letter ? { letter, other: other.id } : {};
+    }
     if (letter === state.letter) {
       const before = takeOnStage(state);
       return { ...shown(state, take), ...(state.other === id && { other: before?.id ?? null }) };

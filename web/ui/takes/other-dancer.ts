@@ -1,15 +1,16 @@
 import type { SolvedMotion } from '../../motion/clip';
 import { reactorMotion } from '../reactor-motion';
-import type { Compare, Letter, Take } from '../state';
+import type { Letter, Take } from '../state';
 import { type Store, watchAll } from '../store';
-import { opposite, otherTake, takeOnStage, takeTitle } from './take';
+import { otherTake, takeOnStage, takeTitle } from './take';
 
 /** The reactor of the other take, as it is to be seen at the same playhead. */
 export interface OtherDancer {
   readonly motion: SolvedMotion;
-  readonly mode: Exclude<Compare, 'off'>;
-  /** What the reactor on the stage and this one are called: `A Softer hands`, `B Take 2`. */
-  readonly labels: { readonly a: string; readonly b: string };
+  /** Through the one on the stage, or in a half of the picture: A is always on the left. */
+  readonly mode: 'ghost' | 'left' | 'right';
+  /** What the halves are called: `A Softer hands`, `B Take 2`. */
+  readonly labels: { readonly left: string; readonly right: string };
 }
 
 /** A stage that can show a second reactor. */
@@ -28,8 +29,17 @@ export function showOther(store: Store, stage: ComparingStage): () => void {
       const { compare, letter, footLock } = state;
       const other = otherTake(state);
       const motion = reactorMotion({ reaction: other?.reaction ?? null, footLock });
-      const labels = { a: called(letter, takeOnStage(state)), b: called(opposite(letter), other) };
-      stage.setOther(motion && compare !== 'off' ? { motion, mode: compare, labels } : null);
+      if (!motion || compare === 'off') {
+        stage.setOther(null);
+        return;
+      }
+      const [a, b] = letter === 'A' ? [takeOnStage(state), other] : [other, takeOnStage(state)];
+      const labels = { left: called('A', a), right: called('B', b) };
+      stage.setOther({
+        motion,
+        mode: compare === 'ghost' ? 'ghost' : letter === 'A' ? 'right' : 'left',
+        labels,
+      });
     },
   );
 }

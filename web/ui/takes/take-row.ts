@@ -2,8 +2,8 @@ import { el, setAttribute, setText } from '../dom';
 import { icon, type IconName } from '../icons';
 import type { AppState, Letter, Take } from '../state';
 import { apply, type Store } from '../store';
-import { comparable, letterGiven, takeChosen, takeDeleted, takeRenamed, takeStarred } from './changes';
-import { letterOf, settingsWords, takeTitle } from './take';
+import { letterGiven, takeChosen, takeDeleted, takeRenamed, takeStarred, whyNoLetter } from './changes';
+import { letterOf, takeTitle, takeWords } from './take';
 import { createTakeName } from './take-name';
 
 const LETTERS: readonly Letter[] = ['A', 'B'];
@@ -90,11 +90,9 @@ export function createTakeRow(store: Store, id: string): TakeRow {
     },
     show: (take, state, reachable) => {
       const title = takeTitle(take);
-      const { inputs } = take.reaction;
       const onStage = take.reaction === state.reaction;
       name.show(title);
-      const elsewhere = inputs.leader === state.leader ? '' : `${inputs.leader.name}, `;
-      setText(words, elsewhere + settingsWords(inputs.settings));
+      setText(words, takeWords(take, state));
       words.title = words.textContent;
       setAttribute(root, 'aria-selected', String(onStage));
       setAttribute(star, 'aria-pressed', String(take.starred));
@@ -107,9 +105,9 @@ export function createTakeRow(store: Store, id: string): TakeRow {
         if (!button) return;
         setAttribute(button, 'aria-pressed', String(mine === letter));
         setAttribute(button, 'aria-label', `Use ${title} as ${letter}`);
-        const apart = letter !== state.letter && !onStage && !comparable(take, state);
-        button.disabled = apart;
-        button.title = apart ? 'Made for another leader' : '';
+        const reason = whyNoLetter(take, letter, state);
+        button.disabled = reason !== null;
+        button.title = reason ?? '';
       });
       for (const control of [root, star, rename, remove, ...letters]) control.tabIndex = reachable ? 0 : -1;
     },

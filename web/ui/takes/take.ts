@@ -1,6 +1,6 @@
 import { guidanceWords } from '../guidance-matrix';
 import { wantedInputs } from '../selectors';
-import type { AppState, Inputs, Letter, Reaction, Settings, Take } from '../state';
+import type { AppState, Inputs, Letter, Reaction, Take } from '../state';
 
 /** What a reaction would be made from, also while a file is being read; null without a leader or settings. */
 export function presentInputs(state: AppState): Inputs | null {
@@ -34,9 +34,22 @@ export function takeTitle({ name, number, reaction }: Take): string {
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
 }
 
-/** `1.20 coarse, 0.60 fine, 3.00 music, seed 1204`. */
-export function settingsWords(settings: Settings): string {
-  return `${guidanceWords(settings)}, seed ${settings.seed}`;
+/**
+ * What a take was made from, first what sets it apart from the page as it is now and from the model's own steps:
+ * `as leader, song 1.7 s later, 6 steps, 1.20 coarse, 0.60 fine, 3.00 music, seed 1204`.
+ */
+export function takeWords({ reaction: { inputs } }: Take, state: AppState): string {
+  const { leader, song, settings, shift } = inputs;
+  const later = shift / leader.file.clip.fps;
+  return [
+    ...(leader === state.leader ? [] : [`to ${leader.name}`]),
+    ...(song === state.song ? [] : [song?.name ?? 'no song']),
+    ...(settings.role === 'leader' ? ['as leader'] : []),
+    ...(shift === 0 ? [] : [`song ${Math.abs(later).toFixed(1)} s ${later > 0 ? 'later' : 'earlier'}`]),
+    ...(settings.steps === state.manifest?.diffusion.steps.default ? [] : [`${settings.steps} steps`]),
+    guidanceWords(settings),
+    `seed ${settings.seed}`,
+  ].join(', ');
 }
 
 /** Puts a take in the place of the one with its id, or where its age puts it: the newest first. */

@@ -5,7 +5,9 @@ import * as change from '../all-changes';
 import { MOST_TAKES } from '../../../../web/ui/takes/arrival';
 import * as edit from '../../../../web/ui/takes/changes';
 import { redone, undone, unremembered } from '../../../../web/ui/takes/history';
-import { letterOf, presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/takes/take';
+import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
+import { letterOf, presentInputs, takeOnStage, takeTitle, takeWords } from '../../../../web/ui/takes/take';
+import { shiftSet } from '../../../../web/ui/timeline-changes';
 import { small } from '../../model/small-manifest';
 import { leader, song, still } from '../made';
 
@@ -216,6 +218,26 @@ describe('choosing a take', () => {
   });
 });
 
+describe('the words of a take', () => {
+  const words = (title: string): string =>
+    takeWords(
+      page.state.takes.find((take) => takeTitle(take) === title)!,
+      page.state,
+    );
+
+  it('say what it was made from, and first what sets it apart', () => {
+    page.do(change.songLoaded(song(10)), shiftSet(-51), change.stepsSet(6), change.rolesSwapped());
+    page.arrive();
+    expect(words('Take 1')).toBe(
+      'as leader, song 1.7 s earlier, 6 steps, 0.00 coarse, 0.00 fine, 2.00 music, seed 7',
+    );
+    page.do(change.songLoaded(song(4)), change.leaderLoaded(leader(90, 'other.bvh')));
+    expect(words('Take 1')).toMatch(
+      /^to lead_0412\.bvh, Descarga\.mp3, as leader, song 1\.7 s earlier, 6 steps, /,
+    );
+  });
+});
+
 describe('A and B', () => {
   const letters = (): string =>
     page.state.takes.map((take) => `${takeTitle(take)} ${letterOf(take, page.state) ?? '-'}`).join(', ');
@@ -271,6 +293,38 @@ describe('A and B', () => {
     expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
     page.do(undone());
     expect([page.state.compare, letters()]).toEqual(['side', 'Take 3 A, Take 2 -, Take 1 B']);
+  });
+
+  it('are given both at once: the take that gets B leaves A to the newest other one', () => {
+    page.do(edit.letterGiven(page.id('Take 3'), 'A'));
+    expect(letters()).toBe('Take 3 A, Take 2 -, Take 1 -');
+    page.do(edit.letterGiven(page.id('Take 3'), 'B'));
+    expect([letters(), page.onStage]).toEqual(['Take 3 B, Take 2 A, Take 1 -', 'Take 3']);
+  });
+
+  it('have A on the left and B on the right, whichever is on the stage', () => {
+    let seen: OtherDancer | null = null;
+    const stop = showOther(page.store, { setOther: (other) => (seen = other) });
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
+    const labels = { left: 'A Take 3', right: 'B Take 1' };
+    expect(seen).toMatchObject({ mode: 'right', labels });
+    page.do(edit.flipped());
+    expect(seen).toMatchObject({ mode: 'left', labels });
+    page.do(edit.compareSet('ghost'));
+    expect(seen).toMatchObject({ mode: 'ghost' });
+    stop();
+  });
+
+  it('do not compare a leader with a reactor', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'), change.rolesSwapped());
+    expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
+    page.arrive();
+    const [take] = page.state.takes.filter(({ id }) => id === page.id('Take 1'));
+    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('Dances the other part.');
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect(page.state.other).toBeNull();
+    const [alone] = page.state.takes.filter(({ id }) => id === page.id('Take 4'));
+    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
   });
 
   it('do not compare dances to different leaders', () => {
