@@ -7,7 +7,14 @@ const schema = v.object({
   model: v.string(),
   rows: v.object({
     truth: v.object({
-      mean: v.object({ skate_share: known, ipr_capsules: known, bas: known, bed_forward: known }),
+      mean: v.object({
+        skate_share: known,
+        contact_share: known,
+        slide_speed: known,
+        ipr_capsules: known,
+        bas: known,
+        bed_forward: known,
+      }),
     }),
   }),
 });
@@ -17,6 +24,9 @@ export interface Reference {
   /** The model's id. */
   readonly model: string;
   readonly skateShare: number | null;
+  readonly contactShare: number | null;
+  /** Metres a second. */
+  readonly slideSpeed: number | null;
   readonly overlapShare: number | null;
   readonly music: number | null;
   readonly leader: number | null;
@@ -28,8 +38,16 @@ export async function readReference(manifestUrl: string): Promise<Reference | nu
     const response = await fetch(new URL('metrics.json', manifestUrl));
     if (!response.ok) return null;
     const { model, rows } = v.parse(schema, await response.json());
-    const { skate_share, ipr_capsules, bas, bed_forward } = rows.truth.mean;
-    return { model, skateShare: skate_share, overlapShare: ipr_capsules, music: bas, leader: bed_forward };
+    const { mean } = rows.truth;
+    return {
+      model,
+      skateShare: mean.skate_share,
+      contactShare: mean.contact_share,
+      slideSpeed: mean.slide_speed,
+      overlapShare: mean.ipr_capsules,
+      music: mean.bas,
+      leader: mean.bed_forward,
+    };
   } catch {
     return null;
   }

@@ -61,7 +61,8 @@ function feetWords(
     sentence:
       `Feet slide ${percent(skateShare)} of the time they touch the floor` +
       `${recorded(reference?.skateShare, percent)}. Less is steadier. ` +
-      `They touch it ${percent(contactShare)} of the dance and move ${speed(slideSpeed)} then.`,
+      `They touch it ${percent(contactShare)} of the dance${recorded(reference?.contactShare, percent)} ` +
+      `and move ${speed(slideSpeed)} then${recorded(reference?.slideSpeed, speed)}.`,
   };
 }
 

@@ -115,10 +115,21 @@ describe('what is shown', () => {
   });
 
   it('says it in words, with what recorded dancers score', () => {
-    const reference = { model: 'small', skateShare: 0.33, overlapShare: null, music: 0.15, leader: 0.32 };
+    const reference = {
+      model: 'small',
+      skateShare: 0.33,
+      contactShare: 0.48,
+      slideSpeed: null,
+      overlapShare: null,
+      music: 0.15,
+      leader: 0.32,
+    };
     const words = laneWords(report, 8, reference);
     expect(words.feet.value).toMatch(/^\d+ %$/);
     expect(words.feet.sentence).toContain('(recorded dancers: 33 %)');
+    expect(words.feet.sentence).toMatch(
+      /of the dance \(recorded dancers: 48 %\) and move \d\.\d\d m\/s then\.$/,
+    );
     expect(words.closeness).toEqual({
       value: '1.00 m',
       sentence: 'At their closest the hips of the two are 1.00 m apart. The bodies never go into each other.',
