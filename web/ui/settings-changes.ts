@@ -114,6 +114,7 @@ export function rolesSwapped(): Change {
       preview: null,
       // A leader and a reactor are not compared.
       other: null,
+      letter: 'A',
       compare: 'off',
     };
   };
