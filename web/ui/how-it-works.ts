@@ -10,7 +10,7 @@ export function steps(...afterFirst: Node[]): HTMLElement {
     { class: 'steps' },
     el('li', {}, 'Give a song and a leader, one dancer as a BVH file. ', ...afterFirst),
     el('li', {
-      text: 'The partner answers by itself. Coarse and Fine steer how it follows, Music how it listens.',
+      text: 'The partner answers by itself. Coarse, Fine and Music steer how.',
     }),
     el('li', { text: 'Play it, then download the motion for Blender, Maya and other tools.' }),
   );
