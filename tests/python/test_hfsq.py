@@ -52,7 +52,7 @@ def test_no_code_lies_outside_the_latent_range() -> None:
 
 
 def test_energy_loss_by_hand() -> None:
-    """A joint that moves half as far has half the speed and half the acceleration: twice log(1/2) squared."""
+    """A joint that moves half as far has half the speed, acceleration and jerk: three times log(1/2) squared."""
     time = torch.arange(40.0)
     path = torch.stack([torch.sin(time / 3), torch.cos(time / 3), 0 * time], dim=-1)[None, :, None]
     assert energy_loss(path, path).item() == pytest.approx(0, abs=1e-9)
