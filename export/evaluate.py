@@ -101,12 +101,11 @@ def condition_inputs(
 
 
 def exported_dancer(
-    model: Exported, steps: int | None, default: tuple[float, float] | None, louder: float | None
+    model: Exported, steps: int | None, default: tuple[float, float] | None, louder: float
 ) -> Dancer:
     """The exported graphs as a dancer: what the page computes."""
     manifest = model.manifest
     height, layers = manifest["skeleton"]["reference_height"], len(manifest["latent"]["layers"])
-    heard_more = manifest["guidance"]["music"]["default"] if louder is None else louder
 
     def dance(
         leader: np.ndarray,
@@ -126,7 +125,7 @@ def exported_dancer(
             default_guidance(manifest) if chosen is None else np.tile(np.array(chosen), (len(STREAMS), 1))
         )
         schedule = plan(manifest, steps)
-        latents = sample(model, memory, seed, schedule, weights.astype(np.float32), heard_more)
+        latents = sample(model, memory, seed, schedule, weights.astype(np.float32), louder)
         kept = np.array([1] + [0 if coarse_only else 1] * (layers - 1))
         (reactor,) = model.run("decode", latents=latents, leader=padded, layers=kept)
         return reactor[: len(leader)] / scale
@@ -139,7 +138,7 @@ def torch_dancer(
     height: float,
     steps: int | None,
     default: tuple[float, float] | None,
-    louder: float | None,
+    louder: float,
 ) -> Dancer:
     """A checkpoint under PyTorch as a dancer."""
     layers, width = model.denoiser.layers, model.denoiser.latent_width
@@ -166,13 +165,18 @@ def torch_dancer(
             initial.unflatten(1, (layers, width)),
             schedule,
             weights,
-            model.diffusion.music if louder is None else louder,
+            louder,
             model.diffusion,
         )
         kept = torch.tensor([1.0] + [0.0 if coarse_only else 1.0] * (layers - 1))
         return decode(model, latents, torch.from_numpy(padded), kept)[: len(leader)].numpy() / scale
 
     return dance
+
+
+def either(asked: float | None, default: float) -> float:
+    """0 is a wish too."""
+    return default if asked is None else asked
 
 
 def commit() -> str | None:
@@ -238,26 +242,27 @@ def main(options: Options) -> None:
             }
     if options.model is not None:
         exported = open_model(options.model, options.threads)
-        dancer = exported_dancer(exported, options.steps, options.guidance, options.music_guidance)
+        louder = either(options.music_guidance, exported.manifest["guidance"]["music"]["default"])
+        dancer = exported_dancer(exported, options.steps, options.guidance, louder)
         alternating = exported.manifest["diffusion"]["alternating_phase"]
         facts |= {"model": exported.manifest["id"], "runtime": "onnxruntime"}
         facts["graphs"] = {k: g["files"]["wasm"]["sha256"] for k, g in exported.manifest["graphs"].items()}
         sampled = exported.manifest["diffusion"]["steps"]["default"]
         guided = tuple(exported.manifest["guidance"]["default"].values())
-        louder = exported.manifest["guidance"]["music"]["default"]
         name = exported.manifest["name"]
     else:
         assert checkpoint is not None and options.checkpoint is not None
         height = read_config(options.checkpoint, "card")["reference_height"]
-        dancer = torch_dancer(checkpoint, height, options.steps, options.guidance, options.music_guidance)
+        louder = either(options.music_guidance, checkpoint.diffusion.music)
+        dancer = torch_dancer(checkpoint, height, options.steps, options.guidance, louder)
         alternating = checkpoint.diffusion.alternating_phase
         facts |= {"model": options.checkpoint.name, "runtime": "pytorch"}
         sampled, guided = checkpoint.diffusion.steps, checkpoint.diffusion.guidance
-        louder = checkpoint.diffusion.music
         name = options.checkpoint.name
     if options.plain is not None:
         height = read_config(options.plain, "card")["reference_height"]
-        plain = torch_dancer(load_model(options.plain), height, None, None, None)
+        plain_model = load_model(options.plain)
+        plain = torch_dancer(plain_model, height, None, None, plain_model.diffusion.music)
         given["plain model"] = generate(plain, trials, options.settings.seeds)[0]
     spacing = Settings.seam_spacing // 2 if alternating else Settings.seam_spacing
     settings = replace(options.settings, seam_spacing=spacing)
@@ -266,7 +271,7 @@ def main(options: Options) -> None:
         "sampling": {
             "steps": options.steps or sampled,
             "guidance": options.guidance or guided,
-            "music": louder if options.music_guidance is None else options.music_guidance,
+            "music": louder,
         },
     }
     evaluation = evaluate(

@@ -38,7 +38,7 @@ def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         "music_valid": valid,
         "role": np.zeros(1, dtype=np.float32),
         "guidance": guidance.reshape(len(STREAMS), model.denoiser.layers),
-        "music_guidance": np.ones(1, dtype=np.float32) * 1.5,
+        "music_guidance": np.full(1, 1.5, dtype=np.float32),
     }
 
 

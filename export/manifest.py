@@ -92,7 +92,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "channels": model.denoiser.latent_width,
             "streams": list(STREAMS),
             "layers": names,
-            "memory_width": 3 * model.denoiser.config.width,
+            "memory_width": model.denoiser.condition.memory_width,
             "receptive_field": {"condition": condition_field(model)},
         },
         "diffusion": {

@@ -34,7 +34,7 @@ class Graph:
 def graphs(model: Model) -> list[Graph]:
     """Shapes: `frames` is a multiple of 4 and four times `latents`; `blocks` is any number from 1."""
     layers, channels = model.denoiser.layers, model.denoiser.latent_width
-    block, memory = model.denoiser.config.block, 3 * model.denoiser.config.width
+    block, memory = model.denoiser.config.block, model.denoiser.condition.memory_width
     state = ("blocks", block, layers, channels)
     return [
         Graph(

@@ -102,7 +102,6 @@ def react(
     seed: int,
     steps: int | None = None,
     guidance: np.ndarray | None = None,
-    music_guidance: float | None = None,
     role: float = 0.0,
     layers: np.ndarray | None = None,
 ) -> np.ndarray:
@@ -118,7 +117,7 @@ def react(
         heard[:n], valid[:n] = music[:n], 1
     (memory,) = model.run("condition", leader=padded, music=heard, music_valid=valid, role=np.array([role]))
     weights = default_guidance(model.manifest) if guidance is None else guidance
-    louder = model.manifest["guidance"]["music"]["default"] if music_guidance is None else music_guidance
+    louder = model.manifest["guidance"]["music"]["default"]
     latents = sample(model, memory, seed, plan(model.manifest, steps), weights, louder)
     names = model.manifest["latent"]["layers"]
     (reactor,) = model.run(

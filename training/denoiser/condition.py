@@ -78,6 +78,11 @@ class ConditionEncoder(nn.Module):
     def receptive_field(self) -> int:
         return 2 * self.config.depth
 
+    @property
+    def memory_width(self) -> int:
+        """Channels of what `with_silence` gives."""
+        return 3 * len(self.silence)
+
     def with_silence(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
         """Memory of a whole clip with a third part, (N, L, 3 D): the music's where there is no song."""
         heard = self(leader, music, music_valid, role)

@@ -148,7 +148,18 @@ export async function openSession(
         });
         return output(results, 'memory');
       }),
-    step: ({ blocks, x, x0Prev, noise, memory, valid, time, guidance, ...rest }: StepInput) =>
+    step: ({
+      blocks,
+      x,
+      x0Prev,
+      noise,
+      memory,
+      valid,
+      time,
+      guidance,
+      musicGuidance,
+      coefficients,
+    }: StepInput) =>
       inTurn(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
@@ -159,8 +170,8 @@ export async function openSession(
           valid: tensor(valid, [blocks, latent.block]),
           time: tensor([time], [1]),
           guidance: tensor(guidance, [streams, layers]),
-          music_guidance: tensor([rest.musicGuidance], [1]),
-          coefficients: tensor(rest.coefficients, [4]),
+          music_guidance: tensor([musicGuidance], [1]),
+          coefficients: tensor(coefficients, [4]),
         });
         return { x: output(results, 'x_next'), x0: output(results, 'x0') };
       }),

@@ -1,15 +1,8 @@
 /** What happens to the settings of a generation. */
 import type { Manifest } from '../model/client';
 import { otherRole } from './couple';
-import {
-  columnOf,
-  defaultGuidance,
-  guidanceAt,
-  held,
-  sameGuidance,
-  withCell,
-  withColumn,
-} from './guidance-matrix';
+import { columnOf, defaultGuidance, guidanceAt, held, withCell, withColumn } from './guidance-matrix';
+import { sameSettings } from './selectors';
 import type { Guidance, Layer, Settings } from './state';
 import type { Change } from './store';
 
@@ -23,78 +16,60 @@ export function settingsSet(settings: Settings): Change {
  * @param from where the streams stood when the fader was taken in hand; where they stand now when not given
  */
 export function guidanceSet(layer: Layer, value: number, from?: Guidance): Change {
-  return guided((guidance, { guidance: range }) => withColumn(from ?? guidance, layer, value, range));
+  return guided(({ guidance }, { guidance: range }) => ({
+    guidance: withColumn(from ?? guidance, layer, value, range),
+  }));
 }
 
 /** Sets one layer of one stream. */
 export function guidanceCellSet(stream: string, layer: string, value: number): Change {
-  return guided((guidance, { guidance: range }) => withCell(guidance, stream, layer, value, range));
-}
-
-/** Sets the whole matrix and the music, as a preset has them. */
-export function presetChosen({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): Change {
-  return heard(
-    () => music,
-    guided(() => guidance),
-  );
+  return guided(({ guidance }, { guidance: range }) => ({
+    guidance: withCell(guidance, stream, layer, value, range),
+  }));
 }
 
 /** Moves the guidance of the music, held to the manifest's range and step. */
 export function musicSet(value: number): Change {
-  return heard(({ guidance: { music, step } }) => held(value, { ...music, step }));
+  return guided((_, { guidance: { music, step } }) => ({ music: held(value, { ...music, step }) }));
 }
 
-/** Back to the manifest's guidance of the music. */
-export function musicReset(): Change {
-  return heard(({ guidance }) => guidance.music.default);
+/** Sets the whole matrix and the music, as a preset has them. */
+export function presetChosen({ guidance, music }: Guided): Change {
+  return guided(() => ({ guidance, music }));
 }
 
 /** Back to the manifest's guidance: one layer of all streams, or everything, the music too. */
 export function guidanceReset(layer?: Layer): Change {
-  if (!layer)
-    return heard(
-      ({ guidance }) => guidance.music.default,
-      guided((_, manifest) => defaultGuidance(manifest)),
-    );
-  return guided((guidance, manifest) => {
+  return guided(({ guidance }, manifest) => {
     const own = defaultGuidance(manifest);
-    return Object.keys(guidance).reduce(
-      (all, stream) => withCell(all, stream, layer, columnOf(own, layer).value, manifest.guidance),
-      guidance,
-    );
+    if (!layer) return { guidance: own, music: manifest.guidance.music.default };
+    const reset = (all: Guidance, stream: string): Guidance =>
+      withCell(all, stream, layer, columnOf(own, layer).value, manifest.guidance);
+    return { guidance: Object.keys(guidance).reduce(reset, guidance) };
   });
 }
 
 /** Back to the manifest's guidance for one layer of one stream. */
 export function guidanceCellReset(stream: string, layer: string): Change {
-  return guided((guidance, manifest) =>
-    withCell(
-      guidance,
-      stream,
-      layer,
-      guidanceAt(defaultGuidance(manifest), stream, layer),
-      manifest.guidance,
-    ),
-  );
+  return guided(({ guidance }, manifest) => {
+    const value = guidanceAt(defaultGuidance(manifest), stream, layer);
+    return { guidance: withCell(guidance, stream, layer, value, manifest.guidance) };
+  });
 }
+
+/** Back to the manifest's guidance of the music. */
+export function musicReset(): Change {
+  return guided((_, { guidance }) => ({ music: guidance.music.default }));
+}
+
+type Guided = Pick<Settings, 'guidance' | 'music'>;
 
 /** A change of the guidance alone; settings stay the same object when it comes out as it was. */
-function guided(next: (guidance: Guidance, manifest: Manifest) => Guidance): Change {
+function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided>): Change {
   return ({ settings, manifest }) => {
     if (!settings || !manifest) return {};
-    const guidance = next(settings.guidance, manifest);
-    return sameGuidance(guidance, settings.guidance) ? {} : { settings: { ...settings, guidance } };
-  };
-}
-
-/** A change of the guidance of the music, together with one of the rest. */
-function heard(next: (manifest: Manifest) => number, along: Change = () => ({})): Change {
-  return (state) => {
-    const changes = along(state);
-    const { settings = state.settings } = changes;
-    if (!settings || !state.manifest) return changes;
-    const music = next(state.manifest);
-    return music === settings.music ? changes : { ...changes, settings: { ...settings, music } };
+    const wanted = { ...settings, ...next(settings, manifest) };
+    return sameSettings(wanted, settings) ? {} : { settings: wanted };
   };
 }
 

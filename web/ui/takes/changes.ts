@@ -37,7 +37,7 @@ export function takeChosen(id: string): Change {
 export function flipped(): Change {
   return (state) => {
     const stage = takeOnStage(state);
-    const other = otherTake(state) ?? state.takes.find((take) => comparable(take, state));
+    const other = partner(state);
     if (!stage || !other) return {};
     return {
       ...shown(state, other),
@@ -61,12 +61,16 @@ export function comparable({ reaction }: Take, state: AppState): boolean {
   );
 }
 
+/** The take that the one on the stage is compared with, else the newest that it could be. */
+function partner(state: AppState): Take | undefined {
+  return otherTake(state) ?? state.takes.find((take) => comparable(take, state));
+}
+
 /** Why a letter can't be given to a take, in a sentence; null when it can. */
 export function whyNoLetter(take: Take, letter: Letter, state: AppState): string | null {
   if (letter === state.letter) return null;
   if (take.reaction !== state.reaction) return state.reaction && hindrance(take.reaction, state.reaction);
-  const partner = otherTake(state) ?? state.takes.find((one) => comparable(one, state));
-  return partner ? null : 'There is no other take to compare it with.';
+  return partner(state) ? null : 'There is no other take to compare it with.';
 }
 
 /** Gives a letter of the comparison to a take, or takes that of the other take away again. */
@@ -76,7 +80,7 @@ export function letterGiven(id: string, letter: Letter): Change {
     if (!take) return {};
     if (take.reaction === state.reaction) {
       // The letter that it leaves goes to the other take; without one to the newest that can be compared.
-      const other = otherTake(state) ?? state.takes.find((one) => comparable(one, state));
+      const other = partner(state);
       return other && letter !== state.letter ? { letter, other: other.id } : {};
     }
     if (letter === state.letter) {
