@@ -80,7 +80,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
     const { who: whose, format } = state.download;
     const name = named ? motionFileName(named, whose, looked ?? format) : '';
     const { saved } = state;
-    setText(fileState, saved?.name === name ? `Saved, ${byteSize(saved.bytes)}` : 'Saved as');
+    setText(fileState, saved?.name === name ? `Saved, ${byteSize(saved.bytes)}` : 'Will be saved as');
     setText(fileName, name);
   };
   const show = (state: AppState): void => {
