@@ -329,6 +329,13 @@ describe('A and B', () => {
     expect([page.state.compare, letters()]).toEqual(['off', 'Take 3 -, Take 2 -, Take 1 A']);
   });
 
+  it('are over when the one that waits is shown itself', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive();
+    page.do(edit.takeChosen(page.id('Take 1')), edit.takeChosen(page.id('Take 2')));
+    expect(letters()).toBe('Take 4 -, Take 3 -, Take 2 A, Take 1 -');
+  });
+
   it('do not compare dances to different leaders', () => {
     page.do(change.leaderLoaded(leader(90, 'other.bvh')));
     page.arrive();
