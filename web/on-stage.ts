@@ -1,5 +1,6 @@
 /** From the state to a stage: what is danced, seen and filmed. */
 import { couple, madeRole } from './ui/couple';
+import { besideStage } from './ui/coarse-layer';
 import { together } from './ui/dom';
 import type { Camera } from './ui/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/reactor-motion';
@@ -22,8 +23,10 @@ export function showOn(shown: Stage, store: Store): () => void {
       store,
       (state) => Object.values(couple(state)),
       (state) => {
-        // One reaction passes over into the next; what is switched, the parts and the foot lock, is there at once.
-        const now = `${madeRole(state)} ${state.footLock}`;
+        // One reaction passes over into the next; what is switched is there at once: the parts, the foot lock, and
+        // which of two takes side by side is on the stage, each of which goes on in its half.
+        const half = besideStage(state) && state.letter;
+        const now = `${madeRole(state)} ${state.footLock} ${half}`;
         shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
         shownAs = now;
       },
@@ -51,6 +54,7 @@ export function showOn(shown: Stage, store: Store): () => void {
     ),
   );
 }
+
 /** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
   const film = from.film(size);

@@ -50,9 +50,12 @@ test('leader, reactor or both are saved in four formats that say what they hold'
   });
 
   await test.step('BVH, NPZ and JSON of both', async () => {
-    expect(Object.keys(unzipSync(await bytes(await save('BVH'))))).toEqual(['leader.bvh', 'reactor.bvh']);
+    expect(Object.keys(unzipSync(await bytes(await save('BVH'))))).toEqual([
+      'made-demo-song_made-demo-leader_leader.bvh',
+      `${PREFIX}_reactor.bvh`,
+    ]);
     const json = JSON.parse(await readFile(await (await save('JSON')).path(), 'utf8')) as object;
-    expect(json).toMatchObject({ song: 'Made demo song', leader: 'Made demo leader', settings, frames: 60 });
+    expect(json).toMatchObject({ song: 'Made demo song', take: 'Demo reaction', settings, frames: 60 });
     const archive = await bytes(await save('NPZ'));
     const names = Object.keys(unzipSync(archive));
     expect(names).toEqual(['leader.npy', 'reactor.npy', 'fps.npy', 'joints.npy', 'metadata.npy']);

@@ -83,6 +83,17 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
     await expect(takes(page)).toContainText(['Softer hands', older]);
   });
 
+  await test.step('the take that is A may become B, and the other one A', async () => {
+    await page.getByRole('button', { name: 'Use Softer hands as B' }).click();
+    await expect(page.getByRole('button', { name: `Use ${older} as A` })).toHaveAttribute(
+      'aria-pressed',
+      'true',
+    );
+    await page.getByRole('button', { name: 'Use Softer hands as A' }).click();
+    await page.getByRole('button', { name: `Use ${older} as B` }).click();
+    await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeHidden();
+  });
+
   await test.step('A and B flip on the same playhead', async () => {
     await page.getByRole('button', { name: `Use ${older} as B` }).click();
     const compare = page.getByRole('radiogroup', { name: 'Compare takes' });
@@ -111,6 +122,25 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
     await expect(takes(page)).toHaveCount(1);
     await page.getByRole('button', { name: 'Undo', exact: true }).click();
     await expect(takes(page)).toHaveCount(2);
+  });
+
+  await test.step('what sets a take apart is in its line, and why it has no letter at the letter', async () => {
+    await page.getByRole('button', { name: 'Swap roles' }).click();
+    await app.until(({ reaction, job }) => reaction?.inputs.settings.role === 'leader' && !job);
+    await expect(takes(page).first()).toContainText('as leader, ');
+    await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeHidden();
+    const letter = page.getByRole('button', { name: `Use ${older} as B` });
+    await expect(letter).toBeDisabled();
+    await expect(letter).toHaveAccessibleDescription('Dances the other part.');
+    await page.getByRole('spinbutton', { name: 'Seed' }).fill('78');
+    await page.keyboard.press('Enter');
+    await app.until(({ takes, job }) => takes.length === 4 && !job);
+    await page.getByRole('button', { name: 'More steps' }).click();
+    await app.until(({ takes, job }) => takes.length === 5 && !job);
+    const list = page.getByRole('grid', { name: 'Takes' });
+    await expect(list).toHaveClass('takes below');
+    await takes(page).last().focus();
+    await expect(list).toHaveClass('takes above');
   });
 });
 

@@ -1,16 +1,25 @@
 import { strToU8, zipSync } from 'fflate';
 import { writeBvh } from '../motion/bvh-write';
+import type { Role } from '../view/theme';
 import type { Dance } from './dance';
 
-/** BVH holds one skeleton: one dancer is a BVH file, two are an archive of `leader.bvh` and `reactor.bvh`. */
+/** BVH holds one skeleton: one dancer is a BVH file, two are an archive of one for each. */
 export function bvhEnding(dancers: number): '.bvh' | '-bvh.zip' {
   return dancers > 1 ? '-bvh.zip' : '.bvh';
 }
 
-/** The dance as BVH. Every file in an archive bears the date `now`. */
-export function writeBvhFile(dance: Dance, now: Date): Uint8Array<ArrayBuffer> {
+/**
+ * The dance as BVH. Every file in an archive bears the date `now`.
+ *
+ * @param nameOf what the file of one dancer is called
+ */
+export function writeBvhFile(
+  dance: Dance,
+  now: Date,
+  nameOf: (role: Role) => string,
+): Uint8Array<ArrayBuffer> {
   const [first] = dance.dancers;
   if (first && dance.dancers.length === 1) return strToU8(writeBvh(first.motion));
-  const files = dance.dancers.map(({ role, motion }) => [`${role}.bvh`, strToU8(writeBvh(motion))] as const);
+  const files = dance.dancers.map(({ role, motion }) => [nameOf(role), strToU8(writeBvh(motion))] as const);
   return zipSync(Object.fromEntries(files), { level: 6, mtime: now });
 }

@@ -1,5 +1,5 @@
 import { createBodyLibrary } from '../view/body/library';
-import type { Theme } from '../view/theme';
+import type { Role, Theme } from '../view/theme';
 import { bvhEnding, writeBvhFile } from './bvh';
 import type { Dance, MotionFormat } from './dance';
 import { writeJson } from './json';
@@ -30,15 +30,26 @@ export function motionEnding(format: MotionFormat, dancers: number): string {
  * A dance as a file.
  *
  * @param theme whose colours the mannequins of a GLB wear
+ * @param nameOf what the file of one dancer is called in an archive of two
  */
-export async function writeMotion(format: MotionFormat, dance: Dance, theme: Theme): Promise<Blob> {
-  return new Blob([await content(format, dance, theme)], { type: TYPES[format] });
+export async function writeMotion(
+  format: MotionFormat,
+  dance: Dance,
+  theme: Theme,
+  nameOf: (role: Role) => string = (role) => `${role}.bvh`,
+): Promise<Blob> {
+  return new Blob([await content(format, dance, theme, nameOf)], { type: TYPES[format] });
 }
 
-async function content(format: MotionFormat, dance: Dance, theme: Theme): Promise<BlobPart> {
+async function content(
+  format: MotionFormat,
+  dance: Dance,
+  theme: Theme,
+  nameOf: (role: Role) => string,
+): Promise<BlobPart> {
   switch (format) {
     case 'bvh':
-      return writeBvhFile(dance, new Date());
+      return writeBvhFile(dance, new Date(), nameOf);
     case 'npz':
       return writeNpz(dance);
     case 'json':

@@ -4,6 +4,7 @@ import { el, setText, together } from './dom';
 import { downloadChosen } from './download-changes';
 import { motionFileName } from './file-name';
 import { byteSize } from './format';
+import { icon } from './icons';
 import { radioGroup } from './radio-group';
 import type { Services } from './services';
 import type { AppState } from './state';
@@ -74,13 +75,16 @@ export function createDownloadMotion(store: Store, services: Services): Download
   });
   const fileState = el('span');
   const fileName = el('b');
+  const file = el('div', { class: 'file' }, icon('check'), fileState, fileName);
 
   const showName = (state: AppState): void => {
     const named = namedAfter(state);
     const { who: whose, format } = state.download;
     const name = named ? motionFileName(named, whose, looked ?? format) : '';
     const { saved } = state;
-    setText(fileState, saved?.name === name ? `Saved, ${byteSize(saved.bytes)}` : 'Saved as');
+    const done = saved?.name === name;
+    file.classList.toggle('saved', done);
+    setText(fileState, done ? `Saved, ${byteSize(saved.bytes)}` : 'Will be saved as');
     setText(fileName, name);
   };
   const show = (state: AppState): void => {
@@ -106,7 +110,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
     parts: [
       el('div', { class: 'row' }, el('h2', { text: 'Motion of' }), who.element),
       ...rows.map(({ button }) => button),
-      el('div', { class: 'file' }, fileState, fileName),
+      file,
     ],
     focus: () => {
       const { format } = store.getState().download;

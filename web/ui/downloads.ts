@@ -123,7 +123,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
       if (!named || !dance || state.writing) return;
       apply(store, downloadChosen({ format }));
       apply(store, writingChanged(format));
-      writeMotion(format, dance, state.theme)
+      writeMotion(format, dance, state.theme, (role) => motionFileName(named, role, format))
         .then((file) => {
           handOver(file, motionFileName(named, who, format));
         })

@@ -12,14 +12,15 @@ const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>
 test('one dancer is a BVH, two are an archive with one each', async () => {
   const dance = madeDance(40, 'leader', 'reactor');
   expect(motionEnding('bvh', 2)).toBe('-bvh.zip');
-  const archive = unzipSync(await bytes(writeMotion('bvh', dance, 'dark')));
-  expect(Object.keys(archive)).toEqual(['leader.bvh', 'reactor.bvh']);
+  const nameOf = (role: string): string => `salsa_${role}.bvh`;
+  const archive = unzipSync(await bytes(writeMotion('bvh', dance, 'dark', nameOf)));
+  expect(Object.keys(archive)).toEqual(['salsa_leader.bvh', 'salsa_reactor.bvh']);
   for (const { role, motion } of dance.dancers) {
-    const { clip } = readBvh(new TextDecoder().decode(archive[`${role}.bvh`]));
+    const { clip } = readBvh(new TextDecoder().decode(archive[nameOf(role)]));
     clip.positions.forEach((value, i) => expect(value).toBeCloseTo(motion.positions[i]!, 4));
   }
   const one = await bytes(writeMotion('bvh', madeDance(40, 'reactor'), 'dark'));
-  expect(new TextDecoder().decode(one)).toBe(new TextDecoder().decode(archive['reactor.bvh']));
+  expect(new TextDecoder().decode(one)).toBe(new TextDecoder().decode(archive[nameOf('reactor')]));
 });
 
 test('JSON says what it is and holds every joint to a tenth of a millimetre', async () => {

@@ -1,17 +1,17 @@
 import { danceDuration, upToDate } from '../selectors';
-import type { AppState, Compare, Letter, Reaction, Take } from '../state';
+import type { AppState, Compare, Letter, Take } from '../state';
 import type { Change } from '../store';
-import { opposite, otherTake, takeOnStage } from './take';
+import { comparable, hindrance, opposite, otherTake, stageLetter, takeOnStage } from './take';
 
 /** Longest name of a take, characters. */
 export const LONGEST_NAME = 60;
 
 /** What shows a take, with files and settings set back to what it was made from, so that nothing is made anew. */
-function shown(state: AppState, { reaction }: Take): Partial<AppState> {
+function shown(state: AppState, { id, reaction }: Take): Partial<AppState> {
   const { inputs } = reaction;
   const time = Math.min(state.playback.time, danceDuration(inputs));
   const other = otherTake(state);
-  const alone = other !== null && hindrance(other.reaction, reaction) !== null;
+  const alone = other ? hindrance(other.reaction, reaction) !== null : id === state.other;
   return {
     ...inputs,
     reaction,
@@ -25,7 +25,7 @@ export function takeChosen(id: string): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
     if (!take || take.reaction === state.reaction) return {};
-    if (id === state.other) return flipped()(state);
+    if (take === otherTake(state)) return flipped()(state);
     return shown(state, take);
   };
 }
@@ -42,33 +42,20 @@ export function flipped(): Change {
     return {
       ...shown(state, other),
       other: stage.id,
-      letter: opposite(state.letter),
+      letter: opposite(stageLetter(state)),
       ...(upToDate(state) && { history: state.history }),
     };
   };
 }
 
-/** Why two reactions can't be compared, in a sentence; null when they can. */
-function hindrance(one: Reaction, other: Reaction): string | null {
-  if (one.inputs.leader !== other.inputs.leader) return 'Made for another leader.';
-  return one.inputs.settings.role === other.inputs.settings.role ? null : 'Dances the other part.';
-}
-
-/** Whether a take can be compared with the one on the stage: another one, of the same part to the same leader. */
-export function comparable({ reaction }: Take, state: AppState): boolean {
-  return (
-    reaction !== state.reaction && state.reaction !== null && hindrance(reaction, state.reaction) === null
-  );
-}
-
-/** The take that the one on the stage is compared with, else the newest that it could be. */
-function partner(state: AppState): Take | undefined {
-  return otherTake(state) ?? state.takes.find((take) => comparable(take, state));
+/** The other take of a comparison; before there is one, the newest that can be it. */
+function partner(state: AppState): Take | null {
+  return otherTake(state) ?? state.takes.find((take) => comparable(take, state)) ?? null;
 }
 
 /** Why a letter can't be given to a take, in a sentence; null when it can. */
 export function whyNoLetter(take: Take, letter: Letter, state: AppState): string | null {
-  if (letter === state.letter) return null;
+  if (letter === stageLetter(state)) return null;
   if (take.reaction !== state.reaction) return state.reaction && hindrance(take.reaction, state.reaction);
   return partner(state) ? null : 'There is no other take to compare it with.';
 }
@@ -78,17 +65,19 @@ export function letterGiven(id: string, letter: Letter): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
     if (!take) return {};
+    const mine = stageLetter(state);
+    const other = otherTake(state);
     if (take.reaction === state.reaction) {
       // The letter that it leaves goes to the other take; without one to the newest that can be compared.
-      const other = partner(state);
-      return other && letter !== state.letter ? { letter, other: other.id } : {};
+      const left = partner(state);
+      return left && letter !== mine ? { letter, other: left.id } : {};
     }
-    if (letter === state.letter) {
+    if (letter === mine) {
       const before = takeOnStage(state);
-      return { ...shown(state, take), ...(state.other === id && { other: before?.id ?? null }) };
+      return { ...shown(state, take), ...(take === other && { other: before?.id ?? null }) };
     }
     if (!comparable(take, state)) return {};
-    return state.other === id ? { other: null, compare: 'off' } : { other: id };
+    return take === other ? { other: null, compare: 'off' } : { other: id, letter: mine };
   };
 }
 
@@ -96,7 +85,7 @@ export function letterGiven(id: string, letter: Letter): Change {
 export function compareSet(compare: Exclude<Compare, 'off'>): Change {
   return (state) => {
     if (state.compare === compare) return { compare: 'off' };
-    return state.other === null ? {} : { compare };
+    return otherTake(state) ? { compare } : {};
   };
 }
 

@@ -3,6 +3,7 @@ import type { Mount } from '../services';
 import type { Compare, Letter } from '../state';
 import { apply, watchAll } from '../store';
 import { compareSet, flipped } from './changes';
+import { otherTake } from './take';
 
 /** A key that is held this long is a look at the other take, not a change to it, milliseconds. */
 const HELD = 350;
@@ -86,9 +87,10 @@ export const mountCompareSwitch =
       }),
       watchAll(
         store,
-        (state) => [state.other, state.letter, state.compare],
-        ({ other, letter, compare }) => {
-          bar.hidden = other === null;
+        (state) => [otherTake(state), state.letter, state.compare],
+        (state) => {
+          const { letter, compare } = state;
+          bar.hidden = otherTake(state) === null;
           LETTERS.forEach((name, index) => {
             const button = letters[index];
             if (!button) return;

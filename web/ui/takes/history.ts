@@ -124,7 +124,7 @@ function travelled({ back, edits, stage }: Step, state: AppState): Partial<AppSt
       reaction: stage.reaction,
       createdAt: stage.createdAt,
     });
-  const there = takes.some(({ id }) => id === after.other);
+  const there = takes.some(({ id, reaction }) => id === after.other && reaction !== after.reaction);
   const answers = after.reaction?.inputs.leader === after.leader;
   return {
     ...back,

@@ -3,8 +3,9 @@ import { icon, type IconName } from '../icons';
 import type { AppState, Letter, Take } from '../state';
 import { apply, type Store } from '../store';
 import { letterGiven, takeChosen, takeDeleted, takeRenamed, takeStarred, whyNoLetter } from './changes';
-import { letterOf, takeTitle, takeWords } from './take';
+import { letterOf, takeTitle } from './take';
 import { createTakeName } from './take-name';
+import { allTakeWords, takeWords } from './take-words';
 
 const LETTERS: readonly Letter[] = ['A', 'B'];
 
@@ -93,7 +94,7 @@ export function createTakeRow(store: Store, id: string): TakeRow {
       const onStage = take.reaction === state.reaction;
       name.show(title);
       setText(words, takeWords(take, state));
-      words.title = words.textContent;
+      words.title = allTakeWords(take);
       setAttribute(root, 'aria-selected', String(onStage));
       setAttribute(star, 'aria-pressed', String(take.starred));
       setAttribute(star, 'aria-label', `Star ${title}`);
@@ -106,7 +107,8 @@ export function createTakeRow(store: Store, id: string): TakeRow {
         setAttribute(button, 'aria-pressed', String(mine === letter));
         setAttribute(button, 'aria-label', `Use ${title} as ${letter}`);
         const reason = whyNoLetter(take, letter, state);
-        button.disabled = reason !== null;
+        // It stays within reach, so that the reason is.
+        setAttribute(button, 'aria-disabled', reason !== null && 'true');
         button.title = reason ?? '';
       });
       for (const control of [root, star, rename, remove, ...letters]) control.tabIndex = reachable ? 0 : -1;

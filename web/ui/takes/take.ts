@@ -1,4 +1,3 @@
-import { guidanceWords } from '../guidance-matrix';
 import { wantedInputs } from '../selectors';
 import type { AppState, Inputs, Letter, Reaction, Take } from '../state';
 
@@ -12,15 +11,34 @@ export function takeOnStage({ takes, reaction }: Pick<AppState, 'takes' | 'react
   return takes.find((take) => take.reaction === reaction) ?? null;
 }
 
-/** The take that the one on the stage is compared with. */
-export function otherTake({ takes, other }: Pick<AppState, 'takes' | 'other'>): Take | null {
-  return takes.find(({ id }) => id === other) ?? null;
+/** Why two reactions can't be compared, in a sentence; null when they can. */
+export function hindrance(one: Reaction, other: Reaction): string | null {
+  if (one.inputs.leader !== other.inputs.leader) return 'Made for another leader.';
+  return one.inputs.settings.role === other.inputs.settings.role ? null : 'Dances the other part.';
+}
+
+/** Whether a take can be compared with the one on the stage: another one, of the same part to the same leader. */
+export function comparable({ reaction }: Take, { reaction: shown }: Pick<AppState, 'reaction'>): boolean {
+  return shown !== null && reaction !== shown && hindrance(reaction, shown) === null;
+}
+
+/**
+ * The take that the one on the stage is compared with. One that can't be, as when something is undone or another
+ * leader has come, waits until it can.
+ */
+export function otherTake(state: Pick<AppState, 'takes' | 'other' | 'reaction'>): Take | null {
+  return state.takes.find((take) => take.id === state.other && comparable(take, state)) ?? null;
+}
+
+/** The letter of the take on the stage; without another one it is A. */
+export function stageLetter(state: AppState): Letter {
+  return otherTake(state) ? state.letter : 'A';
 }
 
 /** The letter that a take has in the comparison, if any. */
 export function letterOf(take: Take, state: AppState): Letter | null {
-  if (take.reaction === state.reaction) return state.letter;
-  return take.id === state.other ? opposite(state.letter) : null;
+  if (take.reaction === state.reaction) return stageLetter(state);
+  return take === otherTake(state) ? opposite(state.letter) : null;
 }
 
 export function opposite(letter: Letter): Letter {
@@ -32,24 +50,6 @@ export function takeTitle({ name, number, reaction }: Take): string {
   if (name !== null) return name;
   const { label } = reaction;
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
-}
-
-/**
- * What a take was made from, first what sets it apart from the page as it is now and from the model's own steps:
- * `as leader, song 1.7 s later, 6 steps, 1.20 coarse, 0.60 fine, 3.00 music, seed 1204`.
- */
-export function takeWords({ reaction: { inputs } }: Take, state: AppState): string {
-  const { leader, song, settings, shift } = inputs;
-  const later = shift / leader.file.clip.fps;
-  return [
-    ...(leader === state.leader ? [] : [`to ${leader.name}`]),
-    ...(song === state.song ? [] : [song?.name ?? 'no song']),
-    ...(settings.role === 'leader' ? ['as leader'] : []),
-    ...(shift === 0 ? [] : [`song ${Math.abs(later).toFixed(1)} s ${later > 0 ? 'later' : 'earlier'}`]),
-    ...(settings.steps === state.manifest?.diffusion.steps.default ? [] : [`${settings.steps} steps`]),
-    guidanceWords(settings),
-    `seed ${settings.seed}`,
-  ].join(', ');
 }
 
 /** Puts a take in the place of the one with its id, or where its age puts it: the newest first. */

@@ -144,7 +144,19 @@ export const mountTakes: Mount = (root, store, services) => {
   };
 
   return together(
-    watchAll(store, (state) => [state.takes, state.reaction, state.other, state.letter, state.leader], show),
+    watchAll(
+      store,
+      ({ takes, reaction, other, letter, leader, song, manifest }) => [
+        takes,
+        reaction,
+        other,
+        letter,
+        leader,
+        song,
+        manifest,
+      ],
+      show,
+    ),
     watch(
       store,
       (state) => takeOnStage(state)?.id,
@@ -164,6 +176,7 @@ export const mountTakes: Mount = (root, store, services) => {
       const outside = target instanceof Node && !section.contains(target);
       if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
     }),
+    fadeEnds(list),
     undo,
     () => {
       section.remove();
@@ -171,10 +184,30 @@ export const mountTakes: Mount = (root, store, services) => {
   );
 };
 
-/** Scrolls the list, and nothing around it, until the row is in sight. */
+/** Scrolls the list, and nothing around it, until the row is in sight, clear of the ends that fade. */
 function reveal(list: HTMLElement, row: HTMLElement | undefined): void {
   if (!row) return;
-  const [top, bottom] = [row.offsetTop - list.offsetTop, row.offsetTop - list.offsetTop + row.offsetHeight];
+  const faded = row.offsetHeight / 2;
+  const top = row.offsetTop - list.offsetTop - faded;
+  const bottom = top + row.offsetHeight + 2 * faded;
   if (top < list.scrollTop) list.scrollTop = top;
   else if (bottom > list.scrollTop + list.clientHeight) list.scrollTop = bottom - list.clientHeight;
+}
+
+/** Lets the ends of the list fade beyond which it goes on. Returns how to stop. */
+function fadeEnds(list: HTMLElement): () => void {
+  const fade = (): void => {
+    list.classList.toggle('above', list.scrollTop > 1);
+    list.classList.toggle('below', list.scrollTop + list.clientHeight < list.scrollHeight - 1);
+  };
+  const sizes = new ResizeObserver(fade);
+  sizes.observe(list);
+  list.addEventListener('scroll', fade, { passive: true });
+  const rows = new MutationObserver(fade);
+  rows.observe(list, { childList: true });
+  return () => {
+    sizes.disconnect();
+    rows.disconnect();
+    list.removeEventListener('scroll', fade);
+  };
 }

@@ -6,8 +6,7 @@ import { MOST_TAKES } from '../../../../web/ui/takes/arrival';
 import * as edit from '../../../../web/ui/takes/changes';
 import { redone, undone, unremembered } from '../../../../web/ui/takes/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
-import { letterOf, presentInputs, takeOnStage, takeTitle, takeWords } from '../../../../web/ui/takes/take';
-import { shiftSet } from '../../../../web/ui/timeline-changes';
+import { letterOf, presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/takes/take';
 import { small } from '../../model/small-manifest';
 import { leader, song, still } from '../made';
 
@@ -218,26 +217,6 @@ describe('choosing a take', () => {
   });
 });
 
-describe('the words of a take', () => {
-  const words = (title: string): string =>
-    takeWords(
-      page.state.takes.find((take) => takeTitle(take) === title)!,
-      page.state,
-    );
-
-  it('say what it was made from, and first what sets it apart', () => {
-    page.do(change.songLoaded(song(10)), shiftSet(-51), change.stepsSet(6), change.rolesSwapped());
-    page.arrive();
-    expect(words('Take 1')).toBe(
-      'as leader, song 1.7 s earlier, 6 steps, 0.00 coarse, 0.00 fine, 2.00 music, seed 7',
-    );
-    page.do(change.songLoaded(song(4)), change.leaderLoaded(leader(90, 'other.bvh')));
-    expect(words('Take 1')).toMatch(
-      /^to lead_0412\.bvh, Descarga\.mp3, as leader, song 1\.7 s earlier, 6 steps, /,
-    );
-  });
-});
-
 describe('A and B', () => {
   const letters = (): string =>
     page.state.takes.map((take) => `${takeTitle(take)} ${letterOf(take, page.state) ?? '-'}`).join(', ');
@@ -279,7 +258,10 @@ describe('A and B', () => {
     page.do(edit.letterGiven(page.id('Take 2'), 'B'));
     expect([letters(), page.onStage]).toEqual(['Take 3 A, Take 2 B, Take 1 -', 'Take 2']);
     page.do(edit.letterGiven(page.id('Take 3'), 'A'));
-    expect(letters()).toBe('Take 3 -, Take 2 B, Take 1 -');
+    // Without a comparison the one on the stage is A.
+    expect(letters()).toBe('Take 3 -, Take 2 A, Take 1 -');
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect(letters()).toBe('Take 3 -, Take 2 A, Take 1 B');
   });
 
   it('are seen together only while there are two, and end with either', () => {
@@ -325,6 +307,33 @@ describe('A and B', () => {
     expect(page.state.other).toBeNull();
     const [alone] = page.state.takes.filter(({ id }) => id === page.id('Take 4'));
     expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
+  });
+
+  it('wait while another leader is there, and never stand beside a dance to it', () => {
+    let seen: OtherDancer | null = null;
+    const stop = showOther(page.store, { setOther: (other) => (seen = other) });
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
+    page.do(change.leaderLoaded(leader(90, 'other.bvh')));
+    expect(seen).toBeNull();
+    page.arrive();
+    expect([seen, letters()]).toEqual([null, 'Take 4 A, Take 3 -, Take 2 -, Take 1 -']);
+    page.do(undone());
+    expect(seen).toMatchObject({ labels: { left: 'A Take 3', right: 'B Take 1' } });
+    stop();
+  });
+
+  it('are two takes, also after undoing leads to the one that was the other', () => {
+    page.do(edit.letterGiven(page.id('Take 2'), 'B'), edit.compareSet('side'), undone());
+    expect([page.onStage, letters()]).toEqual(['Take 2', 'Take 3 -, Take 2 A, Take 1 -']);
+    page.do(edit.takeChosen(page.id('Take 1')));
+    expect([page.state.compare, letters()]).toEqual(['off', 'Take 3 -, Take 2 -, Take 1 A']);
+  });
+
+  it('are over when the one that waits is shown itself', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive();
+    page.do(edit.takeChosen(page.id('Take 1')), edit.takeChosen(page.id('Take 2')));
+    expect(letters()).toBe('Take 4 -, Take 3 -, Take 2 A, Take 1 -');
   });
 
   it('do not compare dances to different leaders', () => {

@@ -1,0 +1,51 @@
+import { expect, test } from 'vitest';
+import type { AppState, Inputs, Take } from '../../../../web/ui/state';
+import { initialState } from '../../../../web/ui/store';
+import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
+import { small } from '../../model/small-manifest';
+import { alike, leader, song, still } from '../made';
+
+const music = small.guidance.music.default;
+const settings = {
+  guidance: alike(2, 1.5),
+  music,
+  steps: small.diffusion.steps.default,
+  seed: 1204,
+  role: 'reactor' as const,
+};
+const inputs: Inputs = { leader: leader(300), song: song(10), shift: 0, settings };
+const page: AppState = { ...initialState('dark'), manifest: small, leader: inputs.leader, song: inputs.song };
+const take = (more: Partial<Inputs>): Take => ({
+  id: 'id',
+  number: 1,
+  name: null,
+  starred: false,
+  createdAt: 0,
+  reaction: { motion: still(300), latents: null, inputs: { ...inputs, ...more }, label: null, seconds: 1 },
+});
+const guided = 'seed 1204, 2 coarse, 1.5 fine';
+
+test('the line of a take leaves out what is as the page and the model have it', () => {
+  expect(takeWords(take({}), page)).toBe(guided);
+});
+
+test.each<[string, Partial<Inputs>]>([
+  [`as leader, ${guided}`, { settings: { ...settings, role: 'leader' } }],
+  [`1 step, ${guided}`, { settings: { ...settings, steps: 1 } }],
+  [`song 1.7 s later, ${guided}`, { shift: 51 }],
+  [`song 0.5 s earlier, ${guided}`, { shift: -15 }],
+  [`no song, ${guided}`, { song: null }],
+  [`Descarga, ${guided}`, { song: song(4) }],
+  [`to other, ${guided}`, { leader: leader(90, 'other.bvh') }],
+  [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
+  [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
+])('what sets a take apart comes first: %s', (words, more) => {
+  expect(takeWords(take(more), page)).toBe(words);
+});
+
+test('all of it is said where there is room', () => {
+  expect(allTakeWords(take({ shift: 51 }))).toBe(
+    `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
+      `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, seed 1204`,
+  );
+});
