@@ -96,7 +96,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     geometry?.dispose();
     geometry = toGeometry(body);
     geometry.lighten(far);
-    mesh.geometry = geometry.full;
+    mesh.geometry = geometry.near;
     glass.setGeometry(geometry.light);
     rig.bind(offsets);
     dress();
