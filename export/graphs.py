@@ -9,7 +9,7 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.frame import smoothed_heading
-from training.sampler import Model, guided_x0, sampled_layers
+from training.sampler import Model, guided_x0, sampled_streams
 from training.streams import leader_features, reactor_motion
 
 
@@ -60,9 +60,8 @@ class Decode(nn.Module):
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.model = model
-        self.hfsq = model.hfsq
+        self.hfsq = model.hfsq  # registers its parameters
 
     def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        raw = sampled_layers(self.model, latents, layers)
-        streams = [s[0] for s in self.hfsq.decode(raw[None])]
+        streams = sampled_streams(self.model, latents, layers)
         return reactor_motion(streams, leader, smoothed_heading(leader, self.model.frame))

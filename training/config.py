@@ -92,9 +92,10 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music: float = 0.0  # default of music guidance, see `guided_x0`
-    # Sampled coarse and fine latents are multiplied by this before they are decoded: few steps leave the mean of
-    # what could be, whose spread is smaller than that of a dance.
-    spread: tuple[float, float] = (1.0, 1.0)
+    # Sampled coarse latents of every stream are multiplied by this, from their mean, before they are decoded: less
+    # than 1 keeps nearer to what is sure.
+    spread: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion, see `training.sharpen`
 
 
 @dataclass(frozen=True)

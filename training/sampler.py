@@ -17,6 +17,7 @@ from training.diffusion import Step, alphas_cumprod, ddim_steps
 from training.frame import smoothed_heading
 from training.hfsq.autoencoder import Autoencoder
 from training.noise import noise
+from training.sharpen import sharpen
 from training.streams import leader_features, reactor_motion
 
 
@@ -161,10 +162,15 @@ def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, 
     return encoder.with_silence(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
 
 
-def sampled_layers(model: Model, latents: Tensor, layers: Tensor) -> Tensor:
-    """What the decoder gets (L, R, C) of sampled normalised latents; `layers` (R,) multiplies each layer."""
-    spread = [model.diffusion.spread[min(r, 1)] for r in range(model.denoiser.layers)]
-    return model.hfsq.denormalise(latents) * (layers * layers.new_tensor(spread))[:, None]
+def sampled_streams(model: Model, latents: Tensor, layers: Tensor) -> list[Tensor]:
+    """Sampled normalised latents (L, R, C) to the three streams (T, c) in metres; `layers` (R,) multiplies each
+    residual layer.
+    """
+    width = model.denoiser.latent_width // len(STREAMS)
+    coarse = latents.new_tensor(model.diffusion.spread).repeat_interleave(width)
+    spread = torch.stack([coarse, *[torch.ones_like(coarse)] * (model.denoiser.layers - 1)])
+    raw = model.hfsq.denormalise(latents * spread) * layers[:, None]
+    return [sharpen(stream[0], model.diffusion.sharpen) for stream in model.hfsq.decode(raw[None])]
 
 
 @torch.no_grad()
@@ -172,8 +178,7 @@ def decode(model: Model, latents: Tensor, leader: Tensor, layers: Tensor | None 
     """Normalised latents (L, R, C) to reactor joints (T, 22, 3); `layers` (R,) multiplies each residual
     layer.
     """
-    raw = sampled_layers(model, latents, torch.ones(model.denoiser.layers) if layers is None else layers)
-    streams = [s[0] for s in model.hfsq.decode(raw[None])]
+    streams = sampled_streams(model, latents, torch.ones(model.denoiser.layers) if layers is None else layers)
     return reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
 
 
