@@ -93,7 +93,7 @@ export function measureRows(
     feet: [
       {
         name: 'Feet slide',
-        hint: 'of the time they are on the floor',
+        hint: 'of their time on the floor',
         value: write(foot.skateShare, percent),
         beside: recorded(reference?.skateShare, percent),
         verdict: atMost(foot.skateShare, reference?.skateShare),
@@ -122,7 +122,7 @@ export function measureRows(
     seams: [
       {
         name: 'Seams between blocks',
-        hint: 'times as abrupt as elsewhere',
+        hint: 'times the change elsewhere',
         value: seams.whole.seams === 0 ? NOTHING : write(seams.whole.ratio, score),
         beside: seams.whole.seams === 0 ? '' : 'unseen around 1',
         verdict: seams.whole.seams === 0 ? null : atMost(seams.whole.ratio, 1.1),
