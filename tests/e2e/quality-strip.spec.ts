@@ -61,6 +61,13 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
   await page.setViewportSize({ width: 1280, height: 720 });
   await expect(feet).toBeHidden();
   await expect(timeline.getByRole('img', { name: /^Quality/ })).toBeVisible();
+  await timeline.getByRole('button', { name: 'Quality' }).hover();
+  await expect(card.getByRole('listitem')).toHaveCount(6);
+  await expect(card.getByRole('listitem').first()).toContainText(
+    /Feet slide.*\d+ %.*recorded \d+ %.*(good|so-so|poor)/,
+  );
+  const [over, below] = [await card.boundingBox(), await timeline.boundingBox()];
+  expect(over && below && over.y + over.height <= below.y).toBe(true);
   const second = timeline.getByRole('button', { name: /^2\. / });
   await second.focus();
   const before = await app.read(({ playback }) => playback.time);

@@ -211,6 +211,7 @@ test('everything survives a reload, and a project file a page that starts afresh
   await test.step('the project is opened, and a broken one says what is wrong', async () => {
     await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
     await app.until(({ takes }) => takes.length === 2);
+    await expect(page.getByText('Opened: my song.wav, mine.bvh, 2 takes').first()).toBeVisible();
     expect(await summary()).toEqual(before);
     expect(farthest(motion, await app.reactor())).toBe(0);
     expect(farthest(ghost, await coarseGhost(app))).toBe(0);

@@ -72,6 +72,22 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
     expect(await pageView(page)).toEqual([1, 0, 0]);
   });
 
+  await test.step('frame both, undo and the takes are in the first screen, for fingers', async () => {
+    for (const name of ['Undo', 'Redo', 'Frame both', /^Takes 1/]) {
+      const box = await page.getByRole('button', { name }).boundingBox();
+      expect(box?.height, String(name)).toBeGreaterThanOrEqual(44);
+      expect((box?.y ?? 640) + (box?.height ?? 0), String(name)).toBeLessThan(400);
+    }
+    const near = await distance(page);
+    await page.getByRole('button', { name: 'Frame both' }).tap();
+    await expect.poll(() => distance(page)).not.toBeCloseTo(near, 1);
+    const door = page.getByRole('button', { name: /^Takes/ });
+    await door.tap();
+    await expect(page.getByRole('grid', { name: 'Takes' })).toBeVisible();
+    await door.tap();
+    await expect(page.getByRole('grid', { name: 'Takes' })).toBeHidden();
+  });
+
   await test.step('a swipe over the timeline scrolls and moves no playhead', async () => {
     const before = await app.read(({ playback }) => playback.time);
     const [x, y] = await middle(page, '.lane.song');

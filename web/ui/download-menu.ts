@@ -6,7 +6,6 @@ import type { Mount } from './services';
 import type { AppState } from './state';
 import { apply, watch, watchAll } from './store';
 import { opened } from './view-changes';
-import { mountTakesDoor } from './takes/takes-door';
 
 /**
  * The Download button and its menu: whose motion, in which format and under which name, and the video. A video goes on
@@ -33,7 +32,17 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     video.part,
   );
   menu.hidden = true;
-  const door = mountTakesDoor(menu, store, services);
+  const door = el('button', {
+    class: 'btn tint project-door',
+    text: 'Open or save a project',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        apply(store, opened('project'));
+      },
+    },
+  });
+  menu.append(door);
   // Read out at the start, half way and at the end, not at every picture.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
   root.append(wide.element, narrow.element, menu, spoken);
@@ -77,7 +86,6 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   return together(
     watchAll(store, (state) => [state.reaction, state.filming, state.saved], showButtons),
     watch(store, (state) => state.open === 'download', showOpen),
-    door,
     motion.dispose,
     video.dispose,
     () => {

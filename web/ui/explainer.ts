@@ -1,9 +1,11 @@
 import { el, setText, setVariable, together } from './dom';
+import type { MeasureRow } from './quality-rows';
 
-/** What a card says: what it is about, a number or a moment beside it, and what that means in sentences. */
+/** What a card says: what it is about, a number or a moment beside it, measures, and what that means in sentences. */
 export interface Explanation {
   readonly title: string;
   readonly aside: string;
+  readonly rows?: readonly MeasureRow[];
   readonly text: string;
 }
 
@@ -21,15 +23,20 @@ const REST = 150;
 /** Room between button and card, and between card and the window's edge, CSS pixels. */
 const GAP = 8;
 
-/** One card for many small things, floating beside the one it explains, so that nothing on the page moves. */
-export function createExplainer(): Explainer {
+/**
+ * One card for many small things, floating beside the one it explains, so that nothing on the page moves.
+ * @param clear what a card with measures is about: it leaves that in sight where there is room above it
+ */
+export function createExplainer(clear: HTMLElement): Explainer {
   const title = el('b');
   const aside = el('span');
+  const measures = el('ul', { class: 'measures' });
   const text = el('p');
   const card = el(
     'div',
     { class: 'explained', attributes: { id: 'explained', role: 'tooltip', popover: 'auto' } },
     el('div', { class: 'top' }, title, aside),
+    measures,
     text,
   );
   document.body.append(card);
@@ -44,15 +51,21 @@ export function createExplainer(): Explainer {
     const { offsetWidth: width, offsetHeight: height } = card;
     const middle = at.left + Math.min(at.width, width) / 2;
     const left = Math.min(document.documentElement.clientWidth - GAP - width, middle - width / 2);
-    const above = at.top - GAP - height;
+    const top = measures.hidden ? at.top : clear.getBoundingClientRect().top;
+    const above = (top - GAP - height >= GAP ? top : at.top) - GAP - height;
+    const below = Math.min(at.bottom + GAP, document.documentElement.clientHeight - GAP - height);
     setVariable(card, '--x', Math.round(Math.max(GAP, left)));
-    setVariable(card, '--y', Math.round(above >= GAP ? above : at.bottom + GAP));
+    setVariable(card, '--y', Math.round(Math.max(GAP, above >= GAP ? above : below)));
   };
   const fill = (button: HTMLElement): void => {
     const explanation = words.get(button);
     setText(title, explanation?.title ?? '');
     setText(aside, explanation?.aside ?? '');
+    const rows = explanation?.rows ?? [];
+    measures.hidden = rows.length === 0;
+    measures.replaceChildren(...rows.map(measureLine));
     setText(text, explanation?.text ?? '');
+    text.hidden = text.textContent === '';
   };
   const show = (button: HTMLElement): void => {
     clearTimeout(timer);
@@ -121,4 +134,33 @@ export function createExplainer(): Explainer {
       },
     ),
   };
+}
+
+const PIPS = { good: 3, 'so-so': 2, poor: 1 } as const;
+
+/** One measure: its name over what it is, the number, what it is held against, and a word on that with three pips. */
+function measureLine({ name, hint, value, beside, verdict }: MeasureRow): HTMLElement {
+  return el(
+    'li',
+    {},
+    el('span', { class: 'what' }, el('span', { text: name }), ' ', el('small', { text: hint })),
+    el('b', { text: value }),
+    ' ',
+    el(
+      'span',
+      { class: 'beside' },
+      ...beside.split(', ').flatMap((line) => [el('small', { text: line }), ' ']),
+    ),
+    el(
+      'span',
+      { class: `verdict ${verdict ?? ''}` },
+      verdict && pips(PIPS[verdict]),
+      el('span', { text: verdict ?? '' }),
+    ),
+  );
+}
+
+function pips(count: number): HTMLElement {
+  const all = [1, 2, 3].map((pip) => el('i', { class: pip <= count ? 'on' : '' }));
+  return el('span', { class: 'pips', attributes: { 'aria-hidden': 'true' } }, ...all);
 }

@@ -143,6 +143,12 @@ function press(event: KeyboardEvent, store: Store, services: Services): boolean 
     case 't':
       toggleCamera(store, 'top');
       return true;
+    case 'x':
+      toggleCamera(store, 'side');
+      return true;
+    case 'a':
+      services.frameBoth();
+      return true;
     case 's':
       if (onStage) apply(store, takeStarred(onStage.id));
       return true;

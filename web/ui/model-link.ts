@@ -38,7 +38,7 @@ export function createModelLink(
     else apply(store, modelChanged(stateOf(status)));
   };
   const load = async (): Promise<Generator> => {
-    apply(store, modelChanged({ phase: 'loading', label: 'Model', received: 0, total: 0 }));
+    apply(store, modelChanged({ phase: 'loading', label: 'Asking for the model', received: 0, total: 0 }));
     // Downloads beside the one that failed may still tell how far they are.
     let failed = false;
     try {

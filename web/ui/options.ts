@@ -96,7 +96,7 @@ export const mountOptions: Mount = (root, store, services) => {
     swap.title =
       `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
       'Press to have it the other way round.';
-    make.disabled = !state.leader || !settings || state.job !== null;
+    make.disabled = !state.leader || !settings || state.job !== null || beingRead(state).some(Boolean);
     setText(make, state.reaction ? 'Generate again' : 'Generate');
     make.title = makeWords(state);
     const making = state.choices?.making ?? false;

@@ -102,9 +102,11 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
   }
 }
 
-/** The way back names what stays: "Keep lead_0412.bvh". */
-function keepWords(problem: Problem, state: AppState): string {
-  const side = problem.refused?.side;
-  const kept = side ? state[side]?.name : undefined;
-  return kept ? `Keep ${kept}` : 'Close';
+/** The way back names what stays: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+export function keepWords(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
+  if (!problem.refused) return 'Close';
+  const { side } = problem.refused;
+  const kept = side ? [{ song, leader }[side]] : [song, leader];
+  const names = kept.flatMap((file) => (file ? [file.name] : []));
+  return names.length > 0 ? `Keep ${names.join(' and ')}` : 'Close';
 }

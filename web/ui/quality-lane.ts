@@ -2,6 +2,7 @@ import { el, setAttribute, setText, setVariable } from './dom';
 import type { Explainer, Explanation } from './explainer';
 import { surface, token } from './lane-canvas';
 import type { Mark } from './quality-marks';
+import type { MeasureRow } from './quality-rows';
 
 /** The part of the dance that the lanes show, seconds. */
 export interface Shown {
@@ -20,6 +21,9 @@ export interface MarkWords {
 export interface LanePicture {
   readonly value: string;
   readonly sentence: string;
+  /** What the lane's card shows; the sentence stands below it where `told` says so. */
+  readonly measures: readonly MeasureRow[];
+  readonly told: boolean;
   /** Concern per frame, one row or several above each other. */
   readonly rows: readonly Float32Array[];
   readonly fps: number;
@@ -84,7 +88,8 @@ export function createQualityLane(
     },
     draw: (picture) => {
       setText(value, picture.value);
-      explain(label, { title: name, aside: picture.value, text: picture.sentence });
+      const { measures, told, sentence } = picture;
+      explain(label, { title: name, aside: '', rows: measures, text: told ? sentence : '' });
       canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
       drawHeat(canvas, picture);
       const { from, to } = picture.shown;

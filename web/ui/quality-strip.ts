@@ -2,6 +2,7 @@ import { together } from './dom';
 import { createExplainer } from './explainer';
 import { createQualityLane, type LanePicture, type Shown } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
+import { measureRows } from './quality-rows';
 import { laneWords, momentExplained, momentWords, type Part, PART_NAMES } from './quality-words';
 import { reactorMotion } from './reactor-motion';
 import { danceDuration, danceFps, upToDate } from './selectors';
@@ -39,7 +40,7 @@ export function mountQualityStrip(
     const time = moment.frame / quality.reactor.fps;
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
-  const explainer = createExplainer();
+  const explainer = createExplainer(root.closest('section') ?? root);
   const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo, explainer));
   const all = createQualityLane('Quality', 'q-all', goTo, explainer);
   root.append(...[...lanes, all].flatMap(({ label, lane }) => [label, lane]));
@@ -49,6 +50,8 @@ export function mountQualityStrip(
     const empty: LanePicture = {
       value: '',
       sentence: 'Nothing to measure yet.',
+      measures: [],
+      told: true,
       rows: [],
       fps: danceFps(state),
       marks: [],
@@ -63,6 +66,7 @@ export function mountQualityStrip(
     const reference = state.reference?.model === manifest.id ? state.reference : null;
     const block = (manifest.latent.block * manifest.latent.stride) / manifest.fps;
     const words = laneWords(report, block, reference);
+    const measures = measureRows(report, reference);
     const marks = marksOf(report);
     const flagged = (some: readonly Mark[]): LanePicture['marks'] =>
       some.map((mark) => ({
@@ -74,6 +78,7 @@ export function mountQualityStrip(
       lanes[index]?.draw({
         ...empty,
         ...words[part],
+        measures: measures[part],
         rows: report[part].rows,
         fps: reactor.fps,
         marks: flagged(marks.filter((mark) => mark.part === part)),
@@ -82,6 +87,8 @@ export function mountQualityStrip(
     all.draw({
       ...empty,
       sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
+      measures: PARTS.flatMap((part) => measures[part]),
+      told: false,
       rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
       fps: reactor.fps,
       marks: flagged(marksInOne(marks, (MARK_ROOM * (to - from) * reactor.fps) / all.lane.clientWidth)),

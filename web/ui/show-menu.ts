@@ -4,6 +4,7 @@ import type { Mount } from './services';
 import { SHOWS } from './shows';
 import type { AppState, Reaction } from './state';
 import { apply, watch, watchAll } from './store';
+import { mountTakesDoor } from './takes/takes-door';
 import { opened, shownToggled } from './view-changes';
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
@@ -63,6 +64,7 @@ export const mountShowMenu: Mount = (root, store, services) => {
   menu.hidden = true;
   const corner = el('div', { class: 'over shows' }, button, menu);
   root.append(corner);
+  const takes = mountTakesDoor(corner, store, services);
 
   const showState = (state: AppState): void => {
     const { shown, coarse, job } = state;
@@ -96,6 +98,7 @@ export const mountShowMenu: Mount = (root, store, services) => {
       showState,
     ),
     watch(store, (state) => state.open === 'show', showOpen),
+    takes,
     () => {
       document.removeEventListener('pointerdown', closeOutside);
       corner.remove();

@@ -2,6 +2,7 @@ import { el, together } from './dom';
 import { coarseMotion } from './reactor-motion';
 import type { Mount } from './services';
 import { mountShowMenu } from './show-menu';
+import { mountStageTools } from './stage-tools';
 import type { Camera } from './state';
 import { apply, watch } from './store';
 import { cameraSet } from './view-changes';
@@ -68,6 +69,7 @@ export const mountStageControls: Mount = (root, store, services) => {
 
   return together(
     mountShowMenu(root, store, services),
+    mountStageTools(root, store, services),
     watch(
       store,
       (state) => coarseMotion(state) !== null,

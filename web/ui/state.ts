@@ -289,6 +289,8 @@ export interface AppState {
   readonly waitingProblems: readonly Problem[];
   /** Sentences worth knowing that stop nothing. */
   readonly remarks: readonly string[];
+  /** What has just happened, told for a moment. */
+  readonly news: string | null;
   readonly playback: Playback;
   /** The part of the dance that the lanes show, seconds; null shows all of it. */
   readonly zoom: Span | null;

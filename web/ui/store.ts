@@ -47,6 +47,7 @@ export function initialState(theme: Theme): AppState {
     problem: null,
     waitingProblems: [],
     remarks: [],
+    news: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
     zoom: null,
   };

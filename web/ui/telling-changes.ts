@@ -7,6 +7,11 @@ export function remarked(remark: string): Change {
   return ({ remarks }) => (remarks.includes(remark) ? {} : { remarks: [...remarks, remark] });
 }
 
+/** Tells for a moment what has just happened; null ends that. */
+export function announced(news: string | null): Change {
+  return () => ({ news });
+}
+
 /** Tells of a failure; while another one is being told, it waits its turn. */
 export function told(problem: Problem): Change {
   return (state) => {

@@ -5,7 +5,7 @@ import { slug } from '../format';
 import type { AppState, KeepingState } from '../state';
 import { visitEnded } from '../file-changes';
 import { apply, type Store } from '../store';
-import { dismissed, remarked, told } from '../telling-changes';
+import { announced, dismissed, remarked, told } from '../telling-changes';
 import { presentInputs } from '../takes/take';
 import { broughtBack, keepingChanged, projectOpened, startedAfresh, takesBroughtBack } from './changes';
 import { ProjectError } from './error';
@@ -167,6 +167,7 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       const content = revival.content(now);
       if (kept.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
+      apply(store, announced(openedWords(store.getState())));
       for (const loss of revival.losses()) apply(store, remarked(loss));
       return true;
     } catch (error) {
@@ -222,4 +223,10 @@ function keptParts(state: AppState): readonly unknown[] {
 function projectName({ song, leader }: AppState): string {
   const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
   return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
+}
+
+/** `Opened: descarga.mp3, lead_0412.bvh, 3 takes`. */
+export function openedWords({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
+  const count = takes.length === 1 ? '1 take' : `${takes.length || 'no'} takes`;
+  return `Opened: ${[song?.name ?? 'no song', leader?.name ?? 'no leader', count].join(', ')}`;
 }

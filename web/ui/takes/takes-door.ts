@@ -1,22 +1,37 @@
-import { el } from '../dom';
+import { el, setText, together } from '../dom';
 import type { Mount } from '../services';
-import { apply } from '../store';
+import { apply, watchAll } from '../store';
 import { opened } from '../view-changes';
 
-/** On the phone, the way from the sheet of the share button to the one with the takes. */
+/** On the phone, the button that opens the sheet of takes, with how many there are. */
 export const mountTakesDoor: Mount = (root, store) => {
-  const door = el('button', {
-    class: 'btn tint phone-only takes-door',
-    text: 'Takes and project',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        apply(store, opened('takes'));
+  const count = el('span', { class: 'muted' });
+  const door = el(
+    'button',
+    {
+      class: 'btn takes-door',
+      attributes: { type: 'button', 'aria-haspopup': 'dialog' },
+      on: {
+        click: () => {
+          apply(store, opened('takes'));
+        },
       },
     },
-  });
+    'Takes ',
+    count,
+  );
   root.append(door);
-  return () => {
-    door.remove();
-  };
+  return together(
+    watchAll(
+      store,
+      ({ takes, open }) => [takes.length, open === 'takes'],
+      ({ takes, open }) => {
+        setText(count, takes.length > 0 ? String(takes.length) : '');
+        door.setAttribute('aria-expanded', String(open === 'takes'));
+      },
+    ),
+    () => {
+      door.remove();
+    },
+  );
 };

@@ -173,7 +173,8 @@ export const mountTakes: Mount = (root, store, services) => {
       },
     ),
     listen(window, 'pointerdown', ({ target }) => {
-      const outside = target instanceof Node && !section.contains(target);
+      const outside =
+        target instanceof Element && !section.contains(target) && !target.closest('.takes-door');
       if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
     }),
     fadeEnds(list),
