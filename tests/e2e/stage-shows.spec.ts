@@ -120,6 +120,32 @@ test('every switch changes the picture and back, by key and by hand', async ({ p
   await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeFocused();
 });
 
+test('the camera has a key for every view, and one that brings both back into the picture', async ({
+  page,
+}) => {
+  await dancing(page);
+  const radio = (name: string) => page.getByRole('radio', { name, exact: true });
+  for (const [key, name] of [
+    ['f', 'Follow'],
+    ['t', 'Top'],
+    ['x', 'Side'],
+  ] as const) {
+    await page.keyboard.press(key);
+    await expect(radio(name)).toBeChecked();
+    await page.keyboard.press(key);
+    await expect(radio('Orbit')).toBeChecked();
+  }
+  const distance = () => onStage(page, (stage) => stage.framing().shot.distance);
+  await page.keyboard.press('a');
+  await rest(page);
+  const framed = await distance();
+  await page.locator('canvas').first().hover();
+  await page.mouse.wheel(0, 600);
+  await expect.poll(distance).toBeGreaterThan(1.2 * framed);
+  await page.keyboard.press('a');
+  await expect.poll(distance).toBeLessThan(1.05 * framed);
+});
+
 test('two reactors stand side by side in one light, or one as the ghost of the other', async ({ page }) => {
   await page.setViewportSize({ width: 900, height: 640 });
   const app = await dancing(page);
