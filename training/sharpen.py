@@ -19,7 +19,7 @@ def sharpen(values: Tensor, gain: float) -> Tensor:
 
     The phase stays, and a straight movement is left as it is; at both ends the motion is taken to go on straight.
     """
-    high = -firwin(2 * RADIUS + 1, CUT, fs=FPS)
+    high = -np.asarray(firwin(2 * RADIUS + 1, CUT, fs=FPS))
     high[RADIUS] += 1
     kernel = torch.from_numpy(high.astype(np.float32)).to(values)[None, None]
     steps = torch.arange(1, RADIUS + 1).to(values)[:, None]

@@ -14,7 +14,9 @@ SECONDS = torch.arange(FRAMES, dtype=torch.float64) / FPS
 
 def gain_at(hertz: float, gain: float) -> float:
     """How much louder a swing of `hertz` is afterwards, away from the ends."""
-    swing = torch.stack([torch.sin(2 * np.pi * hertz * SECONDS), torch.cos(2 * np.pi * hertz * SECONDS)], dim=1)
+    swing = torch.stack(
+        [torch.sin(2 * np.pi * hertz * SECONDS), torch.cos(2 * np.pi * hertz * SECONDS)], dim=1
+    )
     out = sharpen(swing, gain)[INNER]
     # The phase stays: what comes out is a multiple of what went in.
     ratio = (out * swing[INNER]).sum() / swing[INNER].square().sum()
