@@ -45,9 +45,9 @@ async function keptNames(page: Page): Promise<(string | null)[]> {
   })`);
 }
 
-/** Waits until the browser has kept a take by this name. */
+/** Waits until the browser has kept a take by this name; where there was no room the page tries again every 20 s. */
 async function kept(page: Page, name: string): Promise<void> {
-  await expect.poll(() => keptNames(page)).toContain(name);
+  await expect.poll(() => keptNames(page), { timeout: 50_000 }).toContain(name);
 }
 
 test('takes are named, starred, flipped on the same beat, deleted and brought back', async ({ page }) => {
