@@ -11,9 +11,9 @@ checkpoint alone PyTorch dances.
 
 from __future__ import annotations
 
+import json
 import subprocess
 import tempfile
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -23,10 +23,11 @@ import torch
 import tyro
 from rich.console import Console
 
+from export.manifest import quality_rules
 from export.runtime import Exported, default_guidance, open_model, plan, sample
 from training.checkpoint import load_model, read_config
 from training.config import STREAMS
-from training.dancer import Dancer, Motions, Settings, Trial
+from training.dancer import Dancer, Motions, Settings, Solver, Trial
 from training.data.sources import read_split
 from training.data.splits import Split
 from training.diffusion import alphas_cumprod, ddim_steps
@@ -188,15 +189,17 @@ def commit() -> str | None:
     return out.stdout.strip()
 
 
-def solve_with_node(motion: np.ndarray, *flags: str) -> np.ndarray:
-    """The motion (T, 22, 3) on the skeleton that the page draws and exports: web/motion under Node, files
-    in between. flags: of tools/solve.mjs.
+def solve_with_node(motion: np.ndarray, leader: np.ndarray, *flags: str) -> np.ndarray:
+    """The motion (T, 22, 3) on the skeleton that the page draws and exports, kept out of the leader's body
+    (T, 22, 3): web/motion under Node, files in between. flags: of tools/solve.mjs.
     """
     with tempfile.TemporaryDirectory() as folder:
-        raw, solved = Path(folder) / "raw.f32", Path(folder) / "solved.f32"
-        raw.write_bytes(np.ascontiguousarray(motion, dtype="<f4").tobytes())
+        raw, beside, body, solved = (Path(folder) / name for name in ("raw", "beside", "body.json", "solved"))
+        for path, joints in ((raw, motion), (beside, leader)):
+            path.write_bytes(np.ascontiguousarray(joints, dtype="<f4").tobytes())
+        body.write_text(json.dumps(quality_rules()["penetration"]))
         subprocess.run(
-            ["node", "tools/solve.mjs", *flags, str(raw), str(solved)],
+            ["node", "tools/solve.mjs", "--beside", beside, "--body", body, *flags, raw, solved],
             cwd=ROOT,
             check=True,
             capture_output=True,
@@ -204,9 +207,9 @@ def solve_with_node(motion: np.ndarray, *flags: str) -> np.ndarray:
         return np.frombuffer(solved.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
 
 
-SOLVERS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+SOLVERS: dict[str, Solver] = {
     "solved": solve_with_node,
-    "solved, foot lock": lambda motion: solve_with_node(motion, "--foot-lock"),
+    "solved, foot lock": lambda motion, leader: solve_with_node(motion, leader, "--foot-lock"),
 }
 
 

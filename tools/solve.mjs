@@ -1,36 +1,59 @@
 /**
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
- *     node tools/solve.mjs [--foot-lock] positions.f32 solved.f32
+ *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32
  *
- * Both files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
- * With --foot-lock planted feet are kept from sliding, as by the page's setting of that name.
+ * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
+ * With --beside the dancer is kept out of the leader's body, whose width is in body.json (quality.penetration of a
+ * manifest). With --foot-lock planted feet are kept from sliding, as by the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { loadWeb } from './load-web.mjs';
 
 const { values, positionals } = parseArgs({
-  options: { 'foot-lock': { type: 'boolean', default: false } },
+  options: {
+    beside: { type: 'string' },
+    body: { type: 'string' },
+    'foot-lock': { type: 'boolean', default: false },
+  },
   allowPositionals: true,
 });
 const [from, to] = positionals;
-if (from === undefined || to === undefined) {
-  console.error('Usage: node tools/solve.mjs [--foot-lock] positions.f32 solved.f32');
+if (from === undefined || to === undefined || (values.beside === undefined) !== (values.body === undefined)) {
+  console.error(
+    'Usage: node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32',
+  );
   process.exit(2);
 }
-const bytes = new Uint8Array(readFileSync(from));
-if (bytes.length === 0 || bytes.length % (22 * 3 * 4) !== 0) {
-  console.error(`${from} holds ${bytes.length} bytes, which are no whole frames of 22 joints.`);
-  process.exit(2);
+
+/** @param {string} file */
+function read(file) {
+  const bytes = new Uint8Array(readFileSync(file));
+  if (bytes.length === 0 || bytes.length % (22 * 3 * 4) !== 0) {
+    console.error(`${file} holds ${bytes.length} bytes, which are no whole frames of 22 joints.`);
+    process.exit(2);
+  }
+  const positions = new Float32Array(bytes.buffer);
+  return { fps: 30, frames: positions.length / 66, positions };
 }
-const positions = new Float32Array(bytes.buffer);
 
 /** @type {typeof import('../web/motion/solve')} */
 const { solve } = await loadWeb('motion/solve.ts');
+/** @type {typeof import('../web/motion/keep-apart')} */
+const { keepApart } = await loadWeb('motion/keep-apart.ts');
 /** @type {typeof import('../web/motion/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/foot-lock.ts');
-const solved = solve({ fps: 30, frames: positions.length / 66, positions });
-const motion = values['foot-lock'] ? lockFeet(solved) : solved;
+const clip = read(from);
+let motion = solve(clip);
+if (values.beside !== undefined && values.body !== undefined) {
+  const leader = read(values.beside);
+  if (leader.frames !== clip.frames) {
+    console.error(`${values.beside} has ${leader.frames} frames, ${from} has ${clip.frames}.`);
+    process.exit(2);
+  }
+  motion = keepApart(motion, leader, JSON.parse(readFileSync(values.body, 'utf8')));
+}
+if (values['foot-lock']) motion = lockFeet(motion);
 writeFileSync(to, new Uint8Array(motion.positions.buffer));
 console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

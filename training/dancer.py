@@ -33,6 +33,14 @@ class Dancer(Protocol):
         ...
 
 
+class Solver(Protocol):
+    """What makes a body of constant bone lengths of generated joints, to be drawn and exported."""
+
+    def __call__(self, motion: np.ndarray, leader: np.ndarray, /) -> np.ndarray:
+        """The motion (T, 22, 3) metres, solved beside the leader (T, 22, 3) that it dances with."""
+        ...
+
+
 @dataclass(frozen=True)
 class Trial:
     """A held-out duet and the music it is danced to, (T, 54) features or None."""

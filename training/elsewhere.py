@@ -13,12 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from training.dancer import Dancer, Trial, fit_length
+from training.dancer import Dancer, Solver, Trial, fit_length
 from training.data.bvh import read_bvh
 from training.data.duet import Solo
 from training.data.floor import lower_toe
 from training.data.npz import read_solo
 from training.metrics.distance import root_distance
+from training.metrics.penetration import penetration
 from training.metrics.speed import joint_speed
 
 # Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
@@ -30,7 +31,9 @@ SPEED_FACTOR, SPEED_REST = 2.0, 0.3  # times the leader's mean speed, plus m/s
 
 @dataclass(frozen=True)
 class Elsewhere:
-    """A leader from elsewhere and the reactor generated for it, both (T, 22, 3) metres."""
+    """A leader from elsewhere and the reactor generated for it, both (T, 22, 3) metres; solved where that was
+    asked for.
+    """
 
     name: str
     leader: np.ndarray
@@ -68,6 +71,7 @@ def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
         "distance_max_m": float(apart.max()),
         "speed": joint_speed(reactor),
         "leader_speed": joint_speed(leader),
+        "overlap_share": penetration(leader, reactor)["ipr_capsules"],
     }
     checks = {
         "finite": bool(np.isfinite(reactor).all()),
@@ -79,15 +83,26 @@ def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
 
 
 def measure_elsewhere(
-    dancer: Dancer, leaders: Sequence[Solo], trials: Sequence[Trial], seed: int
+    dancer: Dancer,
+    leaders: Sequence[Solo],
+    trials: Sequence[Trial],
+    seed: int,
+    solve: Solver | None = None,
 ) -> tuple[dict[str, Any], list[Elsewhere]]:
-    """`judge` for every leader by name, danced with one seed to the songs of the trials in turn; and the dances."""
+    """`judge` for every leader by name, danced with one seed to the songs of the trials in turn; and the dances.
+
+    solve: what is drawn then, whose share of overlaps is reported beside that of the joints before.
+    """
     rows: dict[str, Any] = {}
     dances = []
     for index, leader in enumerate(leaders):
         song = trials[index % len(trials)].music
         music = None if song is None else fit_length(song, len(leader))
-        made = Elsewhere(leader.name, leader.motion, dancer(leader.motion, music, seed))
-        rows[leader.name] = judge(made.leader, made.reactor)
-        dances.append(made)
+        reactor = dancer(leader.motion, music, seed)
+        row = judge(leader.motion, reactor)
+        if solve:
+            reactor = solve(reactor, leader.motion)
+            row["overlap_share_solved"] = penetration(leader.motion, reactor)["ipr_capsules"]
+        rows[leader.name] = row
+        dances.append(Elsewhere(leader.name, leader.motion, reactor))
     return rows, dances

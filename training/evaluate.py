@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from training.baselines import mean_pose, median_distance, mirrored_leader, nearest_neighbour
-from training.dancer import Dancer, Motions, Settings, Trial
+from training.dancer import Dancer, Motions, Settings, Solver, Trial
 from training.data.duet import Duet, Solo
 from training.elsewhere import Elsewhere, measure_elsewhere
 from training.long_dance import measure_long_dance
@@ -149,14 +149,14 @@ def evaluate(
     train: Sequence[Duet],
     settings: Settings | None = None,
     given: Mapping[str, Motions] | None = None,
-    solvers: Mapping[str, Callable[[np.ndarray], np.ndarray]] | None = None,
+    solvers: Mapping[str, Solver] | None = None,
     elsewhere: Sequence[Solo] = (),
     log: Log = lambda _: None,
 ) -> Evaluation:
     """Everything in one run.
 
     given: further rows whose motions exist already, such as reconstructions. solvers: each puts a motion
-    (T, 22, 3) on a skeleton of constant bone lengths, for a row of its name: what is drawn and exported.
+    on a skeleton of constant bone lengths beside its leader, for a row of its name: what is drawn and exported.
     elsewhere: leaders of other dances, without a partner.
     """
     settings = settings or Settings()
@@ -168,7 +168,9 @@ def evaluate(
     rows |= dict(given or {}) | {"generated": generated}
     for row, solve in (solvers or {}).items():
         log(row)
-        rows[row] = {name: [solve(motion) for motion in motions] for name, motions in generated.items()}
+        rows[row] = {
+            t.duet.name: [solve(motion, t.duet.leader) for motion in generated[t.duet.name]] for t in trials
+        }
     log("baselines")
     rows |= baselines(trials, train)
     numbers: dict[str, Any] = {
@@ -205,7 +207,10 @@ def evaluate(
     strangers: list[Elsewhere] = []
     if elsewhere:
         log("leaders from elsewhere")
-        numbers["elsewhere"], strangers = measure_elsewhere(dancer, elsewhere, trials, settings.seeds[0])
+        solve = next(iter((solvers or {}).values()), None)
+        numbers["elsewhere"], strangers = measure_elsewhere(
+            dancer, elsewhere, trials, settings.seeds[0], solve
+        )
     coarse = {
         t.duet.name: [dancer(t.duet.leader, t.music, settings.seeds[0], coarse_only=True)] for t in trials
     }

@@ -103,6 +103,19 @@ def test_every_leader_is_danced_with(tmp_path: Path):
         ("martial_1", 90),
         ("martial_2", 130),
     ]
+    assert "overlap_share_solved" not in rows["martial_0"]
+
+    # What is drawn is the solved dancer, and overlaps are told before and after.
+    def inside(leader, music, seed, **_):
+        return leader.copy()
+
+    def step_aside(motion, leader):
+        return motion + np.array([3, 0, 0], np.float32)
+
+    rows, dances = measure_elsewhere(inside, leaders[:1], trials, 7, step_aside)  # pyright: ignore[reportArgumentType]
+    assert rows["martial_0"]["overlap_share"] == 1.0
+    assert rows["martial_0"]["overlap_share_solved"] == 0.0
+    assert np.array_equal(dances[0].reactor, leaders[0].motion + np.array([3, 0, 0], np.float32))
     silent, _ = measure_elsewhere(
         lambda leader, music, seed: near(leader) if music is None else leader,  # pyright: ignore[reportArgumentType]
         leaders[:1], [Trial(trials[0].duet, None)], 0,

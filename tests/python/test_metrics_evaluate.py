@@ -24,9 +24,11 @@ from training.data.sources import read_split
 from training.evaluate import evaluate
 from training.metrics.bones import bone_variation
 from training.metrics.duet import duet_metrics
+from training.metrics.penetration import depth as overlap_depth
 from training.probes import measure_beat_following, measure_seams
 from training.report import draw, film, write_report
 from training.report_text import markdown
+from training.skeleton import JOINTS
 from training.spectra import COARSE
 from training.video import write_video
 
@@ -80,7 +82,7 @@ def test_evaluation_of_a_known_dancer(trials: list[Trial], train: list[Duet], tm
         train,
         replace(QUICK, two_sample=True),
         given,
-        solvers={"solved": lambda motion: motion + 0.001},
+        solvers={"solved": lambda motion, leader: motion + 0.001},
         elsewhere=[Solo("martial_1", made_duet(300, 5).leader), Solo("martial_2", made_duet(90, 6).leader)],
     )
     numbers = result.numbers
@@ -239,10 +241,25 @@ def test_the_pages_solver_keeps_bones_rigid():
     """A body whose bones breathe comes back with constant ones, close to where it was."""
     motion = made_duet(60, 1).leader
     breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
-    solved = solve_with_node(breathing)
+    far = motion + np.array([3, 0, 0], np.float32)
+    solved = solve_with_node(breathing, far)
     assert bone_variation(breathing) > 0.02
     assert bone_variation(solved) < 1e-4
     assert np.linalg.norm(solved - breathing, axis=-1).mean() < 0.05
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
+    """Somebody who stands within the leader steps aside, level, and no farther than must be."""
+    motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
+    inside = motion + np.array([0.1, 0, 0], np.float32)
+    free, solved = (solve_with_node(inside, motion + np.array([x, 0, 0], np.float32)) for x in (3, 0))
+    aside = solved - free
+    assert np.median(overlap_depth(motion, inside)) > 0.1
+    assert np.abs(aside[..., 1]).max() == 0
+    assert 0.05 < np.linalg.norm(aside, axis=-1).max() < 0.64
+    trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
+    assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
 
 
 @pytest.mark.skipif(not TINY.exists(), reason="tiny model not built")

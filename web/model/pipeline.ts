@@ -1,5 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../motion/clip';
 import { lockFeet } from '../motion/foot-lock';
+import { keepApart } from '../motion/keep-apart';
 import { solve } from '../motion/solve';
 import type { Block } from './blocks';
 import { type ConditionInput, conditionClip } from './chunks';
@@ -96,7 +97,7 @@ export class Pipeline {
     const shape = (latents: Float32Array): Promise<MotionClip> =>
       this.#decode(request.leader, latents, condition.leader, scale, every, options);
     const show = async (part: Block, made: Float32Array): Promise<void> => {
-      options.onPreview?.(await this.#early(part, made, sampling, shape, options));
+      options.onPreview?.(await this.#early(part, made, sampling, request.leader, shape, options));
       await nextTurn(options.signal);
     };
     if (plan.block)
@@ -115,7 +116,7 @@ export class Pipeline {
     tell(options.onProgress, 'decode')(1, 1);
     times.push(this.now());
     await nextTurn(options.signal);
-    const motion = solve(clip);
+    const motion = this.#solve(clip, request.leader);
     const locked = lockFeet(motion);
     times.push(this.now());
     tell(options.onProgress, 'solve')(1, 1);
@@ -142,7 +143,12 @@ export class Pipeline {
     const layers = this.manifest.latent.layers.map((layer) => (layer === 'coarse' ? 1 : 0));
     const clip = await this.#decode(leader, latents, condition.leader, scale, layers, { signal });
     await nextTurn(signal);
-    return solve(clip);
+    return this.#solve(clip, leader);
+  }
+
+  /** The decoded partner as a body of its own beside the leader. */
+  #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
+    return keepApart(solve(clip), leader, this.manifest.quality.penetration);
   }
 
   /** Latents of one block sampled for itself: without its neighbours it is not quite what it will be, but soon there. */
@@ -170,6 +176,7 @@ export class Pipeline {
     part: Block,
     made: Float32Array,
     { latents }: Sampling,
+    leader: MotionClip,
     shape: (latents: Float32Array) => Promise<MotionClip>,
     { signal }: GenerateOptions,
   ): Promise<Preview> {
@@ -178,7 +185,7 @@ export class Pipeline {
     const earlier = this.#latents?.length === latents * width ? this.#latents : null;
     const clip = await shape(around(made, part, earlier, latents, width));
     await nextTurn(signal);
-    const motion = solve(clip);
+    const motion = this.#solve(clip, leader);
     const from = part.start * latent.stride;
     const to = Math.min(clip.frames, (part.start + part.length) * latent.stride);
     return { motion, locked: lockFeet(motion), fresh: { from, to } };

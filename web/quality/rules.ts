@@ -1,14 +1,4 @@
-import type { JointName } from '../motion/skeleton';
-
-/** A rounded bone of the body whose overlaps are measured. */
-export interface Capsule {
-  readonly from: JointName;
-  readonly to: JointName;
-  /** Metres, on a body of the reference height. */
-  readonly radius: number;
-  /** Share of the bone's length by which it goes on past its end; it then begins at that end. */
-  readonly beyond: number;
-}
+import type { BodyRule } from '../motion/capsules';
 
 /**
  * The constants of the measures, the same as in training/metrics. They come from Python through the manifest (its
@@ -25,13 +15,7 @@ export interface Rules {
     /** A planted foot that is faster skates, m/s. */
     readonly slide_speed: number;
   };
-  readonly penetration: {
-    readonly capsules: readonly Capsule[];
-    /** Body height (motion/scale.ts) of the radii's body, metres. */
-    readonly reference_height: number;
-    /** A shallower overlap is a touch, metres. */
-    readonly deep: number;
-  };
+  readonly penetration: BodyRule;
   readonly beats: {
     /** Standard deviation of the filter on the speed, frames. */
     readonly smoothing: number;

@@ -7,6 +7,7 @@ import type { Progress } from '../../../web/model/progress';
 import type { ModelSession } from '../../../web/model/session';
 import type { MotionClip } from '../../../web/motion/clip';
 import { bodyHeight, scaleClip } from '../../../web/motion/scale';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
 import { maxDifference, type OpenedModel, openModel, TINY } from './open-model';
 
 let model: OpenedModel;
@@ -143,6 +144,31 @@ describe('Pipeline', () => {
     const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));
     const again = await pipeline.coarse({ leader: large.leader, latents: plain });
     expect(again.positions).toEqual(coarse.positions);
+  });
+
+  it('keeps the partner, whole or coarse, out of the body of the leader', async () => {
+    // What is decoded is the leader, a hand's breadth beside itself.
+    const session: ModelSession = {
+      ...model.session,
+      decode: ({ leader }) => Promise.resolve(leader.map((value, i) => (i % 3 === 0 ? value + 0.1 : value))),
+    };
+    const inside = new Pipeline(model.manifest, session, () => 0);
+    const { leader, ...rest } = request(120);
+    const { motion, locked, latents } = await inside.generate({ leader, ...rest });
+    const coarse = await inside.coarse({ leader, latents });
+    const apart = [motion, locked, coarse].map(({ positions }) => {
+      let [least, most] = [Infinity, 0];
+      for (let frame = 0; frame < leader.frames; frame++) {
+        const at = 3 * (frame * JOINT_COUNT + J.spine3);
+        const gap = [0, 1, 2].map((axis) => positions[at + axis]! - leader.positions[at + axis]!);
+        [least, most] = [Math.min(least, Math.hypot(...gap)), Math.max(most, Math.hypot(...gap))];
+      }
+      return { least, most };
+    });
+    for (const { least, most } of apart) {
+      expect(least).toBeGreaterThan(0.18);
+      expect(most).toBeLessThan(0.8);
+    }
   });
 
   it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {

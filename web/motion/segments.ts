@@ -2,11 +2,19 @@
  * Smallest distance between two segments, each given by its two ends as six numbers from an offset; points are
  * allowed. `segment_distance` of training/metrics/penetration.py: clamped closest points after Ericson, Real-Time
  * Collision Detection, 5.1.9. Written out, since a long dance asks for it some hundred thousand times.
+ * @param x with `z`: level shift of the second segment, metres
  */
-export function segmentDistance(a: Float64Array, i: number, b: Float64Array, j: number): number {
+export function segmentDistance(
+  a: Float64Array,
+  i: number,
+  b: Float64Array,
+  j: number,
+  x = 0,
+  z = 0,
+): number {
   const [px, py, pz] = [a[i + 3]! - a[i]!, a[i + 4]! - a[i + 1]!, a[i + 5]! - a[i + 2]!];
   const [qx, qy, qz] = [b[j + 3]! - b[j]!, b[j + 4]! - b[j + 1]!, b[j + 5]! - b[j + 2]!];
-  const [gx, gy, gz] = [a[i]! - b[j]!, a[i + 1]! - b[j + 1]!, a[i + 2]! - b[j + 2]!];
+  const [gx, gy, gz] = [a[i]! - b[j]! - x, a[i + 1]! - b[j + 1]!, a[i + 2]! - b[j + 2]! - z];
   const pp = px * px + py * py + pz * pz;
   const qq = qx * qx + qy * qy + qz * qz;
   const pq = px * qx + py * qy + pz * qz;
