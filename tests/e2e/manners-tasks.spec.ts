@@ -2,11 +2,12 @@ import { App, SHIPPED } from './app-page';
 import { expect, test } from './fixtures';
 import { tasksOf, TRACED } from './main-thread';
 
-// A small picture is drawn by the same calls as a large one, and sooner.
-test.use({ viewport: { width: 480, height: 540 }, deviceScaleFactor: 1 });
+test.use({ viewport: { width: 1280, height: 720 }, deviceScaleFactor: 1 });
 
 /** A task of the page's own thread may take this long, milliseconds. */
 const LONGEST = 100;
+/** `longtask` entries beyond that in one generation, with the picture: where other programs run, some core is taken. */
+const HELD_UP = 2;
 
 test('no task of the page is long while a reaction is made and the picture plays', async ({
   page,
@@ -39,19 +40,20 @@ test('no task of the page is long while a reaction is made and the picture plays
   expect(await app.read(({ playback }) => playback.playing)).toBe(true);
   expect(drawn).toBeGreaterThan(3);
 
-  // Without a graphics card the browser fetches each picture from the processor that draws it, and waits for it while
-  // it puts the page together. That is time in which the page does nothing; what the page does is measured.
   const longest = (of: (task: (typeof tasks)[number]) => number): number =>
     Math.round(Math.max(...tasks.map(of)));
+  const held = tasks.filter(({ whole }) => whole > LONGEST);
   test.info().annotations.push({
     type: 'measured',
     description:
       `${tasks.length} tasks, ${drawn} pictures; longest: busy ${longest(({ busy }) => busy)} ms, ` +
       `from beginning to end ${longest(({ whole }) => whole)} ms, of which waiting for a picture ` +
-      `${longest(({ waited }) => waited.onScreen)} ms`,
+      `${longest(({ waited }) => waited.onScreen)} ms; ${held.length} over ${LONGEST} ms`,
   });
   expect(longest(({ busy }) => busy)).toBeGreaterThan(0);
   expect(tasks.filter(({ busy }) => busy > LONGEST)).toEqual([]);
-  // And nothing of ours makes the thread wait for the picture.
+  expect(held.length).toBeLessThanOrEqual(HELD_UP);
+  // Without a graphics card the browser fetches each picture from the processor that draws it, and waits for it while
+  // it puts the page together: time in which the page does nothing. Nothing of ours makes the thread wait.
   expect(tasks.filter(({ waited }) => waited.inScripts > 20)).toEqual([]);
 });

@@ -12,7 +12,8 @@ test.beforeEach(async ({ page }) => {
   await page.goto('/');
 });
 
-const open = (page: Page) => page.evaluate((options) => model.open(options), TINY);
+const open = (page: Page, threads?: number) =>
+  page.evaluate((options) => model.open(options), { ...TINY, threads });
 
 async function refusal(page: Page): Promise<Told> {
   const opened = await open(page);
@@ -42,9 +43,8 @@ test('a whole sampling of the shipped model agrees with Python', async ({ page }
 });
 
 test('an isolated page computes on several threads and answers through its worker', async ({ page }) => {
-  const cores = await page.evaluate(() => navigator.hardwareConcurrency);
-  const threads = Math.min(4, cores);
-  expect(await open(page)).toMatchObject({ backend: { name: 'wasm', threads } });
+  const threads = 2;
+  expect(await open(page, threads)).toMatchObject({ backend: { name: 'wasm', threads } });
   // The model's worker, and onnxruntime's for every further thread.
   expect(page.workers()).toHaveLength(threads);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
@@ -52,6 +52,12 @@ test('an isolated page computes on several threads and answers through its worke
   expect([...new Set(stages)]).toEqual(['condition', 'step', 'decode', 'solve']);
   expect(positions).toHaveLength(250 * 66);
   expect(positions?.every(Number.isFinite)).toBe(true);
+});
+
+test('a page leaves one core to what it draws', async ({ page }) => {
+  const cores = await page.evaluate(() => navigator.hardwareConcurrency);
+  const threads = Math.max(1, Math.min(4, cores - 1));
+  expect(await open(page)).toMatchObject({ backend: { name: 'wasm', threads } });
 });
 
 test('a page that is not isolated computes on one thread', async ({ page }) => {

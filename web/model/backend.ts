@@ -17,7 +17,7 @@ export interface Surroundings {
   readonly hardwareConcurrency: number;
 }
 
-// More threads gain little on matrices of this size and take the cores from the page that draws.
+// More threads gain little on matrices of this size.
 const MOST_THREADS = 4;
 
 export function surroundings(scope: typeof globalThis): Surroundings {
@@ -29,9 +29,14 @@ export function surroundings(scope: typeof globalThis): Surroundings {
   };
 }
 
-/** Threads share memory, which a page has only when it is cross-origin isolated. */
-export function wasmThreads(around: Surroundings, limit = MOST_THREADS): number {
-  return around.crossOriginIsolated ? Math.max(1, Math.min(around.hardwareConcurrency, limit)) : 1;
+/**
+ * Threads share memory, which a page has only when it is cross-origin isolated. One core is left to the page: who has
+ * no graphics card for the model has often none for the stage either, which then is drawn by that core. On two cores a
+ * dance takes a third longer, and twice as many pictures are drawn meanwhile.
+ */
+export function wasmThreads(around: Surroundings, asked?: number): number {
+  if (!around.crossOriginIsolated) return 1;
+  return asked ?? Math.max(1, Math.min(around.hardwareConcurrency - 1, MOST_THREADS));
 }
 
 /** The adapter, or the reason why there is none worth using. */
@@ -62,13 +67,14 @@ function describe({ vendor, architecture, description }: GPUAdapterInfo): string
 /**
  * Choose where the graphs run. Asking for 'webgpu' also takes a software adapter; when there is none at all the answer
  * is wasm, and the reason says so.
+ * @param asked wasm threads, instead of as many as suit the machine
  */
 export async function chooseBackend(
   preference: Preference,
   around: Surroundings,
-  limit?: number,
+  asked?: number,
 ): Promise<Backend> {
-  const threads = wasmThreads(around, limit);
+  const threads = wasmThreads(around, asked);
   const onProcessor = threads === 1 ? 'Processor, one thread' : `Processor, ${threads} threads`;
   if (preference === 'wasm') return { name: 'wasm', reason: `${onProcessor}: chosen by hand.`, threads };
   const probed = await probe(around.gpu, preference === 'webgpu');

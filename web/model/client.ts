@@ -35,7 +35,7 @@ export interface GeneratorOptions {
   readonly folder?: ModelFolder | undefined;
   /** Where to compute; 'auto' when not given. */
   readonly backend?: Preference | undefined;
-  /** At most this many wasm threads; for measuring. */
+  /** So many wasm threads instead of as many as suit the machine; for measuring. */
   readonly threads?: number | undefined;
   readonly onStatus?: ((status: Status) => void) | undefined;
 }

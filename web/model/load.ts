@@ -18,7 +18,7 @@ export interface LoadOptions {
   /** The model's files, where they come from the visitor and not from the address. */
   readonly folder?: ModelFolder | undefined;
   readonly backend: Preference;
-  /** At most this many wasm threads. */
+  /** So many wasm threads instead of as many as suit the machine. */
   readonly threads?: number | undefined;
 }
 

@@ -11,8 +11,12 @@ export interface Canvas {
   readonly size: { readonly width: number; readonly height: number };
   /** Whether the browser has taken the graphics card away for now. */
   readonly lost: boolean;
+  /** The most pixels that a picture has at this size. */
+  readonly pixels: PictureSize;
   /** Takes another size; false when there is nothing to draw on. */
   resize(width: number, height: number): boolean;
+  /** Takes so much of the pixels along each side, 0 to 1; true when that is another share, and what was drawn is lost. */
+  sharpen(factor: number): boolean;
   /** Says where the next picture goes. */
   aim(picture: Picture): void;
   dispose(): void;
@@ -55,7 +59,9 @@ export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRe
   renderer.info.autoReset = false;
 
   let size = { width: 1, height: 1 };
+  let sharpness = 1;
   let lost = false;
+  const ratio = (): number => (filmed ? 1 : Math.min(window.devicePixelRatio, MOST_PIXELS));
   const lose = (event: Event): void => {
     event.preventDefault();
     lost = true;
@@ -78,8 +84,17 @@ export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRe
     resize(width, height) {
       if (width === 0 || height === 0) return false;
       size = { width, height };
-      renderer.setPixelRatio(filmed ? 1 : Math.min(window.devicePixelRatio, MOST_PIXELS));
+      renderer.setPixelRatio(ratio() * sharpness);
       renderer.setSize(width, height);
+      return true;
+    },
+    get pixels() {
+      return { width: Math.floor(size.width * ratio()), height: Math.floor(size.height * ratio()) };
+    },
+    sharpen(factor) {
+      if (factor === sharpness) return false;
+      sharpness = factor;
+      renderer.setPixelRatio(ratio() * sharpness);
       return true;
     },
     aim(picture) {

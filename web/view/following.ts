@@ -30,7 +30,9 @@ const SLACK = 0.4;
 const TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
 const BACK_TAU = 1;
 const CLOSER_TAU = 4;
-const STILL = 5e-4;
+/** What is left to go, in metres and as a share of the distance, is left while they dance and while they rest. */
+const STILL = { dancing: 5e-4, resting: 0.02 } as const;
+const FIT = { dancing: 0.002, resting: 0.01 } as const;
 /** How much too close or too far a camera that does not glide may stand before it stands anew. */
 const TOO_CLOSE = 0.08;
 const TOO_FAR = -0.25;
@@ -47,11 +49,12 @@ export function glideAlong(seen: Seen, dt: number, danced: boolean): Following {
   const { view, aspect, distance, goal, free } = seen;
   const far = Math.hypot(...seen.away);
   const beyond = view === 'orbit' ? (far > slackOf(aspect) ? 1 - slackOf(aspect) / far : 0) : 1;
-  const going = far * beyond > STILL;
+  const now = danced ? 'dancing' : 'resting';
+  const going = far * beyond > STILL[now];
   const share = going ? beyond * easing(dt, TAU[view]) : 0;
   // Stepping back is quick, nobody may be cut off; coming closer again takes its time, and waits while they rest.
   const off = goal / distance - 1;
-  const wanted = free && (off > 0.002 || (off < -0.03 && danced));
+  const wanted = free && (off > FIT[now] || (off < -0.03 && danced));
   return {
     by: [seen.away[0] * share, seen.away[1] * share],
     distance: wanted ? distance + (goal - distance) * easing(dt, off > 0 ? BACK_TAU : CLOSER_TAU) : null,

@@ -13,6 +13,9 @@ const KEPT = 60;
 /** Longest step that easing may take, seconds: after a pause the camera goes on instead of jumping. */
 const LONGEST = 0.25;
 
+/** Milliseconds without a picture after which the stage counts as standing still. */
+const REST = 200;
+
 /** A loop that never draws: for pictures that are drawn one by one. */
 export const idleLoop: Loop = {
   invalidate: () => undefined,
@@ -21,9 +24,20 @@ export const idleLoop: Loop = {
   dispose: () => undefined,
 };
 
-/** @param draw draws a frame, `dt` seconds after the last one; true asks for another. */
-export function createLoop(draw: (dt: number) => boolean): Loop {
+/** What a loop calls. */
+export interface Drawing {
+  /** Draws a frame, `dt` seconds after the last one; true asks for another. */
+  draw(dt: number): boolean;
+  /** A frame that was asked for can be drawn, after so many milliseconds; called before it is. */
+  due(waited: number): void;
+  /** Nothing has moved for a while. */
+  rest(): void;
+}
+
+export function createLoop({ draw, due, rest }: Drawing): Loop {
   let request = 0;
+  let asked = 0;
+  let resting: ReturnType<typeof setTimeout> | undefined;
   let before = 0;
   let running = false;
   let disposed = false;
@@ -34,13 +48,20 @@ export function createLoop(draw: (dt: number) => boolean): Loop {
     const dt = running ? Math.min(LONGEST, Math.max(0, (now - before) / 1000)) : 1 / 60;
     before = now;
     const start = performance.now();
+    clearTimeout(resting);
     running = draw(dt);
     times.push(performance.now() - start);
     if (times.length > KEPT) times.shift();
     if (running) invalidate();
+    else resting = setTimeout(rest, REST);
   }
   function invalidate(): void {
-    if (request === 0 && !disposed) request = requestAnimationFrame(frame);
+    if (request !== 0 || disposed) return;
+    asked = performance.now();
+    request = requestAnimationFrame((now) => {
+      due(performance.now() - asked);
+      frame(now);
+    });
   }
   return {
     invalidate,
@@ -55,6 +76,7 @@ export function createLoop(draw: (dt: number) => boolean): Loop {
     },
     dispose() {
       disposed = true;
+      clearTimeout(resting);
       if (request !== 0) cancelAnimationFrame(request);
       request = 0;
     },

@@ -11,6 +11,7 @@ import { easing, type Framing, isFar, measureCouple, nearestTurn, type View } fr
 import { createHalves, type Labels } from './halves';
 import { createLights } from './lights';
 import { createLoop, idleLoop } from './loop';
+import { createSharpness } from './sharpness';
 import { createShows, type Shown } from './shows/shows';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';
 
@@ -69,7 +70,7 @@ export interface Stage {
   /** How the couple is seen now, for a film to be framed alike. */
   framing(): Framing;
   frameAs(framing: Framing): void;
-  /** Size of what is drawn. */
+  /** Size of the picture when nothing moves. */
   pictureSize(): PictureSize;
   /**
    * An empty stage beside this one, for pictures of `size` that leave the page. It shares nothing that moves, so
@@ -198,7 +199,19 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     for (const listener of listeners) listener(now);
     return moving || passing || (!rig.jumps && Math.abs(turn) > 0.01);
   }
-  const loop = filmed ? idleLoop : createLoop(draw);
+  const sharpness = createSharpness();
+  const loop = filmed
+    ? idleLoop
+    : createLoop({
+        draw,
+        due(waited) {
+          sharpness.waited(waited);
+          canvas.sharpen(sharpness.factor);
+        },
+        rest() {
+          if (canvas.sharpen(1)) loop.flush();
+        },
+      });
 
   /** Gives the camera the shape of one picture. */
   function frame(): void {
@@ -294,10 +307,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
       rig.frameAs(framing, couple);
       lightHeading = rig.heading;
     },
-    pictureSize: () => {
-      const { width, height } = renderer.domElement;
-      return { width, height };
-    },
+    pictureSize: () => canvas.pixels,
     film: (size) => buildStage(document.createElement('div'), library, size),
     canvas: renderer.domElement,
     shoot(at, dt) {

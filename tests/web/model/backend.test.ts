@@ -31,7 +31,7 @@ describe('chooseBackend', () => {
     [
       'no WebGPU',
       { crossOriginIsolated: true, hardwareConcurrency: 2 },
-      /2 threads: this browser has no WebGPU/,
+      /one thread: this browser has no WebGPU/,
     ],
     ['no adapter', machine(null), /found no graphics adapter/],
     ['a software adapter', machine({ ...card, isFallbackAdapter: true }), /only a software adapter/],
@@ -47,9 +47,13 @@ describe('chooseBackend', () => {
     expect((await chooseBackend('webgpu', around)).reason).toBe('WebGPU on SwiftShader.');
   });
 
-  it('does what it is told, and counts threads only where memory can be shared', async () => {
+  it('does what it is told, leaves a core to the page, and counts threads only where memory can be shared', async () => {
     expect(await chooseBackend('wasm', machine(card))).toMatchObject({ name: 'wasm', threads: 4 });
-    expect(await chooseBackend('wasm', machine(card, true, 2))).toMatchObject({ threads: 2 });
+    expect(await chooseBackend('wasm', machine(card, true, 2))).toMatchObject({ threads: 1 });
+    expect(await chooseBackend('wasm', machine(card, true, 4))).toMatchObject({ threads: 3 });
+    expect(await chooseBackend('wasm', machine(card, true, 1))).toMatchObject({ threads: 1 });
+    expect(await chooseBackend('wasm', machine(card, true, 2), 2)).toMatchObject({ threads: 2 });
+    expect(await chooseBackend('wasm', machine(card, false), 2)).toMatchObject({ threads: 1 });
     expect(await chooseBackend('wasm', machine(card), 1)).toMatchObject({ threads: 1 });
     expect(await chooseBackend('wasm', machine(card, false))).toMatchObject({
       threads: 1,

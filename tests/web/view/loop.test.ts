@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createLoop } from '../../../web/view/loop';
+import { createLoop, type Drawing, type Loop } from '../../../web/view/loop';
 
 let waiting: FrameRequestCallback | null = null;
 const tick = (now: number): void => {
@@ -8,8 +8,13 @@ const tick = (now: number): void => {
   callback?.(now);
 };
 
+/** A loop of which only some calls matter. */
+const looping = (drawing: Partial<Drawing>): Loop =>
+  createLoop({ draw: () => false, due: () => undefined, rest: () => undefined, ...drawing });
+
 beforeEach(() => {
   waiting = null;
+  vi.useFakeTimers({ toFake: ['setTimeout', 'clearTimeout', 'performance'] });
   vi.stubGlobal('requestAnimationFrame', (callback: FrameRequestCallback) => {
     waiting = callback;
     return 1;
@@ -18,12 +23,15 @@ beforeEach(() => {
     waiting = null;
   });
 });
-afterEach(() => vi.unstubAllGlobals());
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
 
 describe('the loop', () => {
   it('draws once for many requests and then rests', () => {
     const draw = vi.fn(() => false);
-    const loop = createLoop(draw);
+    const loop = looping({ draw });
     expect(waiting).toBeNull();
     loop.invalidate();
     loop.invalidate();
@@ -34,7 +42,7 @@ describe('the loop', () => {
 
   it('goes on while something moves, in steps of real time that never jump', () => {
     const steps: number[] = [];
-    const loop = createLoop((dt) => steps.push(dt) < 4);
+    const loop = looping({ draw: (dt) => steps.push(dt) < 4 });
     loop.invalidate();
     for (const now of [1000, 1016, 1050, 9000, 9016]) tick(now);
     expect(steps).toHaveLength(4);
@@ -44,9 +52,43 @@ describe('the loop', () => {
     expect(waiting).toBeNull();
   });
 
+  it('says how long a picture was waited for, before it is drawn', () => {
+    const calls: (string | number)[] = [];
+    const loop = looping({
+      draw: () => calls.push('draw') < 0,
+      due: (waited) => calls.push(waited),
+    });
+    loop.invalidate();
+    vi.advanceTimersByTime(40);
+    loop.invalidate();
+    vi.advanceTimersByTime(30);
+    tick(1000);
+    expect(calls).toEqual([70, 'draw']);
+    // What is drawn at once was not waited for.
+    loop.flush();
+    expect(calls).toEqual([70, 'draw', 'draw']);
+  });
+
+  it('rests once, a while after the last picture', () => {
+    const rest = vi.fn();
+    const loop = looping({ rest });
+    loop.invalidate();
+    tick(1000);
+    vi.advanceTimersByTime(150);
+    loop.flush();
+    vi.advanceTimersByTime(150);
+    expect(rest).not.toHaveBeenCalled();
+    vi.advanceTimersByTime(1000);
+    expect(rest).toHaveBeenCalledTimes(1);
+    loop.flush();
+    loop.dispose();
+    vi.advanceTimersByTime(1000);
+    expect(rest).toHaveBeenCalledTimes(1);
+  });
+
   it('draws at once when told to, and never after it is disposed', () => {
     const draw = vi.fn(() => false);
-    const loop = createLoop(draw);
+    const loop = looping({ draw });
     loop.invalidate();
     loop.flush();
     expect(draw).toHaveBeenCalledTimes(1);
