@@ -1,7 +1,7 @@
 """The shipped demo's dancers, made by the model itself: a leader by role swap, and a first reaction to that leader.
 
     python -m export.demo --model web/public/models/salsa --data ../shared/data/cmu_salsa/duets.npz --duet salsa_02
-    node tools/write-bvh.mjs runs/demo/motions.npz web/public/demo
+    node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json web/public/demo
 
 The duet only lends its reactor as the partner of the leader that is generated; nothing of it is written.
 """

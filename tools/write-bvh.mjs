@@ -1,17 +1,18 @@
 /**
- * Solves joint positions as the page does and writes each as BVH.
+ * Solves a couple as the page does and writes both as BVH.
  *
- *     node tools/write-bvh.mjs motions.npz folder
+ *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
- * motions.npz holds arrays NAME of (T, 22, 3) float32 metres at 30 fps; each becomes folder/NAME.bvh.
+ * motions.npz holds `leader` and `reactor`, (T, 22, 3) float32 metres at 30 fps; manifest.json is the model's, which
+ * says how wide bodies are.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { loadWeb } from './load-web.mjs';
 
-const [source, folder] = process.argv.slice(2);
-if (!source || !folder) {
-  console.error('Usage: node tools/write-bvh.mjs motions.npz folder');
+const [source, manifest, folder] = process.argv.slice(2);
+if (!source || !manifest || !folder) {
+  console.error('Usage: node tools/write-bvh.mjs motions.npz manifest.json folder');
   process.exit(2);
 }
 
@@ -19,15 +20,29 @@ if (!source || !folder) {
 const { readNpz } = await loadWeb('model/npz.ts');
 /** @type {typeof import('../web/motion/solve')} */
 const { solve } = await loadWeb('motion/solve.ts');
+/** @type {typeof import('../web/motion/keep-apart')} */
+const { keepApart } = await loadWeb('motion/keep-apart.ts');
 /** @type {typeof import('../web/motion/bvh-write')} */
 const { writeBvh } = await loadWeb('motion/bvh-write.ts');
 
+const arrays = readNpz(new Uint8Array(await readFile(source)));
+/** @param {string} name */
+function clip(name) {
+  const { shape, data } = arrays.get(name) ?? { shape: [], data: null };
+  const [frames = 0, joints, axes] = shape;
+  if (joints !== 22 || axes !== 3 || !(data instanceof Float32Array))
+    throw new Error(`${source}: ${name} should be float32 (T, 22, 3), is (${shape.join(', ')})`);
+  return { fps: 30, frames, positions: data };
+}
+
+const leader = clip('leader');
+const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
+const couple = {
+  leader: solve(leader),
+  reactor: keepApart(solve(clip('reactor')), leader, quality.penetration),
+};
 await mkdir(folder, { recursive: true });
-for (const [name, array] of readNpz(new Uint8Array(await readFile(source)))) {
-  const [frames = 0, joints, axes] = array.shape;
-  if (joints !== 22 || axes !== 3 || !(array.data instanceof Float32Array))
-    throw new Error(`${name}: expected float32 (T, 22, 3), got (${array.shape.join(', ')})`);
-  const motion = solve({ fps: 30, frames, positions: array.data });
+for (const [name, motion] of Object.entries(couple)) {
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
-  console.log(`${name}.bvh: ${frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
+  console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

@@ -15,6 +15,7 @@ from torch import Tensor
 from training.config import STRIDE, ConditionConfig, FrameConfig
 from training.data.augment import mirror, scale_leader, swap_roles, tempo_warp
 from training.data.duet import Duet
+from training.denoiser.condition import MUSIC_FEATURES
 from training.frame import smoothed_heading
 from training.hfsq.autoencoder import Autoencoder
 from training.music.pairing import MusicBank
@@ -38,7 +39,7 @@ class Clip:
     latents: Tensor  # (L, R, C) normalised
     features: Tensor  # (T, 68) of the leader
     blurred: Tensor  # (T, 68) the same without its beat
-    music: list[Tensor]  # several pieces (T, 54)
+    music: list[Tensor]  # several pieces (T, 54), or none: silence
     leader: Tensor  # (T, 22, 3)
     reactor: Tensor  # (T, 22, 3)
     heading: Tensor  # (T, 2)
@@ -197,9 +198,10 @@ class Windows:
         features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
         noise = slow_noise(self.random, *features.shape) * self.spread
         features = features + noise * (self.config.leader_noise * self.random.random())
-        music = clip.music[int(self.random.integers(len(clip.music)))]
+        silence = clip.features.new_zeros(len(clip.features), MUSIC_FEATURES)
+        music = clip.music[int(self.random.integers(len(clip.music)))] if clip.music else silence
         heard = by_frame.clone()
-        if self.random.random() < self.config.drop_music:
+        if self.random.random() < self.config.drop_music or not clip.music:
             heard.zero_()
         elif self.random.random() < song_ends:
             heard[int(self.random.integers(len(heard))) :] = 0

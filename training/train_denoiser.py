@@ -18,10 +18,12 @@ from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
 from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.data.npz import read_solo
 from training.data.sources import read_split
 from training.denoiser.denoiser import Denoiser
 from training.diffusion import add_noise, alphas_cumprod, training_times
 from training.hfsq.autoencoder import Autoencoder
+from training.improvised import improvised_clips
 from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
 from training.losses import motion_loss, noise_weights, simple_loss
 from training.metrics import mean_report, quick_report
@@ -44,6 +46,12 @@ class Options:
     """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
     music_cache: Path | None = None
     """Folder in which music features are kept between runs."""
+    solo: Path | None = None
+    """npz archive of solo dances, of which pairs are improvised (see training/improvised.py)."""
+    solo_prefixes: tuple[str, ...] = ("indian", "modern")
+    """Names that these solos begin with; the others are kept for leaders from elsewhere."""
+    improvised: int = 1
+    """Pairs of every solo dance and of its mirror image."""
     val: tuple[str, ...] = ("salsa_03",)
     test: tuple[str, ...] = ("salsa_05", "salsa_11")
     """Names of duets that are never trained on, nor used to choose anything."""
@@ -199,6 +207,11 @@ def main(options: Options) -> None:
     else:
         set_feature_statistics(denoiser, clips)
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
+    if options.solo is not None:
+        solos = [s for s in read_solo(options.solo) if s.name.startswith(options.solo_prefixes)]
+        clips += improvised_clips(
+            solos, options.improvised, hfsq, frame, options.denoiser.condition, options.seed
+        )
     torch.manual_seed(options.seed + 1 + fabric.global_rank)
     windows = Windows(
         clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,

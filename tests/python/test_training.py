@@ -8,12 +8,13 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import torch
 
-from training import plain, train_denoiser, train_hfsq
+from training import average, plain, train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
 from training.config import (
     ConditionConfig,
@@ -24,8 +25,10 @@ from training.config import (
     from_json,
     to_json,
 )
-from training.data.made import made_duet
-from training.stage2_data import Augmentation
+from training.data.duet import Solo
+from training.data.made import made_dancer, made_duet
+from training.improvised import improvised_clips
+from training.stage2_data import Augmentation, Clip
 
 HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
 DENOISER = DenoiserConfig(width=16, depths=(1, 1), mlp=2, condition=ConditionConfig(depth=1))
@@ -120,6 +123,54 @@ def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_
         assert torch.allclose(a, b, atol=2e-3), name
     with pytest.raises(RuntimeError):
         train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
+
+
+def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
+    for name in ("hfsq.json", "hfsq.safetensors"):
+        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    np.savez(tmp_path / "solo.npz", indian_1=made_dancer(300, 1), martial_1=made_dancer(300, 2))
+    seen = []
+
+    def watch(solos: list[Solo], copies: int, *rest: Any) -> list[Clip]:
+        seen.append(([solo.name for solo in solos], copies))
+        return improvised_clips(solos, copies, *rest)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(train_denoiser, "improvised_clips", watch)
+        train_denoiser.main(stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz"))
+    assert seen == [(["indian_1"], 1)]
+    with_solos, _ = load_denoiser(tmp_path, load_hfsq(trained)[0])
+    first, _ = load_denoiser(trained, load_hfsq(trained)[0])
+    # Statistics stay those of the duets; weights learn.
+    assert torch.equal(with_solos.condition.leader.mean, first.condition.leader.mean)
+    assert any(
+        not torch.equal(a, b) for a, b in zip(with_solos.parameters(), first.parameters(), strict=True)
+    )
+
+
+def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) -> None:
+    for name in ("hfsq.json", "hfsq.safetensors"):
+        for run in ("other", "stranger"):
+            (tmp_path / run).mkdir(exist_ok=True)
+            (tmp_path / run / name).write_bytes((trained / name).read_bytes())
+    train_denoiser.main(stage2(data, tmp_path / "other", init=trained, learning_rate=0.1, seed=1))
+    average.main(average.Options((trained, tmp_path / "other"), tmp_path / "mean"))
+    hfsq, _ = load_hfsq(tmp_path / "mean")
+    a, b, mean = (
+        load_denoiser(run, hfsq)[0].state_dict() for run in (trained, tmp_path / "other", tmp_path / "mean")
+    )
+    assert any(not torch.equal(a[name], b[name]) for name in a)
+    for name in a:
+        assert torch.allclose(mean[name], (a[name] + b[name]) / 2, atol=1e-3), name
+    provenance = json.loads((tmp_path / "mean" / "denoiser.json").read_text())["provenance"]
+    assert [c["options"]["seed"] for c in provenance["checkpoints"]] == ["0", "1"]
+    with pytest.raises(ValueError, match="two checkpoints"):
+        average.main(average.Options((trained,), tmp_path / "x"))
+    (tmp_path / "stranger" / "denoiser.json").write_bytes((trained / "denoiser.json").read_bytes())
+    with (tmp_path / "stranger" / "hfsq.safetensors").open("ab") as file:
+        file.write(b" ")
+    with pytest.raises(ValueError, match="another stage 1"):
+        average.main(average.Options((trained, tmp_path / "stranger"), tmp_path / "x"))
 
 
 def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) -> None:

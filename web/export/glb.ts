@@ -14,7 +14,7 @@ import { BVH_NAMES } from '../motion/bvh-names';
 import type { SolvedMotion } from '../motion/clip';
 import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
-import { type BodyLibrary, roundedOffsets } from '../view/body/library';
+import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
 import { createRig, type Rig } from '../view/rig';
 import { LOOKS, type Role, type Theme } from '../view/theme';
@@ -39,8 +39,8 @@ export async function writeGlb(
   scene.userData = { ...dance.about };
   const tracks: KeyframeTrack[] = [];
   for (const { role, motion } of dance.dancers) {
-    const rig = rigAtRest(motion);
     const body = await bodies.request(motion.offsets, BUILDS[role]);
+    const rig = rigAtRest(motion, body.offsets);
     const material = new MeshStandardMaterial({
       name: NAMES[role],
       color: LOOKS[theme][role],
@@ -65,11 +65,11 @@ export async function writeGlb(
   return glb;
 }
 
-/** A dancer's bones in the T-pose, on the floor where the dance begins. */
-function rigAtRest(motion: SolvedMotion): Rig {
+/** A dancer's bones in the T-pose, on the floor where the dance begins, bound to the skeleton of a body. */
+function rigAtRest(motion: SolvedMotion, bound: Float32Array): Rig {
   const rig = createRig();
   rig.fit(motion.offsets);
-  rig.bind(roundedOffsets(motion.offsets));
+  rig.bind(bound);
   const heights: number[] = [];
   for (let joint = 0; joint < JOINT_COUNT; joint++)
     heights.push((heights[PARENTS[joint] ?? -1] ?? 0) + (motion.offsets[joint * 3 + 1] ?? 0));

@@ -2,7 +2,7 @@ import { BufferGeometry, Group, MeshStandardMaterial, SkinnedMesh } from 'three'
 import type { SolvedMotion } from '../motion/clip';
 import { JOINT_COUNT } from '../motion/skeleton';
 import { toGeometry, type BodyGeometry } from './body/geometry';
-import { roundedOffsets, type BodyLibrary } from './body/library';
+import type { BodyLibrary } from './body/library';
 import type { Body } from './body/lighter';
 import { BUILDS } from './body/part';
 import { gesture } from './gesture';
@@ -91,14 +91,14 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
   let worn: Body | null = null;
   let geometry: BodyGeometry | null = null;
 
-  function wear(body: Body, offsets: Float32Array): void {
+  function wear(body: Body): void {
     worn = body;
     geometry?.dispose();
     geometry = toGeometry(body);
     geometry.lighten(far);
     mesh.geometry = geometry.near;
     glass.setGeometry(geometry.light);
-    rig.bind(offsets);
+    rig.bind(body.offsets);
     dress();
     onBody();
   }
@@ -135,7 +135,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
       rig.fit(next.offsets);
       dressing = library.request(next.offsets, BUILDS[role]).then((body) => {
         // Only the latest dance dresses the dancer; an earlier body may arrive later.
-        if (motion === next && body !== worn) wear(body, roundedOffsets(next.offsets));
+        if (motion === next && body !== worn) wear(body);
       });
     },
     advance(dt) {

@@ -27,11 +27,11 @@ export const idleLoop: Loop = {
 /** What a loop calls. */
 export interface Drawing {
   /** Draws a frame, `dt` seconds after the last one; true asks for another. */
-  draw(dt: number): boolean;
+  readonly draw: (dt: number) => boolean;
   /** A frame that was asked for can be drawn, after so many milliseconds; called before it is. */
-  due(waited: number): void;
+  readonly due: (waited: number) => void;
   /** Nothing has moved for a while. */
-  rest(): void;
+  readonly rest: () => void;
 }
 
 export function createLoop({ draw, due, rest }: Drawing): Loop {

@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { createBodyLibrary, roundedOffsets } from '../../../web/view/body/library';
+import { createBodyLibrary } from '../../../web/view/body/library';
 import { BUILDS } from '../../../web/view/body/part';
 import { person } from './skeletons';
 import { topology } from './topology';
@@ -24,11 +24,12 @@ describe('the body library', () => {
     const library = createBodyLibrary();
     const first = library.request(person(), BUILDS.leader);
     const again = library.request(
-      roundedOffsets(person()).map((value) => value + 0.003),
+      person().map((value, i) => value + (i % 2 === 0 ? 0.008 : -0.008)),
       BUILDS.leader,
     );
     expect(again).toBe(first);
-    const { indices, near, light, positions } = await first;
+    const { indices, near, light, positions, offsets } = await first;
+    expect(offsets).toEqual(Float32Array.from(person()));
     expect(indices.length).toBeGreaterThan(30_000);
     const full = topology({ positions, indices });
     for (const [triangles, share] of [
@@ -45,6 +46,9 @@ describe('the body library', () => {
     expect(warn).toHaveBeenCalledTimes(1);
     expect(library.request(person(), BUILDS.reactor)).not.toBe(first);
     expect(library.request(person(1.1), BUILDS.leader)).not.toBe(first);
+    const oneBone = person();
+    oneBone[22] = oneBone[22]! + 0.012;
+    expect(library.request(oneBone, BUILDS.leader)).not.toBe(first);
     library.dispose();
   });
 });

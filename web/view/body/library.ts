@@ -5,25 +5,28 @@ import type { Mesher } from './worker';
 
 /** Bodies already meshed, by skeleton and build; meshes the others in a worker. */
 export interface BodyLibrary {
-  /** The mesh for a skeleton, made for `roundedOffsets`. */
+  /** The mesh for a skeleton, or for another that is nearly the same: `offsets` of the body tell which. */
   request(offsets: ArrayLike<number>, build: Build): Promise<Body>;
   dispose(): void;
 }
 
 /**
- * Bone lengths are rounded before meshing, metres: every generation solves a slightly different skeleton, and the
- * skin follows the exact bones anyway.
+ * A body fits skeletons whose offsets are this near on every axis, metres: every generation solves a slightly different
+ * one, and the skin follows the exact bones anyway.
  */
-const ROUNDING = 0.008;
+const NEAR = 0.01;
 const KEPT = 8;
 
-export const roundedOffsets = (offsets: ArrayLike<number>): Float32Array =>
-  Float32Array.from(offsets, (value) => Math.round(value / ROUNDING) * ROUNDING);
+interface Kept {
+  readonly offsets: Float32Array;
+  readonly build: Build;
+  readonly body: Promise<Body>;
+}
 
 export function createBodyLibrary(): BodyLibrary {
   let worker: Worker | null = null;
   let mesher: Remote<Mesher> | null = null;
-  const bodies = new Map<string, Promise<Body>>();
+  let bodies: Kept[] = [];
 
   async function mesh(offsets: Float32Array, build: Build): Promise<Body> {
     try {
@@ -48,24 +51,21 @@ export function createBodyLibrary(): BodyLibrary {
 
   return {
     request(offsets, build) {
-      const rounded = roundedOffsets(offsets);
-      const key = `${build.width} ${build.waist} ${rounded.join(' ')}`;
-      let body = bodies.get(key);
-      if (body === undefined) {
-        body = mesh(rounded, build);
-        bodies.set(key, body);
-        for (const old of bodies.keys()) {
-          if (bodies.size <= KEPT) break;
-          bodies.delete(old);
-        }
-      }
+      const found = bodies.find(
+        (kept) =>
+          kept.build === build && kept.offsets.every((value, i) => Math.abs(value - offsets[i]!) < NEAR),
+      );
+      if (found) return found.body;
+      const own = Float32Array.from(offsets);
+      const body = mesh(own, build);
+      bodies = [...bodies, { offsets: own, build, body }].slice(-KEPT);
       return body;
     },
     dispose() {
       worker?.terminate();
       worker = null;
       mesher = null;
-      bodies.clear();
+      bodies = [];
     },
   };
 }

@@ -5,6 +5,8 @@ import type { Build } from './part';
 
 /** A body with two lighter lists of triangles (x 3) on the same vertices. What it costs to draw is its triangles. */
 export interface Body extends BodyMesh {
+  /** The skeleton that it was meshed for, as rest offsets (22 x 3, metres); rigs are bound to these. */
+  readonly offsets: Float32Array;
   /** As it is seen on the stage, about half as many as `indices`. */
   readonly near: Uint32Array;
   /** For shadows, from afar, and for glass, about a quarter as many as `indices`. */
@@ -22,7 +24,12 @@ const NORMALS = [0.2, 0.2, 0.2];
 export async function makeBody(offsets: ArrayLike<number>, build: Build): Promise<Body> {
   await Promise.all([MeshoptSimplifier.ready, MeshoptEncoder.ready]);
   const mesh = buildBody(offsets, build);
-  return { ...mesh, near: lighter(mesh, NEAR_SHARE), light: lighter(mesh, LIGHT_SHARE) };
+  return {
+    ...mesh,
+    offsets: Float32Array.from(offsets),
+    near: lighter(mesh, NEAR_SHARE),
+    light: lighter(mesh, LIGHT_SHARE),
+  };
 }
 
 function lighter(mesh: BodyMesh, share: number): Uint32Array {
