@@ -7,6 +7,9 @@ export interface MiniFader {
   readonly show: (range: FaderRange | null, value: number) => void;
 }
 
+/** With the handle beyond this share of the way the number stands on the other side of it. */
+const HIGH = 0.7;
+
 /** A small fader, as of one cell of the matrix: as the large ones, without a hint of its own. */
 export function createMiniFader(
   label: string,
@@ -36,7 +39,9 @@ export function createMiniFader(
       input.step = String(range.step);
       if (input.valueAsNumber !== current) input.value = String(current);
       input.setAttribute('aria-valuetext', words(current));
-      setVariable(root, '--v', (current - range.min) / (range.max - range.min));
+      const share = (current - range.min) / (range.max - range.min);
+      setVariable(root, '--v', share);
+      root.classList.toggle('high', share > HIGH);
     },
   };
 }

@@ -29,6 +29,8 @@ export interface Following {
 const SLACK = 0.4;
 const TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
 const BACK_TAU = 1;
+/** While they rest, whoever looks waits for the camera: it arrives sooner. */
+const RESTING_TAU = 0.4;
 const CLOSER_TAU = 4;
 /** What is left to go, in metres and as a share of the distance, is left while they dance and while they rest. */
 const STILL = { dancing: 5e-4, resting: 0.02 } as const;
@@ -50,14 +52,15 @@ export function glideAlong(seen: Seen, dt: number, danced: boolean): Following {
   const far = Math.hypot(...seen.away);
   const beyond = view === 'orbit' ? (far > slackOf(aspect) ? 1 - slackOf(aspect) / far : 0) : 1;
   const now = danced ? 'dancing' : 'resting';
+  const tau = (dancing: number): number => (danced ? dancing : Math.min(dancing, RESTING_TAU));
   const going = far * beyond > STILL[now];
-  const share = going ? beyond * easing(dt, TAU[view]) : 0;
+  const share = going ? beyond * easing(dt, tau(TAU[view])) : 0;
   // Stepping back is quick, nobody may be cut off; coming closer again takes its time, and waits while they rest.
   const off = goal / distance - 1;
   const wanted = free && (off > FIT[now] || (off < -0.03 && danced));
   return {
     by: [seen.away[0] * share, seen.away[1] * share],
-    distance: wanted ? distance + (goal - distance) * easing(dt, off > 0 ? BACK_TAU : CLOSER_TAU) : null,
+    distance: wanted ? distance + (goal - distance) * easing(dt, tau(off > 0 ? BACK_TAU : CLOSER_TAU)) : null,
     moving: going || (wanted && off > 0),
   };
 }
