@@ -96,9 +96,9 @@ test('a song and a leader become a dancing partner that can be steered and taken
     const coming = page.waitForEvent('download');
     await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
     const download = await coming;
-    const seed = await app.read(({ settings }) => settings?.seed);
+    const { seed, music } = (await app.read(({ settings }) => settings))!;
     expect(download.suggestedFilename()).toMatch(
-      new RegExp(`^my-song_my-leader_take-\\d+_s${seed}_c2.00-f0.00-m3.00_footlock_reactor.bvh$`),
+      new RegExp(`^my-song_my-leader_take-\\d+_s${seed}_c2.00-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`),
     );
     const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
     await page.keyboard.press('Escape');

@@ -37,7 +37,7 @@ async function rest(page: Page): Promise<void> {
         before = await onStage(page, (stage) => stage.stats().frames);
         return before - last;
       },
-      { intervals: [250] },
+      { intervals: [400] },
     )
     .toBe(0);
 }
