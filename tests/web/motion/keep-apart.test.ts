@@ -1,6 +1,12 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
-import { type BodyRule, capsuleBody, closePairs, deepest } from '../../../web/motion/capsules';
+import {
+  type BodyRule,
+  type CapsuleBody,
+  capsuleBody,
+  closePairs,
+  deepest,
+} from '../../../web/motion/capsules';
 import type { SolvedMotion } from '../../../web/motion/clip';
 import { cheapestDetour, PLACES } from '../../../web/motion/detour';
 import { keepApart } from '../../../web/motion/keep-apart';
@@ -91,6 +97,23 @@ describe('keepApart', () => {
     const reactor = stander(() => [0, 0.5]);
     expect(keepApart(reactor, leader, rule).positions[J.head * 3]).toBe(reactor.positions[J.head * 3]);
   });
+});
+
+test('a shift in thought is a shift in fact', () => {
+  const reactor = stander(() => [0.05, 0.06]);
+  for (const [x, z] of [
+    [0, 0],
+    [0.12, 0],
+    [0, 0.09],
+    [-0.1, 0.05],
+  ] as const) {
+    const [a, b, moved] = [leader, reactor, stander(() => [0.05 + x, 0.06 + z])].map((m) =>
+      capsuleBody(m, rule),
+    ) as [CapsuleBody, CapsuleBody, CapsuleBody];
+    const there = deepest(a, moved, closePairs(a, moved, 0));
+    expect(there).toBeGreaterThan(0.02);
+    expect(deepest(a, b, closePairs(a, b, 0, 0.2), x, z)).toBeCloseTo(there, 6);
+  }
 });
 
 describe('cheapestDetour', () => {
