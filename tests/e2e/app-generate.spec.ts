@@ -98,7 +98,9 @@ test('a song and a leader become a dancing partner that can be steered and taken
     const download = await coming;
     const { seed, music } = (await app.read(({ settings }) => settings))!;
     expect(download.suggestedFilename()).toMatch(
-      new RegExp(`^my-song_my-leader_take-\\d+_s${seed}_c2.00-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`),
+      new RegExp(
+        `^my-song_my-leader_take-\\d+_s${seed}_c2.00-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
+      ),
     );
     const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
     await page.keyboard.press('Escape');
