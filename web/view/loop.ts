@@ -2,6 +2,8 @@
 export interface Loop {
   /** Asks for a frame. */
   invalidate(): void;
+  /** Leaves the next picture out, for when the page has much else to show at that moment. */
+  pass(): void;
   /** Draws now, for when waiting would show an empty canvas. */
   flush(): void;
   /** Median main-thread milliseconds of the last frames. */
@@ -19,6 +21,7 @@ const REST = 200;
 /** A loop that never draws: for pictures that are drawn one by one. */
 export const idleLoop: Loop = {
   invalidate: () => undefined,
+  pass: () => undefined,
   flush: () => undefined,
   frameMs: 0,
   dispose: () => undefined,
@@ -37,6 +40,7 @@ export interface Drawing {
 export function createLoop({ draw, due, rest }: Drawing): Loop {
   let request = 0;
   let asked = 0;
+  let passes = false;
   let resting: ReturnType<typeof setTimeout> | undefined;
   let before = 0;
   let running = false;
@@ -59,12 +63,20 @@ export function createLoop({ draw, due, rest }: Drawing): Loop {
     if (request !== 0 || disposed) return;
     asked = performance.now();
     request = requestAnimationFrame((now) => {
+      if (passes) {
+        passes = false;
+        request = 0;
+        return invalidate();
+      }
       due(performance.now() - asked);
       frame(now);
     });
   }
   return {
     invalidate,
+    pass() {
+      passes = request !== 0;
+    },
     flush() {
       if (disposed) return;
       if (request !== 0) cancelAnimationFrame(request);

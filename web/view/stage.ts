@@ -256,6 +256,8 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
         if (before === 0) lightHeading = rig.heading;
       }
       loop.invalidate();
+      // The rest of the page tells of a new dance at the same moment; without a graphics card both at once take too long.
+      loop.pass();
     },
     setCoarse(motion, other = null) {
       cast.setMotion('coarse', motion);

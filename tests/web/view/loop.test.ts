@@ -69,6 +69,22 @@ describe('the loop', () => {
     expect(calls).toEqual([70, 'draw', 'draw']);
   });
 
+  it('leaves one picture out when told to, and only one that is on its way', () => {
+    const draw = vi.fn(() => false);
+    const loop = looping({ draw });
+    loop.pass();
+    loop.invalidate();
+    loop.pass();
+    tick(1000);
+    expect(draw).not.toHaveBeenCalled();
+    tick(1016);
+    expect(draw).toHaveBeenCalledTimes(1);
+    loop.pass();
+    loop.invalidate();
+    tick(1032);
+    expect(draw).toHaveBeenCalledTimes(2);
+  });
+
   it('rests once, a while after the last picture', () => {
     const rest = vi.fn();
     const loop = looping({ rest });
