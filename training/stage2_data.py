@@ -198,8 +198,10 @@ class Windows:
         features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
         noise = slow_noise(self.random, *features.shape) * self.spread
         features = features + noise * (self.config.leader_noise * self.random.random())
-        silence = clip.features.new_zeros(len(clip.features), MUSIC_FEATURES)
-        music = clip.music[int(self.random.integers(len(clip.music)))] if clip.music else silence
+        if clip.music:
+            music = clip.music[int(self.random.integers(len(clip.music)))]
+        else:
+            music = clip.features.new_zeros(len(clip.features), MUSIC_FEATURES)
         heard = by_frame.clone()
         if self.random.random() < self.config.drop_music or not clip.music:
             heard.zero_()

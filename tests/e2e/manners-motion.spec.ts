@@ -3,6 +3,7 @@ import { bvh } from './app-files';
 import { App } from './app-page';
 import { expect, test } from './fixtures';
 import { demoSettings, serveDemo } from './made-demo';
+import { rested } from './stage-rest';
 
 // A small picture is drawn as truly as a large one, and sooner.
 test.use({ viewport: { width: 800, height: 600 } });
@@ -37,17 +38,6 @@ async function watchAnimations(page: Page): Promise<() => Promise<string[]>> {
   `);
   return () => page.evaluate<string[]>('[...window.animated]');
 }
-
-/** Resolves when the stage rests: nothing has been drawn for longer than it waits to draw a sharper last picture. */
-const rested = (page: Page): Promise<number> =>
-  page.evaluate<number>(`new Promise((resolve) => {
-    const { stage } = window.reactdance;
-    (function look(last) {
-      const { frames } = stage.stats();
-      if (frames === last) resolve(frames);
-      else setTimeout(() => look(frames), 400);
-    })(NaN);
-  })`);
 
 /** Pictures that the stage draws from `act` until it rests again. */
 async function drawn(page: Page, act: () => Promise<void>): Promise<number> {

@@ -3,6 +3,7 @@ import type { Stage } from '../../web/view/stage';
 import { bvh } from './app-files';
 import { App, farthest } from './app-page';
 import { expect, test } from './fixtures';
+import { rested } from './stage-rest';
 
 /** The switches of the stage: what they are called, and the key of each. */
 const SHOWS = [
@@ -26,21 +27,6 @@ const compare = (page: Page, mode: 'ghost' | 'right' | null): Promise<void> =>
     stage.setCoarse(motion, ${mode === 'right' ? 'reaction.motion' : 'null'});
     stage.setOther(${mode === null} ? null : { motion, mode: '${mode}', labels: { left: 'A Softer', right: 'B Sharper' } });
   `);
-
-/** Waits until the stage has come to rest. */
-async function rest(page: Page): Promise<void> {
-  let before = -1;
-  await expect
-    .poll(
-      async () => {
-        const last = before;
-        before = await onStage(page, (stage) => stage.stats().frames);
-        return before - last;
-      },
-      { intervals: [400] },
-    )
-    .toBe(0);
-}
 
 /** How many pixels of the stage differ between two pictures of it, right of a share of its width. */
 async function differing(page: Page, [a, b]: readonly [Buffer, Buffer], rightOf = 0): Promise<number> {
@@ -85,7 +71,7 @@ async function dancing(page: Page): Promise<App> {
 test('every switch changes the picture and back, by key and by hand', async ({ page }) => {
   await page.setViewportSize({ width: 900, height: 640 });
   const app = await dancing(page);
-  await rest(page);
+  await rested(page);
   const plain = await picture(page);
   for (const [name, key] of SHOWS) {
     await page.keyboard.press(key);
@@ -97,13 +83,13 @@ test('every switch changes the picture and back, by key and by hand', async ({ p
       const coarse = await onStage(page, (stage) => Array.from(stage.jointPositions('coarse')));
       expect(farthest(await app.onScreen(), coarse)).toBeGreaterThan(0.001);
     }
-    await rest(page);
+    await rested(page);
     const changed = await differing(page, [plain, await picture(page)]);
     // Beyond the figure on the button. Hands of a made leader need not be within reach of the reactor's.
     if (key !== 'h') expect(changed, name).toBeGreaterThan(300);
     await page.keyboard.press(key);
   }
-  await rest(page);
+  await rested(page);
   expect(await differing(page, [plain, await picture(page)])).toBe(0);
 
   await page.getByRole('button', { name: 'Show', exact: true }).click();
@@ -137,7 +123,7 @@ test('the camera has a key for every view, and one that brings both back into th
   }
   const distance = () => onStage(page, (stage) => stage.framing().shot.distance);
   await page.keyboard.press('a');
-  await rest(page);
+  await rested(page);
   const framed = await distance();
   await page.locator('canvas').first().hover();
   await page.mouse.wheel(0, 600);
@@ -152,14 +138,14 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   await page.keyboard.press('g');
   await app.until(({ coarse }) => coarse.motion);
   await page.keyboard.press('g');
-  await rest(page);
+  await rested(page);
   const box = await page.getByRole('img', { name: /reactor in orange/ }).boundingBox();
   const [width, warm] = [box!.width, await app.warmPixels()];
   const onTheLeft = (pixels: Set<number>): number =>
     [...pixels].filter((pixel) => pixel % width < width / 2).length;
 
   await compare(page, 'right');
-  await rest(page);
+  await rested(page);
   await expect(page.getByText('A Softer')).toBeVisible();
   await expect(page.getByText('B Sharper')).toBeVisible();
   const both = await app.warmPixels();
@@ -172,16 +158,16 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   await page.keyboard.press('g');
   await onStage(page, (stage) => stage.ready());
   await compare(page, 'right');
-  await rest(page);
+  await rested(page);
   expect(await differing(page, [without, await picture(page)], 0.5)).toBeGreaterThan(300);
   await page.keyboard.press('g');
 
   await compare(page, 'ghost');
-  await rest(page);
+  await rested(page);
   await expect(page.getByText('A Softer')).toBeHidden();
   const ghost = await picture(page);
   await compare(page, null);
-  await rest(page);
+  await rested(page);
   expect(await differing(page, [ghost, await picture(page)])).toBeGreaterThan(100);
 });
 
@@ -233,7 +219,7 @@ test('everything at once, twice over, is within the budget, and nothing is drawn
     expect(milliseconds).toBeLessThanOrEqual(4);
     await page.keyboard.press('k');
   }
-  await rest(page);
+  await rested(page);
   const frames = await onStage(page, (stage) => stage.stats().frames);
   await page.waitForTimeout(1000);
   expect(await onStage(page, (stage) => stage.stats().frames)).toBe(frames);

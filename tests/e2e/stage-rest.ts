@@ -1,0 +1,15 @@
+import type { Page } from '@playwright/test';
+
+/**
+ * Resolves when the stage rests: nothing has been drawn for longer than it waits to draw a sharper last picture.
+ * @returns pictures drawn until then
+ */
+export const rested = (page: Page): Promise<number> =>
+  page.evaluate<number>(`new Promise((resolve) => {
+    const { stage } = window.reactdance;
+    (function look(last) {
+      const { frames } = stage.stats();
+      if (frames === last) resolve(frames);
+      else setTimeout(() => look(frames), 400);
+    })(NaN);
+  })`);
