@@ -36,6 +36,7 @@ class SamplerStep(nn.Module):
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.denoiser = model.denoiser
+        self.reach = model.diffusion.reach
 
     def forward(
         self,
@@ -49,7 +50,7 @@ class SamplerStep(nn.Module):
         music_guidance: Tensor,
         coefficients: Tensor,
     ) -> tuple[Tensor, Tensor]:
-        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance, music_guidance)
+        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance, music_guidance, self.reach)
         a, b, c, d = coefficients.unbind(0)
         return a * x + b * x0 + c * x0_prev + d * noise, x0
 

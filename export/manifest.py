@@ -100,6 +100,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "alphas_cumprod": [float(f"{a:.10g}") for a in alphas_cumprod(diffusion)],
             "sampler": "ddim",
             "alternating_phase": diffusion.alternating_phase,
+            "temperature": list(diffusion.temperature),
             "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
         },
         "guidance": {

@@ -63,6 +63,7 @@ def sample(
     latent = model.manifest["latent"]
     size, frames, layers, channels = latent["block"], len(memory), len(latent["layers"]), latent["channels"]
     x = torch.from_numpy(noise(seed, frames, layers * channels, draw=0)).reshape(frames, layers, channels)
+    x *= torch.tensor(model.manifest["diffusion"]["temperature"])[:, None]
     x0 = torch.zeros_like(x)
     for k, step in enumerate(steps):
         shifted = model.manifest["diffusion"]["alternating_phase"] and k % 2 == 1

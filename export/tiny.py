@@ -56,7 +56,13 @@ def tiny_model(seed: int = 0) -> Model:
         stream.std.fill_(0.2)
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
     diffusion = DiffusionConfig(
-        steps=4, alternating_phase=True, music=1.0, spread=(0.9, 1.0, 0.8), sharpen=0.3
+        steps=4,
+        alternating_phase=True,
+        music=1.0,
+        temperature=(0.7, 1.0),
+        reach=(1.0, 0.9, 0.8),
+        spread=(0.9, 1.0, 0.8),
+        sharpen=0.3,
     )
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion)
 

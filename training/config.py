@@ -92,6 +92,11 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music: float = 0.0  # default of music guidance, see `guided_x0`
+    # The noise of each residual layer is multiplied by this before sampling starts: less than 1 brings what is more
+    # likely, and reactions that differ less from each other.
+    temperature: tuple[float, ...] = (1.0, 1.0)
+    # Per stream, how much of the quantiser's range what is predicted without guidance may use, see `guided_x0`.
+    reach: tuple[float, float, float] = (1.0, 1.0, 1.0)
     # Sampled coarse latents of every stream are multiplied by this, from their mean, before they are decoded: less
     # than 1 keeps nearer to what is sure.
     spread: tuple[float, float, float] = (1.0, 1.0, 1.0)

@@ -64,6 +64,20 @@ def scatter(values: Tensor, blocks: list[Block], frames: int) -> Tensor:
     return out / total.view(-1, *extra)
 
 
+def per_channel(denoiser: Denoiser, streams: tuple[float, float, float]) -> Tensor:
+    """A value per stream as one per channel of a layer, (C,)."""
+    return torch.tensor(streams).repeat_interleave(denoiser.latent_width // len(STREAMS))
+
+
+def within_reach(denoiser: Denoiser, x0: Tensor, reach: tuple[float, float, float]) -> Tensor:
+    """x0 (..., R, C), with what lies beyond the quantiser's range, or beyond `reach` of it, brought back to the end
+    (static thresholding, Saharia et al. 2022): the decoder has never seen a latent out there.
+    """
+    middle = torch.nan_to_num((denoiser.highest + denoiser.lowest) / 2)  # a range without ends has none
+    half = (denoiser.highest - denoiser.lowest) / 2 * per_channel(denoiser, reach)
+    return torch.minimum(torch.maximum(x0, middle - half), middle + half)
+
+
 def guided_x0(
     denoiser: Denoiser,
     x: Tensor,
@@ -72,15 +86,15 @@ def guided_x0(
     valid: Tensor,
     guidance: Tensor,
     music: Tensor,
+    reach: tuple[float, float, float],
 ) -> Tensor:
     """Eq. 9 per stream and layer, and what the song adds: (1 + s) G(x, c) - s G(x, null) + m (G(x, c) - G(x, l)).
 
     c is leader and music, l the leader in silence. The last term, guidance by a single condition (as in Liu et
     al. 2022), is not in the paper; m = 0 leaves Eq. 9. x (B, block, R, C), time (1,), memory (B, block, M) of
     `condition`, valid (B, block), guidance s (S, R), music m (1,). Coarse sees no fine weight: the network's
-    coarse trunk never reads the fine layer and each layer is combined with its own s. What lies beyond the
-    quantiser's range is brought back to its end (static thresholding, Saharia et al. 2022): the decoder has
-    never seen a latent out there.
+    coarse trunk never reads the fine layer and each layer is combined with its own s. The dance and what the song
+    adds are kept `within_reach`; what s adds is not, or guidance would end where the range does.
     """
     leader, heard, silence = memory.chunk(3, dim=-1)
     full, silent = torch.cat([leader, heard], dim=-1), torch.cat([leader, silence], dim=-1)
@@ -97,8 +111,8 @@ def guided_x0(
     # Written so that the exported graph needs no shape arithmetic.
     conditional, unconditional, unheard = each.reshape(3, -1, *each.shape[1:]).unbind(0)
     s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
-    x0 = (1 + s) * conditional - s * unconditional + music * (conditional - unheard)
-    return torch.minimum(torch.maximum(x0, denoiser.lowest), denoiser.highest)
+    danced = within_reach(denoiser, conditional + music * (conditional - unheard), reach)
+    return danced + s * (conditional - unconditional)
 
 
 Progress = Callable[[int, Tensor, Tensor], None]
@@ -115,13 +129,13 @@ def sample(
     config: DiffusionConfig,
     on_step: Progress | None = None,
 ) -> Tensor:
-    """Clean normalised latents (L, R, C) for memory (L, M) from noise (L, R, C); guidance and music as in
-    `guided_x0`.
+    """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C); guidance and music
+    as in `guided_x0`.
 
     All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
     """
     frames, size = len(memory), denoiser.config.block
-    x = initial
+    x = initial * torch.tensor(config.temperature)[:, None]
     x0_before = torch.zeros_like(x)
     for k, step in enumerate(steps):
         if config.stitching:
@@ -131,7 +145,7 @@ def sample(
         valid = gather(torch.ones(frames), blocks, size)
         x0 = guided_x0(
             denoiser, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
-            gather(memory, blocks, size), valid, guidance, torch.tensor([music]),
+            gather(memory, blocks, size), valid, guidance, torch.tensor([music]), config.reach,
         )  # fmt: skip
         x0 = scatter(x0, blocks, frames)
         x = step.a * x + step.b * x0 + step.c * x0_before
@@ -166,8 +180,7 @@ def sampled_streams(model: Model, latents: Tensor, layers: Tensor) -> list[Tenso
     """Sampled normalised latents (L, R, C) to the three streams (T, c) in metres; `layers` (R,) multiplies each
     residual layer.
     """
-    width = model.denoiser.latent_width // len(STREAMS)
-    coarse = latents.new_tensor(model.diffusion.spread).repeat_interleave(width)
+    coarse = per_channel(model.denoiser, model.diffusion.spread)
     spread = torch.stack([coarse, *[torch.ones_like(coarse)] * (model.denoiser.layers - 1)])
     raw = model.hfsq.denormalise(latents * spread) * layers[:, None]
     return [sharpen(stream[0], model.diffusion.sharpen) for stream in model.hfsq.decode(raw[None])]

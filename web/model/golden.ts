@@ -58,6 +58,7 @@ export async function goldenError(
   const sampled = await sample({
     latent,
     alternatingPhase: diffusion.alternating_phase,
+    temperature: diffusion.temperature,
     schedule: ddim(diffusion, golden.steps),
     latents,
     memory,

@@ -82,6 +82,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   const sampled = await sample({
     latent,
     alternatingPhase: false,
+    temperature: manifest.diffusion.temperature,
     schedule: ddim(manifest.diffusion, 1),
     latents,
     memory,

@@ -80,6 +80,8 @@ const schema = v.object({
     sampler: v.literal('ddim'),
     /** On odd steps, blocks begin half a block later. */
     alternating_phase: v.boolean(),
+    /** The noise that sampling starts from is multiplied by this, one value per residual layer. */
+    temperature: v.array(v.pipe(v.number(), v.minValue(0))),
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
@@ -149,6 +151,12 @@ function check(manifest: Manifest): void {
   if (latent.channels % latent.streams.length !== 0) {
     throw invalid(
       `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
+    );
+  }
+  if (diffusion.temperature.length !== latent.layers.length) {
+    throw invalid(
+      `The model's manifest has ${diffusion.temperature.length} values in "diffusion.temperature" ` +
+        `for ${latent.layers.length} residual layers.`,
     );
   }
   const { min, max, default: preset } = diffusion.steps;

@@ -211,6 +211,7 @@ export class Pipeline {
     return {
       latent,
       alternatingPhase: diffusion.alternating_phase,
+      temperature: diffusion.temperature,
       schedule: ddim(diffusion, request.steps),
       latents,
       memory,

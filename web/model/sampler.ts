@@ -36,6 +36,8 @@ export type StepRunner = (input: StepInput) => Promise<StepOutput>;
 export interface Sampling {
   readonly latent: Manifest['latent'];
   readonly alternatingPhase: boolean;
+  /** The noise of draw 0 is multiplied by this, one value per residual layer. */
+  readonly temperature: readonly number[];
   readonly schedule: readonly ScheduleStep[];
   /** Length of the clip in latent frames. */
   readonly latents: number;
@@ -43,7 +45,7 @@ export interface Sampling {
   readonly memory: Float32Array;
   readonly guidance: Float32Array;
   readonly musicGuidance: number;
-  /** Noise of one draw, latents x width: draw 0 starts the sampling, draw k + 1 belongs to step k. */
+  /** Standard normal noise of one draw, latents x width: draw 0 starts the sampling, draw k + 1 belongs to step k. */
   readonly noise: (draw: number) => Float32Array;
   readonly runStep: StepRunner;
   /** Blocks that go through the graph together: bounds the memory of a long clip, changes nothing else. */
@@ -87,7 +89,10 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     x: new Float32Array(latents * width),
     x0: new Float32Array(latents * width),
   });
-  const levels = new Map<number, Level>([[0, { x: sampling.noise(0), x0: zeros }]]);
+  const start = sampling
+    .noise(0)
+    .map((value, i) => value * (sampling.temperature[Math.floor((i % width) / latent.channels)] ?? NaN));
+  const levels = new Map<number, Level>([[0, { x: start, x0: zeros }]]);
   const draws = new Map<number, Float32Array>();
   const left = cut.map((blocks) => blocks.length);
   let done = 0;

@@ -30,6 +30,7 @@ function sampling(changes: Partial<Sampling> = {}): Sampling {
   return {
     latent: manifest.latent,
     alternatingPhase: manifest.diffusion.alternating_phase,
+    temperature: manifest.diffusion.temperature,
     schedule: ddim(manifest.diffusion, golden.steps),
     latents,
     memory: array('memory'),

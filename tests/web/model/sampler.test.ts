@@ -35,6 +35,7 @@ function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
   return {
     latent,
     alternatingPhase: false,
+    temperature: small.diffusion.temperature,
     schedule: ddim(small.diffusion, 4),
     latents,
     memory: Float32Array.from({ length: latents * latent.memory_width }, (_, i) => Math.sin(i)),
@@ -75,6 +76,15 @@ describe('sample', () => {
       }
     },
   );
+
+  it('scales the noise it starts from by the temperature of each layer', async () => {
+    const scaled = noise(9, 20, width, 0).map(
+      (value, i) => value * (i % width < latent.channels ? 0.3 : 1.5),
+    );
+    const cooled = await sample(sampling(20, { temperature: [0.3, 1.5] }));
+    expect(cooled).toEqual(await sample(sampling(20, { noise: () => scaled })));
+    expect(cooled).not.toEqual(await sample(sampling(20)));
+  });
 
   it('does not depend on how many blocks go through the graph at once', async () => {
     const whole = await sample(sampling(50, { alternatingPhase: true }));

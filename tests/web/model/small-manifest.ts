@@ -44,6 +44,7 @@ export function smallJson() {
       alphas_cumprod: Array.from({ length: 1000 }, (_, t) => Math.cos(((t + 1) / 1001) * (Math.PI / 2)) ** 2),
       sampler: 'ddim',
       alternating_phase: true,
+      temperature: [1, 1],
       steps: { default: 10, min: 1, max: 50 },
     },
     guidance: {
