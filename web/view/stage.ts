@@ -98,8 +98,10 @@ export interface Other {
   readonly labels: Labels;
 }
 
-/** Time constant with which the lights follow the camera's heading, seconds. */
-const LIGHT_TAU = 0.7;
+/** Time constant with which the lights follow the camera's heading, seconds; sooner where a picture waits to be sharp. */
+const LIGHT_TAU = { dancing: 0.7, resting: 0.3 } as const;
+/** A turn of the lights that nobody sees, radians. */
+const LIGHT_STILL = 0.03;
 
 /** The person's wish for less movement. */
 const CALM = '(prefers-reduced-motion: reduce)';
@@ -188,7 +190,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     pose();
     const moving = rig.update(dt, couple, danced);
     const turn = nearestTurn(rig.heading, lightHeading) - lightHeading;
-    lightHeading += rig.jumps ? turn : turn * easing(dt, LIGHT_TAU);
+    lightHeading += rig.jumps ? turn : turn * easing(dt, danced ? LIGHT_TAU.dancing : LIGHT_TAU.resting);
     lights.aim(couple.x, couple.z, lightHeading);
     floor.setCentre(couple.x, couple.z);
     cast.setFar(isFar(rig.camera.position, couple, renderer.domElement.height));
@@ -197,7 +199,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     frames++;
     const now = stats();
     for (const listener of listeners) listener(now);
-    return moving || passing || (!rig.jumps && Math.abs(turn) > 0.01);
+    return moving || passing || (!rig.jumps && Math.abs(turn) > LIGHT_STILL);
   }
   const sharpness = createSharpness();
   const loop = filmed
