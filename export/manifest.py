@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-from training.config import FPS, STREAMS, STRIDE
+from training.config import FPS, STREAMS, STRIDE, per_layer
 from training.data.floor import TOE_PERCENTILE, TOE_REST
 from training.diffusion import alphas_cumprod
 from training.metrics import beats, contact, penetration, seams
@@ -100,7 +100,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "alphas_cumprod": [float(f"{a:.10g}") for a in alphas_cumprod(diffusion)],
             "sampler": "ddim",
             "alternating_phase": diffusion.alternating_phase,
-            "temperature": list(diffusion.temperature),
+            "temperature": per_layer(diffusion.temperature, len(names)),
             "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
         },
         "guidance": {
@@ -108,7 +108,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "min": -1,
             "max": 3,
             "step": 0.05,
-            "default": {name: diffusion.guidance[min(r, 1)] for r, name in enumerate(names)},
+            "default": dict(zip(names, per_layer(diffusion.guidance, len(names)), strict=True)),
             "music": {"min": 0, "max": 4, "default": diffusion.music},
         },
         "noise": {"algorithm": "philox4x32-10"},

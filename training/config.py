@@ -92,9 +92,9 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music: float = 0.0  # default of music guidance, see `guided_x0`
-    # The noise of each residual layer is multiplied by this before sampling starts: less than 1 brings what is more
-    # likely, and reactions that differ less from each other.
-    temperature: tuple[float, ...] = (1.0, 1.0)
+    # The noise of coarse and fine is multiplied by this before sampling starts: less than 1 brings what is more likely,
+    # and reactions that differ less from each other.
+    temperature: tuple[float, float] = (1.0, 1.0)
     # Per stream, how much of the quantiser's range what is predicted without guidance may use, see `guided_x0`.
     reach: tuple[float, float, float] = (1.0, 1.0, 1.0)
     # Sampled coarse latents of every stream are multiplied by this, from their mean, before they are decoded: less
@@ -114,6 +114,11 @@ class DenoiserLossConfig:
     energy: float = 0.2
     orientation: float = 0.05
     windows: int = 8  # the windows with least noise in the batch, the only ones that are decoded
+
+
+def per_layer(coarse_and_fine: tuple[float, float], layers: int) -> list[float]:
+    """Coarse's value for the first residual layer, fine's for all above it."""
+    return [coarse_and_fine[min(r, 1)] for r in range(layers)]
 
 
 def to_json(config: Any) -> dict[str, Any]:

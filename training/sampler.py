@@ -11,7 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig
+from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig, per_layer
 from training.denoiser.denoiser import Denoiser
 from training.diffusion import Step, alphas_cumprod, ddim_steps
 from training.frame import smoothed_heading
@@ -135,7 +135,7 @@ def sample(
     All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
     """
     frames, size = len(memory), denoiser.config.block
-    x = initial * torch.tensor(config.temperature)[:, None]
+    x = initial * torch.tensor(per_layer(config.temperature, denoiser.layers))[:, None]
     x0_before = torch.zeros_like(x)
     for k, step in enumerate(steps):
         if config.stitching:
