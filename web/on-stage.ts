@@ -10,9 +10,13 @@ import type { PictureSize, Stage } from './view/stage';
 
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
+/** Milliseconds after a dance was made in which it is put on the page and measured. */
+const AFTERMATH = 1000;
+
 /** Shows on a stage what the state says; returns how to let go of it. */
 export function showOn(shown: Stage, store: Store): () => void {
   let shownAs = '';
+  let calming: ReturnType<typeof setTimeout> | undefined;
   return together(
     watch(
       store,
@@ -42,6 +46,16 @@ export function showOn(shown: Stage, store: Store): () => void {
       (what) => shown.setShown(what),
     ),
     showOther(store, shown),
+    watch(
+      store,
+      (state) => state.job !== null,
+      (busy) => {
+        clearTimeout(calming);
+        if (busy) shown.setPatient(true);
+        else calming = setTimeout(() => shown.setPatient(false), AFTERMATH);
+      },
+    ),
+    () => clearTimeout(calming),
     watch(
       store,
       (state) => state.playback.time,

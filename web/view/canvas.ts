@@ -1,5 +1,6 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
 import { ViewError } from './error';
+import { copySheet, drawnByProcessor, plainSheet } from './sheet';
 
 /** A picture of the couple over the whole canvas, or one of its two halves. */
 export type Picture = 'whole' | 'left' | 'right';
@@ -7,6 +8,8 @@ export type Picture = 'whole' | 'left' | 'right';
 /** The canvas in the page and the renderer that draws on it. */
 export interface Canvas {
   readonly renderer: WebGLRenderer;
+  /** What is on the page and takes the pointer. */
+  readonly element: HTMLElement;
   /** In CSS pixels. */
   readonly size: { readonly width: number; readonly height: number };
   /** Whether the browser has taken the graphics card away for now. */
@@ -19,6 +22,12 @@ export interface Canvas {
   sharpen(factor: number): boolean;
   /** Says where the next picture goes. */
   aim(picture: Picture): void;
+  /** All of a picture has been drawn. */
+  drawn(): void;
+  /** Whether what was drawn is on the page or comes there by itself. */
+  shown(): boolean;
+  /** Whether the page stays free while a picture is drawn; true when one has to be drawn at once, see `Sheet`. */
+  setPatient(patient: boolean): boolean;
   dispose(): void;
 }
 
@@ -31,9 +40,14 @@ export interface PictureSize {
 /** Sharper than this costs more than it shows. */
 const MOST_PIXELS = 2;
 
-function createRenderer(): WebGLRenderer {
+/** @param kept whether pictures stay on the canvas until the next one */
+function createRenderer(kept: boolean): WebGLRenderer {
   try {
-    return new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
+    return new WebGLRenderer({
+      antialias: true,
+      powerPreference: 'high-performance',
+      preserveDrawingBuffer: kept,
+    });
   } catch {
     throw new ViewError(
       'webgl-missing',
@@ -46,12 +60,19 @@ function createRenderer(): WebGLRenderer {
 /**
  * @param filmed the size of pictures that leave the page one by one; null follows the host
  * @param onRestored called when a lost graphics card is there again
+ * @param onShown called when a picture that was not `shown` at once is on the page
  * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
  */
-export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRestored: () => void): Canvas {
-  const renderer = createRenderer();
-  const element = renderer.domElement;
-  element.style.display = 'block';
+export function createCanvas(
+  host: HTMLElement,
+  filmed: PictureSize | null,
+  { onRestored, onShown }: { readonly onRestored: () => void; readonly onShown: () => void },
+): Canvas {
+  const copied = filmed === null && drawnByProcessor();
+  const renderer = createRenderer(copied);
+  const sheet = copied ? copySheet(renderer, onShown) : plainSheet(renderer);
+  const { element } = sheet;
+  renderer.domElement.style.display = 'block';
   host.append(element);
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = VSMShadowMap;
@@ -70,11 +91,17 @@ export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRe
     lost = false;
     onRestored();
   };
-  element.addEventListener('webglcontextlost', lose);
-  element.addEventListener('webglcontextrestored', restore);
+  renderer.domElement.addEventListener('webglcontextlost', lose);
+  renderer.domElement.addEventListener('webglcontextrestored', restore);
 
   return {
     renderer,
+    element,
+    drawn: () => {
+      sheet.drawn();
+    },
+    shown: () => sheet.shown(),
+    setPatient: (patient) => sheet.setPatient(patient),
     get size() {
       return size;
     },
@@ -106,8 +133,9 @@ export function createCanvas(host: HTMLElement, filmed: PictureSize | null, onRe
       renderer.setScissor(left, 0, wide, height);
     },
     dispose() {
-      element.removeEventListener('webglcontextlost', lose);
-      element.removeEventListener('webglcontextrestored', restore);
+      sheet.dispose();
+      renderer.domElement.removeEventListener('webglcontextlost', lose);
+      renderer.domElement.removeEventListener('webglcontextrestored', restore);
       renderer.dispose();
       // Browsers allow few contexts; one that is not given back waits for the garbage collector.
       if (filmed) renderer.forceContextLoss();

@@ -4,6 +4,8 @@ export interface Loop {
   invalidate(): void;
   /** Leaves the next picture out, for when the page has much else to show at that moment. */
   pass(): void;
+  /** Draws what waited for the last picture to be shown. */
+  resume(): void;
   /** Draws now, for when waiting would show an empty canvas. */
   flush(): void;
   /** Median main-thread milliseconds of the last frames. */
@@ -22,6 +24,7 @@ const REST = 200;
 export const idleLoop: Loop = {
   invalidate: () => undefined,
   pass: () => undefined,
+  resume: () => undefined,
   flush: () => undefined,
   frameMs: 0,
   dispose: () => undefined,
@@ -31,16 +34,20 @@ export const idleLoop: Loop = {
 export interface Drawing {
   /** Draws a frame, `dt` seconds after the last one; true asks for another. */
   readonly draw: (dt: number) => boolean;
+  /** Whether the last frame is on the page; until then no other is drawn. */
+  readonly shown: () => boolean;
   /** A frame that was asked for can be drawn, after so many milliseconds; called before it is. */
   readonly due: (waited: number) => void;
   /** Nothing has moved for a while. */
   readonly rest: () => void;
 }
 
-export function createLoop({ draw, due, rest }: Drawing): Loop {
+export function createLoop({ draw, shown, due, rest }: Drawing): Loop {
   let request = 0;
   let asked = 0;
   let passes = false;
+  /** A frame was due before the last one was shown. */
+  let waits = false;
   let resting: ReturnType<typeof setTimeout> | undefined;
   let before = 0;
   let running = false;
@@ -60,25 +67,35 @@ export function createLoop({ draw, due, rest }: Drawing): Loop {
     else resting = setTimeout(rest, REST);
   }
   function invalidate(): void {
-    if (request !== 0 || disposed) return;
+    if (request !== 0 || waits || disposed) return;
     asked = performance.now();
     request = requestAnimationFrame((now) => {
+      request = 0;
       if (passes) {
         passes = false;
-        request = 0;
         return invalidate();
       }
-      due(performance.now() - asked);
-      frame(now);
+      if (shown()) drawDue(now);
+      else waits = true;
     });
+  }
+  function drawDue(now: number): void {
+    due(performance.now() - asked);
+    frame(now);
   }
   return {
     invalidate,
     pass() {
       passes = request !== 0;
     },
+    resume() {
+      if (!waits || disposed) return;
+      waits = false;
+      drawDue(performance.now());
+    },
     flush() {
       if (disposed) return;
+      waits = false;
       if (request !== 0) cancelAnimationFrame(request);
       frame(performance.now());
     },

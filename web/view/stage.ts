@@ -65,6 +65,11 @@ export interface Stage {
   setCamera(view: View): void;
   /** Moves the couple to the right by CSS pixels, out from under what lies over the picture. */
   standAside(pixels: number): void;
+  /**
+   * Says whether the page has much else to do. Where there is no graphics card it then stays free while a picture is
+   * drawn, and there are a quarter fewer.
+   */
+  setPatient(patient: boolean): void;
   /** Brings both dancers into the picture. */
   frameBoth(): void;
   /** How the couple is seen now, for a film to be framed alike. */
@@ -128,9 +133,14 @@ export function createStage(host: HTMLElement): Stage {
 
 /** @param filmed the size of pictures that are drawn one by one; null follows the host and draws by itself. */
 function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize | null): Film {
-  const canvas = createCanvas(host, filmed, () => {
-    shaded = true;
-    loop.invalidate();
+  const canvas = createCanvas(host, filmed, {
+    onRestored() {
+      shaded = true;
+      loop.invalidate();
+    },
+    onShown() {
+      loop.resume();
+    },
   });
   const { renderer } = canvas;
 
@@ -147,7 +157,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   const shows = createShows();
   scene.add(cast.object, shows.object);
   const halves = createHalves(host);
-  const rig = createCameraRig(renderer.domElement, () => loop.invalidate(), filmed ? null : matchMedia(CALM));
+  const rig = createCameraRig(canvas.element, () => loop.invalidate(), filmed ? null : matchMedia(CALM));
   const listeners = new Set<(stats: StageStats) => void>();
   let seconds = 0;
   let posed = false;
@@ -196,6 +206,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     cast.setFar(isFar(rig.camera.position, couple, renderer.domElement.height));
     renderer.info.reset();
     for (const picture of cast.split ? HALVES : WHOLE) drawPicture(picture);
+    canvas.drawn();
     frames++;
     const now = stats();
     for (const listener of listeners) listener(now);
@@ -206,6 +217,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     ? idleLoop
     : createLoop({
         draw,
+        shown: () => canvas.shown(),
         due(waited) {
           sharpness.waited(waited);
           canvas.sharpen(sharpness.factor);
@@ -297,6 +309,9 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     },
     standAside(pixels) {
       rig.shift(pixels);
+    },
+    setPatient(patient) {
+      if (canvas.setPatient(patient)) loop.flush();
     },
     frameBoth() {
       pose();

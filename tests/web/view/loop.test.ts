@@ -10,7 +10,13 @@ const tick = (now: number): void => {
 
 /** A loop of which only some calls matter. */
 const looping = (drawing: Partial<Drawing>): Loop =>
-  createLoop({ draw: () => false, due: () => undefined, rest: () => undefined, ...drawing });
+  createLoop({
+    draw: () => false,
+    shown: () => true,
+    due: () => undefined,
+    rest: () => undefined,
+    ...drawing,
+  });
 
 beforeEach(() => {
   waiting = null;
@@ -67,6 +73,27 @@ describe('the loop', () => {
     // What is drawn at once was not waited for.
     loop.flush();
     expect(calls).toEqual([70, 'draw', 'draw']);
+  });
+
+  it('draws no picture before the last one is shown, and then at once', () => {
+    let shown = false;
+    const waited: number[] = [];
+    const draw = vi.fn(() => false);
+    const loop = looping({ draw, shown: () => shown, due: (ms) => waited.push(ms) });
+    loop.resume();
+    loop.invalidate();
+    vi.advanceTimersByTime(10);
+    tick(1000);
+    loop.invalidate();
+    expect(waiting).toBeNull();
+    expect(draw).not.toHaveBeenCalled();
+    vi.advanceTimersByTime(20);
+    shown = true;
+    loop.resume();
+    expect(draw).toHaveBeenCalledTimes(1);
+    expect(waited).toEqual([30]);
+    loop.resume();
+    expect(draw).toHaveBeenCalledTimes(1);
   });
 
   it('leaves one picture out when told to, and only one that is on its way', () => {
