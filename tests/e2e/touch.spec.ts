@@ -98,3 +98,27 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
     expect(await app.read(({ playback }) => playback.time)).toBe(before);
   });
 });
+
+test('a small phone shows the first words whole, and then stage and both faders at once', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await serveDemo(page, demoSettings);
+  await app.openWithoutPicture();
+  await app.settled();
+  const stage = (await page.locator('#stage').boundingBox())!;
+  for (const what of [
+    page.getByRole('heading', { name: /Watch the partner answer/ }),
+    page.getByRole('button', { name: 'Play the demo' }),
+    page.getByRole('button', { name: 'Choose a song' }),
+  ]) {
+    const { y, height } = (await what.boundingBox())!;
+    expect(y).toBeGreaterThan(stage.y);
+    expect(y + height).toBeLessThan(stage.y + stage.height);
+  }
+  await page.getByRole('button', { name: 'Play the demo' }).tap();
+  await app.until(({ playback }) => playback.playing);
+  for (const name of ['Coarse guidance', 'Fine guidance'])
+    await expect(page.getByRole('slider', { name })).toBeInViewport({ ratio: 1 });
+  expect((await page.locator('#stage').boundingBox())!.height).toBeGreaterThan(240);
+});
