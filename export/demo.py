@@ -38,7 +38,7 @@ class Options:
     """Eight-counts of the duet to leave out at its start, where the couple walks in."""
     leader_seed: int = 4
     """One whose leader needs no shift against the song."""
-    seed: int = 1216
+    seed: int = 1206
     """Of the first reaction; demo.json names it to the page."""
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.frame import smoothed_heading
-from training.sampler import Model, guided_x0, sampled_streams
-from training.streams import leader_features, reactor_motion
+from training.sampler import Model, danced, guided_x0
+from training.streams import leader_features
 
 
 class Condition(nn.Module):
@@ -64,5 +64,4 @@ class Decode(nn.Module):
         self.hfsq = model.hfsq  # registers its parameters
 
     def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        streams = sampled_streams(self.model, latents, layers)
-        return reactor_motion(streams, leader, smoothed_heading(leader, self.model.frame))
+        return danced(self.model, latents, leader, layers)

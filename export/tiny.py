@@ -63,6 +63,7 @@ def tiny_model(seed: int = 0) -> Model:
         reach=(1.0, 0.9, 0.8),
         spread=(0.9, 1.0, 0.8),
         sharpen=0.3,
+        grip=0.5,
     )
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion)
 

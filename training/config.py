@@ -101,6 +101,7 @@ class DiffusionConfig:
     # than 1 keeps nearer to what is sure.
     spread: tuple[float, float, float] = (1.0, 1.0, 1.0)
     sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion, see `training.sharpen`
+    grip: float = 0.0  # m/s, how firmly planted feet hold the body, see `training.grip`
 
 
 @dataclass(frozen=True)

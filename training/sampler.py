@@ -15,6 +15,7 @@ from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig, per_l
 from training.denoiser.denoiser import Denoiser
 from training.diffusion import Step, alphas_cumprod, ddim_steps
 from training.frame import smoothed_heading
+from training.grip import grip
 from training.hfsq.autoencoder import Autoencoder
 from training.noise import noise
 from training.sharpen import sharpen
@@ -176,14 +177,16 @@ def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, 
     return encoder.with_silence(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
 
 
-def sampled_streams(model: Model, latents: Tensor, layers: Tensor) -> list[Tensor]:
-    """Sampled normalised latents (L, R, C) to the three streams (T, c) in metres; `layers` (R,) multiplies each
+def danced(model: Model, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
+    """Sampled normalised latents (L, R, C) to the reactor's joints (T, 22, 3) in metres; `layers` (R,) multiplies each
     residual layer.
     """
     coarse = per_channel(model.denoiser, model.diffusion.spread)
     spread = torch.stack([coarse, *[torch.ones_like(coarse)] * (model.denoiser.layers - 1)])
     raw = model.hfsq.denormalise(latents * spread) * layers[:, None]
-    return [sharpen(stream[0], model.diffusion.sharpen) for stream in model.hfsq.decode(raw[None])]
+    streams = [sharpen(stream[0], model.diffusion.sharpen) for stream in model.hfsq.decode(raw[None])]
+    motion = reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
+    return grip(motion, model.diffusion.grip)
 
 
 @torch.no_grad()
@@ -191,8 +194,7 @@ def decode(model: Model, latents: Tensor, leader: Tensor, layers: Tensor | None 
     """Normalised latents (L, R, C) to reactor joints (T, 22, 3); `layers` (R,) multiplies each residual
     layer.
     """
-    streams = sampled_streams(model, latents, torch.ones(model.denoiser.layers) if layers is None else layers)
-    return reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
+    return danced(model, latents, leader, torch.ones(model.denoiser.layers) if layers is None else layers)
 
 
 def pad_to_stride(motion: np.ndarray) -> np.ndarray:
