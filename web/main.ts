@@ -9,6 +9,7 @@ import { createChoices } from './ui/choices';
 import { createChooser } from './ui/chooser';
 import { createCoarseLayer } from './ui/coarse-layer';
 import { loadDemo } from './ui/demo';
+import { downloadChosen } from './ui/download-changes';
 import { createDownloads } from './ui/downloads';
 import { mountDropTarget } from './ui/drop-target';
 import { createFiles } from './ui/files';
@@ -95,6 +96,8 @@ function openStage(): Stage | null {
   }
 }
 const stage = openStage();
+// Two minutes for half a minute of film is not what anybody expects: there, large pictures are to be asked for.
+if (stage?.byProcessor) apply(store, downloadChosen({ size: 'stage' }));
 
 // ---- the theme, before panels draw with its colours ----
 

@@ -79,6 +79,8 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
     });
   });
   const app = await openMenu(page);
+  // Here the processor draws: full HD would take minutes, and is there for who asks for it.
+  await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
   const size = await page.evaluate('window.reactdance.stage.pictureSize()');
   const before = await app.onScreen();
   const download = await film(page);

@@ -10,6 +10,8 @@ export interface Canvas {
   readonly renderer: WebGLRenderer;
   /** What is on the page and takes the pointer. */
   readonly element: HTMLElement;
+  /** Whether the processor draws on what is on the page, for want of a graphics card. */
+  readonly byProcessor: boolean;
   /** In CSS pixels. */
   readonly size: { readonly width: number; readonly height: number };
   /** Whether the browser has taken the graphics card away for now. */
@@ -68,9 +70,9 @@ export function createCanvas(
   filmed: PictureSize | null,
   { onRestored, onShown }: { readonly onRestored: () => void; readonly onShown: () => void },
 ): Canvas {
-  const copied = filmed === null && drawnByProcessor();
-  const renderer = createRenderer(copied);
-  const sheet = copied ? copySheet(renderer, onShown) : plainSheet(renderer);
+  const byProcessor = filmed === null && drawnByProcessor();
+  const renderer = createRenderer(byProcessor);
+  const sheet = byProcessor ? copySheet(renderer, onShown) : plainSheet(renderer);
   const { element } = sheet;
   renderer.domElement.style.display = 'block';
   host.append(element);
@@ -97,6 +99,7 @@ export function createCanvas(
   return {
     renderer,
     element,
+    byProcessor,
     drawn: () => {
       sheet.drawn();
     },

@@ -49,6 +49,8 @@ export interface Entrance {
 
 /** The room in which the two dance. */
 export interface Stage {
+  /** Whether the processor draws, for want of a graphics card. */
+  readonly byProcessor: boolean;
   /** Puts dancers on the stage or takes them off (null); a role that is left out stays as it is. */
   setDancers(dancers: { leader?: SolvedMotion | null; reactor?: SolvedMotion | null }, how?: Entrance): void;
   /**
@@ -256,6 +258,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   resize();
 
   return {
+    byProcessor: canvas.byProcessor,
     setDancers(next, { made = 'reactor', softly = false } = {}) {
       cast.setMade(made);
       const before = cast.present;
