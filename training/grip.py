@@ -21,15 +21,15 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from training.config import FPS
+from training.data.floor import TOE_REST
+from training.metrics.contact import HEIGHT, VERTICAL_SPEED
 from training.skeleton import FEET
 
 RETURN = 0.45  # seconds in which the body comes back to its place
 STIFFNESS = 0.012  # s^2; the body gives way without jolts
 PENALTY = 1.5  # the method's rho, which sets how fast it converges, not where to
 ROUNDS = 12
-REST = (0.08, 0.08, 0.03, 0.03)  # metres above the floor at which ankles and toes rest
-HEIGHT = 0.03  # metres above that at which a foot is no longer planted
-VERTICAL_SPEED = 0.1  # m/s with which a planted foot rises or sinks at most
+REST = (0.08, 0.08, TOE_REST, TOE_REST)  # metres above the floor at which ankles and toes rest
 SLOW = 0.1  # m/s; of two planted feet the slower one holds the body
 RADIUS = 60  # frames; the answer to one step of the foot has all but faded out by then
 

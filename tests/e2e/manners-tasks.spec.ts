@@ -33,18 +33,23 @@ const used = ({ busy, waited }: Task): number => busy + waited.inScripts + waite
 
 const drawn = (page: Page) => page.evaluate<number>('window.reactdance.stage.stats().frames');
 
-test('no task of the page is long while a reaction is made and the picture plays', async ({
-  page,
-  browser,
-}) => {
+/** The page with its model and the demo playing, in a loop: however long a test takes, the dance goes on. */
+async function dancing(page: Page): Promise<App> {
   const app = new App(page);
   await app.open(SHIPPED);
   await app.settled();
   await page.evaluate('window.reactdance.stage.ready()');
-  // However long it takes, the dance goes on.
   await page.keyboard.press('l');
   await page.keyboard.press('Space');
   await app.until(({ playback }) => playback.playing && playback.time > 0.2);
+  return app;
+}
+
+test('no task of the page is long while a reaction is made and the picture plays', async ({
+  page,
+  browser,
+}) => {
+  const app = await dancing(page);
   const before = await drawn(page);
   await browser.startTracing(page, { categories: TRACED });
   await page.evaluate("performance.mark('asked')");
@@ -81,13 +86,7 @@ test('no task of the page is long while a reaction is made and the picture plays
 });
 
 test('while a reaction is made the dancers go on, without a graphics card as copies', async ({ page }) => {
-  const app = new App(page);
-  await app.open(SHIPPED);
-  await app.settled();
-  await page.evaluate('window.reactdance.stage.ready()');
-  await page.keyboard.press('l');
-  await page.keyboard.press('Space');
-  await app.until(({ playback }) => playback.playing && playback.time > 0.2);
+  const app = await dancing(page);
   await page.getByRole('slider', { name: 'Coarse guidance' }).fill('1.7');
   await app.until(({ job }) => job !== null && job.fraction > 0);
   const pictures: Look[] = [];
