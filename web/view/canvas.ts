@@ -1,4 +1,5 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
+import { createEdges, type Area } from './edges';
 import { ViewError } from './error';
 import { copySheet, drawnByProcessor, plainSheet } from './sheet';
 
@@ -10,7 +11,7 @@ export interface Canvas {
   readonly renderer: WebGLRenderer;
   /** What is on the page and takes the pointer. */
   readonly element: HTMLElement;
-  /** Whether the processor draws on what is on the page, for want of a graphics card. */
+  /** Whether the processor draws, for want of a graphics card. */
   readonly byProcessor: boolean;
   /** In CSS pixels. */
   readonly size: { readonly width: number; readonly height: number };
@@ -22,8 +23,10 @@ export interface Canvas {
   resize(width: number, height: number): boolean;
   /** Takes so much of the pixels along each side, 0 to 1; true when that is another share, and what was drawn is lost. */
   sharpen(factor: number): boolean;
-  /** Says where the next picture goes. */
-  aim(picture: Picture): void;
+  /** Says where the next picture goes, and returns that place in CSS pixels. */
+  aim(picture: Picture): Area;
+  /** Smooths the edges in a part of what was drawn, where they have not been drawn smooth. */
+  smooth(area: Area | null): void;
   /** All of a picture has been drawn. */
   drawn(): void;
   /** Whether what was drawn is on the page or comes there by itself. */
@@ -42,11 +45,14 @@ export interface PictureSize {
 /** Sharper than this costs more than it shows. */
 const MOST_PIXELS = 2;
 
-/** @param kept whether pictures stay on the canvas until the next one */
-function createRenderer(kept: boolean): WebGLRenderer {
+/**
+ * @param kept whether pictures stay on the canvas until the next one
+ * @param smooth whether edges are smooth as drawn
+ */
+function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
   try {
     return new WebGLRenderer({
-      antialias: true,
+      antialias: smooth,
       powerPreference: 'high-performance',
       preserveDrawingBuffer: kept,
     });
@@ -70,9 +76,11 @@ export function createCanvas(
   filmed: PictureSize | null,
   { onRestored, onShown }: { readonly onRestored: () => void; readonly onShown: () => void },
 ): Canvas {
-  const byProcessor = filmed === null && drawnByProcessor();
-  const renderer = createRenderer(byProcessor);
-  const sheet = byProcessor ? copySheet(renderer, onShown) : plainSheet(renderer);
+  const byProcessor = drawnByProcessor();
+  const copied = byProcessor && filmed === null;
+  const renderer = createRenderer(copied, !byProcessor);
+  const edges = byProcessor ? createEdges(renderer) : null;
+  const sheet = copied ? copySheet(renderer, onShown) : plainSheet(renderer);
   const { element } = sheet;
   renderer.domElement.style.display = 'block';
   host.append(element);
@@ -134,9 +142,14 @@ export function createCanvas(
       renderer.setScissorTest(picture !== 'whole');
       renderer.setViewport(left, 0, wide, height);
       renderer.setScissor(left, 0, wide, height);
+      return { left, bottom: 0, width: wide, height };
+    },
+    smooth(area) {
+      if (area) edges?.smooth(area);
     },
     dispose() {
       sheet.dispose();
+      edges?.dispose();
       renderer.domElement.removeEventListener('webglcontextlost', lose);
       renderer.domElement.removeEventListener('webglcontextrestored', restore);
       renderer.dispose();

@@ -4,6 +4,7 @@ import type { BodyLibrary } from './body/library';
 import type { Picture } from './canvas';
 import { createDancer, type Dancer } from './dancer';
 import { measureCouple, type Couple } from './framing';
+import type { Paint } from './paint';
 import type { Figure } from './shows/show';
 import { NOTHING_SHOWN, type Shown } from './shows/shows';
 import { ROLES, type Look, type Role } from './theme';
@@ -39,6 +40,8 @@ export interface Cast {
    * dancer with the other take, turned to it. Each half has the coarse layer of its own take.
    */
   arrange(picture: Picture): readonly Figure[];
+  /** Joints of everybody to be seen in the picture that was arranged last, 22 x 3 world positions each. */
+  seen(): readonly Float32Array[];
   joints(part: Part): Float32Array;
   setLook(look: Look): void;
   /** Resolves when everybody has a body. */
@@ -46,9 +49,12 @@ export interface Cast {
   dispose(): void;
 }
 
-/** @param onBody called when somebody has got a body */
-export function createCast(library: BodyLibrary, onBody: () => void): Cast {
-  const dancer = (role: Role): Dancer => createDancer(role, library, onBody);
+/**
+ * @param paint makes what a solid body is painted with
+ * @param onBody called when somebody has got a body
+ */
+export function createCast(library: BodyLibrary, paint: () => Paint, onBody: () => void): Cast {
+  const dancer = (role: Role): Dancer => createDancer(role, library, paint(), onBody);
   const dancers: Readonly<Record<Part, Dancer>> = {
     leader: dancer('leader'),
     reactor: dancer('reactor'),
@@ -138,6 +144,8 @@ export function createCast(library: BodyLibrary, onBody: () => void): Cast {
       dancers.otherCoarse.show(others && shown.ghost);
       return [...figure(loaded(), loaded()), ...figure(made, partner)];
     },
+    seen: () =>
+      PARTS.filter((part) => dancers[part].object.visible).map((part) => dancers[part].jointPositions()),
     joints: (part) => dancers[part].jointPositions(),
     setLook(look) {
       for (const part of PARTS) dancers[part].setLook(look);

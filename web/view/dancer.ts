@@ -1,4 +1,4 @@
-import { BufferGeometry, Group, MeshStandardMaterial, SkinnedMesh } from 'three';
+import { BufferGeometry, Group, SkinnedMesh } from 'three';
 import type { SolvedMotion } from '../motion/clip';
 import { JOINT_COUNT } from '../motion/skeleton';
 import { toGeometry, type BodyGeometry } from './body/geometry';
@@ -7,6 +7,7 @@ import type { Body } from './body/lighter';
 import { BUILDS } from './body/part';
 import { gesture } from './gesture';
 import { createGlass, type Clarity } from './glass';
+import type { Paint } from './paint';
 import { blendPose, createPose, samplePose } from './pose';
 import { createRig, type Rig } from './rig';
 import type { Look, Role } from './theme';
@@ -52,16 +53,12 @@ const CLARITY: Readonly<Record<Exclude<Matter, 'solid'>, Clarity>> = {
 const PASSAGE = 0.25;
 
 /**
+ * @param paint of the solid body; the dancer's own, who disposes of it
  * @param onBody called when the body has been meshed and the picture changes.
  */
-export function createDancer(role: Role, library: BodyLibrary, onBody: () => void): Dancer {
+export function createDancer(role: Role, library: BodyLibrary, paint: Paint, onBody: () => void): Dancer {
   const rig = createRig();
-  const material = new MeshStandardMaterial({
-    roughness: 0.62,
-    metalness: 0,
-    vertexColors: true,
-  });
-  const mesh = new SkinnedMesh(new BufferGeometry(), material);
+  const mesh = new SkinnedMesh(new BufferGeometry(), paint.material);
   mesh.name = role;
   mesh.castShadow = true;
   mesh.receiveShadow = true;
@@ -107,7 +104,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     object.visible = motion !== null && shown;
     const solid = matter === 'solid';
     if (look !== null) {
-      material.color.set(look[colours]);
+      paint.setTint(look[colours]);
       // Ghosts have tints of their own in the reactor's family.
       const ghost = matter === 'coarse' || matter === 'other' ? matter : null;
       const tint = look[ghost !== null && colours === 'reactor' ? ghost : colours];
@@ -186,7 +183,7 @@ export function createDancer(role: Role, library: BodyLibrary, onBody: () => voi
     dispose() {
       motion = null;
       geometry?.dispose();
-      material.dispose();
+      paint.material.dispose();
       glass.dispose();
       rig.skeleton.dispose();
     },

@@ -21,10 +21,10 @@ const KEY_DISTANCE = 4.2;
 /** Half the width of what casts shadows, metres. */
 const SHADOW_REACH = 2.6;
 /**
- * Texels along a side of the shadow map: 2.7 cm each, half of what the blur spreads them over. Finer ones are not seen,
+ * Texels along a side of the shadow map: 3.3 cm each, half of what the blur spreads them over. Finer ones are not seen,
  * and without a graphics card they take longer than the rest of the picture.
  */
-const SHADOW_TEXELS = 192;
+const SHADOW_TEXELS = 160;
 /** How far the blur goes to each side, texels. */
 const BLUR = 2;
 

@@ -5,12 +5,14 @@ import { createBodyLibrary, type BodyLibrary } from './body/library';
 import { createCanvas, type Picture, type PictureSize } from './canvas';
 import { createCast, type OtherMode, type Part } from './cast';
 import { createContacts } from './contacts';
+import { areaOf } from './edges';
 import { createFloor } from './floor';
 import { ViewError } from './error';
 import { easing, type Framing, isFar, measureCouple, nearestTurn, type View } from './framing';
 import { createHalves, type Labels } from './halves';
 import { createLights } from './lights';
 import { createLoop, idleLoop } from './loop';
+import { cornerPaint, pixelPaint } from './paint';
 import { createSharpness } from './sharpness';
 import { createShows, type Shown } from './shows/shows';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';
@@ -110,6 +112,9 @@ const LIGHT_TAU = { dancing: 0.7, resting: 0.3 } as const;
 /** A turn of the lights that nobody sees, radians. */
 const LIGHT_STILL = 0.03;
 
+/** How far a body goes beyond its joints, metres. */
+const BODY = 0.2;
+
 /** The person's wish for less movement. */
 const CALM = '(prefers-reduced-motion: reduce)';
 
@@ -155,7 +160,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   scene.add(contacts.object);
   const lights = createLights();
   scene.add(lights.object);
-  const cast = createCast(library, () => loop.invalidate());
+  const cast = createCast(library, canvas.byProcessor ? cornerPaint : pixelPaint, () => loop.invalidate());
   const shows = createShows();
   scene.add(cast.object, shows.object);
   const halves = createHalves(host);
@@ -177,7 +182,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   }
 
   function drawPicture(picture: Picture): void {
-    canvas.aim(picture);
+    const place = canvas.aim(picture);
     const figures = cast.arrange(picture);
     contacts.update(figures.map(({ joints }) => joints));
     shows.update(figures, seconds);
@@ -185,6 +190,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     renderer.shadowMap.autoUpdate = shaded || figures.length > 0;
     shaded = figures.length > 0;
     renderer.render(scene, rig.camera);
+    canvas.smooth(areaOf(cast.seen(), rig.camera, place, BODY));
   }
 
   const stats = (): StageStats => ({

@@ -3,6 +3,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { J } from '../../../web/motion/skeleton';
 import { createBodyLibrary } from '../../../web/view/body/library';
 import { createCast, type Cast } from '../../../web/view/cast';
+import { pixelPaint } from '../../../web/view/paint';
 import { NOTHING_SHOWN } from '../../../web/view/shows/shows';
 import { LOOKS } from '../../../web/view/theme';
 import { randomMotion } from './skeletons';
@@ -24,7 +25,7 @@ describe('the cast', () => {
   beforeEach(() => {
     // Node has no Worker: bodies are made here, in their own time, and none is waited for.
     vi.spyOn(console, 'warn').mockImplementation(() => undefined);
-    cast = createCast(createBodyLibrary(), () => undefined);
+    cast = createCast(createBodyLibrary(), pixelPaint, () => undefined);
     for (const part of PARTS) cast.setMotion(part, motions[part]);
     cast.pose(0.4);
   });
@@ -67,6 +68,9 @@ describe('the cast', () => {
     expect(seen()).toEqual([true, false, false, true, false]);
     cast.arrange('right');
     expect(seen()).toEqual([true, true, false, false, false]);
+    expect(cast.seen()).toEqual([cast.joints('leader'), cast.joints('reactor')]);
+    cast.arrange('left');
+    expect(cast.seen()).toEqual([cast.joints('leader'), cast.joints('other')]);
     cast.setMotion('other', null);
     expect(cast.split).toBe(false);
   });
