@@ -23,11 +23,16 @@ for (const theme of ['dark', 'light'] as const) {
   });
 }
 
-test('edges are smoothed where it is asked for, and nothing else changes', async ({ page }) => {
-  const seen = await page.evaluate<ReturnType<Page['edges']>>('view.edges()');
-  expect(seen.drawnGrey).toBe(0);
-  expect(seen.leftGrey).toBeGreaterThan(200);
-  expect(seen.rightGrey).toBe(0);
-  expect(seen.inside).toBeGreaterThan(0.95);
-  expect(seen.insideChanged).toBe(0);
-});
+for (const angle of [0.1, 0.6, -0.6]) {
+  test(`edges turned by ${angle} are smoothed where it is asked for, and nothing else changes`, async ({
+    page,
+  }) => {
+    const seen = await page.evaluate<ReturnType<Page['edges']>>(`view.edges(${angle})`);
+    expect(seen.drawnGrey).toBe(0);
+    expect(seen.leftGrey).toBeGreaterThan(200);
+    expect(seen.smooth).toBeLessThan(0.9 * seen.stepped);
+    expect(seen.rightGrey).toBe(0);
+    expect(seen.inside).toBeGreaterThan(0.95);
+    expect(seen.insideChanged).toBe(0);
+  });
+}

@@ -60,7 +60,7 @@ void main() {
   gl_FragColor = vec4(here, 1.0);
   if (lightest - darkest < max(LEAST, lightest * LEAST_SHARE)) return;
 
-  vec2 along = vec2(sw + se - nw - ne, nw + sw - ne - se);
+  vec2 along = vec2(nw + ne - sw - se, nw + sw - ne - se);
   float least = max((nw + ne + sw + se) / 32.0, 1.0 / 128.0);
   along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -FURTHEST, FURTHEST);
   vec3 near = 0.5 * (at(along / -6.0) + at(along / 6.0));

@@ -91,14 +91,30 @@ const page = {
     };
   },
 
-  /** A tilted white square on black, with its edges smoothed in the left half of the picture: what became of pixels. */
-  edges(): { drawnGrey: number; leftGrey: number; rightGrey: number; inside: number; insideChanged: number } {
-    const renderer = rendererOf(false);
+  /**
+   * A white square on black, turned by `angle` radians, with its edges smoothed in the left half of the picture: what
+   * became of pixels, and how far the left half is from four samples a pixel, before and after.
+   */
+  edges(angle: number): {
+    drawnGrey: number;
+    leftGrey: number;
+    rightGrey: number;
+    inside: number;
+    insideChanged: number;
+    stepped: number;
+    smooth: number;
+  } {
     const square = new Mesh(new PlaneGeometry(1.2, 1.2), new MeshBasicMaterial({ color: 0xffffff }));
-    square.rotation.z = 0.3;
+    square.rotation.z = angle;
+    const scene = new Scene().add(square);
     const camera = new PerspectiveCamera(30, 1, 0.1, 20);
     camera.position.z = 4;
-    renderer.render(new Scene().add(square), camera);
+    const sampled = rendererOf(true);
+    sampled.render(scene, camera);
+    const wanted = read(sampled);
+    sampled.forceContextLoss();
+    const renderer = rendererOf(false);
+    renderer.render(scene, camera);
     const drawn = read(renderer);
     createEdges(renderer).smooth({ left: 0, bottom: 0, width: SIDE / 2, height: SIDE });
     const smoothed = read(renderer);
@@ -110,12 +126,16 @@ const page = {
     const inside = drawn.flatMap((value, i) =>
       around.every((step) => apart(drawn[i + step] ?? value, value) === 0) ? [i] : [],
     );
+    const off = (picture: Picture): number =>
+      picture.reduce((sum, value, i) => sum + (left(i) ? apart(value, wanted[i]!) : 0), 0);
     return {
       drawnGrey: grey(drawn).length,
       leftGrey: grey(smoothed).filter(left).length,
       rightGrey: grey(smoothed).filter((i) => !left(i)).length,
       inside: inside.length / drawn.length,
       insideChanged: inside.filter((i) => apart(smoothed[i]!, drawn[i]!) > 0).length,
+      stepped: off(drawn),
+      smooth: off(smoothed),
     };
   },
 };
