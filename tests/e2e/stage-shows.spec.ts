@@ -159,7 +159,7 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
   await onStage(page, (stage) => stage.ready());
   await compare(page, 'right');
   await rested(page);
-  expect(await differing(page, [without, await picture(page)], 0.5)).toBeGreaterThan(300);
+  expect(await differing(page, [without, await picture(page)], 0.5)).toBeGreaterThan(100);
   await page.keyboard.press('g');
 
   await compare(page, 'ghost');
