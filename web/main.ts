@@ -96,7 +96,7 @@ function openStage(): Stage | null {
   }
 }
 const stage = openStage();
-// Two minutes for half a minute of film is not what anybody expects: there, large pictures are to be asked for.
+// A minute and a half for half a minute of film is not what anybody expects: there, large pictures are to be asked for.
 if (stage?.byProcessor) apply(store, downloadChosen({ size: 'stage' }));
 
 // ---- the theme, before panels draw with its colours ----

@@ -1,7 +1,7 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
-import { createEdges, type Area } from './edges';
+import { createEdges, type Area, type Edges } from './edges';
 import { ViewError } from './error';
-import { copySheet, drawnByProcessor, plainSheet } from './sheet';
+import { copySheet, plainSheet } from './sheet';
 
 /** A picture of the couple over the whole canvas, or one of its two halves. */
 export type Picture = 'whole' | 'left' | 'right';
@@ -11,8 +11,6 @@ export interface Canvas {
   readonly renderer: WebGLRenderer;
   /** What is on the page and takes the pointer. */
   readonly element: HTMLElement;
-  /** Whether the processor draws, for want of a graphics card. */
-  readonly byProcessor: boolean;
   /** In CSS pixels. */
   readonly size: { readonly width: number; readonly height: number };
   /** Whether the browser has taken the graphics card away for now. */
@@ -25,8 +23,8 @@ export interface Canvas {
   sharpen(factor: number): boolean;
   /** Says where the next picture goes, and returns that place in CSS pixels. */
   aim(picture: Picture): Area;
-  /** Smooths the edges in a part of what was drawn, where they have not been drawn smooth. */
-  smooth(area: Area | null): void;
+  /** What smooths the edges of a picture where they are not drawn smooth, for want of a graphics card. */
+  readonly edges: Edges | null;
   /** All of a picture has been drawn. */
   drawn(): void;
   /** Whether what was drawn is on the page or comes there by itself. */
@@ -66,6 +64,7 @@ function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
 }
 
 /**
+ * @param byProcessor whether the processor draws, for want of a graphics card
  * @param filmed the size of pictures that leave the page one by one; null follows the host
  * @param onRestored called when a lost graphics card is there again
  * @param onShown called when a picture that was not `shown` at once is on the page
@@ -73,10 +72,10 @@ function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
  */
 export function createCanvas(
   host: HTMLElement,
+  byProcessor: boolean,
   filmed: PictureSize | null,
   { onRestored, onShown }: { readonly onRestored: () => void; readonly onShown: () => void },
 ): Canvas {
-  const byProcessor = drawnByProcessor();
   const copied = byProcessor && filmed === null;
   const renderer = createRenderer(copied, !byProcessor);
   const edges = byProcessor ? createEdges(renderer) : null;
@@ -107,7 +106,7 @@ export function createCanvas(
   return {
     renderer,
     element,
-    byProcessor,
+    edges,
     drawn: () => {
       sheet.drawn();
     },
@@ -143,9 +142,6 @@ export function createCanvas(
       renderer.setViewport(left, 0, wide, height);
       renderer.setScissor(left, 0, wide, height);
       return { left, bottom: 0, width: wide, height };
-    },
-    smooth(area) {
-      if (area) edges?.smooth(area);
     },
     dispose() {
       sheet.dispose();

@@ -71,7 +71,7 @@ void main() {
 
 /**
  * Smooths edges by looking at the finished picture (FXAA, Lottes 2009). Where the processor draws, four samples a pixel
- * take a third of the time of all, and this, where the dancers are, a tenth of that.
+ * take a third of the time of all, and this, where the dancers are, a third of that.
  */
 export function createEdges(renderer: WebGLRenderer): Edges {
   const own = { picture: { value: null as FramebufferTexture | null }, pixel: { value: new Vector2() } };

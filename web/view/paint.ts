@@ -85,8 +85,8 @@ void main() {
 }`;
 
 /**
- * Lit at the corners of the triangles, its shadows at every pixel: where the processor draws this takes a third of the
- * time, and pictures are not so large that it shows. The light that casts shadows has to be the only one that does.
+ * Lit at the corners of the triangles, its shadows at every pixel: where the processor draws this takes half the time,
+ * and pictures are not so large that it shows. The light that casts shadows has to be the only one that does.
  */
 export function cornerPaint(): Paint {
   const tinted = { tint: { value: new Color() } };

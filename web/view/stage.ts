@@ -14,6 +14,7 @@ import { createLights } from './lights';
 import { createLoop, idleLoop } from './loop';
 import { cornerPaint, pixelPaint } from './paint';
 import { createSharpness } from './sharpness';
+import { drawnByProcessor } from './sheet';
 import { createShows, type Shown } from './shows/shows';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';
 
@@ -128,7 +129,7 @@ const HALVES = ['left', 'right'] as const satisfies readonly Picture[];
  */
 export function createStage(host: HTMLElement): Stage {
   const library = createBodyLibrary();
-  const stage = buildStage(host, library, null);
+  const stage = buildStage(host, library, drawnByProcessor(), null);
   return {
     ...stage,
     dispose() {
@@ -139,8 +140,13 @@ export function createStage(host: HTMLElement): Stage {
 }
 
 /** @param filmed the size of pictures that are drawn one by one; null follows the host and draws by itself. */
-function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize | null): Film {
-  const canvas = createCanvas(host, filmed, {
+function buildStage(
+  host: HTMLElement,
+  library: BodyLibrary,
+  byProcessor: boolean,
+  filmed: PictureSize | null,
+): Film {
+  const canvas = createCanvas(host, byProcessor, filmed, {
     onRestored() {
       shaded = true;
       loop.invalidate();
@@ -160,7 +166,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   scene.add(contacts.object);
   const lights = createLights();
   scene.add(lights.object);
-  const cast = createCast(library, canvas.byProcessor ? cornerPaint : pixelPaint, () => loop.invalidate());
+  const cast = createCast(library, byProcessor ? cornerPaint : pixelPaint, () => loop.invalidate());
   const shows = createShows();
   scene.add(cast.object, shows.object);
   const halves = createHalves(host);
@@ -190,7 +196,9 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
     renderer.shadowMap.autoUpdate = shaded || figures.length > 0;
     shaded = figures.length > 0;
     renderer.render(scene, rig.camera);
-    canvas.smooth(areaOf(cast.seen(), rig.camera, place, BODY));
+    if (!canvas.edges) return;
+    const area = areaOf(cast.seen(), rig.camera, place, BODY);
+    if (area) canvas.edges.smooth(area);
   }
 
   const stats = (): StageStats => ({
@@ -264,7 +272,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
   resize();
 
   return {
-    byProcessor: canvas.byProcessor,
+    byProcessor,
     setDancers(next, { made = 'reactor', softly = false } = {}) {
       cast.setMade(made);
       const before = cast.present;
@@ -336,7 +344,7 @@ function buildStage(host: HTMLElement, library: BodyLibrary, filmed: PictureSize
       lightHeading = rig.heading;
     },
     pictureSize: () => canvas.pixels,
-    film: (size) => buildStage(document.createElement('div'), library, size),
+    film: (size) => buildStage(document.createElement('div'), library, byProcessor, size),
     canvas: renderer.domElement,
     shoot(at, dt) {
       if (canvas.lost) {
