@@ -67,7 +67,8 @@ class ConditionConfig:
     leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
     leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
     blurred: float = 0.25  # share of windows with a blurred leader
-    leader_noise: float = 0.5  # standard deviations; up to this much slow noise on what is seen of the leader
+    # Standard deviations; up to this much slow noise on what is seen of the leader. 0.5 did not help.
+    leader_noise: float = 0.0
 
 
 @dataclass(frozen=True)
