@@ -103,9 +103,7 @@ def run_eager(options: Options, given: dict[str, np.ndarray]) -> Seconds:
         initial = torch.from_numpy(noise(SEED, len(memory), layers * width, draw=0)).unflatten(
             1, (layers, width)
         )
-        return sample(
-            model.denoiser, memory, initial, steps, guidance, model.diffusion.music, model.diffusion
-        )
+        return sample(model, memory, initial, steps, guidance, model.diffusion.music)
 
     for _ in range(1 + options.repeats):
         memory = watch("condition", lambda: condition(model, leader, music, valid))

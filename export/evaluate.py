@@ -161,13 +161,12 @@ def torch_dancer(
         initial = torch.from_numpy(noise(seed, len(memory), layers * width, draw=0)).float()
         weights = torch.tensor(guidance or default or model.diffusion.guidance).repeat(len(STREAMS), 1)
         latents = torch_sample(
-            model.denoiser,
+            model,
             memory,
             initial.unflatten(1, (layers, width)),
             schedule,
             weights,
             louder,
-            model.diffusion,
         )
         kept = torch.tensor([1.0] + [0.0 if coarse_only else 1.0] * (layers - 1))
         return decode(model, latents, torch.from_numpy(padded), kept)[: len(leader)].numpy() / scale

@@ -56,13 +56,12 @@ def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, 
     )
     states: list[tuple[np.ndarray, np.ndarray]] = []
     latents = sample(
-        model.denoiser,
+        model,
         memory,
         initial,
         ddim_steps(alphas_cumprod(model.diffusion), scene.steps),
         tensors["guidance"],
         float(given["music_guidance"][0]),
-        model.diffusion,
         on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
     )
     only_coarse = torch.zeros(layers)

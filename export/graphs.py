@@ -23,7 +23,7 @@ class Condition(nn.Module):
 
     def forward(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
         features = leader_features(leader, smoothed_heading(leader, self.frame))
-        return self.encoder.with_silence(features[None], music[None], music_valid[None], role)[0]
+        return self.encoder.of_clip(features[None], music[None], music_valid[None], role)[0]
 
 
 class SamplerStep(nn.Module):
@@ -35,8 +35,8 @@ class SamplerStep(nn.Module):
 
     def __init__(self, model: Model) -> None:
         super().__init__()
-        self.denoiser = model.denoiser
-        self.reach = model.diffusion.reach
+        self.model = model
+        self.denoiser, self.mirror = model.denoiser, model.hfsq.mirror  # registers their parameters
 
     def forward(
         self,
@@ -50,7 +50,7 @@ class SamplerStep(nn.Module):
         music_guidance: Tensor,
         coefficients: Tensor,
     ) -> tuple[Tensor, Tensor]:
-        x0 = guided_x0(self.denoiser, x, time, memory, valid, guidance, music_guidance, self.reach)
+        x0 = guided_x0(self.model, x, time, memory, valid, guidance, music_guidance)
         a, b, c, d = coefficients.unbind(0)
         return a * x + b * x0 + c * x0_prev + d * noise, x0
 

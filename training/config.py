@@ -44,6 +44,8 @@ class HfsqConfig:
     widths: tuple[int, int, int] = (192, 192, 96)  # per stream
     depth: int = 3
     refine_width: int = 64
+    mirror_width: int = 192  # of the network that mirrors latents
+    mirror_depth: int = 3
     masking: MaskingConfig | None = field(default_factory=MaskingConfig)
     weight_position: float = 1.0
     weight_velocity: float = 5.0
@@ -93,6 +95,7 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music: float = 0.0  # default of music guidance, see `guided_x0`
+    mirror: float = 0.0  # weight of the second opinion, see `training.second_opinion`
     # The noise of coarse and fine is multiplied by this before sampling starts: less than 1 brings what is more likely,
     # and reactions that differ less from each other.
     temperature: tuple[float, float] = (1.0, 1.0)

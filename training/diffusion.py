@@ -18,11 +18,22 @@ def alphas_cumprod(config: DiffusionConfig) -> np.ndarray:
     """
     steps = config.train_steps
 
-    def signal(t: float) -> float:
+    def alpha_bar(t: float) -> float:
         return math.cos((t + 0.008) / 1.008 * math.pi / 2) ** 2
 
-    betas = [min(1 - signal((t + 1) / steps) / signal(t / steps), 0.999) for t in range(steps)]
+    betas = [min(1 - alpha_bar((t + 1) / steps) / alpha_bar(t / steps), 0.999) for t in range(steps)]
     return np.cumprod(1 - np.array(betas))
+
+
+def signal(time: Tensor, config: DiffusionConfig) -> Tensor:
+    """sqrt(alpha bar) at `time`, timestep / train_steps: `alphas_cumprod` in closed form, for graphs. The cap on betas
+    is left out; only the last timestep meets it, where nearly nothing is left of the signal.
+    """
+
+    def root(t: Tensor) -> Tensor:
+        return ((t + 0.008) / 1.008 * (math.pi / 2)).cos()
+
+    return root(time + 1 / config.train_steps).clamp_min(0) / root(torch.zeros_like(time))
 
 
 def add_noise(x0: Tensor, noise: Tensor, alpha_bar: Tensor) -> Tensor:

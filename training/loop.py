@@ -39,7 +39,8 @@ class Budget:
     def progress(self) -> float:
         """0 at the start, 1 at the end."""
         by_time = self.spent / (60 * self.minutes) if self.minutes else 0.0
-        return min(1.0, max(self.step / self.steps, by_time))
+        by_steps = self.step / self.steps if self.steps else 1.0
+        return min(1.0, max(by_steps, by_time))
 
 
 def learning_rate(peak: float, budget: Budget, warmup: int) -> float:

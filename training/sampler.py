@@ -18,8 +18,19 @@ from training.frame import smoothed_heading
 from training.grip import grip
 from training.hfsq.autoencoder import Autoencoder
 from training.noise import noise
+from training.second_opinion import second_opinion
 from training.sharpen import sharpen
 from training.streams import leader_features, reactor_motion
+
+
+@dataclass(frozen=True)
+class Model:
+    """A trained pair of stages, ready to dance."""
+
+    hfsq: Autoencoder
+    frame: FrameConfig
+    denoiser: Denoiser
+    diffusion: DiffusionConfig
 
 
 @dataclass(frozen=True)
@@ -80,24 +91,19 @@ def within_reach(denoiser: Denoiser, x0: Tensor, reach: tuple[float, float, floa
 
 
 def guided_x0(
-    denoiser: Denoiser,
-    x: Tensor,
-    time: Tensor,
-    memory: Tensor,
-    valid: Tensor,
-    guidance: Tensor,
-    music: Tensor,
-    reach: tuple[float, float, float],
+    model: Model, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor, guidance: Tensor, music: Tensor
 ) -> Tensor:
     """Eq. 9 per stream and layer, and what the song adds: (1 + s) G(x, c) - s G(x, null) + m (G(x, c) - G(x, l)).
 
     c is leader and music, l the leader in silence. The last term, guidance by a single condition (as in Liu et
     al. 2022), is not in the paper; m = 0 leaves Eq. 9. x (B, block, R, C), time (1,), memory (B, block, M) of
     `condition`, valid (B, block), guidance s (S, R), music m (1,). Coarse sees no fine weight: the network's
-    coarse trunk never reads the fine layer and each layer is combined with its own s. The dance and what the song
-    adds are kept `within_reach`; what s adds is not, or guidance would end where the range does.
+    coarse trunk never reads the fine layer and each layer is combined with its own s. The dance, corrected by the
+    `second_opinion`, and what the song adds are kept `within_reach`; what s adds is not, or guidance would end where
+    the range does.
     """
-    leader, heard, silence = memory.chunk(3, dim=-1)
+    denoiser, config = model.denoiser, model.diffusion
+    leader, heard, silence, mirrored = memory.chunk(4, dim=-1)
     full, silent = torch.cat([leader, heard], dim=-1), torch.cat([leader, silence], dim=-1)
     kept = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
     keep = torch.cat([kept, kept * 0, kept])
@@ -112,7 +118,13 @@ def guided_x0(
     # Written so that the exported graph needs no shape arithmetic.
     conditional, unconditional, unheard = each.reshape(3, -1, *each.shape[1:]).unbind(0)
     s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
-    danced = within_reach(denoiser, conditional + music * (conditional - unheard), reach)
+    believed = conditional
+    if config.mirror:
+        elsewhere = torch.cat([mirrored, heard], dim=-1)
+        coarse = conditional[:, :, 0]
+        coarse = coarse + second_opinion(denoiser, model.hfsq.mirror, config, coarse, time, elsewhere, valid)
+        believed = torch.cat([coarse[:, :, None], conditional[:, :, 1:]], dim=2)
+    danced = within_reach(denoiser, believed + music * (conditional - unheard), config.reach)
     return danced + s * (conditional - unconditional)
 
 
@@ -121,13 +133,12 @@ Progress = Callable[[int, Tensor, Tensor], None]
 
 @torch.no_grad()
 def sample(
-    denoiser: Denoiser,
+    model: Model,
     memory: Tensor,
     initial: Tensor,
     steps: list[Step],
     guidance: Tensor,
     music: float,
-    config: DiffusionConfig,
     on_step: Progress | None = None,
 ) -> Tensor:
     """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C); guidance and music
@@ -135,6 +146,7 @@ def sample(
 
     All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
     """
+    denoiser, config = model.denoiser, model.diffusion
     frames, size = len(memory), denoiser.config.block
     x = initial * torch.tensor(per_layer(config.temperature, denoiser.layers))[:, None]
     x0_before = torch.zeros_like(x)
@@ -145,8 +157,8 @@ def sample(
             blocks = partition(frames, size, shifted=config.alternating_phase and k % 2 == 1)
         valid = gather(torch.ones(frames), blocks, size)
         x0 = guided_x0(
-            denoiser, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
-            gather(memory, blocks, size), valid, guidance, torch.tensor([music]), config.reach,
+            model, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
+            gather(memory, blocks, size), valid, guidance, torch.tensor([music]),
         )  # fmt: skip
         x0 = scatter(x0, blocks, frames)
         x = step.a * x + step.b * x0 + step.c * x0_before
@@ -156,25 +168,15 @@ def sample(
     return x
 
 
-@dataclass(frozen=True)
-class Model:
-    """A trained pair of stages, ready to dance."""
-
-    hfsq: Autoencoder
-    frame: FrameConfig
-    denoiser: Denoiser
-    diffusion: DiffusionConfig
-
-
 @torch.no_grad()
 def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, role: float = 0.0) -> Tensor:
-    """Memory (L, M) of a whole clip, with and without its song.
+    """Memory (L, M) of a whole clip, with and without its song, and with its leader in a mirror.
 
     leader (T, 22, 3) metres, music (T, 54), music_valid (T); T a multiple of 4.
     """
     features = leader_features(leader, smoothed_heading(leader, model.frame))
     encoder = model.denoiser.condition
-    return encoder.with_silence(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
+    return encoder.of_clip(features[None], music[None], music_valid[None], torch.tensor([role]))[0]
 
 
 def danced(model: Model, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
@@ -237,7 +239,5 @@ def react(
         guidance = np.tile(np.array(model.diffusion.guidance, dtype=np.float32), (len(STREAMS), 1))
     plan = ddim_steps(alphas_cumprod(model.diffusion), steps or model.diffusion.steps)
     louder = model.diffusion.music if music_guidance is None else music_guidance
-    latents = sample(
-        model.denoiser, memory, initial, plan, torch.from_numpy(guidance).float(), louder, model.diffusion
-    )
+    latents = sample(model, memory, initial, plan, torch.from_numpy(guidance).float(), louder)
     return decode(model, latents, padded)[:frames].numpy()

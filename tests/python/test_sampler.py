@@ -38,19 +38,23 @@ def run(
 ) -> torch.Tensor:
     d = model.denoiser
     torch.manual_seed(3)
-    memory = torch.randn(200, 3 * d.config.width)[start : start + length]
+    memory = torch.randn(200, d.condition.memory_width)[start : start + length]
     initial = torch.from_numpy(noise(5, length, d.layers * d.latent_width, draw=0, start=start))
     config = replace(model.diffusion, **changes)
     steps = ddim_steps(alphas_cumprod(config), 4)
     return sample(
-        d,
+        replace(model, diffusion=config),
         memory,
         initial.reshape(length, d.layers, d.latent_width),
         steps,
         torch.from_numpy(guidance).float(),
         music,
-        config,
     )
+
+
+def told(model: Model, **changes: object) -> Model:
+    """The model with other settings of its sampling."""
+    return replace(model, diffusion=replace(model.diffusion, **changes))
 
 
 def flat(coarse: float, fine: float) -> np.ndarray:
@@ -107,7 +111,7 @@ def test_fine_guidance_leaves_the_coarse_latents_bit_identical(model: Model, alt
 def test_guidance_is_equation_9(model: Model) -> None:
     torch.manual_seed(0)
     d = model.denoiser
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 3 * d.config.width)
+    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
     heard = memory[..., : 2 * d.config.width]
     valid, time = torch.ones(2, 60), torch.tensor([0.4])
     yes, no = torch.ones(2, 2), torch.zeros(2, 2)
@@ -115,7 +119,8 @@ def test_guidance_is_equation_9(model: Model) -> None:
         conditional = d(x, time, heard, valid, yes, yes)
         unconditional = d(x, time, heard, valid, no, no)
         s = torch.tensor([[0.5, -1.0], [1.2, 0.0], [3.0, 2.0]])
-        guided = guided_x0(d, x, time, memory, valid, s, torch.zeros(1), (1.0, 1.0, 1.0))
+        alone = told(model, mirror=0.0, reach=(1.0, 1.0, 1.0))
+        guided = guided_x0(alone, x, time, memory, valid, s, torch.zeros(1))
     per_stream = d.latent_width // 3
     for stream in range(3):
         for layer in range(2):
@@ -132,14 +137,15 @@ def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
     torch.manual_seed(0)
     d = model.denoiser
     width = d.config.width
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 3 * width)
+    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
     valid, time = torch.ones(2, 60), torch.tensor([0.4])
     yes, none = torch.ones(2, 2), torch.zeros(3, 2)
-    leader, _, silence = memory.chunk(3, dim=-1)
+    leader, _, silence, _ = memory.chunk(4, dim=-1)
     with torch.no_grad():
         with_song = d(x, time, memory[..., : 2 * width], valid, yes, yes)
         without = d(x, time, torch.cat([leader, silence], dim=-1), valid, yes, yes)
-        guided = guided_x0(d, x, time, memory, valid, none, torch.tensor([1.5]), (1.0, 1.0, 1.0))
+        alone = told(model, mirror=0.0, reach=(1.0, 1.0, 1.0))
+        guided = guided_x0(alone, x, time, memory, valid, none, torch.tensor([1.5]))
     expected = (with_song + 1.5 * (with_song - without)).clamp(d.lowest, d.highest)
     assert torch.allclose(guided, expected, atol=1e-5)
     assert not torch.allclose(guided, with_song.clamp(d.lowest, d.highest), atol=1e-2)
@@ -160,11 +166,12 @@ def test_the_dance_and_its_song_stay_within_reach_and_guidance_goes_further(mode
     middle, half = (d.highest + d.lowest) / 2, (d.highest - d.lowest) / 2
     limit = half * torch.tensor(reach).repeat_interleave(d.latent_width // 3) + 1e-5
     torch.manual_seed(0)
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, 3 * d.config.width)
+    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
     valid, time, song = torch.ones(2, 60), torch.tensor([0.4]), torch.tensor([20.0])
     with torch.no_grad():
-        plain = guided_x0(d, x, time, memory, valid, torch.zeros(3, 2), song, reach)
-        guided = guided_x0(d, x, time, memory, valid, torch.full((3, 2), 3.0), song, reach)
+        reaching = told(model, reach=reach)
+        plain = guided_x0(reaching, x, time, memory, valid, torch.zeros(3, 2), song)
+        guided = guided_x0(reaching, x, time, memory, valid, torch.full((3, 2), 3.0), song)
     from_middle = (plain - middle).abs()
     assert (from_middle <= limit).all()
     met = (from_middle > limit - 2e-5).unflatten(-1, (3, -1))
@@ -183,12 +190,11 @@ def test_temperature_scales_the_noise_of_its_layer(model: Model) -> None:
     length = 70
     noisy = torch.from_numpy(noise(5, length, d.layers * d.latent_width, draw=0)).unflatten(1, (d.layers, -1))
     torch.manual_seed(3)
-    memory = torch.randn(length, 3 * d.config.width)
+    memory = torch.randn(length, d.condition.memory_width)
     steps = ddim_steps(alphas_cumprod(model.diffusion), 4)
 
     def sampled(initial: torch.Tensor, temperature: tuple[float, float]) -> torch.Tensor:
-        config = replace(model.diffusion, temperature=temperature)
-        return sample(d, memory, initial, steps, torch.zeros(3, 2), 0.0, config)
+        return sample(told(model, temperature=temperature), memory, initial, steps, torch.zeros(3, 2), 0.0)
 
     scaled = noisy * torch.tensor([0.3, 1.5])[:, None]
     assert torch.equal(sampled(noisy, (0.3, 1.5)), sampled(scaled, (1.0, 1.0)))

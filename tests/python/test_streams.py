@@ -7,10 +7,19 @@ import pytest
 import torch
 
 from training.config import FrameConfig
+from training.data.augment import mirror
 from training.data.made import made_duet
 from training.frame import arctangent, cosine_sine, into_frame, out_of_frame, smoothed_heading
 from training.skeleton import PARENTS, TOES, as_body, constant_bones
-from training.streams import LEADER_FEATURES, STREAM_WIDTHS, from_streams, leader_features, to_streams
+from training.streams import (
+    LEADER_FEATURES,
+    STREAM_WIDTHS,
+    from_streams,
+    leader_features,
+    mirrored,
+    mirrored_features,
+    to_streams,
+)
 
 FRAME = FrameConfig()
 
@@ -45,6 +54,22 @@ def test_the_frame_does_not_see_where_the_couple_is_or_faces(angle: float) -> No
         assert torch.allclose(a, b, atol=1e-4)
     features = leader_features(leader, smoothed_heading(leader, FRAME))
     assert torch.allclose(features, leader_features(led, smoothed_heading(led, FRAME)), atol=2e-3)
+
+
+def test_streams_and_features_are_mirrored_as_the_dancers_are() -> None:
+    duet = made_duet(120, 3)
+    other = mirror(duet)
+    leader, reactor = pair()
+    led, reacted = torch.from_numpy(other.leader), torch.from_numpy(other.reactor)
+    heading, turned = smoothed_heading(leader, FRAME), smoothed_heading(led, FRAME)
+    streams = to_streams(leader, reactor, heading)
+    for ours, theirs in zip(mirrored(streams), to_streams(led, reacted, turned), strict=True):
+        assert torch.allclose(ours, theirs, atol=1e-5)
+    for ours, before in zip(mirrored(mirrored(streams)), streams, strict=True):
+        assert torch.equal(ours, before)
+    features = leader_features(leader, heading)
+    assert torch.allclose(mirrored_features(features), leader_features(led, turned), atol=1e-4)
+    assert not torch.allclose(mirrored_features(features), features, atol=0.1)
 
 
 def test_heading_is_the_direction_the_hips_face() -> None:

@@ -116,8 +116,7 @@ class Denoiser(nn.Module):
         x: (N, block, R, C) normalised noisy latents; time: (N,) or (1,) in [0, 1]; memory: (N, block, 2 D);
         valid: (N, block) 1 for tokens of the clip, 0 for padding; keep_leader, keep_music: (N, R) 1 or 0 per layer.
         """
-        cross = self.distance + (valid[:, None, None, :] - 1) * 1e4
-        rules = Rules(self.phase, self.causal, cross)
+        rules = self.rules(valid)
         outputs: list[Tensor] = []
         hidden: Tensor | None = None
         for r, tower in enumerate(self.towers):
@@ -127,3 +126,13 @@ class Denoiser(nn.Module):
             x0, hidden = tower(seen, time, memory, keep_leader[:, r], keep_music[:, r], rules)
             outputs.append(x0)
         return torch.stack(outputs, dim=2)
+
+    def rules(self, valid: Tensor) -> Rules:
+        """valid: (N, block)."""
+        cross = self.distance + (valid[:, None, None, :] - 1) * 1e4
+        return Rules(self.phase, self.causal, cross)
+
+    def coarse(self, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor) -> Tensor:
+        """What `forward` gives for the coarse layer under all conditions: x and result (N, block, C)."""
+        kept = valid[:, 0] * 0 + 1
+        return self.towers[0](x, time, memory, kept, kept, self.rules(valid))[0]

@@ -22,7 +22,7 @@ class ResidualBlock(nn.Module):
         return x + self.out(F.silu(self.wide(F.silu(x))))
 
 
-def _stack(width: int, depth: int) -> nn.Sequential:
+def residual_blocks(width: int, depth: int) -> nn.Sequential:
     return nn.Sequential(*(ResidualBlock(width, DILATIONS[i % len(DILATIONS)]) for i in range(depth)))
 
 
@@ -33,7 +33,7 @@ class Encoder(nn.Module):
         super().__init__()
         self.layers = nn.Sequential(
             nn.Conv1d(channels, width, 3 * STRIDE, stride=STRIDE, padding=STRIDE),
-            _stack(width, depth),
+            residual_blocks(width, depth),
             nn.Conv1d(width, latent, 1),
         )
 
@@ -71,7 +71,7 @@ class Decoder(nn.Module):
         super().__init__()
         self.layers = nn.Sequential(
             nn.Conv1d(latent, width, 3, padding=1),
-            _stack(width, depth),
+            residual_blocks(width, depth),
             nn.ConvTranspose1d(width, refine, 3 * STRIDE, stride=STRIDE, padding=STRIDE),
             ResidualBlock(refine, 1),
             ResidualBlock(refine, 3),
