@@ -13,7 +13,6 @@ from training.denoiser.denoiser import Denoiser
 from training.diffusion import signal
 from training.hfsq.mirror import LatentMirror
 
-
 # Standard deviations, root mean square over a latent frame's channels: opinions that lie further apart are of a leader
 # unlike those of the training, and count less.
 TRUSTED = 0.15

@@ -36,10 +36,10 @@ def test_a_mirror_that_changes_nothing_compares_two_answers_of_the_network(model
     x, memory, valid = given(model)
     coarse, memory = x[:, :, 0] * valid[..., None], memory.chunk(2, dim=-1)[0]
     time, left = torch.tensor([0.499]), float(alphas_cumprod(model.diffusion)[499]) ** 0.5
-    config = replace(model.diffusion, mirror=0.5)
+    config = replace(model.diffusion, mirror=15.0)
     change = second_opinion(model.denoiser, torch.nn.Identity(), config, coarse, time, memory, valid)  # pyright: ignore
     answer = model.denoiser.coarse(left * coarse, time, memory, valid)
-    expected = 0.5 * left * trusted(answer - coarse)
+    expected = 15.0 * left * trusted(answer - coarse)
     assert torch.allclose(change[0], expected[0], atol=1e-5)
     assert torch.allclose(change[1, :40], expected[1, :40], atol=1e-5)
     assert change.abs().mean() > 0.01
@@ -63,7 +63,7 @@ def test_it_corrects_the_coarse_layer_and_leaves_the_fine_one(model: Model) -> N
     def predicted(mirror: float) -> torch.Tensor:
         return guided_x0(weighed(model, mirror), x, time, memory, valid, off, torch.zeros(1))
 
-    alone, half, whole = predicted(0.0), predicted(0.5), predicted(1.0)
+    alone, half, whole = predicted(0.0), predicted(15.0), predicted(30.0)
     assert torch.allclose(half[:, :, 1], alone[:, :, 1], atol=1e-6)
     change = (half - alone)[:, :, 0]
     assert change.abs().mean() > 0.01
@@ -80,7 +80,7 @@ def test_it_hears_the_song_and_sees_the_mirrored_leader_but_not_the_silence(mode
         """What the opinion adds; Eq. 9 and the music's guidance are off."""
         parts = [
             guided_x0(weighed(model, m), x, time, memory, valid, torch.zeros(3, 2), torch.zeros(1))
-            for m in (1.0, 0.0)
+            for m in (30.0, 0.0)
         ]
         return (parts[0] - parts[1])[:, :, 0]
 
