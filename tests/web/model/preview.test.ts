@@ -79,7 +79,8 @@ describe('a generation with someone looking', { timeout: 90_000 }, () => {
     const after = inside(expected.motion.positions);
     const early = inside(preview!.motion.positions);
     expect(preview!.motion.frames).toBe(request().leader.frames);
-    expect(mean(early, after)).toBeLessThan(0.5 * mean(before, after));
+    // Random weights lean on their neighbours, which a block alone does not have.
+    expect(mean(early, after)).toBeLessThan(0.7 * mean(before, after));
   });
 
   it('spreads from there: what is shown grows, is exactly what stays, and costs nothing', async () => {
