@@ -5,7 +5,6 @@ python -m training.train_denoiser --data ../shared/data/cmu_salsa/duets.npz --ou
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -158,7 +157,7 @@ class Stage2(nn.Module):
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
         # Feet may sink here: were they held up, sinking them would be the cheapest way to keep them still.
-        return as_body(joints.unflatten(0, (len(rows), -1)), lowest=-math.inf)
+        return as_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 
 def validate(
