@@ -199,7 +199,9 @@ def test_who_floats_comes_down_and_who_hops_does_not() -> None:
     assert toe(as_body(floats, floor=False))[60:90].min() > 0.3, "without a floor it stays up there"
     np.testing.assert_allclose(toe(as_body(floats))[60:90].numpy(), STANDING_TOE, atol=1e-4)
     assert toe(as_body(floats))[[20, 130]].tolist() == pytest.approx([TOE_REST] * 2, abs=1e-4)
-    assert torch.allclose(as_body(hops), as_body(hops, floor=False), atol=1e-5), "a third of a second is a hop"
+    assert torch.allclose(as_body(hops), as_body(hops, floor=False), atol=1e-5), (
+        "a third of a second is a hop"
+    )
     assert toe(as_body(hops)).max() > 0.25
 
 
