@@ -7,11 +7,14 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from training.bars import Bar, check
-from training.dancer import Motions, Trial
+from training.dancer import Trial
+from training.data.duet import Duet
+from training.elsewhere import Elsewhere
 from training.evaluate import Evaluation
 from training.filmstrip import filmstrip
 from training.quality import check_quality
@@ -34,8 +37,7 @@ def screen_table(numbers: dict[str, Any]) -> Table:
 
 def draw(trials: list[Trial], evaluation: Evaluation, out: Path, strips: list[str]) -> list[Path]:
     """Spectra, and a filmstrip of 8 s from the middle of every trial in each named row; of the generated dances
-    their first 8 s too. Then one filmstrip of the role swap and one of each kind of leader from elsewhere, by the part
-    of the name before the underscore.
+    their first 8 s too. Then one filmstrip of the role swap and one of each kind of leader from elsewhere.
     """
     rows = evaluation.motions
     lines = {name: [m for t in trials for m in motions[t.duet.name]] for name, motions in rows.items()}
@@ -52,18 +54,27 @@ def draw(trials: list[Trial], evaluation: Evaluation, out: Path, strips: list[st
                 pictures.append(
                     filmstrip(duet.leader[: len(motion)], motion, path, truth, start=start, title=title)
                 )
-    for trial in swapped_trials([t for t in trials if t.duet.name in evaluation.swapped][:1]):
-        duet, made = trial.duet, evaluation.swapped[trial.duet.name][0]
+    for duet, made in _role_swap(trials, evaluation):
         path, title = out / f"{duet.name}-role-swap.png", f"{duet.name}, role swap: the reactor leads (blue)"
         pictures.append(
             filmstrip(duet.leader, made, path, duet.reactor, start=_middle(len(duet)), title=title)
         )
-    kinds = {dance.name.partition("_")[0]: dance for dance in reversed(evaluation.elsewhere)}
-    for dance in kinds.values():
+    for dance in _one_of_each_kind(evaluation):
         path, title = out / f"elsewhere-{dance.name}.png", f"{dance.name}, a leader from elsewhere"
         start = _middle(len(dance.leader))
         pictures.append(filmstrip(dance.leader, dance.reactor, path, start=start, title=title))
     return pictures
+
+
+def _role_swap(trials: list[Trial], evaluation: Evaluation) -> list[tuple[Duet, np.ndarray]]:
+    """The first trial that was danced with roles swapped, and what was generated for the leader's part."""
+    danced = [trial for trial in trials if trial.duet.name in evaluation.swapped][:1]
+    return [(t.duet, evaluation.swapped[t.duet.name][0]) for t in swapped_trials(danced)]
+
+
+def _one_of_each_kind(evaluation: Evaluation) -> list[Elsewhere]:
+    """The first leader from elsewhere of each kind, by the part of the name before the underscore."""
+    return list({dance.name.partition("_")[0]: dance for dance in reversed(evaluation.elsewhere)}.values())
 
 
 def _middle(frames: int) -> float:
@@ -71,11 +82,23 @@ def _middle(frames: int) -> float:
     return max(frames / 60 - 4.0, 0.0)
 
 
-def film(trials: list[Trial], generated: Motions, out: Path) -> list[Path]:
-    """Videos of every trial: its truth beside the first seed's dance."""
-    return [
-        write_video(t.duet.leader, t.duet.reactor, generated[t.duet.name][0], out / f"{t.duet.name}.webm")
+def film(trials: list[Trial], evaluation: Evaluation, out: Path) -> list[Path]:
+    """Videos from two sides of the first seed's dances: every trial beside its truth, the role swap beside its
+    truth, one of each kind of leader from elsewhere.
+    """
+    scenes = {
+        t.duet.name: (
+            t.duet.leader,
+            {"truth": t.duet.reactor, "generated": evaluation.motions["generated"][t.duet.name][0]},
+        )
         for t in trials
+    }
+    for duet, made in _role_swap(trials, evaluation):
+        scenes[f"{duet.name}-role-swap"] = duet.leader, {"truth": duet.reactor, "reactor leads": made}
+    for dance in _one_of_each_kind(evaluation):
+        scenes[f"elsewhere-{dance.name}"] = dance.leader, {"generated": dance.reactor}
+    return [
+        write_video(leader, reactors, out / f"{name}.webm") for name, (leader, reactors) in scenes.items()
     ]
 
 
@@ -112,7 +135,7 @@ def write_report(
     (out / "metrics.json").write_text(json.dumps(_plain(head | evaluation.numbers | judged), indent=1) + "\n")
     strips = ["truth", "reconstruction", "generated", "nearest neighbour"]
     drawn = draw(trials, evaluation, out, strips) if pictures else []
-    filmed = film(trials, evaluation.motions["generated"], out) if videos else []
+    filmed = film(trials, evaluation, out) if videos else []
     (out / "report.md").write_text(markdown(evaluation.numbers, title, drawn, filmed))
     console = Console(width=200)
     console.print(screen_table(evaluation.numbers))

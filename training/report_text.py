@@ -175,10 +175,6 @@ def markdown(numbers: dict[str, Any], title: str, pictures: list[Path], videos: 
             "First seed; the songs are those of the trials.",
             elsewhere_table(numbers["elsewhere"]),
         ]
-    parts += (
-        ["## Videos", *(f"[{p.stem}]({p.name}): truth left, generated right" for p in videos)]
-        if videos
-        else []
-    )
+    parts += ["## Videos", "From two sides.", *(f"[{p.stem}]({p.name})" for p in videos)] if videos else []
     parts += ["## Pictures", *(f"![{p.stem}]({p.name})" for p in pictures)] if pictures else []
     return "\n\n".join(parts) + "\n"

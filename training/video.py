@@ -1,11 +1,11 @@
-"""A video of the true couple beside the generated one, from two sides, to see what numbers do not say.
+"""A video of one leader with several reactors side by side, from two sides, to see what numbers do not say.
 
 Drawn with Pillow lines, not with matplotlib: a minute of dance is 1800 frames.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -45,13 +45,14 @@ class Camera:
         return np.stack([x, y, seen @ self.view.eye], axis=-1)
 
 
-def cameras(leader: np.ndarray, truth: np.ndarray, made: np.ndarray) -> tuple[Camera, Camera]:
-    """Front and side of all three (T, 22, 3), the same for both couples so that places can be compared."""
-    middle = (leader[:, 0] + (truth[:, 0] + made[:, 0]) / 2) / 2 * np.array([1.0, 0.0, 1.0])
+def cameras(leader: np.ndarray, reactors: Sequence[np.ndarray]) -> tuple[Camera, Camera]:
+    """Front and side of all dancers (T, 22, 3), the same for every couple so that places can be compared."""
+    beside = np.mean([reactor[:, 0] for reactor in reactors], axis=0)
+    middle = (leader[:, 0] + beside) / 2 * np.array([1.0, 0.0, 1.0])
     centre = gaussian_filter1d(middle.astype(np.float64), CAMERA, axis=0, mode="nearest")
     result = []
-    for view in views(leader, truth)[:2]:
-        reach = max(float(np.abs((m - centre[:, None]) @ view.right).max()) for m in (leader, truth, made))
+    for view in views(leader, reactors[0])[:2]:
+        reach = max(float(np.abs((m - centre[:, None]) @ view.right).max()) for m in (leader, *reactors))
         width = max(2 * (reach + 2 * HEAD_RADIUS), HEIGHT * CELL[0] / CELL[1])
         result.append(Camera(view, centre, CELL[0] * FINE / width))
     return result[0], result[1]
@@ -101,34 +102,36 @@ def _draw_couple(
 
 
 def pictures(
-    leader: np.ndarray, truth: np.ndarray, made: np.ndarray, fps: float = 30.0
+    leader: np.ndarray, reactors: Mapping[str, np.ndarray], fps: float = 30.0
 ) -> Iterator[Image.Image]:
-    """One RGB picture for every frame: true couple left, generated couple right, front above, side below."""
-    if not len(leader) == len(truth) == len(made) > 0:
-        raise ValueError(f"cannot show {len(leader)}, {len(truth)} and {len(made)} frames side by side")
-    sides = cameras(leader, truth, made)
-    size = (2 * CELL[0], 2 * CELL[1] + CAPTION)
+    """One RGB picture for every frame: a column for each reactor under its name, front above, side below."""
+    lengths = [len(leader), *(len(reactor) for reactor in reactors.values())]
+    if len(lengths) < 2 or min(lengths) != max(lengths) or not lengths[0]:
+        raise ValueError(f"cannot show {' and '.join(map(str, lengths))} frames side by side")
+    sides = cameras(leader, list(reactors.values()))
+    size = (len(reactors) * CELL[0], 2 * CELL[1] + CAPTION)
     font = ImageFont.load_default(15)
     for frame in range(len(leader)):
         large = Image.new("RGB", (size[0] * FINE, size[1] * FINE), PAPER)
         draw = ImageDraw.Draw(large)
-        for column, reactor in enumerate((truth, made)):
+        for column, reactor in enumerate(reactors.values()):
             for row, camera in enumerate(sides):
                 corner = (column * CELL[0] * FINE, (CAPTION + row * CELL[1]) * FINE)
                 bodies = {LEADER: leader[frame], REACTOR: reactor[frame]}
                 _draw_couple(draw, bodies, camera, frame, corner)
         picture = large.reduce(FINE)
         caption = ImageDraw.Draw(picture)
-        for column, name in enumerate(("truth", "generated")):
+        for column, name in enumerate(reactors):
             caption.text(((column + 0.5) * CELL[0], 16), name, fill=INK, font=font, anchor="mm")
+            if column:
+                caption.line([(column * CELL[0], CAPTION), (column * CELL[0], size[1])], fill=RULE)
         caption.text((size[0] - 8, 16), f"{frame / fps:.1f} s", fill=INK, font=font, anchor="rm")
-        caption.line([(CELL[0], CAPTION), (CELL[0], size[1])], fill=RULE)
         yield picture
 
 
 def write_video(
-    leader: np.ndarray, truth: np.ndarray, made: np.ndarray, path: Path, fps: float = 30.0
+    leader: np.ndarray, reactors: Mapping[str, np.ndarray], path: Path, fps: float = 30.0
 ) -> Path:
-    """Write the WebM of a leader, its true and its generated reactor, (T, 22, 3) metres each; returns its path."""
-    path.write_bytes(webm(pictures(leader, truth, made, fps), fps))
+    """Write the WebM of a leader and its reactors by name, (T, 22, 3) metres each; returns its path."""
+    path.write_bytes(webm(pictures(leader, reactors, fps), fps))
     return path

@@ -21,7 +21,8 @@ from training.dancer import Settings, Trial, fit_length
 from training.data.duet import Duet, Solo
 from training.data.made import made_duet
 from training.data.sources import read_split
-from training.evaluate import evaluate
+from training.elsewhere import Elsewhere
+from training.evaluate import Evaluation, evaluate
 from training.metrics.bones import bone_variation
 from training.metrics.duet import duet_metrics
 from training.metrics.penetration import depth as overlap_depth
@@ -153,12 +154,28 @@ def test_evaluation_of_a_known_dancer(trials: list[Trial], train: list[Duet], tm
 
 
 def test_the_report_films_the_first_seed(tmp_path: Path):
-    duet = made_duet(8, 1, "one")
+    duet, stranger = made_duet(8, 1, "one"), made_duet(4, 2, "martial_1")
     made = [duet.reactor + np.float32(0.1 * seed) for seed in (1, 2)]
-    (path,) = film([Trial(duet, None)], {"one": made}, tmp_path)
-    assert path.name == "one.webm"
-    alone = write_video(duet.leader, duet.reactor, made[0], tmp_path / "alone.webm")
-    assert path.read_bytes() == alone.read_bytes()
+    swapped = [duet.leader + np.float32(0.1 * seed) for seed in (1, 2)]
+    others = [Elsewhere(f"martial_{n}", stranger.leader, stranger.reactor) for n in (1, 2)]
+    filmed = film(
+        [Trial(duet, None)],
+        Evaluation({}, {"generated": {"one": made}}, {"one": swapped}, others),
+        tmp_path,
+    )
+    assert [path.name for path in filmed] == ["one.webm", "one-role-swap.webm", "elsewhere-martial_1.webm"]
+    for path, leader, reactors in zip(
+        filmed,
+        (duet.leader, duet.reactor, stranger.leader),
+        (
+            {"truth": duet.reactor, "generated": made[0]},
+            {"truth": duet.leader, "reactor leads": swapped[0]},
+            {"generated": stranger.reactor},
+        ),
+        strict=True,
+    ):
+        alone = write_video(leader, reactors, tmp_path / "alone.webm")
+        assert path.read_bytes() == alone.read_bytes(), path.name
 
 
 def test_bars_are_held(trials: list[Trial], train: list[Duet]):

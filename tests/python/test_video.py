@@ -1,4 +1,4 @@
-"""The video shows the true couple left and the generated one right, from two sides."""
+"""The video shows each couple in a column of its own, from two sides."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def cell(picture: np.ndarray, column: int, row: int) -> np.ndarray:
 def test_a_film_of_two_couples(tmp_path: Path):
     leader, truth = couple(45)
     made = truth + np.linspace(0, 0.6, 45)[:, None, None] * np.array([0.0, 0.0, 1.0])
-    path = write_video(leader, truth, made, tmp_path / "two.webm")
+    path = write_video(leader, {"truth": truth, "generated": made}, tmp_path / "two.webm")
     read = frames(path.read_bytes())
     assert len(read) == 45
     assert read[-1][0] == pytest.approx(44 / 30 * 1000, abs=1)
@@ -44,7 +44,7 @@ def test_a_film_of_two_couples(tmp_path: Path):
 def test_true_and_generated_stand_where_they_are():
     leader, truth = couple(30)
     made = truth + np.linspace(0, 0.6, 30)[:, None, None] * np.array([0.0, 0.0, 1.0])
-    shown = [np.asarray(picture) for picture in pictures(leader, truth, made)]
+    shown = [np.asarray(picture) for picture in pictures(leader, {"truth": truth, "generated": made})]
 
     def apart(picture: np.ndarray, column: int, row: int) -> float:
         """Pixels between the middles of leader and reactor."""
@@ -64,12 +64,21 @@ def test_true_and_generated_stand_where_they_are():
     assert pixels(cell(shown[0], 0, 0), LEADER)[:, 0].min() < 0.5 * CELL[1]
 
 
+def test_one_couple_fills_the_picture():
+    leader, truth = couple(20)
+    first = np.asarray(next(pictures(leader, {"generated": truth})))
+    assert first.shape == (2 * CELL[1] + CAPTION, CELL[0], 3)
+    assert len(pixels(first, LEADER)) > 50
+    with pytest.raises(ValueError, match="20 frames"):
+        next(pictures(leader, {}))
+
+
 def test_nobody_leaves_the_picture():
     leader, truth = couple(20)
     far = truth + np.array([0.0, 0.0, 4.0])
-    last = np.asarray(list(pictures(leader, truth, far))[-1])
+    last = np.asarray(list(pictures(leader, {"truth": truth, "generated": far}))[-1])
     columns = pixels(cell(last, 1, 0), REACTOR)[:, 1]
     assert len(columns) > 50
     assert 2 < columns.min() < columns.max() < CELL[0] - 2
     with pytest.raises(ValueError, match="side by side"):
-        next(pictures(leader, truth[:5], far))
+        next(pictures(leader, {"truth": truth[:5], "generated": far}))
