@@ -49,7 +49,7 @@ def draw(trials: list[Trial], evaluation: Evaluation, out: Path, strips: list[st
             motion = rows[name][duet.name][0]
             truth = None if name == "truth" else duet.reactor[: len(motion)]
             for start in (0.0, middle) if name == "generated" else (middle,):
-                path = out / f"{duet.name}-{name.replace(' ', '-')}-{start:.0f}s.png"
+                path = out / f"{duet.name}-{name.replace(',', '').replace(' ', '-')}-{start:.0f}s.png"
                 title = f"{duet.name}, {name}"
                 pictures.append(
                     filmstrip(duet.leader[: len(motion)], motion, path, truth, start=start, title=title)
@@ -133,7 +133,7 @@ def write_report(
     head = {"format": "reactdance-metrics", "version": 1, **facts}
     judged = {"bars": _judged(bars), "quality": _judged(check_quality(evaluation.numbers))}
     (out / "metrics.json").write_text(json.dumps(_plain(head | evaluation.numbers | judged), indent=1) + "\n")
-    strips = ["truth", "reconstruction", "generated", "nearest neighbour"]
+    strips = ["truth", "reconstruction", "reconstruction, coarse alone", "generated", "nearest neighbour"]
     drawn = draw(trials, evaluation, out, strips) if pictures else []
     filmed = film(trials, evaluation, out) if videos else []
     (out / "report.md").write_text(markdown(evaluation.numbers, title, drawn, filmed))
