@@ -5,9 +5,8 @@ python -m training.train_denoiser --data ../shared/data/cmu_salsa/duets.npz --ou
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import torch
@@ -23,7 +22,16 @@ from training.denoiser.denoiser import Denoiser
 from training.diffusion import add_noise, alphas_cumprod, training_times
 from training.hfsq.autoencoder import Autoencoder
 from training.improvised import improvised_clips
-from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
+from training.loop import (
+    Average,
+    Budget,
+    Journal,
+    Precision,
+    fast_precision,
+    learning_rate,
+    load_state,
+    save_state,
+)
 from training.losses import motion_loss, noise_weights, simple_loss
 from training.metrics import mean_report, quick_report
 from training.music.pairing import MusicBank, build_music_bank, variants
@@ -71,7 +79,8 @@ class Options:
     devices: int = 1
     threads: int = 0
     """CPU threads for torch, 0 leaves its default."""
-    precision: Literal["32-true", "bf16-mixed", "16-mixed"] = "bf16-mixed"
+    precision: Precision | None = None
+    """Left out: bf16 where its products are fast, single elsewhere."""
     log_every: int = 50
     evaluate_every: int = 600
     resume: bool = False
@@ -185,6 +194,7 @@ def set_feature_statistics(denoiser: Denoiser, clips: list) -> None:
 
 
 def main(options: Options) -> None:
+    options = replace(options, precision=options.precision or fast_precision())
     if options.threads:
         torch.set_num_threads(options.threads)
     fabric = Fabric(accelerator="auto", devices=options.devices, precision=options.precision)

@@ -5,9 +5,9 @@ python -m training.train_hfsq --data ../shared/data/cmu_salsa/duets.npz --out ru
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Literal, cast
+from typing import cast
 
 import numpy as np
 import torch
@@ -28,7 +28,16 @@ from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import stage1_loss
 from training.hfsq.masking import slow_motion
 from training.learn_mirror import MirrorTraining, learn_mirror, mirror_fit
-from training.loop import Average, Budget, Journal, learning_rate, load_state, save_state
+from training.loop import (
+    Average,
+    Budget,
+    Journal,
+    Precision,
+    fast_precision,
+    learning_rate,
+    load_state,
+    save_state,
+)
 from training.metrics import mean_report, quick_report
 from training.streams import reactor_motion, to_streams
 
@@ -74,7 +83,8 @@ class Options:
     devices: int = 1
     threads: int = 0
     """CPU threads for torch, 0 leaves its default."""
-    precision: Literal["32-true", "bf16-mixed", "16-mixed"] = "bf16-mixed"
+    precision: Precision | None = None
+    """Left out: bf16 where its products are fast, single elsewhere."""
     log_every: int = 50
     evaluate_every: int = 500
     resume: bool = False
@@ -220,6 +230,7 @@ class Stage1(nn.Module):
 
 
 def main(options: Options) -> None:
+    options = replace(options, precision=options.precision or fast_precision())
     if options.threads:
         torch.set_num_threads(options.threads)
     fabric = Fabric(accelerator="auto", devices=options.devices, precision=options.precision)

@@ -30,6 +30,7 @@ from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
 from training.improvised import improvised_clips
 from training.learn_mirror import MirrorTraining
+from training.loop import fast_precision
 from training.stage2_data import Augmentation, Clip
 
 HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
@@ -86,6 +87,16 @@ def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> N
         rows = [json.loads(line) for line in (trained / stage / "journal.jsonl").read_text().splitlines()]
         assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
         assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
+
+
+def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    train_hfsq.main(stage1(data, tmp_path, steps=1, precision=None))
+    options = json.loads((tmp_path / "hfsq.json").read_text())["provenance"]["options"]
+    assert options["precision"] == fast_precision(), "the checkpoint says what was used"
+    monkeypatch.setattr(torch.accelerator, "is_available", lambda: False)
+    for tiles, precision in ((True, "bf16-mixed"), (False, "32-true")):
+        monkeypatch.setattr(torch.cpu, "_is_amx_tile_supported", lambda tiles=tiles: tiles)
+        assert fast_precision() == precision
 
 
 def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: Path) -> None:
