@@ -51,3 +51,10 @@ def test_a_centimetre_of_jitter_is_told_from_the_truth():
     true = couples()
     noise = np.random.default_rng(0).normal(scale=0.01, size=true[0][1].shape)
     assert two_sample_accuracy(true, [(lead, react + noise) for lead, react in true]) > 0.9
+
+
+@pytest.mark.filterwarnings("error")
+def test_too_short_a_truth_has_no_accuracy():
+    short = couples(SEGMENT)[:1]
+    assert np.isnan(truth_against_truth(short))
+    assert np.isnan(two_sample_accuracy(short, short))
