@@ -279,7 +279,9 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
 
   await take(page, oldest).focus();
   await page.keyboard.press('Delete');
-  // Chromium may give the space of what is deleted back late; the page tries again every 20 s.
+  // Chromium gives the space of what is deleted back when it tidies up, which may be minutes later.
+  await leave(2_500_000);
+  // The page tries again every 20 s.
   await expect(note).toBeHidden({ timeout: 50_000 });
   await rename(takes(page).first(), 'There at last');
   await kept(page, 'There at last');
