@@ -30,6 +30,12 @@ for (const [width, height] of [
       expect(moved, name).toEqual([]);
       await watch.mark();
     };
+    /** Waits for the measures of the dance that `act` asks for; those of the one before stay until then. */
+    const measured = async (act: () => Promise<void>): Promise<void> => {
+      await page.evaluate('window.measuredBefore = window.reactdance.store.getState().quality');
+      await act();
+      await app.until(({ job, quality }) => !job && quality !== Reflect.get(window, 'measuredBefore'));
+    };
 
     let release: () => void = () => undefined;
     const held = new Promise<void>((resolve) => (release = resolve));
@@ -51,13 +57,12 @@ for (const [width, height] of [
     await page.keyboard.press('Space');
     await looked('playing', NOTHING);
 
-    await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
-    await app.until(({ reaction, job, quality }) => !job && reaction?.label === null && quality);
+    await measured(() => page.getByRole('slider', { name: 'Coarse guidance' }).fill('2'));
     await looked('another reaction and its quality', OWN_LIST);
 
-    await page.getByRole('button', { name: 'Roll a new seed' }).click();
-    await app.until(({ job, takes }) => !job && takes.length === 3);
-    await looked('another take', OWN_LIST);
+    await measured(() => page.getByRole('button', { name: 'Roll a new seed' }).click());
+    expect(await app.read(({ takes }) => takes.length)).toBe(3);
+    await looked('another take and its quality', OWN_LIST);
 
     const matrix = page.getByRole('button', { name: /By body part/ });
     await matrix.click();
