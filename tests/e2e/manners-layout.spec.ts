@@ -32,9 +32,12 @@ for (const [width, height] of [
     };
     /** Waits for the measures of the dance that `act` asks for; those of the one before stay until then. */
     const measured = async (act: () => Promise<void>): Promise<void> => {
+      await app.until(({ quality }) => quality);
       await page.evaluate('window.measuredBefore = window.reactdance.store.getState().quality');
       await act();
-      await app.until(({ job, quality }) => !job && quality !== Reflect.get(window, 'measuredBefore'));
+      await app.until(
+        ({ job, quality }) => !job && quality && quality !== Reflect.get(window, 'measuredBefore'),
+      );
     };
 
     let release: () => void = () => undefined;
