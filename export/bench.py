@@ -100,9 +100,7 @@ def run_eager(options: Options, given: dict[str, np.ndarray]) -> Seconds:
     layers, width = model.denoiser.layers, model.denoiser.latent_width
 
     def run_steps(memory: torch.Tensor) -> torch.Tensor:
-        initial = torch.from_numpy(noise(SEED, len(memory), layers * width, draw=0)).unflatten(
-            1, (layers, width)
-        )
+        initial = torch.from_numpy(noise(SEED, len(memory), layers * width)).unflatten(1, (layers, width))
         return sample(model, memory, initial, steps, guidance, model.diffusion.music)
 
     for _ in range(1 + options.repeats):

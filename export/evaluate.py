@@ -158,7 +158,7 @@ def torch_dancer(
         memory = condition(
             model, torch.from_numpy(heard), torch.from_numpy(features), torch.from_numpy(valid), role
         )
-        initial = torch.from_numpy(noise(seed, len(memory), layers * width, draw=0)).float()
+        initial = torch.from_numpy(noise(seed, len(memory), layers * width)).float()
         weights = torch.tensor(guidance or default or model.diffusion.guidance).repeat(len(STREAMS), 1)
         latents = torch_sample(
             model,

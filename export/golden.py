@@ -51,7 +51,7 @@ def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, 
     tensors = {name: torch.from_numpy(value) for name, value in given.items()}
     memory = condition(model, tensors["leader"], tensors["music"], tensors["music_valid"], role=0.0)
     layers, channels = model.denoiser.layers, model.denoiser.latent_width
-    initial = torch.from_numpy(noise(scene.seed, len(memory), layers * channels, draw=0)).reshape(
+    initial = torch.from_numpy(noise(scene.seed, len(memory), layers * channels)).reshape(
         -1, layers, channels
     )
     states: list[tuple[np.ndarray, np.ndarray]] = []

@@ -9,7 +9,7 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.frame import smoothed_heading
-from training.sampler import Model, danced, guided_x0
+from training.sampler import Model, classifier_free_guidance, danced
 from training.streams import leader_features
 
 
@@ -27,22 +27,19 @@ class Condition(nn.Module):
 
 
 class SamplerStep(nn.Module):
-    """One guided denoising step over B blocks; see `guided_x0` for Eq. 9 and the music's guidance.
+    """One denoising step with guidance over B blocks, see `classifier_free_guidance`: x_next = a x + b x0.
 
-    x, x0_prev, noise (B, block, R, C), memory (B, block, M), valid (B, block), time (1), guidance (S, R),
-    music_guidance (1), coefficients (4) to x_next and x0 (B, block, R, C).
+    x (B, block, R, C), memory (B, block, M), valid (B, block), time (1), guidance (S, R), music_guidance (1),
+    coefficients a and b (2) to x_next and x0 (B, block, R, C).
     """
 
     def __init__(self, model: Model) -> None:
         super().__init__()
-        self.model = model
-        self.denoiser, self.mirror = model.denoiser, model.hfsq.mirror  # registers their parameters
+        self.denoiser = model.denoiser
 
     def forward(
         self,
         x: Tensor,
-        x0_prev: Tensor,
-        noise: Tensor,
         memory: Tensor,
         valid: Tensor,
         time: Tensor,
@@ -50,9 +47,9 @@ class SamplerStep(nn.Module):
         music_guidance: Tensor,
         coefficients: Tensor,
     ) -> tuple[Tensor, Tensor]:
-        x0 = guided_x0(self.model, x, time, memory, valid, guidance, music_guidance)
-        a, b, c, d = coefficients.unbind(0)
-        return a * x + b * x0 + c * x0_prev + d * noise, x0
+        x0 = classifier_free_guidance(self.denoiser, x, time, memory, valid, guidance, music_guidance)
+        a, b = coefficients.unbind(0)
+        return a * x + b * x0, x0
 
 
 class Decode(nn.Module):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-from training.config import FPS, STREAMS, STRIDE, per_layer
+from training.config import FPS, STREAMS, STRIDE, per_layer, to_json
 from training.data.floor import TOE_PERCENTILE, TOE_REST
 from training.diffusion import alphas_cumprod
 from training.metrics import beats, contact, penetration, seams
@@ -14,7 +14,7 @@ from training.music.recipe import AudioRecipe
 from training.sampler import Model
 from training.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 
-FORMAT, VERSION = "reactdance-model", 1
+FORMAT, VERSION = "reactdance-model", 2
 LAYER_NAMES = ("coarse", "fine")
 
 
@@ -99,12 +99,14 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "train_steps": diffusion.train_steps,
             "alphas_cumprod": [float(f"{a:.10g}") for a in alphas_cumprod(diffusion)],
             "sampler": "ddim",
+            "schedule": diffusion.schedule,
+            "prediction": "x0",
+            "clamp": "quantiser range",
             "alternating_phase": diffusion.alternating_phase,
-            "temperature": per_layer(diffusion.temperature, len(names)),
             "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
         },
         "guidance": {
-            "convention": "(1+s)*cond - s*uncond",
+            "convention": "(1+s)*cond - s*uncond + m*(cond - no_music)",
             "min": -1,
             "max": 3,
             "step": 0.05,
@@ -112,6 +114,12 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "music": {"min": 0, "max": 4, "default": diffusion.music},
         },
         "noise": {"algorithm": "philox4x32-10"},
+        "decode": {"sharpen": diffusion.sharpen, "foot_contact": diffusion.foot_contact},
+        "architecture": {
+            "frame": to_json(model.frame),
+            "hfsq": to_json(model.hfsq.config),
+            "denoiser": to_json(model.denoiser.config),
+        },
         "audio": AudioRecipe().to_dict(),
         "quality": quality_rules(),
         "graphs": entries,

@@ -59,19 +59,16 @@ def sample(
     music_guidance: float,
     on_step: OnStep | None = None,
 ) -> np.ndarray:
-    """Normalised latents (L, R, C) for memory (L, M), in blocks; guidance and music_guidance as in `guided_x0`."""
+    """Normalised latents (L, R, C) for memory (L, M), in blocks; guidance and music_guidance as in
+    `classifier_free_guidance`."""
     latent = model.manifest["latent"]
     size, frames, layers, channels = latent["block"], len(memory), len(latent["layers"]), latent["channels"]
-    x = torch.from_numpy(noise(seed, frames, layers * channels, draw=0)).reshape(frames, layers, channels)
-    x *= torch.tensor(model.manifest["diffusion"]["temperature"])[:, None]
-    x0 = torch.zeros_like(x)
+    x = torch.from_numpy(noise(seed, frames, layers * channels)).reshape(frames, layers, channels)
     for k, step in enumerate(steps):
         shifted = model.manifest["diffusion"]["alternating_phase"] and k % 2 == 1
         blocks = partition(frames, size, shifted)
         parts = {
             "x": gather(x, blocks, size),
-            "x0_prev": gather(x0, blocks, size),
-            "noise": torch.zeros(len(blocks), size, layers, channels),
             "memory": gather(torch.from_numpy(memory), blocks, size),
             "valid": gather(torch.ones(frames), blocks, size),
         }
@@ -81,12 +78,11 @@ def sample(
             time=np.array([step.time]),
             guidance=guidance,
             music_guidance=np.array([music_guidance]),
-            coefficients=np.array([step.a, step.b, step.c, step.d]),
+            coefficients=np.array([step.a, step.b]),
         )
         x = scatter(torch.from_numpy(x_next), blocks, frames)
-        x0 = scatter(torch.from_numpy(x0_next), blocks, frames)
         if on_step is not None:
-            on_step(k, x.numpy(), x0.numpy())
+            on_step(k, x.numpy(), scatter(torch.from_numpy(x0_next), blocks, frames).numpy())
     return x.numpy()
 
 

@@ -41,7 +41,7 @@ def tiny_model(seed: int = 0) -> Model:
     """The architecture of the shipped model in miniature; weights that start at zero are drawn too, so that nothing
     in a graph goes untested."""
     torch.manual_seed(seed)
-    hfsq = Autoencoder(HfsqConfig(groups=2, widths=(24, 24, 16), depth=2, refine_width=16, mirror_width=16))
+    hfsq = Autoencoder(HfsqConfig(groups=2, widths=(24, 24, 16), depth=2, refine_width=16))
     config = DenoiserConfig(width=32, depths=(2, 1), mlp=2, condition=ConditionConfig(depth=1))
     denoiser = Denoiser(hfsq.latent_width, hfsq.layers, config)
     for module in (hfsq, denoiser):
@@ -59,12 +59,8 @@ def tiny_model(seed: int = 0) -> Model:
         steps=4,
         alternating_phase=True,
         music=1.0,
-        mirror=10.0,  # random weights contradict their mirror so much that little of it counts
-        temperature=(0.7, 1.0),
-        reach=(1.0, 0.9, 0.8),
-        spread=(0.9, 1.0, 0.8),
         sharpen=0.3,
-        grip=0.5,
+        foot_contact=0.5,
     )
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion)
 

@@ -44,8 +44,6 @@ class HfsqConfig:
     widths: tuple[int, int, int] = (192, 192, 96)  # per stream
     depth: int = 3
     refine_width: int = 64
-    mirror_width: int = 192  # of the network that mirrors latents
-    mirror_depth: int = 3
     masking: MaskingConfig | None = field(default_factory=MaskingConfig)
     weight_position: float = 1.0
     weight_velocity: float = 5.0
@@ -69,8 +67,6 @@ class ConditionConfig:
     leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
     leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
     blurred: float = 0.25  # share of windows with a blurred leader
-    # Standard deviations; up to this much slow noise on what is seen of the leader. 0.5 did not help.
-    leader_noise: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -94,18 +90,9 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
-    music: float = 0.0  # default of music guidance, see `guided_x0`
-    mirror: float = 0.0  # weight of the second opinion, see `training.second_opinion`
-    # The noise of coarse and fine is multiplied by this before sampling starts: less than 1 brings what is more likely,
-    # and reactions that differ less from each other.
-    temperature: tuple[float, float] = (1.0, 1.0)
-    # Per stream, how much of the quantiser's range what is predicted without guidance may use, see `guided_x0`.
-    reach: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    # Sampled coarse latents of every stream are multiplied by this, from their mean, before they are decoded: less
-    # than 1 keeps nearer to what is sure.
-    spread: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    music: float = 0.0  # default guidance weight of the music, see `classifier_free_guidance`
     sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion, see `training.sharpen`
-    grip: float = 0.0  # m/s, how firmly planted feet hold the body, see `training.grip`
+    foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root, see `training.grip`
 
 
 @dataclass(frozen=True)

@@ -25,17 +25,6 @@ def alphas_cumprod(config: DiffusionConfig) -> np.ndarray:
     return np.cumprod(1 - np.array(betas))
 
 
-def signal(time: Tensor, config: DiffusionConfig) -> Tensor:
-    """sqrt(alpha bar) at `time`, timestep / train_steps: `alphas_cumprod` in closed form, for graphs. The cap on betas
-    is left out; only the last timestep meets it, where nearly nothing is left of the signal.
-    """
-
-    def root(t: Tensor) -> Tensor:
-        return ((t + 0.008) / 1.008 * (math.pi / 2)).cos()
-
-    return root(time + 1 / config.train_steps).clamp_min(0) / root(torch.zeros_like(time))
-
-
 def add_noise(x0: Tensor, noise: Tensor, alpha_bar: Tensor) -> Tensor:
     """q(x_t | x0); alpha_bar (N,) broadcasts over the rest."""
     shape = (-1, *([1] * (x0.dim() - 1)))
@@ -44,19 +33,15 @@ def add_noise(x0: Tensor, noise: Tensor, alpha_bar: Tensor) -> Tensor:
 
 @dataclass(frozen=True)
 class Step:
-    """One sampler step: x <- a x + b x0 + c x0_prev + d noise, with x0 predicted at `time`."""
+    """One sampler step: x <- a x + b x0, with x0 predicted at `time`."""
 
     time: float  # timestep / train_steps
     a: float
     b: float
-    c: float
-    d: float
 
 
 def ddim_steps(alpha_bar: np.ndarray, count: int) -> list[Step]:
-    """Deterministic DDIM (eta = 0) from the last training timestep to clean data in `count` steps, none
-    skipped.
-    """
+    """Deterministic DDIM (Song et al. 2021, eta = 0): `count` steps from the last training timestep to clean data."""
     total = len(alpha_bar)
     if not 1 <= count <= total:
         raise ValueError(f"between 1 and {total} steps, got {count}")
@@ -66,7 +51,7 @@ def ddim_steps(alpha_bar: np.ndarray, count: int) -> list[Step]:
         now = alpha_bar[t]
         after = alpha_bar[timesteps[k + 1]] if k + 1 < count else 1.0
         a = math.sqrt((1 - after) / (1 - now))
-        steps.append(Step(t / total, a, math.sqrt(after) - a * math.sqrt(now), 0.0, 0.0))
+        steps.append(Step(t / total, a, math.sqrt(after) - a * math.sqrt(now)))
     return steps
 
 

@@ -26,18 +26,16 @@ def philox(counter: np.ndarray, key: tuple[int, int]) -> np.ndarray:
     return np.stack([c0, c1, c2, c3], axis=-1).astype(np.uint32)
 
 
-def noise(seed: int, frames: int, channels: int, draw: int, start: int = 0) -> np.ndarray:
+def noise(seed: int, frames: int, channels: int, start: int = 0) -> np.ndarray:
     """Standard normal noise for latent frames start .. start + frames - 1.
 
     seed: its lowest 32 bits count.  channels: layers x channels of a layer, flattened layer first.
-    draw: 0 for the noise that sampling starts from, k + 1 for the noise added by step k.
-    Returns (frames, channels) float32. Every value depends on (seed, frame, channel, draw) alone.
+    Returns (frames, channels) float32. Every value depends on (seed, frame, channel) alone.
     """
     quads = -(-channels // 4)
     counter = np.zeros((frames, quads, 4), dtype=np.uint32)
     counter[..., 0] = np.arange(start, start + frames, dtype=np.uint32)[:, None]
     counter[..., 1] = np.arange(quads, dtype=np.uint32)
-    counter[..., 2] = draw
     bits = philox(counter, (seed & 0xFFFFFFFF, 0))
     # Half a step above the grid: never 0, so the logarithm is finite.
     uniform = (bits.astype(np.float64) + 0.5) / 2.0**32

@@ -39,20 +39,6 @@ def _points_above(value: float, reference: float) -> float:
     return (value - reference) * 100
 
 
-def _best_seed(row: str, key: str) -> Callable[[Numbers], float | None]:
-    """The measure over nearest neighbour's, of the one seed whose worse ratio of pose and place is least."""
-
-    def read(numbers: Numbers) -> float | None:
-        seeds = numbers["rows"].get(row, {}).get("per_seed")
-        known = {k: _mean(numbers, "nearest neighbour", k) for k in ("mpjpe_mm", "root_error_mm")}
-        if seeds is None or None in known.values():
-            return None
-        ratios = [{k: _ratio(seed[k], reference or 0.0) for k, reference in known.items()} for seed in seeds]
-        return min(ratios, key=lambda ratio: max(ratio.values()))[key]
-
-    return read
-
-
 def _answered(row: str, direction: str) -> Callable[[Numbers], float | None]:
     """Beat echo above its own chance over the truth's above its own.
 
@@ -77,13 +63,6 @@ def _quality_of(row: str, prefix: str) -> tuple[Rule, ...]:
     return (
         (f"{prefix}relative-root error, mm", of_row(row, "root_error_mm"), -inf, 200),
         (f"{prefix}MPJPE, mm", of_row(row, "mpjpe_mm"), -inf, 100),
-        (f"{prefix}best seed's MPJPE over nearest neighbour's", _best_seed(row, "mpjpe_mm"), -inf, 0.85),
-        (
-            f"{prefix}the same seed's root error over nearest neighbour's",
-            _best_seed(row, "root_error_mm"),
-            -inf,
-            0.85,
-        ),
         (f"{prefix}mean joint speed over the truth's", of_row(row, "speed_ratio"), 0.9, 1.1),
         (f"{prefix}mean joint acceleration over the truth's", of_row(row, "acceleration_ratio"), 0.9, 1.1),
         *(
@@ -156,6 +135,8 @@ QUALITY: tuple[Rule, ...] = (
         0.5,
     ),
     ("two minutes: repeated windows above the truth's, points", _repeated, -inf, 5),
+    ("two seeds apart in pose, mm", of_probe("responses", "seeds_apart_pose_mm"), 40, inf),
+    ("told from the truth, accuracy", of_probe("two_sample", "generated"), -inf, 0.66),
     ("seams over the truth's", of_probe("seams", "ratio"), 0.9, 1.15),
     ("another song's change over another leader's", of_probe("responses", "song_over_leader"), 0.1, inf),
     *(

@@ -11,14 +11,13 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig, per_layer
+from training.config import STREAMS, STRIDE, DiffusionConfig, FrameConfig
 from training.denoiser.denoiser import Denoiser
 from training.diffusion import Step, alphas_cumprod, ddim_steps
 from training.frame import smoothed_heading
 from training.grip import grip
 from training.hfsq.autoencoder import Autoencoder
 from training.noise import noise
-from training.second_opinion import second_opinion
 from training.sharpen import sharpen
 from training.streams import leader_features, reactor_motion
 
@@ -76,56 +75,50 @@ def scatter(values: Tensor, blocks: list[Block], frames: int) -> Tensor:
     return out / total.view(-1, *extra)
 
 
-def per_channel(denoiser: Denoiser, streams: tuple[float, float, float]) -> Tensor:
-    """A value per stream as one per channel of a layer, (C,)."""
-    return torch.tensor(streams).repeat_interleave(denoiser.latent_width // len(STREAMS))
+def clamp_to_range(denoiser: Denoiser, x0: Tensor) -> Tensor:
+    """x0 (..., R, C) clamped to the range of the quantiser: the decoder has never seen a latent beyond it.
 
-
-def within_reach(denoiser: Denoiser, x0: Tensor, reach: tuple[float, float, float]) -> Tensor:
-    """x0 (..., R, C), with what lies beyond the quantiser's range, or beyond `reach` of it, brought back to the end
-    (static thresholding, Saharia et al. 2022): the decoder has never seen a latent out there.
+    Static thresholding, Saharia et al. 2022 (Imagen), section 2.3.
     """
-    middle = torch.nan_to_num((denoiser.highest + denoiser.lowest) / 2)  # a range without ends has none
-    half = (denoiser.highest - denoiser.lowest) / 2 * per_channel(denoiser, reach)
-    return torch.minimum(torch.maximum(x0, middle - half), middle + half)
+    return torch.minimum(torch.maximum(x0, denoiser.lowest), denoiser.highest)
 
 
-def guided_x0(
-    model: Model, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor, guidance: Tensor, music: Tensor
+def classifier_free_guidance(
+    denoiser: Denoiser,
+    x: Tensor,
+    time: Tensor,
+    memory: Tensor,
+    valid: Tensor,
+    guidance: Tensor,
+    music_guidance: Tensor,
 ) -> Tensor:
-    """Eq. 9 per stream and layer, and what the song adds: (1 + s) G(x, c) - s G(x, null) + m (G(x, c) - G(x, l)).
+    """Classifier-free guidance (Ho and Salimans 2022) per stream and layer, the paper's Eq. 9, with a term for music:
 
-    c is leader and music, l the leader in silence. The last term, guidance by a single condition (as in Liu et
-    al. 2022), is not in the paper; m = 0 leaves Eq. 9. x (B, block, R, C), time (1,), memory (B, block, M) of
-    `condition`, valid (B, block), guidance s (S, R), music m (1,). Coarse sees no fine weight: the network's
-    coarse trunk never reads the fine layer and each layer is combined with its own s. The dance, corrected by the
-    `second_opinion`, and what the song adds are kept `within_reach`; what s adds is not, or guidance would end where
-    the range does.
+        x0 = (1 + s) cond - s uncond + m (cond - no_music)
+
+    cond is the prediction for leader and music, uncond for neither, no_music for the leader alone. The last term is
+    guidance by a single condition (Liu et al. 2022) and not in the paper; m = 0 leaves Eq. 9.
+
+    x (B, block, R, C), time (1,), memory (B, block, 3 D) of `condition`, valid (B, block), guidance s (S, R),
+    music_guidance m (1,). Returns x0 (B, block, R, C), clamped to the quantiser's range. The coarse layer is combined
+    from coarse predictions alone, so no fine weight reaches it.
     """
-    denoiser, config = model.denoiser, model.diffusion
-    leader, heard, silence, mirrored = memory.chunk(4, dim=-1)
-    full, silent = torch.cat([leader, heard], dim=-1), torch.cat([leader, silence], dim=-1)
-    kept = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
-    keep = torch.cat([kept, kept * 0, kept])
-    each = denoiser(
+    leader, music, silence = memory.chunk(3, dim=-1)
+    with_music, without_music = torch.cat([leader, music], dim=-1), torch.cat([leader, silence], dim=-1)
+    ones = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
+    keep = torch.cat([ones, ones * 0, ones])
+    predictions = denoiser(
         torch.cat([x, x, x]),
         time,
-        torch.cat([full, full, silent]),
+        torch.cat([with_music, with_music, without_music]),
         torch.cat([valid, valid, valid]),
         keep,
         keep,
     )
     # Written so that the exported graph needs no shape arithmetic.
-    conditional, unconditional, unheard = each.reshape(3, -1, *each.shape[1:]).unbind(0)
+    cond, uncond, no_music = predictions.reshape(3, -1, *predictions.shape[1:]).unbind(0)
     s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
-    believed = conditional
-    if config.mirror:
-        elsewhere = torch.cat([mirrored, heard], dim=-1)
-        coarse = conditional[:, :, 0]
-        coarse = coarse + second_opinion(denoiser, model.hfsq.mirror, config, coarse, time, elsewhere, valid)
-        believed = torch.cat([coarse[:, :, None], conditional[:, :, 1:]], dim=2)
-    danced = within_reach(denoiser, believed + music * (conditional - unheard), config.reach)
-    return danced + s * (conditional - unconditional)
+    return clamp_to_range(denoiser, cond + s * (cond - uncond) + music_guidance * (cond - no_music))
 
 
 Progress = Callable[[int, Tensor, Tensor], None]
@@ -138,31 +131,29 @@ def sample(
     initial: Tensor,
     steps: list[Step],
     guidance: Tensor,
-    music: float,
+    music_guidance: float,
     on_step: Progress | None = None,
 ) -> Tensor:
-    """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C); guidance and music
-    as in `guided_x0`.
+    """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C); guidance and
+    music_guidance as in `classifier_free_guidance`.
 
     All blocks are computed in parallel. `on_step(k, x, x0)` sees the state after each step.
     """
     denoiser, config = model.denoiser, model.diffusion
     frames, size = len(memory), denoiser.config.block
-    x = initial * torch.tensor(per_layer(config.temperature, denoiser.layers))[:, None]
-    x0_before = torch.zeros_like(x)
+    x = initial
     for k, step in enumerate(steps):
         if config.stitching:
             blocks = overlapping(frames, size)
         else:
             blocks = partition(frames, size, shifted=config.alternating_phase and k % 2 == 1)
         valid = gather(torch.ones(frames), blocks, size)
-        x0 = guided_x0(
-            model, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
-            gather(memory, blocks, size), valid, guidance, torch.tensor([music]),
+        x0 = classifier_free_guidance(
+            denoiser, gather(x, blocks, size), torch.tensor([step.time], dtype=torch.float32),
+            gather(memory, blocks, size), valid, guidance, torch.tensor([music_guidance]),
         )  # fmt: skip
         x0 = scatter(x0, blocks, frames)
-        x = step.a * x + step.b * x0 + step.c * x0_before
-        x0_before = x0
+        x = step.a * x + step.b * x0
         if on_step is not None:
             on_step(k, x, x0)
     return x
@@ -170,7 +161,7 @@ def sample(
 
 @torch.no_grad()
 def condition(model: Model, leader: Tensor, music: Tensor, music_valid: Tensor, role: float = 0.0) -> Tensor:
-    """Memory (L, M) of a whole clip, with and without its song, and with its leader in a mirror.
+    """Memory (L, 3 D) of a whole clip: leader, music, and what stands for the music where there is none.
 
     leader (T, 22, 3) metres, music (T, 54), music_valid (T); T a multiple of 4.
     """
@@ -183,12 +174,10 @@ def danced(model: Model, latents: Tensor, leader: Tensor, layers: Tensor) -> Ten
     """Sampled normalised latents (L, R, C) to the reactor's joints (T, 22, 3) in metres; `layers` (R,) multiplies each
     residual layer.
     """
-    coarse = per_channel(model.denoiser, model.diffusion.spread)
-    spread = torch.stack([coarse, *[torch.ones_like(coarse)] * (model.denoiser.layers - 1)])
-    raw = model.hfsq.denormalise(latents * spread) * layers[:, None]
+    raw = model.hfsq.denormalise(latents) * layers[:, None]
     streams = [sharpen(stream[0], model.diffusion.sharpen) for stream in model.hfsq.decode(raw[None])]
     motion = reactor_motion(streams, leader, smoothed_heading(leader, model.frame))
-    return grip(motion, model.diffusion.grip)
+    return grip(motion, model.diffusion.foot_contact)
 
 
 @torch.no_grad()
@@ -219,8 +208,8 @@ def react(
     """The reactor (T, 22, 3) for a leader (T, 22, 3) at the model's reference height and music (T', 54) or
     None.
 
-    guidance: (S, R), Eq. 9's s, and music_guidance, see `guided_x0`; None takes the model's default. Where the
-    music is shorter than the dance there is silence.
+    guidance: (S, R), Eq. 9's s, and music_guidance, see `classifier_free_guidance`; None takes the model's default.
+    Where the music is shorter than the dance there is silence.
     """
     frames = len(leader)
     padded = torch.from_numpy(pad_to_stride(leader)).float()
@@ -230,14 +219,11 @@ def react(
         heard[:n], valid[:n] = torch.from_numpy(music[:n]).float(), 1.0
     memory = condition(model, padded, heard, valid, role)
     layers, width = model.denoiser.layers, model.denoiser.latent_width
-    initial = (
-        torch.from_numpy(noise(seed, len(memory), layers * width, draw=0))
-        .float()
-        .unflatten(1, (layers, width))
-    )
+    initial = torch.from_numpy(noise(seed, len(memory), layers * width)).float().unflatten(1, (layers, width))
     if guidance is None:
         guidance = np.tile(np.array(model.diffusion.guidance, dtype=np.float32), (len(STREAMS), 1))
     plan = ddim_steps(alphas_cumprod(model.diffusion), steps or model.diffusion.steps)
-    louder = model.diffusion.music if music_guidance is None else music_guidance
-    latents = sample(model, memory, initial, plan, torch.from_numpy(guidance).float(), louder)
+    if music_guidance is None:
+        music_guidance = model.diffusion.music
+    latents = sample(model, memory, initial, plan, torch.from_numpy(guidance).float(), music_guidance)
     return decode(model, latents, padded)[:frames].numpy()

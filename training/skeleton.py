@@ -39,10 +39,6 @@ FEET: tuple[int, ...] = (7, 8, 10, 11)
 TOES: tuple[int, int] = (10, 11)
 LOWEST_TOE = 0.02  # metres above the floor; a planted toe rests at about 0.03 (training/data/floor.py)
 GIVING_WAY = 2  # frames, sigma of the pelvis following the feet
-# Nobody floats: in every half second one toe or the other comes down to this height. In the training dances one does
-# but around 2 % of the frames, where at most 12 mm are missing.
-STANDING_TOE = 0.05  # metres above the floor
-STANDING = 17  # frames
 
 # Index of the joint on the other side of the body; joints of the middle map to themselves.
 MIRROR: tuple[int, ...] = tuple(
@@ -97,35 +93,23 @@ def constant_bones(motion: Tensor) -> Tensor:
     return motion[..., :1, :] + _DESCENT.to(motion) @ bones
 
 
-def floating(toe: Tensor) -> Tensor:
-    """How far above the floor a body floats, (..., T) metres, by the height (..., T) of its lower toe: what its lowest
-    point in the `STANDING` frames around lies above `STANDING_TOE`. A hop lands within that time.
-    """
-    around = (STANDING - 1) // 2
-    first, last = (end.expand(*toe.shape[:-1], around) for end in (toe[..., :1], toe[..., -1:]))
-    lowest = torch.cat([first, toe, last], dim=-1)
-    for further in (1, 2, 4, 8, 1):  # of 2, 4, 8, 16, 17 frames
-        lowest = torch.minimum(lowest[..., :-further], lowest[..., further:])
-    return (lowest - STANDING_TOE).clamp_min(0)
-
-
 def keep_footing(motion: Tensor, before: Tensor, floor: bool = True) -> Tensor:
     """`motion` raised or lowered until its lower toe is as high as it was `before`; both (N, T, 22, 3) metres.
 
     Legs that have been given their length push the feet through the floor. The pelvis gives way, smoothly:
     a lower toe that changes from one foot to the other must not jolt the body. With a `floor` at y = 0 the toe is
-    kept from sinking below `LOWEST_TOE`, and who is `floating` comes down.
+    kept from sinking below `LOWEST_TOE`.
     """
     toes = torch.tensor(TOES, device=motion.device)
     lower, wanted = (m.index_select(-2, toes)[..., 1].amin(-1) for m in (motion, before))
     if floor:
-        wanted = wanted.clamp_min(LOWEST_TOE) - floating(wanted)
+        wanted = wanted.clamp_min(LOWEST_TOE)
     rise = gaussian_mean(wanted - lower, GIVING_WAY, 3 * GIVING_WAY)
     return motion + torch.stack([torch.zeros_like(rise), rise, torch.zeros_like(rise)], dim=-1)[..., None, :]
 
 
 def as_body(motion: Tensor, floor: bool = True) -> Tensor:
-    """Decoded joints (N, T, 22, 3) as a body that can exist: bones of constant length, feet where they were, and, on a
-    `floor` at y = 0, neither in it nor floating.
+    """Decoded joints (N, T, 22, 3) as a body that can exist: bones of constant length, feet where they were, and not
+    sunk into a `floor` at y = 0.
     """
     return keep_footing(constant_bones(motion), motion, floor)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
-import torch.nn.functional as F
 from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
@@ -144,13 +143,6 @@ def slice_padded(values: Tensor, start: int, stop: int) -> Tensor:
     return out
 
 
-def slow_noise(random: np.random.Generator, frames: int, channels: int, every: int = 15) -> Tensor:
-    """(frames, channels) of noise with standard deviation 1 at one frame in `every`, linear between these."""
-    knots = random.standard_normal((1, channels, frames // every + 2), dtype=np.float32)
-    line = F.interpolate(torch.from_numpy(knots), size=frames, mode="linear", align_corners=True)
-    return line[0].T
-
-
 class Windows:
     """Dense sliding windows (stride of one latent frame = 4 frames by default), some cut short at either
     end.
@@ -168,7 +160,6 @@ class Windows:
         # How a couple comes together and parts is in few windows, and nothing else is like it.
         self.ends = [(i, s) for i, clip in enumerate(clips) for s in (0, max(len(clip) - block, 0))]
         self.random = np.random.default_rng(seed)
-        self.spread = torch.cat([clip.features for clip in clips]).std(0)
 
     def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05, ends: float = 0.15) -> Batch:
         """short: share of windows cut short at either end; song_ends: of those in which the song stops; ends: of
@@ -196,8 +187,6 @@ class Windows:
         shift *= int(self.random.integers(2))
         features = clip.blurred if self.random.random() < self.config.blurred else clip.features
         features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
-        noise = slow_noise(self.random, *features.shape) * self.spread
-        features = features + noise * (self.config.leader_noise * self.random.random())
         if clip.music:
             music = clip.music[int(self.random.integers(len(clip.music)))]
         else:

@@ -11,7 +11,7 @@ from torch import Tensor
 
 from training.config import FPS
 from training.frame import into_frame, out_of_frame
-from training.skeleton import LOWER, MIRROR, UPPER, as_body
+from training.skeleton import LOWER, UPPER, as_body
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
 STREAM_WIDTHS: tuple[int, int, int] = (UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH)
@@ -20,7 +20,6 @@ LEADER_FEATURES = 21 * 3 + 1 + 3 + 1
 # Joint order in which upper and lower streams concatenate (after the root), and the way back to SMPL order.
 _ORDER = (0, *UPPER, *LOWER)
 _INVERSE = tuple(_ORDER.index(j) for j in range(22))
-_OTHER_SIDE = (-1.0, 1.0, 1.0)  # what a mirror makes of a point in the leader's frame
 
 
 def to_streams(leader: Tensor, reactor: Tensor, heading: Tensor) -> tuple[Tensor, Tensor, Tensor]:
@@ -52,39 +51,6 @@ def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor
         [torch.zeros_like(placement[:, 1]), placement[:, 1], torch.zeros_like(placement[:, 1])], dim=-1
     )
     return out_of_frame(local, heading) + shift + ground[:, None] + height[:, None]
-
-
-def _mirrored_joints(joints: Tensor, order: Sequence[int]) -> Tensor:
-    """Joints (..., 3 k) of one stream, listed in `order`, seen in a mirror."""
-    other = [order.index(MIRROR[j]) for j in order]
-    points = joints.unflatten(-1, (len(order), 3))
-    return (points[..., other, :] * points.new_tensor(_OTHER_SIDE)).flatten(-2)
-
-
-def mirrored(streams: Sequence[Tensor]) -> tuple[Tensor, Tensor, Tensor]:
-    """Streams (..., T, c) of the same dance with both dancers seen in a mirror. They are in the leader's frame, so
-    the leader is not needed.
-    """
-    upper, lower, placement = streams
-    return (
-        _mirrored_joints(upper, UPPER),
-        _mirrored_joints(lower, LOWER),
-        placement * placement.new_tensor(_OTHER_SIDE),
-    )
-
-
-def mirrored_features(features: Tensor) -> Tensor:
-    """`leader_features` (..., T, 68) of the same leader seen in a mirror."""
-    pose, height, velocity, turn = features.split([63, 1, 3, 1], dim=-1)
-    return torch.cat(
-        [
-            _mirrored_joints(pose, range(1, 22)),
-            height,
-            velocity * velocity.new_tensor(_OTHER_SIDE),
-            -turn,
-        ],
-        dim=-1,
-    )
 
 
 def reactor_motion(streams: Sequence[Tensor], leader: Tensor, heading: Tensor) -> Tensor:

@@ -27,7 +27,6 @@ from training.frame import smoothed_heading
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import stage1_loss
 from training.hfsq.masking import slow_motion
-from training.learn_mirror import MirrorTraining, learn_mirror, mirror_fit
 from training.loop import (
     Average,
     Budget,
@@ -62,8 +61,7 @@ class Options:
     init: Path | None = None
     """Start from the autoencoder of this checkpoint."""
     keep_latents: bool = False
-    """Train the decoders alone, so that a denoiser of the `init` checkpoint goes on fitting; with --steps 0 nothing but
-    the mirror is learnt anew."""
+    """Train the decoders alone, so that a denoiser of the `init` checkpoint goes on fitting."""
     solo: Path | None = None
     """npz archive of solo dances whose bodies join the training of the upper and lower streams."""
     solo_prefixes: tuple[str, ...] = ("indian", "modern")
@@ -88,8 +86,6 @@ class Options:
     log_every: int = 50
     evaluate_every: int = 500
     resume: bool = False
-    mirror: MirrorTraining = field(default_factory=MirrorTraining)
-    """The network that mirrors latents is trained when the rest is done."""
     hfsq: HfsqConfig = field(default_factory=HfsqConfig)
     frame: FrameConfig = field(default_factory=FrameConfig)
 
@@ -250,7 +246,6 @@ def main(options: Options) -> None:
             stream.encoder.requires_grad_(False)
             stream.quantiser.requires_grad_(False)
 
-    autoencoder.mirror.requires_grad_(False)  # its turn comes at the end
     stage = Stage1(autoencoder, options.hfsq)
     trained = [p for p in stage.parameters() if p.requires_grad]
     optimizer = Lion(trained, lr=options.learning_rate, weight_decay=options.weight_decay)
@@ -289,13 +284,7 @@ def main(options: Options) -> None:
         final = average.module.cpu()
         if not options.keep_latents:
             set_latent_statistics(final, clips)
-        learn_mirror(final, lambda n: windows.batch(n)[0], options.mirror)
         report = evaluate(final, duets.val, options)
-        for duet in duets.val[:1]:
-            frames = len(duet) // STRIDE * STRIDE
-            report["val/mirror"] = mirror_fit(
-                final, [s[None, :frames] for s in streams_of(duet, options.frame)]
-            )
         if options.hfsq.quantiser == "hfsq":
             report |= {f"bins/{i}": share for i, share in enumerate(bins_used(final, clips))}
         journal.write(budget, report)

@@ -13,7 +13,6 @@ from training.denoiser.condition import ConditionEncoder
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.transformer import ChannelDropout, phase
 from training.sampler import Model
-from training.streams import mirrored_features
 from training.train_denoiser import condition_keeps
 
 BLOCK = 60
@@ -76,15 +75,6 @@ def test_coarse_never_depends_on_fine(model: Model) -> None:
     inputs = given(model)
     inputs["x"][:, :, 0] += 1
     assert not torch.allclose(before[:, :, 1], model.denoiser(**inputs)[:, :, 1]), "fine follows coarse"
-
-
-def test_the_coarse_layer_can_be_asked_alone(model: Model) -> None:
-    inputs = given(model)
-    inputs["valid"][0, 50:] = 0
-    with torch.no_grad():
-        both = model.denoiser(**inputs)
-        alone = model.denoiser.coarse(inputs["x"][:, :, 0], inputs["time"], inputs["memory"], inputs["valid"])
-    assert torch.allclose(alone, both[:, :, 0], atol=1e-6)
 
 
 def test_each_layer_has_its_own_null_for_each_condition(model: Model) -> None:
@@ -189,7 +179,7 @@ def test_silence_is_the_same_whatever_lies_in_the_features() -> None:
     assert not torch.allclose(made(leader, music, valid, role), made(leader, music, torch.ones(1, 80), role))
 
 
-def test_memory_of_a_clip_has_silence_and_the_mirrored_leader_beside_the_rest() -> None:
+def test_memory_of_a_clip_has_silence_beside_leader_and_music() -> None:
     made = encoder(ConditionConfig())
     features, music = torch.randn(1, 80, 68), torch.randn(1, 80, 54)
     role, valid = torch.ones(1), torch.ones(1, 80)
@@ -197,11 +187,10 @@ def test_memory_of_a_clip_has_silence_and_the_mirrored_leader_beside_the_rest() 
         whole = made.of_clip(features, music, valid, role)
         leader, heard = made(features, music, valid, role).chunk(2, dim=-1)
         _, silence = made(features, music, torch.zeros_like(valid), role).chunk(2, dim=-1)
-        mirrored, _ = made(mirrored_features(features), music, valid, role).chunk(2, dim=-1)
     assert whole.shape[-1] == made.memory_width
-    for part, expected in zip(whole.chunk(4, dim=-1), (leader, heard, silence, mirrored), strict=True):
+    for part, expected in zip(whole.chunk(3, dim=-1), (leader, heard, silence), strict=True):
         assert torch.allclose(part, expected, atol=1e-5)
-    assert not torch.allclose(mirrored, leader, atol=0.1)
+    assert not torch.allclose(silence, heard, atol=0.1)
 
 
 @pytest.mark.parametrize(("leader", "music"), [(False, True), (True, False)])

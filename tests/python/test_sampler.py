@@ -17,14 +17,14 @@ from training.noise import noise
 from training.sampler import (
     Block,
     Model,
+    clamp_to_range,
+    classifier_free_guidance,
     gather,
-    guided_x0,
     overlapping,
     partition,
     react,
     sample,
     scatter,
-    within_reach,
 )
 
 
@@ -39,7 +39,7 @@ def run(
     d = model.denoiser
     torch.manual_seed(3)
     memory = torch.randn(200, d.condition.memory_width)[start : start + length]
-    initial = torch.from_numpy(noise(5, length, d.layers * d.latent_width, draw=0, start=start))
+    initial = torch.from_numpy(noise(5, length, d.layers * d.latent_width, start=start))
     config = replace(model.diffusion, **changes)
     steps = ddim_steps(alphas_cumprod(config), 4)
     return sample(
@@ -50,11 +50,6 @@ def run(
         torch.from_numpy(guidance).float(),
         music,
     )
-
-
-def told(model: Model, **changes: object) -> Model:
-    """The model with other settings of its sampling."""
-    return replace(model, diffusion=replace(model.diffusion, **changes))
 
 
 def flat(coarse: float, fine: float) -> np.ndarray:
@@ -108,7 +103,7 @@ def test_fine_guidance_leaves_the_coarse_latents_bit_identical(model: Model, alt
     assert (low[:, 1] - high[:, 1]).abs().max() > 1e-3
 
 
-def test_guidance_is_equation_9(model: Model) -> None:
+def test_guidance_is_equation_9_clamped(model: Model) -> None:
     torch.manual_seed(0)
     d = model.denoiser
     x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
@@ -119,18 +114,16 @@ def test_guidance_is_equation_9(model: Model) -> None:
         conditional = d(x, time, heard, valid, yes, yes)
         unconditional = d(x, time, heard, valid, no, no)
         s = torch.tensor([[0.5, -1.0], [1.2, 0.0], [3.0, 2.0]])
-        alone = told(model, mirror=0.0, reach=(1.0, 1.0, 1.0))
-        guided = guided_x0(alone, x, time, memory, valid, s, torch.zeros(1))
+        guided = classifier_free_guidance(d, x, time, memory, valid, s, torch.zeros(1))
     per_stream = d.latent_width // 3
     for stream in range(3):
         for layer in range(2):
             channels = slice(stream * per_stream, (stream + 1) * per_stream)
             w = s[stream, layer]
             yes, no = conditional[:, :, layer, channels], unconditional[:, :, layer, channels]
-            within = (yes > d.lowest[layer, channels]) & (yes < d.highest[layer, channels])
             expected = (1 + w) * yes - w * no
-            assert torch.allclose(guided[:, :, layer, channels][within], expected[within], atol=1e-5)
-            assert within.float().mean() > 0.5
+            expected = expected.clamp(d.lowest[layer, channels], d.highest[layer, channels])
+            assert torch.allclose(guided[:, :, layer, channels], expected, atol=1e-5)
 
 
 def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
@@ -140,12 +133,11 @@ def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
     x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
     valid, time = torch.ones(2, 60), torch.tensor([0.4])
     yes, none = torch.ones(2, 2), torch.zeros(3, 2)
-    leader, _, silence, _ = memory.chunk(4, dim=-1)
+    leader, _, silence = memory.chunk(3, dim=-1)
     with torch.no_grad():
         with_song = d(x, time, memory[..., : 2 * width], valid, yes, yes)
         without = d(x, time, torch.cat([leader, silence], dim=-1), valid, yes, yes)
-        alone = told(model, mirror=0.0, reach=(1.0, 1.0, 1.0))
-        guided = guided_x0(alone, x, time, memory, valid, none, torch.tensor([1.5]))
+        guided = classifier_free_guidance(d, x, time, memory, valid, none, torch.tensor([1.5]))
     expected = (with_song + 1.5 * (with_song - without)).clamp(d.lowest, d.highest)
     assert torch.allclose(guided, expected, atol=1e-5)
     assert not torch.allclose(guided, with_song.clamp(d.lowest, d.highest), atol=1e-2)
@@ -160,48 +152,26 @@ def test_without_a_song_music_guidance_has_nothing_to_say(model: Model) -> None:
     assert not np.allclose(loud, react(model, leader, music, seed=1, music_guidance=0.0), atol=1e-3)
 
 
-def test_the_dance_and_its_song_stay_within_reach_and_guidance_goes_further(model: Model) -> None:
+def test_what_guidance_gives_is_clamped_to_the_range_of_the_quantiser(model: Model) -> None:
     d = model.denoiser
-    reach = (1.0, 0.5, 0.25)
-    middle, half = (d.highest + d.lowest) / 2, (d.highest - d.lowest) / 2
-    limit = half * torch.tensor(reach).repeat_interleave(d.latent_width // 3) + 1e-5
     torch.manual_seed(0)
     x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
-    valid, time, song = torch.ones(2, 60), torch.tensor([0.4]), torch.tensor([20.0])
-    with torch.no_grad():
-        reaching = told(model, reach=reach)
-        plain = guided_x0(reaching, x, time, memory, valid, torch.zeros(3, 2), song)
-        guided = guided_x0(reaching, x, time, memory, valid, torch.full((3, 2), 3.0), song)
-    from_middle = (plain - middle).abs()
-    assert (from_middle <= limit).all()
-    met = (from_middle > limit - 2e-5).unflatten(-1, (3, -1))
-    assert met.any(-1).flatten(0, 1).any(0).all(), "every stream's limit is met"
-    assert ((guided - middle).abs() > limit).any(), "guidance does not end where the range does"
+    valid, time = torch.ones(2, 60), torch.tensor([0.4])
+    for weights, music in ((flat(0, 0), 20.0), (flat(3, 3), 0.0)):
+        with torch.no_grad():
+            guided = classifier_free_guidance(
+                d, x, time, memory, valid, torch.from_numpy(weights), torch.tensor([music])
+            )
+        assert (guided >= d.lowest).all()
+        assert (guided <= d.highest).all()
+        met = ((guided == d.lowest) | (guided == d.highest)).unflatten(-1, (3, -1))
+        assert met.any(-1).flatten(0, 1).any(0).all(), "every stream and layer meets its limit"
 
 
-def test_where_the_range_has_no_ends_everything_is_within_reach() -> None:
+def test_a_range_without_ends_clamps_nothing() -> None:
     d = Denoiser(6, 1, DenoiserConfig(width=32, depths=(1,), mlp=2, condition=ConditionConfig(depth=1)))
     x0 = 100 * torch.randn(2, 60, 1, 6)
-    assert torch.equal(within_reach(d, x0, (0.5, 1.0, 0.1)), x0)
-
-
-def test_temperature_scales_the_noise_of_its_layer(model: Model) -> None:
-    d = model.denoiser
-    length = 70
-    noisy = torch.from_numpy(noise(5, length, d.layers * d.latent_width, draw=0)).unflatten(1, (d.layers, -1))
-    torch.manual_seed(3)
-    memory = torch.randn(length, d.condition.memory_width)
-    steps = ddim_steps(alphas_cumprod(model.diffusion), 4)
-
-    def sampled(initial: torch.Tensor, temperature: tuple[float, float]) -> torch.Tensor:
-        return sample(told(model, temperature=temperature), memory, initial, steps, torch.zeros(3, 2), 0.0)
-
-    scaled = noisy * torch.tensor([0.3, 1.5])[:, None]
-    assert torch.equal(sampled(noisy, (0.3, 1.5)), sampled(scaled, (1.0, 1.0)))
-    coarse, fine = sampled(noisy, (1.0, 0.3)).unbind(1)
-    as_it_is = sampled(noisy, (1.0, 1.0))
-    assert torch.equal(coarse, as_it_is[:, 0]), "coarse does not see the fine noise"
-    assert not torch.allclose(fine, as_it_is[:, 1], atol=1e-3)
+    assert torch.equal(clamp_to_range(d, x0), x0)
 
 
 def test_plain_blocks_do_not_know_each_other_and_alternating_ones_do(model: Model) -> None:

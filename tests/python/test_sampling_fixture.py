@@ -31,7 +31,7 @@ def golden() -> dict:
             for n in LENGTHS
         ],
         "schedules": [
-            {"steps": count, "plan": [[s.time, s.a, s.b, s.c, s.d] for s in ddim_steps(alphas, count)]}
+            {"steps": count, "plan": [[s.time, s.a, s.b] for s in ddim_steps(alphas, count)]}
             for count in COUNTS
         ],
     }

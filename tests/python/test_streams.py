@@ -5,21 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
-from scipy.ndimage import minimum_filter1d
 
 from training.config import FrameConfig
-from training.data.augment import mirror
-from training.data.floor import TOE_REST
 from training.data.made import made_duet
 from training.frame import arctangent, cosine_sine, into_frame, out_of_frame, smoothed_heading
-from training.skeleton import PARENTS, STANDING, STANDING_TOE, TOES, as_body, constant_bones, floating
+from training.skeleton import PARENTS, TOES, as_body, constant_bones
 from training.streams import (
     LEADER_FEATURES,
     STREAM_WIDTHS,
     from_streams,
     leader_features,
-    mirrored,
-    mirrored_features,
     to_streams,
 )
 
@@ -56,22 +51,6 @@ def test_the_frame_does_not_see_where_the_couple_is_or_faces(angle: float) -> No
         assert torch.allclose(a, b, atol=1e-4)
     features = leader_features(leader, smoothed_heading(leader, FRAME))
     assert torch.allclose(features, leader_features(led, smoothed_heading(led, FRAME)), atol=2e-3)
-
-
-def test_streams_and_features_are_mirrored_as_the_dancers_are() -> None:
-    duet = made_duet(120, 3)
-    other = mirror(duet)
-    leader, reactor = pair()
-    led, reacted = torch.from_numpy(other.leader), torch.from_numpy(other.reactor)
-    heading, turned = smoothed_heading(leader, FRAME), smoothed_heading(led, FRAME)
-    streams = to_streams(leader, reactor, heading)
-    for ours, theirs in zip(mirrored(streams), to_streams(led, reacted, turned), strict=True):
-        assert torch.allclose(ours, theirs, atol=1e-5)
-    for ours, before in zip(mirrored(mirrored(streams)), streams, strict=True):
-        assert torch.equal(ours, before)
-    features = leader_features(leader, heading)
-    assert torch.allclose(mirrored_features(features), leader_features(led, turned), atol=1e-4)
-    assert not torch.allclose(mirrored_features(features), features, atol=0.1)
 
 
 def test_heading_is_the_direction_the_hips_face() -> None:
@@ -173,36 +152,6 @@ def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
     moved = body - constant_bones(shrunk)
     assert moved[..., [0, 2]].abs().max() == 0, "it only rises and sinks"
     assert (moved[..., 1] - moved[:, :1, 1]).abs().max() < 1e-6, "as a whole"
-
-
-def test_floating_is_what_the_lowest_point_of_half_a_second_lies_too_high() -> None:
-    toe = torch.from_numpy(np.random.default_rng(4).uniform(0.0, 0.4, (2, 90)).astype(np.float32))
-    lowest = minimum_filter1d(toe.numpy(), STANDING, mode="nearest")
-    assert (lowest > STANDING_TOE).any() and (lowest < STANDING_TOE).any()
-    np.testing.assert_allclose(floating(toe).numpy(), (lowest - STANDING_TOE).clip(0), atol=1e-7)
-
-
-def test_who_floats_comes_down_and_who_hops_does_not() -> None:
-    def toe(motion: torch.Tensor) -> torch.Tensor:
-        return motion[0, :, list(TOES), 1].amin(-1)
-
-    pose = torch.from_numpy(made_duet(30, 5).reactor[:1])
-    standing = pose.expand(150, 22, 3)[None].clone()
-    standing[..., 1] += TOE_REST - toe(standing)[0]
-
-    def lifted(start: int, frames: int) -> torch.Tensor:
-        up = standing.clone()
-        up[:, start : start + frames, :, 1] += 0.3
-        return up
-
-    floats, hops = lifted(40, 70), lifted(70, 10)
-    assert toe(as_body(floats, floor=False))[60:90].min() > 0.3, "without a floor it stays up there"
-    np.testing.assert_allclose(toe(as_body(floats))[60:90].numpy(), STANDING_TOE, atol=1e-4)
-    assert toe(as_body(floats))[[20, 130]].tolist() == pytest.approx([TOE_REST] * 2, abs=1e-4)
-    assert torch.allclose(as_body(hops), as_body(hops, floor=False), atol=1e-5), (
-        "a third of a second is a hop"
-    )
-    assert toe(as_body(hops)).max() > 0.25
 
 
 def test_own_trigonometry_is_exact_where_it_is_used() -> None:

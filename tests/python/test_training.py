@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
-from safetensors.torch import load_file
 
 from training import average, plain, train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
@@ -29,7 +28,6 @@ from training.config import (
 from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
 from training.improvised import improvised_clips
-from training.learn_mirror import MirrorTraining
 from training.loop import fast_precision
 from training.stage2_data import Augmentation, Clip
 
@@ -52,7 +50,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def stage1(data: Path, out: Path, **changes: object) -> train_hfsq.Options:
     base = train_hfsq.Options(
         data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=2, tempos=(1.0,), hfsq=HFSQ,
-        mirror=MirrorTraining(windows=2, steps=2, batch=2), log_every=1, evaluate_every=2, precision="32-true",
+        log_every=1, evaluate_every=2, precision="32-true",
     )  # fmt: skip
     return replace(base, **changes)
 
@@ -111,15 +109,6 @@ def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: 
     assert rows.count(1) == 1, "resumed, not begun again"
 
 
-def test_the_mirror_alone_is_learnt_anew(data: Path, trained: Path, tmp_path: Path) -> None:
-    train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True, steps=0, seed=1))
-    before, after = (load_file(str(folder / "hfsq.safetensors")) for folder in (trained, tmp_path))
-    for name in before:
-        assert torch.equal(before[name], after[name]) is not name.startswith("mirror."), name
-    report = json.loads((tmp_path / "hfsq.json").read_text())["provenance"]["validation"]
-    assert report["val/mirror"] < 1
-
-
 def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> None:
     for name in ("hfsq.json", "hfsq.safetensors"):
         (tmp_path / name).write_bytes((trained / name).read_bytes())
@@ -138,7 +127,7 @@ def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_
     before, after = load_hfsq(trained)[0].state_dict(), load_hfsq(tmp_path)[0].state_dict()
     changed = {name for name in before if not torch.equal(before[name], after[name])}
     assert {name.split(".")[2] for name in changed if name.startswith("streams.")} == {"decoder"}
-    assert all(name.startswith(("streams.", "mirror.")) for name in changed)
+    assert all(name.startswith("streams.") for name in changed)
     train_denoiser.main(stage2(data, tmp_path, init=trained, learning_rate=0.0))
     same, _ = load_denoiser(tmp_path, load_hfsq(tmp_path)[0])
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])

@@ -7,7 +7,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from training.config import STRIDE, ConditionConfig
-from training.streams import LEADER_FEATURES, mirrored_features
+from training.streams import LEADER_FEATURES
 
 MUSIC_FEATURES = 54
 
@@ -81,31 +81,27 @@ class ConditionEncoder(nn.Module):
     @property
     def memory_width(self) -> int:
         """Channels of what `of_clip` gives."""
-        return 4 * len(self.silence)
+        return 3 * len(self.silence)
 
     def of_clip(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        """Memory of a whole clip with what sampling asks beside it, (N, L, 4 D): leader, music, the music's part where
-        there is no song, and the leader's part when it is seen in a mirror.
+        """Memory of a whole clip with what guidance by music needs beside it, (N, L, 3 D): leader, music, and the
+        music's part where there is no song.
         """
         heard = self(leader, music, music_valid, role)
         silence = torch.zeros_like(heard).chunk(2, dim=-1)[1].transpose(1, 2)
         if self.config.music:
             silence = self.music.context(silence + self.silence[None, :, None], None)
-        mirrored = self.led(mirrored_features(leader), role, None)
-        return torch.cat([heard, silence.transpose(1, 2), mirrored.transpose(1, 2)], dim=-1)
-
-    def led(self, leader: Tensor, role: Tensor, mask: Tensor | None) -> Tensor:
-        """The leader's part of the memory, (N, D, L)."""
-        led = self.leader.embed(leader) + (2 * role - 1)[:, None, None] * self.role[None, :, None]
-        led = self.leader.context(led, mask)
-        return led if self.config.leader else torch.zeros_like(led)
+        return torch.cat([heard, silence.transpose(1, 2)], dim=-1)
 
     def forward(
         self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None
     ) -> Tensor:
         """inside: (N, L) 1 where the latent frame belongs to the clip; None when the input is the whole clip."""
         mask = None if inside is None else inside[:, None]
-        led = self.led(leader, role, mask)
+        led = self.leader.embed(leader) + (2 * role - 1)[:, None, None] * self.role[None, :, None]
+        led = self.leader.context(led, mask)
+        if not self.config.leader:
+            led = torch.zeros_like(led)
         valid = F.avg_pool1d(music_valid[:, None], STRIDE)
         # The mask goes onto the input too: where there is no song its features may be anything.
         heard = self.music.embed(torch.where(music_valid[..., None] > 0.5, music, self.music.mean))

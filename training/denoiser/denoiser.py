@@ -131,8 +131,3 @@ class Denoiser(nn.Module):
         """valid: (N, block)."""
         cross = self.distance + (valid[:, None, None, :] - 1) * 1e4
         return Rules(self.phase, self.causal, cross)
-
-    def coarse(self, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor) -> Tensor:
-        """What `forward` gives for the coarse layer under all conditions: x and result (N, block, C)."""
-        kept = valid[:, 0] * 0 + 1
-        return self.towers[0](x, time, memory, kept, kept, self.rules(valid))[0]

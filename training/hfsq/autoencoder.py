@@ -10,7 +10,6 @@ from torch import Tensor, nn
 
 from training.config import HfsqConfig
 from training.hfsq.convolutions import Decoder, Encoder, Patch, Unpatch
-from training.hfsq.mirror import LatentMirror
 from training.hfsq.quantisers import make_quantiser
 from training.streams import STREAM_WIDTHS
 
@@ -46,8 +45,7 @@ class Autoencoder(nn.Module):
     """Streams (N, T, 39), (N, T, 24), (N, T, 3) to latents (N, L, R, C) and back; C = 3 G d.
 
     `latent_mean` and `latent_std` (R, C) are the statistics of the training latents: diffusion works on
-    (latents - mean) / std, since the raw standard deviations span an order of magnitude. `mirror` knows what those of
-    the mirrored dance are.
+    (latents - mean) / std, since the raw standard deviations span an order of magnitude.
     """
 
     latent_mean: Tensor
@@ -63,7 +61,6 @@ class Autoencoder(nn.Module):
         self.layers = config.layers
         self.stream_latent = self.each[0].quantiser.latent_width
         self.latent_width = len(STREAM_WIDTHS) * self.stream_latent
-        self.mirror = LatentMirror(self.latent_width, config.mirror_width, config.mirror_depth)
         self.register_buffer("latent_mean", torch.zeros(self.layers, self.latent_width))
         self.register_buffer("latent_std", torch.ones(self.layers, self.latent_width))
 

@@ -58,13 +58,12 @@ export async function goldenError(
   const sampled = await sample({
     latent,
     alternatingPhase: diffusion.alternating_phase,
-    temperature: diffusion.temperature,
     schedule: ddim(diffusion, golden.steps),
     latents,
     memory,
     guidance: golden.guidance,
     musicGuidance: golden.musicGuidance,
-    noise: (draw) => noise(golden.seed, latents, latent.layers.length * latent.channels, draw),
+    noise: noise(golden.seed, latents, latent.layers.length * latent.channels),
     runStep: session.step,
     blocksPerRun: latents,
   });

@@ -82,13 +82,12 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   const sampled = await sample({
     latent,
     alternatingPhase: false,
-    temperature: manifest.diffusion.temperature,
     schedule: ddim(manifest.diffusion, 1),
     latents,
     memory,
     guidance: new Float32Array(latent.streams.length * latent.layers.length),
     musicGuidance: 0,
-    noise: () => new Float32Array(latents * width),
+    noise: new Float32Array(latents * width),
     runStep: session.step,
     blocksPerRun: 1,
   });

@@ -41,7 +41,7 @@ const quality = v.object({
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(1),
+  version: v.literal(2),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -77,11 +77,13 @@ const schema = v.object({
     train_steps: count,
     /** The signal's share of variance after each of the train_steps noising steps. */
     alphas_cumprod: v.pipe(v.array(v.pipe(v.number(), v.minValue(0), v.maxValue(1))), v.minLength(1)),
+    schedule: v.string(),
+    prediction: v.literal('x0'),
+    /** What predictions are clamped to (static thresholding); part of the step graph. */
+    clamp: v.string(),
     sampler: v.literal('ddim'),
     /** On odd steps, blocks begin half a block later. */
     alternating_phase: v.boolean(),
-    /** The noise that sampling starts from is multiplied by this, one value per residual layer. */
-    temperature: v.array(v.pipe(v.number(), v.minValue(0))),
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
@@ -90,10 +92,14 @@ const schema = v.object({
     max: v.number(),
     step: v.number(),
     default: v.record(v.string(), v.number()),
-    /** How much of what the song changes is added; 0 adds nothing. */
+    /** Weight of the guidance by music, which is added to Eq. 9; 0 leaves Eq. 9 alone. */
     music: v.object({ min: v.number(), max: v.number(), default: v.number() }),
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
+  /** What the decode graph does to decoded joints: gain above 6 Hz, strength of the foot-contact correction in m/s. */
+  decode: v.object({ sharpen: v.number(), foot_contact: v.number() }),
+  /** How the networks are built; the page reads none of it, a person can. */
+  architecture: v.looseObject({}),
   /** The feature recipe; its other keys are checked by the audio side, which reads them. */
   audio: v.looseObject({ sample_rate: count, hop: count, features: count }),
   quality,
@@ -151,12 +157,6 @@ function check(manifest: Manifest): void {
   if (latent.channels % latent.streams.length !== 0) {
     throw invalid(
       `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
-    );
-  }
-  if (diffusion.temperature.length !== latent.layers.length) {
-    throw invalid(
-      `The model's manifest has ${diffusion.temperature.length} values in "diffusion.temperature" ` +
-        `for ${latent.layers.length} residual layers.`,
     );
   }
   const { min, max, default: preset } = diffusion.steps;

@@ -1,6 +1,6 @@
 /**
  * Counter-based noise, the same numbers as training/noise.py: Philox4x32-10 (Salmon et al., SC 2011) and Box-Muller.
- * A latent frame's noise depends on (seed, frame, channel, draw) alone, so block order and clip length don't matter.
+ * A latent frame's noise depends on (seed, frame, channel) alone, so block order and clip length don't matter.
  */
 
 const ROUNDS = 10;
@@ -47,15 +47,14 @@ const uniform = (bits: number): number => (bits + 0.5) / 2 ** 32;
  * Standard normal noise for latent frames `start` to `start + frames - 1`.
  * @param seed its lowest 32 bits count
  * @param channels layers x channels of a layer, flattened layer first
- * @param draw 0 for the noise that sampling starts from, k + 1 for the noise added by step k
  * @returns frames x channels
  */
-export function noise(seed: number, frames: number, channels: number, draw: number, start = 0): Float32Array {
+export function noise(seed: number, frames: number, channels: number, start = 0): Float32Array {
   const out = new Float32Array(frames * channels);
   const key = [seed >>> 0, 0] as const;
   for (let frame = 0; frame < frames; frame++) {
     for (let channel = 0; channel < channels; channel += 4) {
-      const bits = philox([start + frame, channel / 4, draw, 0], key);
+      const bits = philox([start + frame, channel / 4, 0, 0], key);
       for (let lane = 0; lane < 4 && channel + lane < channels; lane += 2) {
         const radius = Math.sqrt(-2 * Math.log(uniform(bits[lane as 0 | 2])));
         const angle = 2 * Math.PI * uniform(bits[(lane + 1) as 1 | 3]);

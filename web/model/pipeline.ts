@@ -166,7 +166,7 @@ export class Pipeline {
       ...sampling,
       latents: length,
       memory: sampling.memory.subarray(start * remembered, (start + length) * remembered),
-      noise: (draw) => noise(seed, length, width, draw, start),
+      noise: noise(seed, length, width, start),
       onProgress: tellRuns(onProgress, 'preview', 0, before + runs),
     });
   }
@@ -211,13 +211,12 @@ export class Pipeline {
     return {
       latent,
       alternatingPhase: diffusion.alternating_phase,
-      temperature: diffusion.temperature,
       schedule: ddim(diffusion, request.steps),
       latents,
       memory,
       guidance: request.guidance,
       musicGuidance: request.musicGuidance,
-      noise: (draw) => noise(request.seed, latents, latent.layers.length * latent.channels, draw),
+      noise: noise(request.seed, latents, latent.layers.length * latent.channels),
       runStep: this.session.step,
       blocksPerRun: BLOCKS_PER_RUN,
       signal,

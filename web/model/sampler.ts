@@ -9,10 +9,6 @@ export interface StepInput {
   readonly blocks: number;
   /** blocks x block x width, noisy latents. */
   readonly x: Float32Array;
-  /** blocks x block x width, the clean latents that the step before predicted; zero at the first step. */
-  readonly x0Prev: Float32Array;
-  /** blocks x block x width, standard normal. */
-  readonly noise: Float32Array;
   /** blocks x block x memory width, of the condition graph. */
   readonly memory: Float32Array;
   /** blocks x block, 1 inside the clip and 0 in padding. */
@@ -20,9 +16,9 @@ export interface StepInput {
   readonly time: number;
   /** streams x layers, s of the paper's Eq. 9. */
   readonly guidance: Float32Array;
-  /** How much of what the song changes is added to Eq. 9. */
+  /** Weight of the guidance by music, which is added to Eq. 9. */
   readonly musicGuidance: number;
-  readonly coefficients: readonly [number, number, number, number];
+  readonly coefficients: readonly [number, number];
 }
 
 /** Outputs of the step graph, both blocks x block x width. */
@@ -36,8 +32,6 @@ export type StepRunner = (input: StepInput) => Promise<StepOutput>;
 export interface Sampling {
   readonly latent: Manifest['latent'];
   readonly alternatingPhase: boolean;
-  /** The noise of draw 0 is multiplied by this, one value per residual layer. */
-  readonly temperature: readonly number[];
   readonly schedule: readonly ScheduleStep[];
   /** Length of the clip in latent frames. */
   readonly latents: number;
@@ -45,8 +39,8 @@ export interface Sampling {
   readonly memory: Float32Array;
   readonly guidance: Float32Array;
   readonly musicGuidance: number;
-  /** Standard normal noise of one draw, latents x width: draw 0 starts the sampling, draw k + 1 belongs to step k. */
-  readonly noise: (draw: number) => Float32Array;
+  /** Standard normal noise that sampling starts from, latents x width; it is not changed. */
+  readonly noise: Float32Array;
   readonly runStep: StepRunner;
   /** Blocks that go through the graph together: bounds the memory of a long clip, changes nothing else. */
   readonly blocksPerRun: number;
@@ -66,7 +60,7 @@ export function partitions({ latent, latents, schedule, alternatingPhase }: Samp
   return schedule.map((_, k) => partition(latents, latent.block, alternatingPhase && k % 2 === 1));
 }
 
-/** What one step leaves for the next, latents x width each. */
+/** State after one step, latents x width each. */
 interface Level {
   readonly x: Float32Array;
   readonly x0: Float32Array;
@@ -84,16 +78,11 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
   const size = latent.block;
   const cut = partitions(sampling);
   const total = cut.flat().length;
-  const zeros = new Float32Array(latents * width);
   const empty = (): Level => ({
     x: new Float32Array(latents * width),
     x0: new Float32Array(latents * width),
   });
-  const start = sampling
-    .noise(0)
-    .map((value, i) => value * (sampling.temperature[Math.floor((i % width) / latent.channels)] ?? NaN));
-  const levels = new Map<number, Level>([[0, { x: start, x0: zeros }]]);
-  const draws = new Map<number, Float32Array>();
+  const levels = new Map<number, Level>([[0, { x: sampling.noise, x0: sampling.noise }]]);
   const left = cut.map((blocks) => blocks.length);
   let done = 0;
 
@@ -102,13 +91,10 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     if (!step) return;
     const before = kept(levels, k, empty);
     const after = kept(levels, k + 1, empty);
-    const noise = step.coefficients[3] === 0 ? zeros : kept(draws, k, () => sampling.noise(k + 1));
     await nextTurn(signal);
     const output = await sampling.runStep({
       blocks: group.length,
       x: gather(before.x, width, group, size),
-      x0Prev: gather(before.x0, width, group, size),
-      noise: gather(noise, width, group, size),
       memory: gather(sampling.memory, latent.memory_width, group, size),
       valid: validity(group, size),
       time: step.time,
@@ -125,7 +111,6 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     if (rest > 0) return;
     sampling.onStep?.(k, after.x, after.x0);
     levels.delete(k); // nothing will read it any more
-    draws.delete(k);
   };
 
   for (const { runs, reach } of rings(cut, sampling.reaches ?? [{ start: 0, length: latents }])) {

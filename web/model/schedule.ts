@@ -4,8 +4,8 @@ import type { Manifest } from './manifest';
 export interface ScheduleStep {
   /** Timestep divided by the number of train steps, in [0, 1). */
   readonly time: number;
-  /** a, b, c, d of x_next = a x + b x0 + c x0_prev + d noise. */
-  readonly coefficients: readonly [number, number, number, number];
+  /** a and b of x_next = a x + b x0. */
+  readonly coefficients: readonly [number, number];
 }
 
 /**
@@ -21,6 +21,6 @@ export function ddim(diffusion: Manifest['diffusion'], steps: number): ScheduleS
     const next = alpha(k + 1);
     const a = Math.sqrt((1 - next) / (1 - now));
     const b = Math.sqrt(next) - a * Math.sqrt(now);
-    return { time: timestep(k) / trainSteps, coefficients: [a, b, 0, 0] };
+    return { time: timestep(k) / trainSteps, coefficients: [a, b] };
   });
 }

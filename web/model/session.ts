@@ -21,7 +21,7 @@ type Arrays = Record<string, Float32Array>;
 
 const INPUTS: Record<GraphName, readonly string[]> = {
   condition: ['leader', 'music', 'music_valid', 'role'],
-  step: ['x', 'x0_prev', 'noise', 'memory', 'valid', 'time', 'guidance', 'music_guidance', 'coefficients'],
+  step: ['x', 'memory', 'valid', 'time', 'guidance', 'music_guidance', 'coefficients'],
   decode: ['latents', 'leader', 'layers'],
 };
 const OUTPUTS: Record<GraphName, readonly string[]> = {
@@ -148,30 +148,17 @@ export async function openSession(
         });
         return output(results, 'memory');
       }),
-    step: ({
-      blocks,
-      x,
-      x0Prev,
-      noise,
-      memory,
-      valid,
-      time,
-      guidance,
-      musicGuidance,
-      coefficients,
-    }: StepInput) =>
+    step: ({ blocks, x, memory, valid, time, guidance, musicGuidance, coefficients }: StepInput) =>
       inTurn(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
           x: tensor(x, state),
-          x0_prev: tensor(x0Prev, state),
-          noise: tensor(noise, state),
           memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
           valid: tensor(valid, [blocks, latent.block]),
           time: tensor([time], [1]),
           guidance: tensor(guidance, [streams, layers]),
           music_guidance: tensor([musicGuidance], [1]),
-          coefficients: tensor(coefficients, [4]),
+          coefficients: tensor(coefficients, [2]),
         });
         return { x: output(results, 'x_next'), x0: output(results, 'x0') };
       }),

@@ -30,13 +30,12 @@ function sampling(changes: Partial<Sampling> = {}): Sampling {
   return {
     latent: manifest.latent,
     alternatingPhase: manifest.diffusion.alternating_phase,
-    temperature: manifest.diffusion.temperature,
     schedule: ddim(manifest.diffusion, golden.steps),
     latents,
     memory: array('memory'),
     guidance: golden.guidance,
     musicGuidance: golden.musicGuidance,
-    noise: (draw) => noise(golden.seed, latents, width, draw),
+    noise: noise(golden.seed, latents, width),
     runStep: session.step,
     blocksPerRun: 100,
     ...changes,
@@ -126,7 +125,7 @@ describe('the tiny model on wasm', () => {
         alternatingPhase: false,
         latents: block,
         memory: array('memory').subarray(block * memoryWidth, 2 * block * memoryWidth),
-        noise: (draw) => noise(model.golden.seed, block, width, draw, block),
+        noise: noise(model.golden.seed, block, width, block),
       }),
     );
     expect(maxDifference(alone, whole.subarray(block * width, 2 * block * width))).toBeLessThan(1e-5);

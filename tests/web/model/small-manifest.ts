@@ -13,7 +13,7 @@ const graph = (path: string) => ({
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 1,
+    version: 2,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -42,9 +42,11 @@ export function smallJson() {
     diffusion: {
       train_steps: 1000,
       alphas_cumprod: Array.from({ length: 1000 }, (_, t) => Math.cos(((t + 1) / 1001) * (Math.PI / 2)) ** 2),
+      schedule: 'cosine',
+      prediction: 'x0',
+      clamp: 'quantiser range',
       sampler: 'ddim',
       alternating_phase: true,
-      temperature: [1, 1],
       steps: { default: 10, min: 1, max: 50 },
     },
     guidance: {
@@ -56,6 +58,8 @@ export function smallJson() {
       music: { min: 0, max: 4, default: 2 },
     },
     noise: { algorithm: 'philox4x32-10' },
+    decode: { sharpen: 0, foot_contact: 0 },
+    architecture: {},
     audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },
     quality: {
       contact: { percentile: 5, height: 0.03, vertical_speed: 0.1, slide_speed: 0.2 },
