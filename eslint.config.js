@@ -3,16 +3,16 @@ import { defineConfig, globalIgnores } from 'eslint/config';
 import globals from 'globals';
 import tseslint from 'typescript-eslint';
 
-/** What a folder of web/ must not import: a pattern of relative paths and the reason. */
-const towards = (folders, message) => ({ regex: `^(\\.\\./)+(${folders})(/|\\.ts$|$)`, message });
+/** Imports that a folder of web/ must not have: relative paths from `up` to these folders or files, and the reason. */
+const towards = (names, message, up = '(\\.\\./)+') => ({ regex: `^${up}(${names})(/|\\.ts$|$)`, message });
 const everywhere = towards(
-  'main|on-stage|tests|tools',
-  'main.ts, tests and tools know the app, never the reverse',
+  'main|stage-binding|tests|tools',
+  'main.ts, stage-binding.ts, tests and tools know the app, never the reverse',
 );
 
 /**
  * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
- * motion, audio, motion and offline see nobody, and only main.ts and on-stage.ts know everyone.
+ * motion, audio, motion and offline see nobody, and only main.ts and stage-binding.ts know everyone.
  */
 const directions = {
   offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],
@@ -22,14 +22,32 @@ const directions = {
   quality: [towards('audio|model|view|export|ui', 'quality imports motion only')],
   view: [towards('audio|model|quality|export|ui', 'view imports motion only')],
   export: [towards('audio|model|quality|ui', 'export imports motion and view only')],
-  ui: [
-    towards('view', 'main.ts hands the stage to ui'),
-    {
-      regex: '^(\\.\\./)+(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)',
-      message: 'ui sees the clients of audio, model, quality and export only',
-    },
-  ],
 };
+
+/** Inside motion: math below skeleton below the rest, which the client and the worker put together. */
+const motionFolders = {
+  math: 'skeleton|bvh|fit|contact|beats|client|worker',
+  skeleton: 'bvh|fit|contact|beats|client|worker',
+  bvh: 'fit|contact|beats|client|worker',
+  fit: 'bvh|contact|beats|client|worker',
+  contact: 'bvh|fit|beats|client|worker',
+  beats: 'bvh|fit|contact|client|worker',
+};
+for (const [folder, above] of Object.entries(motionFolders))
+  directions[`motion/${folder}`] = [
+    ...directions.motion,
+    towards(above, `motion/${folder} imports only what is below it`, '\\.\\./'),
+  ];
+
+/*UI*/
+directions.ui = [
+  towards('view', 'main.ts hands the stage to ui'),
+  {
+    regex: '^(\\.\\./)+(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)',
+    message: 'ui sees the clients of audio, model, quality and export only',
+  },
+];
+/*END*/
 
 export default defineConfig(
   globalIgnores(['dist', 'node_modules', '.venv', 'runs', '.scratch', 'test-results', 'playwright-report']),

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { readBvh } from '../../web/motion/bvh-read';
+import { readBvh } from '../../web/motion/bvh/read';
 import { bvhText } from './app-files';
 import { App, farthest, meanSpeed } from './app-page';
 import { expect, test } from './fixtures';

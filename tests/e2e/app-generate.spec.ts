@@ -1,6 +1,6 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { readBvh } from '../../web/motion/bvh-read';
+import { readBvh } from '../../web/motion/bvh/read';
 import { bvh, wav } from './app-files';
 import { App, farthest, meanSpeed, SHIPPED } from './app-page';
 import { expect, test } from './fixtures';

@@ -1,4 +1,4 @@
-import { PARENTS, SMPL22 } from '../motion/skeleton';
+import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { type Dance, firstMotion } from './dance';
 
 /** All that is to be said about a dance but its numbers, so that a file explains itself. */

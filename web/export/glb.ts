@@ -10,9 +10,9 @@ import {
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh-names';
-import type { SolvedMotion } from '../motion/clip';
-import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton';
+import { BVH_NAMES } from '../motion/bvh/joint-names';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';

@@ -1,5 +1,5 @@
-import { JOINT_COUNT } from '../motion/skeleton';
-import type { SolvedMotion } from '../motion/clip';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Dance } from './dance';
 import { described } from './described';
 

@@ -1,5 +1,5 @@
 import { zipSync } from 'fflate';
-import { JOINT_COUNT, SMPL22 } from '../motion/skeleton';
+import { JOINT_COUNT, SMPL22 } from '../motion/skeleton/skeleton';
 import { type Dance, firstMotion } from './dance';
 import { npyBytes } from './npy';
 import { described } from './described';

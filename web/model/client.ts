@@ -1,5 +1,5 @@
 import { proxy, type Remote, wrap } from 'comlink';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './backend';
 import { ModelError } from './error';
 import type { ModelFolder } from './folder';

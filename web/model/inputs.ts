@@ -1,5 +1,5 @@
-import type { MotionClip } from '../motion/clip';
-import { bodyHeight } from '../motion/scale';
+import type { MotionClip } from '../motion/skeleton/clip';
+import { bodyHeight } from '../motion/skeleton/scale';
 import type { ConditionInput } from './chunks';
 import { ModelError } from './error';
 import type { Manifest } from './manifest';

@@ -1,6 +1,6 @@
 import * as v from 'valibot';
-import { FLOOR } from '../motion/axes-units';
-import { PARENTS, SMPL22 } from '../motion/skeleton';
+import { FLOOR } from '../motion/bvh/axes-and-units';
+import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { ModelError } from './error';
 
 const count = v.pipe(v.number(), v.integer(), v.minValue(1));

@@ -1,7 +1,7 @@
-import type { MotionClip, SolvedMotion } from '../motion/clip';
-import { lockFeet } from '../motion/foot-lock';
-import { keepApart } from '../motion/keep-apart';
-import { solve } from '../motion/solve';
+import type { MotionClip, SolvedMotion } from '../motion/skeleton/clip';
+import { lockFeet } from '../motion/contact/foot-lock';
+import { keepApart } from '../motion/contact/collision-avoidance';
+import { solve } from '../motion/fit/ik';
 import type { Block } from './blocks';
 import { type ConditionInput, conditionClip } from './chunks';
 import { ModelError } from './error';

@@ -1,5 +1,5 @@
 /** What client and worker say to each other. Errors cross as data: a structured clone would lose code and hint. */
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend } from './backend';
 import { ModelError, type ModelErrorCode } from './error';
 import type { CoarseRequest, GenerateRequest } from './inputs';

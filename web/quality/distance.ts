@@ -1,5 +1,5 @@
-import { JOINT_COUNT } from '../motion/skeleton';
-import { distance, readVec } from '../motion/vec3';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
+import { distance, readVec } from '../motion/math/vec3';
 import type { Duet } from './rules';
 
 /** Distance between the roots in every frame, metres: `root_distance` of training/metrics/distance.py. */

@@ -1,5 +1,11 @@
-import { type BodyRule, type CapsuleBody, capsuleBody, closePairs, deepest } from '../motion/capsules';
-import { percentile } from '../motion/statistics';
+import {
+  type BodyRule,
+  type CapsuleBody,
+  capsuleBody,
+  closePairs,
+  deepest,
+} from '../motion/contact/capsules';
+import { percentile } from '../motion/math/statistics';
 import { rootDistance } from './distance';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';

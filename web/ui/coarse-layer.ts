@@ -1,5 +1,5 @@
 import type { Generator } from '../model/client';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import { coarseProblem, isAbort } from './problems';
 import type { AppState, Reaction } from './state';
 import { apply, watchAll, type Store } from './store';

@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Span } from './time-scale';
 
 /** Loudness of a song as seen: per column the lowest and the highest sample. */

@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Files } from './files';
 import type { LoadedLeader, LoadedSong, Reaction, Settings } from './state';
 import { demoChanged } from './file-changes';

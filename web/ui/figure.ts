@@ -1,4 +1,4 @@
-import { PARENTS, SMPL22 } from '../motion/skeleton';
+import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 
 /** Half the thickness of the body at a joint, metres; a limb runs from its parent's to its own. */
 const THICK: Readonly<Record<string, number>> = {

@@ -1,6 +1,6 @@
 import type { Song } from '../audio/client';
 import type { Manifest } from '../model/client';
-import type { LeaderQuestion, ReadLeader } from './leader-reader';
+import type { LeaderQuestion, ReadLeader } from '../motion/client';
 import { emptyFileProblem, fileProblem, isAbort, otherMotionProblem, unknownFileProblem } from './problems';
 import { HEAD_BYTES, kindOf } from './sniff';
 import type { LoadedLeader, LoadedSong, Side } from './state';

@@ -5,7 +5,7 @@ import type {
   Manifest,
   Preview as ModelPreview,
 } from '../model/client';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import { generationProblem, isAbort } from './problems';
 import { reactorMotion, rememberLocked } from './reactor-motion';
 import { guidanceMatrix, sameInputs, wantedInputs } from './selectors';

@@ -1,4 +1,4 @@
-import type { LeaderReport } from '../motion/bvh-read';
+import type { LeaderReport } from '../motion/bvh/read';
 
 type Joints = Pick<LeaderReport, 'joints' | 'filled' | 'recut'>;
 

@@ -1,7 +1,7 @@
-import { beatScores } from '../motion/beat-match';
+import { beatScores } from '../motion/beats/beat-match';
 import type { Manifest } from '../model/client';
-import type { SolvedMotion } from '../motion/clip';
-import { motionBeats } from '../motion/motion-beats';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { motionBeats } from '../motion/beats/motion-beats';
 import { speedCurve } from './curves';
 import { el, setText } from './dom';
 import { clockTime } from './format';

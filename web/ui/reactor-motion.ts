@@ -1,5 +1,5 @@
-import type { SolvedMotion } from '../motion/clip';
-import { lockFeet } from '../motion/foot-lock';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { lockFeet } from '../motion/contact/foot-lock';
 import type { AppState } from './state';
 
 /** Locked motions by the free ones that they were made from; they go when those go. */

@@ -1,5 +1,5 @@
-import { bestShift, type BestShift } from '../motion/beat-match';
-import { motionBeats } from '../motion/motion-beats';
+import { bestShift, type BestShift } from '../motion/beats/beat-match';
+import { motionBeats } from '../motion/beats/motion-beats';
 import type { AppState, LoadedLeader, LoadedSong } from './state';
 
 type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;

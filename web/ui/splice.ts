@@ -1,6 +1,6 @@
-import type { SolvedMotion } from '../motion/clip';
-import { forwardKinematics } from '../motion/kinematics';
-import { JOINT_COUNT } from '../motion/skeleton';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { forwardKinematics } from '../motion/skeleton/kinematics';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import type { Fresh } from './state';
 
 /** Frames over which one motion passes into the other, a quarter of a second. */

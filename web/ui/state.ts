@@ -1,8 +1,8 @@
 import type { Song } from '../audio/client';
 import type { MotionFormat, VideoSize } from '../export/client';
 import type { DownloadPart, Manifest } from '../model/client';
-import type { LeaderFile } from '../motion/bvh-read';
-import type { SolvedMotion } from '../motion/clip';
+import type { LeaderFile } from '../motion/bvh/read';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Kept } from '../offline/kept';
 import type { Report } from '../quality/client';
 import type { Reference } from './quality-reference';

@@ -1,5 +1,5 @@
 import { Group } from 'three';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { BodyLibrary } from './body/library';
 import type { Picture } from './canvas';
 import { createDancer, type Dancer } from './dancer';

@@ -1,6 +1,6 @@
 import { BufferGeometry, Group, SkinnedMesh } from 'three';
-import type { SolvedMotion } from '../motion/clip';
-import { JOINT_COUNT } from '../motion/skeleton';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { toGeometry, type BodyGeometry } from './body/geometry';
 import type { BodyLibrary } from './body/library';
 import type { Body } from './body/lighter';

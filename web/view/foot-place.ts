@@ -1,5 +1,5 @@
 import type { Matrix4 } from 'three';
-import { J } from '../motion/skeleton';
+import { J } from '../motion/skeleton/skeleton';
 import { SOLE } from './body/leg';
 
 export interface Foot {

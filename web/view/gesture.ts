@@ -1,5 +1,5 @@
 import { Quaternion, Vector3 } from 'three';
-import { J } from '../motion/skeleton';
+import { J } from '../motion/skeleton/skeleton';
 import { ramp } from './body/field';
 import type { Rig } from './rig';
 

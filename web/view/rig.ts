@@ -1,5 +1,5 @@
 import { Bone, Matrix4, Quaternion, Skeleton, Vector3 } from 'three';
-import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { bindPose } from './body/bind-pose';
 import type { Pose } from './pose';
 

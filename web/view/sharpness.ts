@@ -1,4 +1,4 @@
-import { median } from '../motion/statistics';
+import { median } from '../motion/math/statistics';
 
 /**
  * How sharp pictures may be so that the stage moves smoothly on any machine. A computer without a graphics card draws

@@ -1,5 +1,5 @@
 import { Color, Scene } from 'three';
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createCameraRig } from './camera-rig';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
 import { createCanvas, type Picture, type PictureSize } from './canvas';

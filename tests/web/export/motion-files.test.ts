@@ -2,8 +2,8 @@ import { unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
 import { estimateBytes, type MotionFormat, motionEnding, writeMotion } from '../../../web/export/client';
 import { writeNpz } from '../../../web/export/npz';
-import { readBvh } from '../../../web/motion/bvh-read';
-import { SMPL22 } from '../../../web/motion/skeleton';
+import { readBvh } from '../../../web/motion/bvh/read';
+import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { madeDance } from './made-dance';
 
 const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>

@@ -5,9 +5,9 @@ import type { GenerateRequest } from '../../../web/model/inputs';
 import { Pipeline } from '../../../web/model/pipeline';
 import type { Progress } from '../../../web/model/progress';
 import type { ModelSession } from '../../../web/model/session';
-import type { MotionClip } from '../../../web/motion/clip';
-import { bodyHeight, scaleClip } from '../../../web/motion/scale';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
+import type { MotionClip } from '../../../web/motion/skeleton/clip';
+import { bodyHeight, scaleClip } from '../../../web/motion/skeleton/scale';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
 import { maxDifference, type OpenedModel, openModel, TINY } from './open-model';
 
 let model: OpenedModel;

@@ -10,7 +10,7 @@ import {
 } from '../../../web/model/sampler';
 import { ddim } from '../../../web/model/schedule';
 import { reachesAround } from '../../../web/model/spread';
-import { small } from './small-manifest';
+import { small } from '../support/small-manifest';
 
 const { latent } = small;
 const width = latent.layers.length * latent.channels;

@@ -6,7 +6,7 @@ import { measure } from '../../../web/quality/measure';
 import { overlapDepth } from '../../../web/quality/penetration';
 import type { Duet, Rules } from '../../../web/quality/rules';
 import { boundaries, velocityChange } from '../../../web/quality/seams';
-import { LEAVE } from '../../../web/motion/planted';
+import { LEAVE } from '../../../web/motion/contact/foot-contacts';
 import { readNpz } from '../../../web/model/npz';
 
 const folder = new URL('../../fixtures/', import.meta.url);

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { type ChoiceMaker, createChoices } from '../../../web/ui/choices';
 import { createGeneration, type Generation } from '../../../web/ui/generation';
 import * as change from './all-changes';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { Hand, result } from './hand';
 import { leader } from './made';
 

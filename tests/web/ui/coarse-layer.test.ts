@@ -1,12 +1,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { CoarseRequest, GenerateOptions, Generator } from '../../../web/model/client';
-import type { SolvedMotion } from '../../../web/motion/clip';
+import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { coarseIsMissing, createCoarseLayer } from '../../../web/ui/coarse-layer';
 import { coarseMotion, otherCoarseMotion } from '../../../web/ui/reactor-motion';
 import type { Reaction } from '../../../web/ui/state';
 import * as change from './all-changes';
 import { compareSet, flipped, letterGiven } from '../../../web/ui/takes/changes';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { alike, leader, still } from './made';
 
 /** A model whose answers the test gives by hand. */

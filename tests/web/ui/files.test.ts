@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { MotionError } from '../../../web/motion/error';
 import { createFiles, type Files, type Readers } from '../../../web/ui/files';
 import * as change from './all-changes';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { heard, leaderFile, still } from './made';
 
 const file = (name: string, content: string): File => new File([content], name);

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createGeneration } from '../../../web/ui/generation';
 import * as change from './all-changes';
 import { shiftSet } from '../../../web/ui/timeline-changes';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { Hand, result } from './hand';
 import { leader, song, still } from './made';
 

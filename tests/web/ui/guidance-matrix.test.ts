@@ -3,7 +3,7 @@ import * as matrix from '../../../web/ui/guidance-matrix';
 import { presetOf, presets } from '../../../web/ui/presets';
 import type { Guidance } from '../../../web/ui/state';
 import * as change from './all-changes';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { alike } from './made';
 
 const range = small.guidance;

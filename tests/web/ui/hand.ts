@@ -1,5 +1,5 @@
 import type { GenerateOptions, GenerateRequest, GenerateResult, Generator } from '../../../web/model/client';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { still } from './made';
 
 /** A generator whose answers the test gives by hand. */

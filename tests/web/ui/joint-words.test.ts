@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
-import { readBvh } from '../../../web/motion/bvh-read';
-import { writeBvh } from '../../../web/motion/bvh-write';
-import { solve } from '../../../web/motion/solve';
+import { readBvh } from '../../../web/motion/bvh/read';
+import { writeBvh } from '../../../web/motion/bvh/write';
+import { solve } from '../../../web/motion/fit/ik';
 import { jointCount, jointWords } from '../../../web/ui/joint-words';
-import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../motion/made-bvh';
+import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../support/made-bvh';
 
 const withoutToes: BodyNames = Object.fromEntries(
   Object.entries(MIXAMO).filter(([part]) => part !== 'toe'),

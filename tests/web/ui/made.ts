@@ -1,10 +1,10 @@
 import type { Song } from '../../../web/audio/client';
-import type { LeaderFile } from '../../../web/motion/bvh-read';
-import type { SolvedMotion } from '../../../web/motion/clip';
-import { SMPL22 } from '../../../web/motion/skeleton';
+import type { LeaderFile } from '../../../web/motion/bvh/read';
+import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
+import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { uniform } from '../../../web/ui/guidance-matrix';
 import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/state';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 
 /** Guidance of the small model with every body part alike. */
 export function alike(coarse: number, fine: number): Guidance {

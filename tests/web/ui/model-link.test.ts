@@ -3,7 +3,7 @@ import { ModelError, type Generator, type ModelFolder, type Status } from '../..
 import { createModelLink } from '../../../web/ui/model-link';
 import type { LoadedSong } from '../../../web/ui/state';
 import { createAppStore } from '../../../web/ui/store';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 
 const generator = { manifest: small } as Generator;
 const backend = { name: 'wasm', reason: 'Processor, 2 threads: no WebGPU.', threads: 2 } as const;

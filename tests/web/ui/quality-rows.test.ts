@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { measure } from '../../../web/quality/measure';
 import { aboveChance, about, atMost, measureRows } from '../../../web/ui/quality-rows';
-import { madeStander } from '../motion/made-stander';
-import { small } from '../model/small-manifest';
+import { madeStander } from '../support/made-stander';
+import { small } from '../support/small-manifest';
 
 describe('how a number stands beside its reference', () => {
   it('is good up to a little beyond what should not be exceeded', () => {

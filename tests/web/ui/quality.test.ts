@@ -5,8 +5,8 @@ import { createQuality } from '../../../web/ui/quality';
 import { marksInOne, marksOf, worstRow } from '../../../web/ui/quality-marks';
 import { laneWords, momentExplained, momentWords } from '../../../web/ui/quality-words';
 import * as change from './all-changes';
-import { madeStander } from '../motion/made-stander';
-import { small } from '../model/small-manifest';
+import { madeStander } from '../support/made-stander';
+import { small } from '../support/small-manifest';
 import { alike, leader, song } from './made';
 
 const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };

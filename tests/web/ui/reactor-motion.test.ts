@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
 import { reactorMotion } from '../../../web/ui/reactor-motion';
 import { footLockSet, reacted } from '../../../web/ui/reaction-changes';
 import { createAppStore, apply } from '../../../web/ui/store';
-import { madeStander } from '../motion/made-stander';
+import { madeStander } from '../support/made-stander';
 import { alike, leader } from './made';
 
 test('the foot lock is on at first, and switching it changes the motion shown, not the one that was made', () => {

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import * as select from '../../../web/ui/selectors';
 import type { AppState, Settings } from '../../../web/ui/state';
 import { initialState } from '../../../web/ui/store';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { alike, leader, song, still } from './made';
 
 const settings: Settings = { guidance: alike(1.2, 0.6), music: 2, steps: 10, seed: 1204, role: 'reactor' };

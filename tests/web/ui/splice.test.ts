@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import type { SolvedMotion } from '../../../web/motion/clip';
-import { forwardKinematics } from '../../../web/motion/kinematics';
+import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
+import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { splice } from '../../../web/ui/splice';
 import { maxDifference } from '../model/open-model';
 

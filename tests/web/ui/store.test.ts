@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import * as change from './all-changes';
 import type { Problem } from '../../../web/ui/state';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { alike, leader, song, still } from './made';
 
 const ready = (): change.Store => {

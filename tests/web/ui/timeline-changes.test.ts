@@ -3,7 +3,7 @@ import * as store from './all-changes';
 import * as shift from '../../../web/ui/song-shift';
 import * as change from '../../../web/ui/timeline-changes';
 import { wantedInputs, sameInputs } from '../../../web/ui/selectors';
-import { small } from '../model/small-manifest';
+import { small } from '../support/small-manifest';
 import { leader, song } from './made';
 
 describe('timeline changes', () => {

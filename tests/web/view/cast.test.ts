@@ -1,6 +1,6 @@
 import { type MeshStandardMaterial, SkinnedMesh } from 'three';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { J } from '../../../web/motion/skeleton';
+import { J } from '../../../web/motion/skeleton/skeleton';
 import { createBodyLibrary } from '../../../web/view/body/library';
 import { createCast, type Cast } from '../../../web/view/cast';
 import { pixelPaint } from '../../../web/view/paint';

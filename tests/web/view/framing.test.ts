@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
 import {
   FIELD_OF_VIEW,
   fitDistance,

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Vector3 } from 'three';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
 import { gesture } from '../../../web/view/gesture';
 import { createPose, samplePose } from '../../../web/view/pose';
 import { createRig, type Rig } from '../../../web/view/rig';

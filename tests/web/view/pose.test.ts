@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Quaternion } from 'three';
-import { JOINT_COUNT } from '../../../web/motion/skeleton';
+import { JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
 import { blendPose, createPose, lastMoment, samplePose } from '../../../web/view/pose';
 import { createRig } from '../../../web/view/rig';
 import { randomMotion } from './skeletons';

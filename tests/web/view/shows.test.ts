@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Mesh } from 'three';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton';
-import { headingOf } from '../../../web/view/heading';
+import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
+import { headingOf } from '../../../web/motion/skeleton/heading';
 import { holds } from '../../../web/view/shows/holds';
 import type { Figure } from '../../../web/view/shows/show';
 import { createShows, NOTHING_SHOWN } from '../../../web/view/shows/shows';
@@ -9,7 +9,7 @@ import { contactAt, stepsOf } from '../../../web/view/shows/steps';
 import { tipAt, TIPS, tipTracks } from '../../../web/view/shows/tips';
 import { createTrails, TRAIL_SECONDS } from '../../../web/view/shows/trails';
 import { LOOKS } from '../../../web/view/theme';
-import { madeStander } from '../motion/made-stander';
+import { madeStander } from '../support/made-stander';
 import { randomMotion } from './skeletons';
 
 /** Joints all at the origin but those that are given. */

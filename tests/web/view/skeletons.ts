@@ -1,5 +1,5 @@
-import { JOINT_COUNT, PARENTS } from '../../../web/motion/skeleton';
-import type { SolvedMotion } from '../../../web/motion/clip';
+import { JOINT_COUNT, PARENTS } from '../../../web/motion/skeleton/skeleton';
+import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 
 const HALF: readonly (readonly [number, number, number])[] = [
   [0, 0, 0],

@@ -1,5 +1,5 @@
 import type { Manifest } from '../../model/client';
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { AppState, Compare, Inputs, Letter, LoadedLeader, LoadedSong, Reaction } from '../state';
 import { presentInputs, takeOnStage } from '../takes/take';
 

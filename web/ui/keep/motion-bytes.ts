@@ -1,5 +1,5 @@
-import type { SolvedMotion } from '../../motion/clip';
-import { JOINT_COUNT } from '../../motion/skeleton';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 
 /** Numbers of one skeleton, and of one frame: root, rotations, positions. */
 const SKELETON = JOINT_COUNT * 3;

@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { AppState, Inputs, LoadedLeader, LoadedSong, Take } from '../state';
 import { presentInputs } from '../takes/take';
 import {

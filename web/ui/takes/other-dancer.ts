@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from '../reactor-motion';
 import type { Letter, Take } from '../state';
 import { type Store, watchAll } from '../store';

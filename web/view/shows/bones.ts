@@ -10,7 +10,7 @@ import {
   Quaternion,
   Vector3,
 } from 'three';
-import { JOINT_COUNT, PARENTS } from '../../motion/skeleton';
+import { JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
 import { MOST_FIGURES, type Show } from './show';
 
 /** Radius of a joint and of a bone at its thickest, metres. */

@@ -7,7 +7,7 @@ import {
   PlaneGeometry,
   ShaderMaterial,
 } from 'three';
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { FEET, standAt } from '../foot-place';
 import { MOST_FIGURES, type Show } from './show';
 import { contactAt, stepsOf, type Steps } from './steps';

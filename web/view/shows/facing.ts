@@ -10,7 +10,7 @@ import {
   ShapeGeometry,
 } from 'three';
 import { SOLE } from '../body/leg';
-import { headingOf } from '../heading';
+import { headingOf } from '../../motion/skeleton/heading';
 import { MOST_FIGURES, type Show } from './show';
 
 /** The arrow begins this far in front of the root and ends there, metres. */

@@ -1,4 +1,4 @@
-import { J } from '../../motion/skeleton';
+import { J } from '../../motion/skeleton/skeleton';
 import { ramp } from '../body/field';
 
 /** Wrists closer than this are surely within reach of each other, metres; the link fades up to `LOOSE`. */

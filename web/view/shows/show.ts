@@ -1,5 +1,5 @@
 import type { Object3D } from 'three';
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Look, Role } from '../theme';
 
 /** A dancer as a show sees them: whose part, the whole dance, and the 22 x 3 joints of this moment in metres. */

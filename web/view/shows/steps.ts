@@ -1,6 +1,6 @@
-import type { SolvedMotion } from '../../motion/clip';
-import { plantedStretches, type Stretch } from '../../motion/planted';
-import { J } from '../../motion/skeleton';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { plantedStretches, type Stretch } from '../../motion/contact/foot-contacts';
+import { J } from '../../motion/skeleton/skeleton';
 
 /** Seconds in which a contact appears when a foot comes to stand and goes when it has left. */
 const COMES = 0.08;

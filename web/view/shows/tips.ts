@@ -1,5 +1,5 @@
-import type { SolvedMotion } from '../../motion/clip';
-import { J, JOINT_COUNT } from '../../motion/skeleton';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 
 /** How far beyond the wrist the middle of the hand lies, metres. */
 const PALM = 0.09;

@@ -1,5 +1,5 @@
 import { Color } from 'three';
-import type { SolvedMotion } from '../../motion/clip';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { createRibbons } from './ribbons';
 import { MOST_FIGURES, type Show } from './show';
 import { tipAt, TIPS, tipTracks } from './tips';

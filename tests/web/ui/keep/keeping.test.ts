@@ -6,7 +6,7 @@ import { notes } from '../../../../web/ui/selectors';
 import * as change from '../all-changes';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/takes/changes';
 import { presentInputs } from '../../../../web/ui/takes/take';
-import { small } from '../../model/small-manifest';
+import { small } from '../../support/small-manifest';
 import { leader, still } from '../made';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));

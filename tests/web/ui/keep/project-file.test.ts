@@ -1,6 +1,6 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import type { SolvedMotion } from '../../../../web/motion/clip';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { projectOpened, startedAfresh } from '../../../../web/ui/keep/changes';
 import { ProjectError } from '../../../../web/ui/keep/error';
 import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/keep/kept';
@@ -11,7 +11,7 @@ import * as change from '../all-changes';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/takes/changes';
 import { redone, undone } from '../../../../web/ui/takes/history';
 import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/takes/take';
-import { small } from '../../model/small-manifest';
+import { small } from '../../support/small-manifest';
 import { alike, heard, leader, leaderFile, song, still } from '../made';
 
 /** A motion in which every number is another one. */

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { AppState, Inputs, Take } from '../../../../web/ui/state';
 import { initialState } from '../../../../web/ui/store';
 import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
-import { small } from '../../model/small-manifest';
+import { small } from '../../support/small-manifest';
 import { alike, leader, song, still } from '../made';
 
 const music = small.guidance.music.default;

@@ -7,7 +7,7 @@ import * as edit from '../../../../web/ui/takes/changes';
 import { redone, undone, unremembered } from '../../../../web/ui/takes/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
 import { letterOf, presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/takes/take';
-import { small } from '../../model/small-manifest';
+import { small } from '../../support/small-manifest';
 import { leader, song, still } from '../made';
 
 /** A page on which reactions arrive by hand. */
