@@ -2,9 +2,9 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 import { servePage } from '../../tools/bench/built-page.mjs';
-import { agreement, beatAgreement, beatFrames } from '../web/audio/compare';
-import { fixture, recipe } from '../web/audio/fixtures';
-import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/audio/real-songs';
+import { agreement, beatAgreement, beatFrames } from '../web/support/feature-parity';
+import { fixture, recipe } from '../web/support/audio-fixtures';
+import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/real-songs';
 import type { Heard, Source, Told } from './audio-page/main';
 
 /** Seconds of the ticks that tests/fixtures/make_audio.py put into the clicks. */

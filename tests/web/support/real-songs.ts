@@ -3,7 +3,7 @@ import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { readFloats, type ReferenceSong } from './fixtures';
+import { readFloats, type ReferenceSong } from './audio-fixtures';
 
 const repository = fileURLToPath(new URL('../../../', import.meta.url));
 /** Folder of the real songs, whether it is there or not. */

@@ -1,5 +1,5 @@
 import { medianOfRow, mirror, replaceSorted } from './median';
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 import type { Progress, Spectrogram } from './stft';
 
 /** Smallest normal float32: below it librosa counts a bin as empty and halves it. */

@@ -1,5 +1,5 @@
 import { type FilterBank, filterBank } from './filters';
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 
 /** librosa starts its pitch classes at A; C is three semitones of twelve above. */
 const SEMITONES_FROM_A_TO_C = 3;

@@ -1,4 +1,4 @@
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 
 /**
  * The one tempo of a song: the lag at which the averaged local autocorrelation of the onset strength, weighted by a

@@ -1,5 +1,5 @@
 import { fourier } from './fft';
-import { type AudioRecipe, frameCount } from './recipe';
+import { type AudioRecipe, frameCount } from '../recipe';
 
 /** A matrix of numbers over time: `frames` rows of `bins`. */
 export interface Spectrogram {

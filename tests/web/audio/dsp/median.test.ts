@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { medianOfRow, mirror, replaceSorted } from '../../../web/audio/median';
+import { medianOfRow, mirror, replaceSorted } from '../../../../web/audio/dsp/median';
 
 /** Reproducible values with many ties, as spectra of silence have. */
 function values(length: number): Float32Array {

@@ -1,5 +1,5 @@
 import { type FilterBank, filterBank } from './filters';
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 
 /** Slaney's scale: linear up to 1000 Hz, then 27 steps for every factor of 6.4. */
 const HZ_PER_MEL = 200 / 3;

@@ -1,5 +1,5 @@
 import { maximum, powerToDecibels } from './decibels';
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 
 /**
  * Mel-frequency cepstral coefficients: the orthonormal DCT-II of the mel spectrum in decibels below the loudest value

@@ -1,5 +1,5 @@
 import { powerToDecibels } from './decibels';
-import type { AudioRecipe } from './recipe';
+import type { AudioRecipe } from '../recipe';
 
 /**
  * Onset strength: the median over the mel bands of the rise in decibels since `onset_lag` frames before, delayed by
