@@ -16,8 +16,8 @@ if (!source || !manifest || !folder) {
   process.exit(2);
 }
 
-/** @type {typeof import('../web/model/npz')} */
-const { readNpz } = await loadWeb('model/npz.ts');
+/** @type {typeof import('../web/model/load/npz')} */
+const { readNpz } = await loadWeb('model/load/npz.ts');
 /** @type {typeof import('../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/collision-avoidance')} */

@@ -2,7 +2,7 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?listed';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?listed';
 import type { ManifestFile } from './manifest';
-import type { Provider } from './session';
+import type { Provider } from './load/session';
 
 /** The file that each build of onnxruntime would fetch for itself. */
 export const RUNTIME: Readonly<Record<Provider, ManifestFile>> = { wasm: processor, webgpu: gpu };

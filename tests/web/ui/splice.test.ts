@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { splice } from '../../../web/ui/splice';
-import { maxDifference } from '../model/open-model';
+import { maxDifference } from '../support/open-model';
 
 /** A dancer who stands at x with one turn of all joints about y. */
 function stander(x: number, angle: number, frames = 60): SolvedMotion {

@@ -1,9 +1,9 @@
-import { conditionClip } from './chunks';
-import type { Manifest } from './manifest';
-import { noise } from './noise';
+import { conditionClip } from '../sample/chunks';
+import type { Manifest } from '../manifest';
+import { noise } from '../sample/noise';
 import { type NpzArray, readNpz } from './npz';
-import { sample } from './sampler';
-import { ddim } from './schedule';
+import { sample } from '../sample/sampler';
+import { ddim } from '../sample/schedule';
 import type { ModelSession } from './session';
 
 /** One small sampling as Python computed it: its inputs and its result. */

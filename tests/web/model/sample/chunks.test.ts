@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { chunks, conditionClip, type ConditionRunner } from '../../../web/model/chunks';
-import { small } from '../support/small-manifest';
+import { chunks, conditionClip, type ConditionRunner } from '../../../../web/model/sample/chunks';
+import { small } from '../../support/small-manifest';
 
 const { latent, audio } = small;
 

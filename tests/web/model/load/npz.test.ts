@@ -1,6 +1,6 @@
 import { zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import { readNpz } from '../../../web/model/npz';
+import { readNpz } from '../../../../web/model/load/npz';
 
 /** One .npy file as NumPy 1.0 writes it. */
 function npy(descr: string, shape: string, data: ArrayBufferView, fortran = false): Uint8Array {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { fetchLatest } from '../../../web/model/latest';
-import type { AnswerStore } from '../../../web/model/store';
+import { fetchLatest } from '../../../../web/model/load/network-first';
+import type { AnswerStore } from '../../../../web/model/load/cache';
 
 const URL = 'https://dance.example/models/salsa/manifest.json';
 const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);

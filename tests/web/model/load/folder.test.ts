@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { fetchFile } from '../../../web/model/download';
-import { folderFetch } from '../../../web/model/folder';
+import { fetchFile } from '../../../../web/model/load/download';
+import { folderFetch } from '../../../../web/model/load/folder';
 
 const ROOT = 'https://page.example/models/manifest.json';
 const get = folderFetch(

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { gather, partition, scatter, validity } from '../../../web/model/blocks';
+import { gather, partition, scatter, validity } from '../../../../web/model/sample/blocks';
 
 describe('partition', () => {
   it('cuts full blocks and a short last one', () => {
@@ -46,7 +46,7 @@ describe('partition', () => {
 
 describe('partition, as in Python', () => {
   const golden = JSON.parse(
-    readFileSync(new URL('../../fixtures/sampling.json', import.meta.url), 'utf8'),
+    readFileSync(new URL('../../../fixtures/sampling.json', import.meta.url), 'utf8'),
   ) as { block: number; partitions: { latents: number; plain: number[][]; shifted: number[][] }[] };
 
   it('cuts one to ten blocks and all odd tails alike', () => {

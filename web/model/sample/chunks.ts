@@ -1,5 +1,5 @@
-import type { Manifest } from './manifest';
-import { nextTurn } from './turn';
+import type { Manifest } from '../manifest';
+import { nextTurn } from './yield-to-events';
 
 /** A piece of a clip: latent frames `start` to `end` are wanted, `from` to `to` must be given for an exact result. */
 export interface Chunk {

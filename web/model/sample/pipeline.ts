@@ -1,19 +1,19 @@
-import type { MotionClip, SolvedMotion } from '../motion/skeleton/clip';
-import { lockFeet } from '../motion/contact/foot-lock';
-import { keepApart } from '../motion/contact/collision-avoidance';
-import { solve } from '../motion/fit/ik';
+import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import { lockFeet } from '../../motion/contact/foot-lock';
+import { keepApart } from '../../motion/contact/collision-avoidance';
+import { solve } from '../../motion/fit/ik';
 import type { Block } from './blocks';
 import { type ConditionInput, conditionClip } from './chunks';
-import { ModelError } from './error';
+import { ModelError } from '../error';
 import { checkCoarse, checkRequest, type CoarseRequest, type GenerateRequest, prepareInput } from './inputs';
-import type { Manifest } from './manifest';
+import type { Manifest } from '../manifest';
 import { noise } from './noise';
 import { around, type Plan, planWork } from './preview';
-import { type Progress, tell, tellRuns } from './progress';
+import { type Progress, tell, tellRuns } from '../progress';
 import { sample, type Sampling } from './sampler';
 import { ddim } from './schedule';
-import type { ModelSession } from './session';
-import { nextTurn } from './turn';
+import type { ModelSession } from '../load/session';
+import { nextTurn } from './yield-to-events';
 
 /** The partner, at the leader's size and as long as the leader. */
 export interface Made {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { chooseBackend, demote, type Surroundings } from '../../../web/model/backend';
+import { chooseBackend, demote, type Surroundings } from '../../../../web/model/load/backend';
 
 /** A machine whose WebGPU finds this adapter. */
 function machine(adapter: Partial<GPUAdapterInfo> | null | Error, isolated = true, cores = 8): Surroundings {

@@ -1,14 +1,14 @@
 /** From a leader clip and a song to the partner's solved motion, on the tiny model in onnxruntime's wasm build. */
 import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import type { ConditionInput } from '../../../web/model/chunks';
-import type { GenerateRequest } from '../../../web/model/inputs';
-import { Pipeline } from '../../../web/model/pipeline';
-import type { Progress } from '../../../web/model/progress';
-import type { ModelSession } from '../../../web/model/session';
-import type { MotionClip } from '../../../web/motion/skeleton/clip';
-import { bodyHeight, scaleClip } from '../../../web/motion/skeleton/scale';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
-import { maxDifference, type OpenedModel, openModel, TINY } from './open-model';
+import type { ConditionInput } from '../../../../web/model/sample/chunks';
+import type { GenerateRequest } from '../../../../web/model/sample/inputs';
+import { Pipeline } from '../../../../web/model/sample/pipeline';
+import type { Progress } from '../../../../web/model/progress';
+import type { ModelSession } from '../../../../web/model/load/session';
+import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { bodyHeight, scaleClip } from '../../../../web/motion/skeleton/scale';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
 let conditions: ConditionInput[];

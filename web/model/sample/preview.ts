@@ -1,7 +1,7 @@
 /** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
 import type { Block } from './blocks';
 import { partitions, type Sampling } from './sampler';
-import { reachesAround } from './spread';
+import { reachesAround } from './block-order';
 
 /** A run that is over sooner than this needs no preview, seconds. */
 const SOON = 0.3;

@@ -1,6 +1,6 @@
 import { fetchFile } from './download';
-import { ModelError } from './error';
-import type { AnswerStore } from './store';
+import { ModelError } from '../error';
+import type { AnswerStore } from './cache';
 
 /** A server that has not begun to answer by then is out of reach, milliseconds; counts only where a copy is kept. */
 const PATIENCE = 4000;

@@ -1,7 +1,7 @@
 /** The order of work around a place: every block once, and never before what it needs. */
 import { describe, expect, it } from 'vitest';
-import { type Block, partition } from '../../../web/model/blocks';
-import { reachesAround, rings } from '../../../web/model/spread';
+import { type Block, partition } from '../../../../web/model/sample/blocks';
+import { reachesAround, rings } from '../../../../web/model/sample/block-order';
 
 const cut = (latents: number, steps: number): Block[][] =>
   Array.from({ length: steps }, (_, k) => partition(latents, 60, k % 2 === 1));

@@ -1,8 +1,8 @@
-import type { MotionClip } from '../motion/skeleton/clip';
-import { bodyHeight } from '../motion/skeleton/scale';
+import type { MotionClip } from '../../motion/skeleton/clip';
+import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './chunks';
-import { ModelError } from './error';
-import type { Manifest } from './manifest';
+import { ModelError } from '../error';
+import type { Manifest } from '../manifest';
 
 /** What a person asks for. */
 export interface GenerateRequest {

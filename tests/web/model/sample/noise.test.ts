@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { noise, philox } from '../../../web/model/noise';
+import { noise, philox } from '../../../../web/model/sample/noise';
 
 interface Case {
   seed: number;
@@ -10,7 +10,7 @@ interface Case {
   start: number;
   values: number[];
 }
-const golden = JSON.parse(readFileSync(new URL('../../fixtures/noise.json', import.meta.url), 'utf8')) as {
+const golden = JSON.parse(readFileSync(new URL('../../../fixtures/noise.json', import.meta.url), 'utf8')) as {
   cases: Case[];
 };
 

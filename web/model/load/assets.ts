@@ -1,9 +1,9 @@
 import { download } from './download';
 import { folderFetch, type ModelFolder } from './folder';
-import { GRAPHS, type GraphName, type Manifest } from './manifest';
-import { RUNTIME } from './runtime';
+import { GRAPHS, type GraphName, type Manifest } from '../manifest';
+import { RUNTIME } from '../runtime';
 import type { Provider } from './session';
-import { fileStore, type KeptPart } from './store';
+import { fileStore, type KeptPart } from './cache';
 
 /** How far one part of what is downloaded has come, in bytes. */
 export interface DownloadPart {

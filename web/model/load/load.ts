@@ -1,16 +1,16 @@
 import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
-import { conditionClip } from './chunks';
-import { ModelError } from './error';
+import { conditionClip } from '../sample/chunks';
+import { ModelError } from '../error';
 import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';
-import { fetchLatest } from './latest';
-import { type Manifest, parseManifest } from './manifest';
-import { type DownloadPart, downloadParts } from './parts';
-import { Pipeline } from './pipeline';
+import { fetchLatest } from './network-first';
+import { type Manifest, parseManifest } from '../manifest';
+import { type DownloadPart, downloadParts } from './assets';
+import { Pipeline } from '../sample/pipeline';
 import { type ModelSession, openSession, type Provider } from './session';
-import { sample } from './sampler';
-import { ddim } from './schedule';
-import { type AnswerStore, answerStore } from './store';
+import { sample } from '../sample/sampler';
+import { ddim } from '../sample/schedule';
+import { type AnswerStore, answerStore } from './cache';
 
 export interface LoadOptions {
   /** Absolute address of manifest.json; the graphs' paths are relative to it. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { checkRequest, type GenerateRequest, prepareInput } from '../../../web/model/inputs';
-import { small } from '../support/small-manifest';
+import { checkRequest, type GenerateRequest, prepareInput } from '../../../../web/model/sample/inputs';
+import { small } from '../../support/small-manifest';
 
 const WIDTH = small.audio.features;
 

@@ -1,11 +1,11 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { parseManifest } from '../../../web/model/manifest';
-import { ddim } from '../../../web/model/schedule';
-import { small } from '../support/small-manifest';
+import { parseManifest } from '../../../../web/model/manifest';
+import { ddim } from '../../../../web/model/sample/schedule';
+import { small } from '../../support/small-manifest';
 
 const read = (path: string): unknown =>
-  JSON.parse(readFileSync(new URL(`../../fixtures/${path}`, import.meta.url), 'utf8'));
+  JSON.parse(readFileSync(new URL(`../../../fixtures/${path}`, import.meta.url), 'utf8'));
 
 describe('ddim', () => {
   const { diffusion } = small;

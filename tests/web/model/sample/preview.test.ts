@@ -1,10 +1,10 @@
 /** The block under the playhead first: near to what it will be, and no change of what comes out in the end. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import type { GenerateRequest } from '../../../web/model/inputs';
-import { type GenerateResult, Pipeline, type Preview } from '../../../web/model/pipeline';
-import { around, blockAt, worthPreview, worthReach } from '../../../web/model/preview';
-import type { Progress } from '../../../web/model/progress';
-import { maxDifference, type OpenedModel, openModel, TINY } from './open-model';
+import type { GenerateRequest } from '../../../../web/model/sample/inputs';
+import { type GenerateResult, Pipeline, type Preview } from '../../../../web/model/sample/pipeline';
+import { around, blockAt, worthPreview, worthReach } from '../../../../web/model/sample/preview';
+import type { Progress } from '../../../../web/model/progress';
+import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
 beforeAll(async () => {

@@ -1,7 +1,7 @@
 import { createHash } from 'node:crypto';
 import { describe, expect, it } from 'vitest';
-import { download, type FileStore } from '../../../web/model/download';
-import { ModelError } from '../../../web/model/error';
+import { download, type FileStore } from '../../../../web/model/load/download';
+import { ModelError } from '../../../../web/model/error';
 
 const BASE = 'https://dance.example/models/salsa/manifest.json';
 const bytesOf = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode(text);

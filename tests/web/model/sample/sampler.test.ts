@@ -1,16 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import type { Block } from '../../../web/model/blocks';
-import { noise } from '../../../web/model/noise';
+import type { Block } from '../../../../web/model/sample/blocks';
+import { noise } from '../../../../web/model/sample/noise';
 import {
   partitions,
   sample,
   type Sampling,
   type StepInput,
   type StepRunner,
-} from '../../../web/model/sampler';
-import { ddim } from '../../../web/model/schedule';
-import { reachesAround } from '../../../web/model/spread';
-import { small } from '../support/small-manifest';
+} from '../../../../web/model/sample/sampler';
+import { ddim } from '../../../../web/model/sample/schedule';
+import { reachesAround } from '../../../../web/model/sample/block-order';
+import { small } from '../../support/small-manifest';
 
 const { latent } = small;
 const width = latent.layers.length * latent.channels;

@@ -2,14 +2,14 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { conditionClip } from '../../../web/model/chunks';
-import { goldenError } from '../../../web/model/golden';
-import { GRAPHS, type GraphName } from '../../../web/model/manifest';
-import { noise } from '../../../web/model/noise';
-import { sample, type Sampling } from '../../../web/model/sampler';
-import { ddim } from '../../../web/model/schedule';
-import { openSession } from '../../../web/model/session';
-import { maxDifference, type OpenedModel, openModel, TINY } from './open-model';
+import { conditionClip } from '../../../../web/model/sample/chunks';
+import { goldenError } from '../../../../web/model/load/golden';
+import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
+import { noise } from '../../../../web/model/sample/noise';
+import { sample, type Sampling } from '../../../../web/model/sample/sampler';
+import { ddim } from '../../../../web/model/sample/schedule';
+import { openSession } from '../../../../web/model/load/session';
+import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
 let latents: number;

@@ -1,5 +1,5 @@
-import { ModelError } from './error';
-import type { ManifestFile } from './manifest';
+import { ModelError } from '../error';
+import type { ManifestFile } from '../manifest';
 
 /** Keeps verified files between visits; the page's is the Cache API. */
 export interface FileStore {

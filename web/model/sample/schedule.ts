@@ -1,4 +1,4 @@
-import type { Manifest } from './manifest';
+import type { Manifest } from '../manifest';
 
 /** One sampling step as the step graph takes it. */
 export interface ScheduleStep {

@@ -1,8 +1,8 @@
 import { type Block, gather, partition, scatter, validity } from './blocks';
-import type { Manifest } from './manifest';
+import type { Manifest } from '../manifest';
 import type { ScheduleStep } from './schedule';
-import { rings } from './spread';
-import { nextTurn } from './turn';
+import { rings } from './block-order';
+import { nextTurn } from './yield-to-events';
 
 /** Inputs of the step graph; `width` is layers x channels. */
 export interface StepInput {
