@@ -16,7 +16,7 @@ import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
-import { createRig, type Rig } from '../view/rig';
+import { createRig, type Rig } from '../view/dancer/rig';
 import { LOOKS, type Role, type Theme } from '../view/theme';
 import type { Dance } from './dance';
 

@@ -6,7 +6,7 @@ import { writeGlb } from '../../../web/export/glb';
 import { estimateBytes } from '../../../web/export/sizes';
 import { BVH_NAMES } from '../../../web/motion/bvh/joint-names';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
-import { makeBody } from '../../../web/view/body/lighter';
+import { makeBody } from '../../../web/view/body/simplify';
 import { LOOKS } from '../../../web/view/theme';
 import { madeDance } from './made-dance';
 

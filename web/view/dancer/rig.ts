@@ -1,6 +1,6 @@
 import { Bone, Matrix4, Quaternion, Skeleton, Vector3 } from 'three';
-import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
-import { bindPose } from './body/bind-pose';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../../motion/skeleton/skeleton';
+import { bindPose } from '../body/bind-pose';
 import type { Pose } from './pose';
 
 /** The 22 bones of one dancer, at the solved skeleton's own lengths. */

@@ -1,4 +1,4 @@
-import { headingOf } from '../motion/skeleton/heading';
+import { headingOf } from '../../motion/skeleton/heading';
 
 /** Where the couple is and from where it is seen best: plain numbers, no camera. */
 

@@ -7,9 +7,9 @@ import {
   Matrix4,
   MeshBasicMaterial,
 } from 'three';
-import { holds, MOST_HOLDS, type Hold } from './holds';
+import { holds, MOST_HOLDS, type Hold } from './hands-within-reach';
 import { createRibbons } from './ribbons';
-import type { Show } from './show';
+import type { Show } from './overlay';
 
 const POINTS = 17;
 /** Half width of the line, and radius of the bead on each wrist, metres. */

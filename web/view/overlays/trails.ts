@@ -1,8 +1,8 @@
 import { Color } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { createRibbons } from './ribbons';
-import { MOST_FIGURES, type Show } from './show';
-import { tipAt, TIPS, tipTracks } from './tips';
+import { MOST_FIGURES, type Show } from './overlay';
+import { tipAt, TIPS, tipTracks } from './end-effectors';
 
 /** How long a hand or foot is remembered, seconds. */
 export const TRAIL_SECONDS = 1.5;

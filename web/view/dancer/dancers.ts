@@ -1,13 +1,13 @@
 import { Group } from 'three';
-import type { SolvedMotion } from '../motion/skeleton/clip';
-import type { BodyLibrary } from './body/library';
-import type { Picture } from './canvas';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import type { BodyLibrary } from '../body/library';
+import type { Picture } from '../canvas';
 import { createDancer, type Dancer } from './dancer';
-import { measureCouple, type Couple } from './framing';
-import type { Paint } from './paint';
-import type { Figure } from './shows/show';
-import { NOTHING_SHOWN, type Shown } from './shows/shows';
-import { ROLES, type Look, type Role } from './theme';
+import { measureCouple, type Couple } from '../camera/framing';
+import type { Paint } from './body-material';
+import type { Figure } from '../overlays/overlay';
+import { NOTHING_SHOWN, type Shown } from '../overlays/overlays';
+import { ROLES, type Look, type Role } from '../theme';
 
 /** Leader and reactor; the reactor of the coarse layer alone; another take of the reactor, and its coarse layer. */
 export type Part = Role | 'coarse' | 'other' | 'otherCoarse';

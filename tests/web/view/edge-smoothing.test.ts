@@ -1,6 +1,6 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { areaOf } from '../../../web/view/edges';
+import { areaOf } from '../../../web/view/edge-smoothing';
 
 const PICTURE = { left: 100, bottom: 20, width: 400, height: 300 };
 

@@ -1,14 +1,14 @@
 import { beforeAll, describe, expect, it } from 'vitest';
 import { Line3, Matrix4, Vector3 } from 'three';
-import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../web/motion/skeleton/skeleton';
-import { bindPose } from '../../../web/view/body/bind-pose';
-import { SOLE } from '../../../web/view/body/leg';
-import { buildBody, CELL, type BodyMesh } from '../../../web/view/body/mesh';
-import { BUILDS } from '../../../web/view/body/part';
-import { createPose } from '../../../web/view/pose';
-import { createRig } from '../../../web/view/rig';
-import { person } from './skeletons';
-import { topology } from './topology';
+import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
+import { bindPose } from '../../../../web/view/body/bind-pose';
+import { SOLE } from '../../../../web/view/body/leg';
+import { buildBody, CELL, type BodyMesh } from '../../../../web/view/body/mesh';
+import { BUILDS } from '../../../../web/view/body/part';
+import { createPose } from '../../../../web/view/dancer/pose';
+import { createRig } from '../../../../web/view/dancer/rig';
+import { person } from '../../support/skeletons';
+import { topology } from '../../support/topology';
 
 const bodies = new Map<string, BodyMesh>();
 beforeAll(() => {

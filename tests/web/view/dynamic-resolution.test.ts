@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { createSharpness, type Sharpness } from '../../../web/view/sharpness';
+import { createSharpness, type Sharpness } from '../../../web/view/dynamic-resolution';
 
 /** Pictures in a row that all come after `ms`; the factor after each. */
 const pictures = (sharpness: Sharpness, count: number, ms: number): number[] =>

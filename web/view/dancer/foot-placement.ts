@@ -1,6 +1,6 @@
 import type { Matrix4 } from 'three';
-import { J } from '../motion/skeleton/skeleton';
-import { SOLE } from './body/leg';
+import { J } from '../../motion/skeleton/skeleton';
+import { SOLE } from '../body/leg';
 
 export interface Foot {
   readonly ankle: number;

@@ -7,7 +7,7 @@ import {
   ShaderMaterial,
 } from 'three';
 import { ramp } from './body/field';
-import { FEET, standAt } from './foot-place';
+import { FEET, standAt } from './dancer/foot-placement';
 import type { Look } from './theme';
 
 /** Dark spots under feet that are close to the floor: what makes them stand instead of hover. */

@@ -11,7 +11,7 @@ import {
   Vector3,
 } from 'three';
 import { JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
-import { MOST_FIGURES, type Show } from './show';
+import { MOST_FIGURES, type Show } from './overlay';
 
 /** Radius of a joint and of a bone at its thickest, metres. */
 const JOINT = 0.019;

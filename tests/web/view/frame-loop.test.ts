@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createLoop, type Drawing, type Loop } from '../../../web/view/loop';
+import { createLoop, type Drawing, type Loop } from '../../../web/view/frame-loop';
 
 let waiting: FrameRequestCallback | null = null;
 const tick = (now: number): void => {

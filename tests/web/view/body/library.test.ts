@@ -1,8 +1,8 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { createBodyLibrary } from '../../../web/view/body/library';
-import { BUILDS } from '../../../web/view/body/part';
-import { person } from './skeletons';
-import { topology } from './topology';
+import { createBodyLibrary } from '../../../../web/view/body/library';
+import { BUILDS } from '../../../../web/view/body/part';
+import { person } from '../../support/skeletons';
+import { topology } from '../../support/topology';
 
 /** How many vertices are computed when the last 16 are remembered. */
 function computed(triangles: Uint32Array): number {

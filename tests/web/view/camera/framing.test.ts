@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import {
   FIELD_OF_VIEW,
   fitDistance,
@@ -8,7 +8,7 @@ import {
   nearestTurn,
   reframed,
   shotOf,
-} from '../../../web/view/framing';
+} from '../../../../web/view/camera/framing';
 
 /** Somebody at (x, z) as a joint cloud: a pole with hips across x. */
 function figure(x: number, z: number): Float32Array {

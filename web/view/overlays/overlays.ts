@@ -4,7 +4,7 @@ import { createBones } from './bones';
 import { createContactRings } from './contact-rings';
 import { createFacing } from './facing';
 import { createHandLinks } from './hand-links';
-import type { Figure, Show } from './show';
+import type { Figure, Show } from './overlay';
 import { createTrails } from './trails';
 
 /** What may be shown about the dancers. `skeleton` turns their bodies to glass, `ghost` is the coarse layer. */

@@ -11,7 +11,7 @@ import {
 } from 'three';
 import { SOLE } from '../body/leg';
 import { headingOf } from '../../motion/skeleton/heading';
-import { MOST_FIGURES, type Show } from './show';
+import { MOST_FIGURES, type Show } from './overlay';
 
 /** The arrow begins this far in front of the root and ends there, metres. */
 const START = 0.2;

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { Vector3 } from 'three';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
-import { gesture } from '../../../web/view/gesture';
-import { createPose, samplePose } from '../../../web/view/pose';
-import { createRig, type Rig } from '../../../web/view/rig';
-import { person, randomMotion } from './skeletons';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { gesture } from '../../../../web/view/dancer/gesture';
+import { createPose, samplePose } from '../../../../web/view/dancer/pose';
+import { createRig, type Rig } from '../../../../web/view/dancer/rig';
+import { person, randomMotion } from '../../support/skeletons';
 
 /** Somebody in the T-pose at (x, z). */
 function standing(x: number, z: number): Rig {

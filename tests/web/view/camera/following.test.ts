@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { cutAlong, glideAlong, type Seen } from '../../../web/view/following';
+import { cutAlong, glideAlong, type Seen } from '../../../../web/view/camera/following';
 
 const seen: Seen = { view: 'orbit', aspect: 1.6, away: [0, 0], distance: 5, goal: 5, free: true };
 

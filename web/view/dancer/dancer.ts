@@ -1,16 +1,16 @@
 import { BufferGeometry, Group, SkinnedMesh } from 'three';
-import type { SolvedMotion } from '../motion/skeleton/clip';
-import { JOINT_COUNT } from '../motion/skeleton/skeleton';
-import { toGeometry, type BodyGeometry } from './body/geometry';
-import type { BodyLibrary } from './body/library';
-import type { Body } from './body/lighter';
-import { BUILDS } from './body/part';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
+import { toGeometry, type BodyGeometry } from '../body/geometry';
+import type { BodyLibrary } from '../body/library';
+import type { Body } from '../body/simplify';
+import { BUILDS } from '../body/part';
 import { gesture } from './gesture';
-import { createGlass, type Clarity } from './glass';
-import type { Paint } from './paint';
+import { createGlass, type Clarity } from './ghost-material';
+import type { Paint } from './body-material';
 import { blendPose, createPose, samplePose } from './pose';
 import { createRig, type Rig } from './rig';
-import type { Look, Role } from './theme';
+import type { Look, Role } from '../theme';
 
 /** What a body is made of: solid; glass around bones; the coarse layer's ghost; the ghost of another take. */
 export type Matter = 'solid' | 'glass' | 'coarse' | 'other';

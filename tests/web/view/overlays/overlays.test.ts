@@ -1,16 +1,16 @@
 import { describe, expect, it } from 'vitest';
 import type { Mesh } from 'three';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
-import { headingOf } from '../../../web/motion/skeleton/heading';
-import { holds } from '../../../web/view/shows/holds';
-import type { Figure } from '../../../web/view/shows/show';
-import { createShows, NOTHING_SHOWN } from '../../../web/view/shows/shows';
-import { contactAt, stepsOf } from '../../../web/view/shows/steps';
-import { tipAt, TIPS, tipTracks } from '../../../web/view/shows/tips';
-import { createTrails, TRAIL_SECONDS } from '../../../web/view/shows/trails';
-import { LOOKS } from '../../../web/view/theme';
-import { madeStander } from '../support/made-stander';
-import { randomMotion } from './skeletons';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { headingOf } from '../../../../web/motion/skeleton/heading';
+import { holds } from '../../../../web/view/overlays/hands-within-reach';
+import type { Figure } from '../../../../web/view/overlays/overlay';
+import { createShows, NOTHING_SHOWN } from '../../../../web/view/overlays/overlays';
+import { contactAt, stepsOf } from '../../../../web/view/overlays/contact-fade';
+import { tipAt, TIPS, tipTracks } from '../../../../web/view/overlays/end-effectors';
+import { createTrails, TRAIL_SECONDS } from '../../../../web/view/overlays/trails';
+import { LOOKS } from '../../../../web/view/theme';
+import { madeStander } from '../../support/made-stander';
+import { randomMotion } from '../../support/skeletons';
 
 /** Joints all at the origin but those that are given. */
 function joints(given: Partial<Record<keyof typeof J, readonly [number, number, number]>>): Float32Array {

@@ -1,12 +1,12 @@
 import { type MeshStandardMaterial, SkinnedMesh } from 'three';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { J } from '../../../web/motion/skeleton/skeleton';
-import { createBodyLibrary } from '../../../web/view/body/library';
-import { createCast, type Cast } from '../../../web/view/cast';
-import { pixelPaint } from '../../../web/view/paint';
-import { NOTHING_SHOWN } from '../../../web/view/shows/shows';
-import { LOOKS } from '../../../web/view/theme';
-import { randomMotion } from './skeletons';
+import { J } from '../../../../web/motion/skeleton/skeleton';
+import { createBodyLibrary } from '../../../../web/view/body/library';
+import { createCast, type Cast } from '../../../../web/view/dancer/dancers';
+import { pixelPaint } from '../../../../web/view/dancer/body-material';
+import { NOTHING_SHOWN } from '../../../../web/view/overlays/overlays';
+import { LOOKS } from '../../../../web/view/theme';
+import { randomMotion } from '../../support/skeletons';
 
 const motions = {
   leader: randomMotion(30, 1),

@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { Quaternion } from 'three';
-import { JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
-import { blendPose, createPose, lastMoment, samplePose } from '../../../web/view/pose';
-import { createRig } from '../../../web/view/rig';
-import { randomMotion } from './skeletons';
+import { JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { blendPose, createPose, lastMoment, samplePose } from '../../../../web/view/dancer/pose';
+import { createRig } from '../../../../web/view/dancer/rig';
+import { randomMotion } from '../../support/skeletons';
 
 const motion = randomMotion(5, 3);
 const quat = (values: Float32Array, joint: number, frame = 0): Quaternion =>

@@ -1,6 +1,6 @@
 import { Quaternion, Vector3 } from 'three';
-import { J } from '../motion/skeleton/skeleton';
-import { ramp } from './body/field';
+import { J } from '../../motion/skeleton/skeleton';
+import { ramp } from '../body/field';
 import type { Rig } from './rig';
 
 /**

@@ -1,5 +1,5 @@
-import { JOINT_COUNT } from '../motion/skeleton/skeleton';
-import type { SolvedMotion } from '../motion/skeleton/clip';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 
 /** One pose of a dancer: what a motion says at one moment. */
 export interface Pose {

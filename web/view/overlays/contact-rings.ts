@@ -8,9 +8,9 @@ import {
   ShaderMaterial,
 } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { FEET, standAt } from '../foot-place';
-import { MOST_FIGURES, type Show } from './show';
-import { contactAt, stepsOf, type Steps } from './steps';
+import { FEET, standAt } from '../dancer/foot-placement';
+import { MOST_FIGURES, type Show } from './overlay';
+import { contactAt, stepsOf, type Steps } from './contact-fade';
 
 /** Outer size of a ring with its glow, metres. */
 const WIDE = 0.28;

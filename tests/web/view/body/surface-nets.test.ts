@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { surfaceNets, triangulate, type Grid } from '../../../web/view/body/surface-nets';
-import { noise } from './skeletons';
-import { topology } from './topology';
+import { surfaceNets, triangulate, type Grid } from '../../../../web/view/body/surface-nets';
+import { noise } from '../../support/skeletons';
+import { topology } from '../../support/topology';
 
 const meshed = (from: Grid): { positions: Float32Array; indices: Uint32Array } => {
   const net = surfaceNets(from);
