@@ -1,6 +1,6 @@
 import { createPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
-import { clearKept, measureKept } from './offline/kept';
+import { clearKept, measureKept } from './offline/storage-usage';
 import { keepPage } from './offline/register';
 import { openCamera, showOn } from './stage-binding';
 import { measureDance } from './quality/client';

@@ -11,7 +11,7 @@ export type { About, Dance, MotionFormat } from './dance';
 export { ExportError } from './error';
 export { estimateBytes } from './sizes';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';
-export { secondsLeft } from './video/left';
+export { secondsLeft } from './video/remaining-time';
 export type { VideoPlan } from './video/plan';
 
 const TYPES: Readonly<Record<MotionFormat, string>> = {

@@ -6,7 +6,7 @@ import {
   deepest,
 } from '../motion/contact/capsules';
 import { percentile } from '../motion/math/statistics';
-import { rootDistance } from './distance';
+import { rootDistance } from './root-distance';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 

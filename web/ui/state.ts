@@ -3,7 +3,7 @@ import type { MotionFormat, VideoSize } from '../export/client';
 import type { DownloadPart, Manifest } from '../model/client';
 import type { LeaderFile } from '../motion/bvh/read';
 import type { SolvedMotion } from '../motion/skeleton/clip';
-import type { Kept } from '../offline/kept';
+import type { Kept } from '../offline/storage-usage';
 import type { Report } from '../quality/client';
 import type { Reference } from './quality-reference';
 import type { History } from './takes/history';

@@ -8,7 +8,7 @@ import { BVH_NAMES } from '../../../web/motion/bvh/joint-names';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { makeBody } from '../../../web/view/body/simplify';
 import { LOOKS } from '../../../web/view/theme';
-import { madeDance } from './made-dance';
+import { madeDance } from '../support/made-dance';
 
 /** The page's own meshing, without its worker. */
 const bodies = { request: makeBody };

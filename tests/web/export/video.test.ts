@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { planVideo } from '../../../web/export/client';
-import { secondsLeft } from '../../../web/export/video/left';
+import { secondsLeft } from '../../../web/export/video/remaining-time';
 import { videoPixels } from '../../../web/export/video/size';
 import { songStretch } from '../../../web/export/video/song';
 

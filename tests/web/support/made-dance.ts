@@ -1,5 +1,5 @@
 import type { Dance } from '../../../web/export/dance';
-import { madeDancer } from '../support/made-dancer';
+import { madeDancer } from './made-dancer';
 
 /** A duet of made dancers, or the one of them; its song has a name that needs more than ASCII. */
 export function madeDance(frames: number, ...roles: ('leader' | 'reactor')[]): Dance {
