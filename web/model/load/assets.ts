@@ -1,9 +1,16 @@
+import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?listed';
+import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?listed';
 import { download } from './download';
 import { folderFetch, type ModelFolder } from './folder';
-import { GRAPHS, type GraphName, type Manifest } from '../manifest';
-import { RUNTIME } from '../runtime';
+import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
 import type { Provider } from './session';
 import { fileStore, type KeptPart } from './cache';
+
+/**
+ * The WebAssembly file that each build of onnxruntime would fetch for itself. It is the largest thing that the page
+ * loads, so it is fetched, shown and kept as a model is.
+ */
+const RUNTIME: Readonly<Record<Provider, ManifestFile>> = { wasm: processor, webgpu: gpu };
 
 /** How far one part of what is downloaded has come, in bytes. */
 export interface DownloadPart {
