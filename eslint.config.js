@@ -39,16 +39,50 @@ for (const [folder, above] of Object.entries(motionFolders))
     towards(above, `motion/${folder} imports only what is below it`, '\\.\\./'),
   ];
 
-/*UI*/
-directions.ui = [
-  towards('view', 'main.ts hands the stage to ui'),
+/**
+ * Inside ui: the store imports nothing of ui, widgets import the store's types, a feature imports store and widgets but
+ * no other feature, and the shell imports them all.
+ */
+const features = ['files', 'generation', 'guidance', 'timeline', 'takes', 'quality', 'project', 'download'];
+const uiFolders = {
+  store: [...features, 'widgets', 'shell'],
+  widgets: [...features, 'shell'],
+  ...Object.fromEntries(
+    features.map((feature) => [feature, [...features.filter((other) => other !== feature), 'shell']]),
+  ),
+  shell: [],
+};
+/** What no folder of ui imports of web/, whose folders lie at `up`. */
+const outsideUi = (up) => [
+  towards('view', 'main.ts hands the stage to ui', up),
   {
-    regex: '^(\\.\\./)+(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)',
+    regex: `^${up}(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)`,
     message: 'ui sees the clients of audio, model, quality and export only',
   },
 ];
-/*END*/
-
+const toFolder = '\\.\\./';
+for (const [folder, others] of Object.entries(uiFolders))
+  directions[`ui/${folder}`] = [
+    ...outsideUi('\\.\\./\\.\\./'),
+    ...(others.length > 0
+      ? [
+          towards(
+            others.join('|'),
+            `ui/${folder} imports none of its neighbours above it or beside it`,
+            toFolder,
+          ),
+        ]
+      : []),
+  ];
+directions['ui/store/actions'] = [
+  ...outsideUi('\\.\\./\\.\\./\\.\\./'),
+  towards(uiFolders.store.join('|'), 'the store imports nothing of ui', '\\.\\./\\.\\./'),
+];
+directions['ui/widgets'].push({
+  regex: '^\\.\\./store/',
+  allowTypeImports: true,
+  message: "widgets import the store's types only",
+});
 export default defineConfig(
   globalIgnores(['dist', 'node_modules', '.venv', 'runs', '.scratch', 'test-results', 'playwright-report']),
   js.configs.recommended,

@@ -1,10 +1,10 @@
 /** From the state to a stage: what is danced, seen and filmed. */
-import { couple, madeRole } from './ui/couple';
-import { besideStage } from './ui/coarse-layer';
-import { together } from './ui/dom';
-import type { Camera } from './ui/downloads';
-import { coarseMotion, otherCoarseMotion } from './ui/reactor-motion';
-import { type Store, watch, watchAll } from './ui/store';
+import { couple, madeRole } from './ui/store/roles';
+import { besideStage } from './ui/generation/coarse-layer';
+import { together } from './ui/widgets/dom';
+import type { Camera } from './ui/download/downloads';
+import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
+import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
 import type { PictureSize, Stage } from './view/stage';
 

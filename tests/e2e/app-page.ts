@@ -1,5 +1,5 @@
 import { expect, type Locator, type Page } from '@playwright/test';
-import type { AppState } from '../../web/ui/state';
+import type { AppState } from '../../web/ui/store/state';
 import type { TestFile } from './app-files';
 
 /** Address of the app with the tiny model of the fixtures, on the processor. */

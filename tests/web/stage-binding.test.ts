@@ -1,11 +1,11 @@
 import { beforeAll, expect, it, vi } from 'vitest';
 import type { Role } from '../../web/view/theme';
 import type { Entrance, Stage } from '../../web/view/stage';
-import type { AppState, Inputs, Take } from '../../web/ui/state';
-import { initialState } from '../../web/ui/store';
-import { compareSet, flipped, takeChosen } from '../../web/ui/takes/changes';
-import * as change from './ui/all-changes';
-import { alike, leader, still } from './ui/made';
+import type { AppState, Inputs, Take } from '../../web/ui/store/state';
+import { initialState } from '../../web/ui/store/store';
+import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
+import * as change from './support/actions';
+import { alike, leader, still } from './support/made-state';
 
 let showOn: (shown: Stage, store: change.Store) => () => void;
 beforeAll(async () => {
