@@ -39,6 +39,15 @@ for (const [folder, above] of Object.entries(motionFolders))
     towards(above, `motion/${folder} imports only what is below it`, '\\.\\./'),
   ];
 
+directions['audio/dsp'] = [
+  ...directions.audio,
+  towards(
+    'client|worker|decode|analyse|features|player|wav|audio-element',
+    'audio/dsp imports the recipe only',
+    '\\.\\./',
+  ),
+];
+
 /**
  * Inside ui: the store imports nothing of ui, widgets import the store's types, a feature imports store and widgets but
  * no other feature, and the shell imports them all.

@@ -60,7 +60,7 @@ function everyFrame(
 
 /**
  * The motion kept out of the other dancer's body: where trunks, heads or legs would be in each other, the whole dancer
- * stands a little aside for that while, on the cheapest smooth way over the floor (detour.ts), at most 0.63 m.
+ * stands a little aside for that while, on the cheapest smooth way over the floor (viterbi-path.ts), at most 0.63 m.
  * Arms may hold. Turns, heights and bone lengths stay; away from such moments everything does, and a motion without
  * them is returned as it is. Pure.
  *

@@ -1,9 +1,9 @@
 import { readFile } from 'node:fs/promises';
 import type { Download, Page } from '@playwright/test';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
-import { probe } from './ffprobe';
-import { demoSettings as settings, serveDemo } from './made-demo';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { probe } from '../support/ffprobe';
+import { demoSettings as settings, serveDemo } from '../support/made-demo';
 
 const FRAMES = 24;
 const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';

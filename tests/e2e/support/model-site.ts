@@ -1,11 +1,11 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { test as base } from '@playwright/test';
-import { servePage } from '../../tools/bench/built-page.mjs';
+import { servePage } from '../../../tools/bench/built-page.mjs';
 
 export { expect } from '@playwright/test';
 
-const project = path.resolve(import.meta.dirname, '../..');
+const project = path.resolve(import.meta.dirname, '../../..');
 const salsa = path.join(project, 'web/public/models/salsa');
 /** Whether the shipped model is there. */
 export const shipped = existsSync(path.join(salsa, 'manifest.json'));

@@ -1,13 +1,13 @@
 import { fileURLToPath } from 'node:url';
 import { expect, test } from '@playwright/test';
-import { servePage } from '../../tools/bench/built-page.mjs';
-import type { Page } from './view-page/main';
+import { servePage } from '../../../tools/bench/built-page.mjs';
+import type { Page } from '../support/view-page/main';
 
 /** What is drawn otherwise where there is no graphics card: it has to look the same. */
 let site: Awaited<ReturnType<typeof servePage>>;
 
 test.beforeAll(async () => {
-  site = await servePage(fileURLToPath(new URL('view-page', import.meta.url)), {});
+  site = await servePage(fileURLToPath(new URL('../support/view-page', import.meta.url)), {});
 });
 test.afterAll(() => site.close());
 test.beforeEach(({ page }) => page.goto(site.url));

@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
-import { App, SHIPPED } from './app-page';
-import { expect, test } from './fixtures';
-import { type Task, tasksOf, TRACED } from './main-thread';
+import { App, SHIPPED } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { type Task, tasksOf, TRACED } from '../support/main-thread';
 
 test.use({ viewport: { width: 1280, height: 720 }, deviceScaleFactor: 1 });
 

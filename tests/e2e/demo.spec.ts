@@ -1,9 +1,9 @@
 import { readFileSync } from 'node:fs';
 import { readBvh } from '../../web/motion/bvh/read';
-import { bvhText } from './app-files';
-import { App, farthest, meanSpeed } from './app-page';
-import { expect, test } from './fixtures';
-import { serveDemo } from './made-demo';
+import { bvhText } from './support/files';
+import { App, farthest, meanSpeed } from './support/app-page';
+import { expect, test } from './support/fixtures';
+import { serveDemo } from './support/made-demo';
 
 test('the shipped demo plays a duet on one click', async ({ page }) => {
   const app = new App(page);

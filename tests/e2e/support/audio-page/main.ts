@@ -1,6 +1,6 @@
 /** The audio client without the app around it, for browser tests to call. */
-import { createPlayer, loadSong, type Song } from '../../../web/audio/client';
-import { encodeWav } from '../../../web/audio/wav';
+import { createPlayer, loadSong, type Song } from '../../../../web/audio/client';
+import { encodeWav } from '../../../../web/audio/wav';
 
 /** What a test asks to be loaded: a file of the server, or a made one. */
 export type Source = { url: string } | { text: string } | { silentSeconds: number; rate: number };

@@ -1,6 +1,6 @@
 /** The model on WebGPU, on the software adapter: slow, but the same shaders and the same code as on a graphics card. */
 import { zipSync } from 'fflate';
-import { expect, test } from './model-site';
+import { expect, test } from '../support/model-site';
 
 test.describe.configure({ timeout: 600_000 });
 

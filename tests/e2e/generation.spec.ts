@@ -1,9 +1,9 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { readBvh } from '../../web/motion/bvh/read';
-import { bvh, wav } from './app-files';
-import { App, farthest, meanSpeed, SHIPPED } from './app-page';
-import { expect, test } from './fixtures';
+import { bvh, wav } from './support/files';
+import { App, farthest, meanSpeed, SHIPPED } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 /** Real songs and motions, where a checkout has them beside it; they are no part of the project. */
 const REAL = path.resolve(import.meta.dirname, '../../../shared/data');

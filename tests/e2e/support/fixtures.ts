@@ -1,11 +1,11 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { test as base, expect } from '@playwright/test';
-import { createSite, listen } from '../../tools/serve.mjs';
+import { createSite, listen } from '../../../tools/serve.mjs';
 
 export { expect };
 
-const project = path.resolve(import.meta.dirname, '../..');
+const project = path.resolve(import.meta.dirname, '../../..');
 
 interface WorkerFixtures {
   /** Address of the built app; the tiny model of the fixtures is below models/tiny/. */

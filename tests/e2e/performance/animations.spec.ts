@@ -1,9 +1,9 @@
 import type { Page } from '@playwright/test';
-import { bvh } from './app-files';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
-import { demoSettings, serveDemo } from './made-demo';
-import { rested } from './stage-rest';
+import { bvh } from '../support/files';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { demoSettings, serveDemo } from '../support/made-demo';
+import { rested } from '../support/stage-rest';
 
 // A small picture is drawn as truly as a large one, and sooner.
 test.use({ viewport: { width: 800, height: 600 } });

@@ -1,7 +1,7 @@
-import { App } from './app-page';
-import { expect, test } from './fixtures';
-import { LayoutWatch } from './layout-shifts';
-import { demoSettings, serveDemo } from './made-demo';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { LayoutWatch } from '../support/layout-shifts';
+import { demoSettings, serveDemo } from '../support/made-demo';
 
 /** Of the window's area times its height, from the first navigation on; Web Vitals call 0.1 good. */
 const MOST = 0.02;

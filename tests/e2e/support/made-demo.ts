@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { bvhText, wav } from './app-files';
+import { bvhText, wav } from './files';
 
 /** What a made reaction may say that it was made with. */
 export const demoSettings = {

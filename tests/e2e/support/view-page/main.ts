@@ -9,15 +9,15 @@ import {
   VSMShadowMap,
   WebGLRenderer,
 } from 'three';
-import { toGeometry } from '../../../web/view/body/geometry';
-import { makeBody } from '../../../web/view/body/simplify';
-import { BUILDS } from '../../../web/view/body/part';
-import { createEdges } from '../../../web/view/edge-smoothing';
-import { createLights } from '../../../web/view/lights';
-import { cornerPaint, pixelPaint, type Paint } from '../../../web/view/dancer/body-material';
-import { createRig } from '../../../web/view/dancer/rig';
-import { LOOKS, type Theme } from '../../../web/view/theme';
-import { person } from '../../web/support/skeletons';
+import { toGeometry } from '../../../../web/view/body/geometry';
+import { makeBody } from '../../../../web/view/body/simplify';
+import { BUILDS } from '../../../../web/view/body/part';
+import { createEdges } from '../../../../web/view/edge-smoothing';
+import { createLights } from '../../../../web/view/lights';
+import { cornerPaint, pixelPaint, type Paint } from '../../../../web/view/dancer/body-material';
+import { createRig } from '../../../../web/view/dancer/rig';
+import { LOOKS, type Theme } from '../../../../web/view/theme';
+import { person } from '../../../web/support/skeletons';
 
 const SIDE = 360;
 

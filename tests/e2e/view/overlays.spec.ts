@@ -1,9 +1,9 @@
 import type { Page } from '@playwright/test';
-import type { Stage } from '../../web/view/stage';
-import { bvh } from './app-files';
-import { App, farthest } from './app-page';
-import { expect, test } from './fixtures';
-import { rested } from './stage-rest';
+import type { Stage } from '../../../web/view/stage';
+import { bvh } from '../support/files';
+import { App, farthest } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { rested } from '../support/stage-rest';
 
 /** The switches of the stage: what they are called, and the key of each. */
 const SHOWS = [

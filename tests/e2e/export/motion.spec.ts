@@ -2,9 +2,9 @@ import { readFile } from 'node:fs/promises';
 import type { Download } from '@playwright/test';
 import { unzipSync } from 'fflate';
 import { validateBytes } from 'gltf-validator';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
-import { demoSettings as settings, serveDemo } from './made-demo';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { demoSettings as settings, serveDemo } from '../support/made-demo';
 
 const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
 

@@ -1,6 +1,6 @@
-import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './app-files';
-import { App, SHIPPED } from './app-page';
-import { expect, test } from './fixtures';
+import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './support/files';
+import { App, SHIPPED } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 /** Every failure is a sentence with a hint, in a dialog that Esc closes; what was loaded before stays. */
 async function expectSentence(app: App, title: RegExp, hint: RegExp): Promise<void> {

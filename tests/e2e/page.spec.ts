@@ -1,6 +1,6 @@
-import { bvh, wav } from './app-files';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
+import { bvh, wav } from './support/files';
+import { App } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 for (const [name, width, height] of [
   ['desktop', 1440, 900],

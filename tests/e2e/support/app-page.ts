@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
-import type { AppState } from '../../web/ui/store/state';
-import type { TestFile } from './app-files';
+import type { AppState } from '../../../web/ui/store/state';
+import type { TestFile } from './files';
 
 /** Address of the app with the tiny model of the fixtures, on the processor. */
 export const TINY = '/?model=/models/tiny/manifest.json&backend=wasm';

@@ -1,15 +1,15 @@
 /** The model client without the app around it, for browser tests to call. */
-import { goldenError, readGolden } from '../../../web/model/load/golden';
-import { GRAPHS, type GraphName, parseManifest } from '../../../web/model/manifest';
-import { openSession, type Provider } from '../../../web/model/load/session';
-import { readNpz } from '../../../web/model/load/npz';
+import { goldenError, readGolden } from '../../../../web/model/load/golden';
+import { GRAPHS, type GraphName, parseManifest } from '../../../../web/model/manifest';
+import { openSession, type Provider } from '../../../../web/model/load/session';
+import { readNpz } from '../../../../web/model/load/npz';
 import {
   createGenerator,
   type Generator,
   type GenerateRequest,
   type GeneratorOptions,
   type Status,
-} from '../../../web/model/client';
+} from '../../../../web/model/client';
 
 /** A failure or cancellation as data, for the test's process. */
 export interface Told {

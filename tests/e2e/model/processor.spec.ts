@@ -2,8 +2,8 @@
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Page } from '@playwright/test';
-import type { Told } from './model-page/main';
-import { expect, shipped, test, tinyFolder } from './model-site';
+import type { Told } from '../support/model-page/main';
+import { expect, shipped, test, tinyFolder } from '../support/model-site';
 
 const TINY = { manifestUrl: 'tiny/manifest.json', backend: 'wasm' } as const;
 const GRAPHS = 3;
