@@ -3,16 +3,16 @@ import { defineConfig, globalIgnores } from 'eslint/config';
 import globals from 'globals';
 import tseslint from 'typescript-eslint';
 
-/** What a folder of web/ must not import: a pattern of relative paths and the reason. */
-const towards = (folders, message) => ({ regex: `^(\\.\\./)+(${folders})(/|\\.ts$|$)`, message });
+/** Imports that a folder of web/ must not have: relative paths from `up` to these folders or files, and the reason. */
+const towards = (names, message, up = '(\\.\\./)+') => ({ regex: `^${up}(${names})(/|\\.ts$|$)`, message });
 const everywhere = towards(
-  'main|on-stage|tests|tools',
-  'main.ts, tests and tools know the app, never the reverse',
+  'main|stage-binding|tests|tools',
+  'main.ts, stage-binding.ts, tests and tools know the app, never the reverse',
 );
 
 /**
  * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
- * motion, audio, motion and offline see nobody, and only main.ts and on-stage.ts know everyone.
+ * motion, audio, motion and offline see nobody, and only main.ts and stage-binding.ts know everyone.
  */
 const directions = {
   offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],
@@ -22,15 +22,76 @@ const directions = {
   quality: [towards('audio|model|view|export|ui', 'quality imports motion only')],
   view: [towards('audio|model|quality|export|ui', 'view imports motion only')],
   export: [towards('audio|model|quality|ui', 'export imports motion and view only')],
-  ui: [
-    towards('view', 'main.ts hands the stage to ui'),
-    {
-      regex: '^(\\.\\./)+(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)',
-      message: 'ui sees the clients of audio, model, quality and export only',
-    },
-  ],
 };
 
+/** Inside motion: math below skeleton below the rest, which the client and the worker put together. */
+const motionFolders = {
+  math: 'skeleton|bvh|fit|contact|beats|client|worker',
+  skeleton: 'bvh|fit|contact|beats|client|worker',
+  bvh: 'fit|contact|beats|client|worker',
+  fit: 'bvh|contact|beats|client|worker',
+  contact: 'bvh|fit|beats|client|worker',
+  beats: 'bvh|fit|contact|client|worker',
+};
+for (const [folder, above] of Object.entries(motionFolders))
+  directions[`motion/${folder}`] = [
+    ...directions.motion,
+    towards(above, `motion/${folder} imports only what is below it`, '\\.\\./'),
+  ];
+
+directions['audio/dsp'] = [
+  ...directions.audio,
+  towards(
+    'client|worker|decode|analyse|features|player|wav|audio-element',
+    'audio/dsp imports the recipe only',
+    '\\.\\./',
+  ),
+];
+
+/**
+ * Inside ui: the store imports nothing of ui, widgets import the store's types, a feature imports store and widgets but
+ * no other feature, and the shell imports them all.
+ */
+const features = ['files', 'generation', 'guidance', 'timeline', 'takes', 'quality', 'project', 'download'];
+const uiFolders = {
+  store: [...features, 'widgets', 'shell'],
+  widgets: [...features, 'shell'],
+  ...Object.fromEntries(
+    features.map((feature) => [feature, [...features.filter((other) => other !== feature), 'shell']]),
+  ),
+  shell: [],
+};
+/** What no folder of ui imports of web/, whose folders lie at `up`. */
+const outsideUi = (up) => [
+  towards('view', 'main.ts hands the stage to ui', up),
+  {
+    regex: `^${up}(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)`,
+    message: 'ui sees the clients of audio, model, quality and export only',
+  },
+];
+const toFolder = '\\.\\./';
+for (const [folder, others] of Object.entries(uiFolders))
+  directions[`ui/${folder}`] = [
+    ...outsideUi('\\.\\./\\.\\./'),
+    ...(others.length > 0
+      ? [
+          towards(
+            others.join('|'),
+            `ui/${folder} imports none of its neighbours above it or beside it`,
+            toFolder,
+          ),
+        ]
+      : []),
+  ];
+directions['ui/store/actions'] = [
+  ...outsideUi('\\.\\./\\.\\./\\.\\./'),
+  towards(uiFolders.store.join('|'), 'the store imports nothing of ui', '\\.\\./\\.\\./'),
+];
+directions['ui/widgets'].push({
+  regex: '^\\.\\./store/',
+  allowTypeImports: true,
+  message: "widgets import the store's types only",
+});
 export default defineConfig(
   globalIgnores(['dist', 'node_modules', '.venv', 'runs', '.scratch', 'test-results', 'playwright-report']),
   js.configs.recommended,

@@ -4,7 +4,7 @@ import { findBrowser } from './tools/browser.mjs';
 const browser = await findBrowser();
 if (browser === undefined) throw new Error('No Chromium was found: npm test installs one');
 
-// The app's server is a fixture (tests/e2e/fixtures.ts), on a port of its own, so that two runs can't meet.
+// The app's server is a fixture (tests/e2e/support/fixtures.ts), on a port of its own, so that two runs can't meet.
 export default defineConfig({
   testDir: 'tests/e2e',
   outputDir: 'test-results',

@@ -4,7 +4,7 @@ import { runnerImport } from 'vite';
  * A module of the page, for programs that run without a page.
  *
  * @template T
- * @param {string} file its path under web/, as in 'motion/solve.ts'
+ * @param {string} file its path under web/, as in 'motion/fit/ik.ts'
  * @returns {Promise<T>}
  */
 export async function loadWeb(file) {

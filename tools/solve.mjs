@@ -38,12 +38,12 @@ function read(file) {
   return { fps: 30, frames: positions.length / 66, positions };
 }
 
-/** @type {typeof import('../web/motion/solve')} */
-const { solve } = await loadWeb('motion/solve.ts');
-/** @type {typeof import('../web/motion/keep-apart')} */
-const { keepApart } = await loadWeb('motion/keep-apart.ts');
-/** @type {typeof import('../web/motion/foot-lock')} */
-const { lockFeet } = await loadWeb('motion/foot-lock.ts');
+/** @type {typeof import('../web/motion/fit/ik')} */
+const { solve } = await loadWeb('motion/fit/ik.ts');
+/** @type {typeof import('../web/motion/contact/collision-avoidance')} */
+const { keepApart } = await loadWeb('motion/contact/collision-avoidance.ts');
+/** @type {typeof import('../web/motion/contact/foot-lock')} */
+const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const clip = read(from);
 let motion = solve(clip);
 if (values.beside !== undefined && values.body !== undefined) {

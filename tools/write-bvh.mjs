@@ -16,14 +16,14 @@ if (!source || !manifest || !folder) {
   process.exit(2);
 }
 
-/** @type {typeof import('../web/model/npz')} */
-const { readNpz } = await loadWeb('model/npz.ts');
-/** @type {typeof import('../web/motion/solve')} */
-const { solve } = await loadWeb('motion/solve.ts');
-/** @type {typeof import('../web/motion/keep-apart')} */
-const { keepApart } = await loadWeb('motion/keep-apart.ts');
-/** @type {typeof import('../web/motion/bvh-write')} */
-const { writeBvh } = await loadWeb('motion/bvh-write.ts');
+/** @type {typeof import('../web/model/load/npz')} */
+const { readNpz } = await loadWeb('model/load/npz.ts');
+/** @type {typeof import('../web/motion/fit/ik')} */
+const { solve } = await loadWeb('motion/fit/ik.ts');
+/** @type {typeof import('../web/motion/contact/collision-avoidance')} */
+const { keepApart } = await loadWeb('motion/contact/collision-avoidance.ts');
+/** @type {typeof import('../web/motion/bvh/write')} */
+const { writeBvh } = await loadWeb('motion/bvh/write.ts');
 
 const arrays = readNpz(new Uint8Array(await readFile(source)));
 /** @param {string} name */

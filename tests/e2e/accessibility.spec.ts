@@ -1,7 +1,7 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
+import { App } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 /** Everything that axe finds against WCAG 2.2 AA and its own best practices. */
 async function violations(page: Page): Promise<string[]> {

@@ -2,10 +2,10 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 import { servePage } from '../../tools/bench/built-page.mjs';
-import { agreement, beatAgreement, beatFrames } from '../web/audio/compare';
-import { fixture, recipe } from '../web/audio/fixtures';
-import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/audio/real-songs';
-import type { Heard, Source, Told } from './audio-page/main';
+import { agreement, beatAgreement, beatFrames } from '../web/support/feature-parity';
+import { fixture, recipe } from '../web/support/audio-fixtures';
+import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/real-songs';
+import type { Heard, Source, Told } from './support/audio-page/main';
 
 /** Seconds of the ticks that tests/fixtures/make_audio.py put into the clicks. */
 const TICKS = [0.2, 0.5, 0.75, 1.1];
@@ -16,7 +16,7 @@ const SONG = '/fixtures/drums-and-harmony.wav';
 let site: Awaited<ReturnType<typeof servePage>>;
 
 test.beforeAll(async () => {
-  const root = fileURLToPath(new URL('audio-page', import.meta.url));
+  const root = fileURLToPath(new URL('support/audio-page', import.meta.url));
   site = await servePage(root, {
     '/fixtures/': dirname(fixture('golden.json')),
     '/songs/': realSongFolder,

@@ -1,5 +1,5 @@
-import { App, farthest, SHIPPED } from './app-page';
-import { expect, test } from './fixtures';
+import { App, farthest, SHIPPED } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 test('a change shows under the playhead first, then everywhere, and nothing stops meanwhile', async ({
   page,
@@ -80,7 +80,7 @@ test('a change shows under the playhead first, then everywhere, and nothing stop
   expect(apart(early, part(after))).toBeLessThan(apart(early, part(before)));
   expect(farthest(before, after)).toBeGreaterThan(0.01);
   expect(await app.read(({ preview }) => preview)).toBeNull();
-  // A shared machine may hold the thread up once; what the page itself computes has this limit in manners-tasks.spec.ts.
+  // A shared machine may hold the thread up once; what the page itself computes has this limit in performance/long-tasks.spec.ts.
   expect(seen.tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(1);
 });
 

@@ -1,6 +1,6 @@
-import { bvh, wav } from './app-files';
-import { App, farthest } from './app-page';
-import { expect, test } from './fixtures';
+import { bvh, wav } from './support/files';
+import { App, farthest } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 test('guidance by body part, presets and reset', async ({ page }) => {
   const app = new App(page);

@@ -5,8 +5,8 @@ import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
 import { writeServiceWorker } from '../../tools/offline-shell.mjs';
 import { createSite, listen } from '../../tools/serve.mjs';
-import { App } from './app-page';
-import { expect, test as base } from './fixtures';
+import { App } from './support/app-page';
+import { expect, test as base } from './support/fixtures';
 
 const project = path.resolve(import.meta.dirname, '../..');
 

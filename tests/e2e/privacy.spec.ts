@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { expect, foreign, test } from './fixtures';
+import { expect, foreign, test } from './support/fixtures';
 
 /** Ways out of a page, each a piece of script that tries to reach a host. */
 const ways: Record<string, (host: string) => string> = {

@@ -1,5 +1,5 @@
-import { App, SHIPPED } from './app-page';
-import { expect, test } from './fixtures';
+import { App, SHIPPED } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 test('worst moments of the demo are marked, a click goes there, and the foot lock changes the numbers', async ({
   page,

@@ -1,6 +1,6 @@
-import { hurt } from './app-files';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
+import { hurt } from './support/files';
+import { App } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 test.use({ viewport: { width: 1280, height: 720 } });
 

@@ -1,8 +1,8 @@
 import { readFileSync } from 'node:fs';
 import type { Locator, Page } from '@playwright/test';
-import { bvh, wav } from './app-files';
-import { App, farthest } from './app-page';
-import { expect, test } from './fixtures';
+import { bvh, wav } from './support/files';
+import { App, farthest } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 /** The list of takes as a visitor sees it. */
 const takes = (page: Page): Locator => page.getByRole('grid', { name: 'Takes' }).getByRole('row');

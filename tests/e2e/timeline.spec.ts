@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
-import { bvh, wav } from './app-files';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
+import { bvh, wav } from './support/files';
+import { App } from './support/app-page';
+import { expect, test } from './support/fixtures';
 
 test.use({ viewport: { width: 1280, height: 720 } });
 

@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
-import { App } from './app-page';
-import { expect, test } from './fixtures';
-import { demoSettings, serveDemo } from './made-demo';
+import { App } from './support/app-page';
+import { expect, test } from './support/fixtures';
+import { demoSettings, serveDemo } from './support/made-demo';
 
 // A small phone: what draws here is the processor.
 test.use({ viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });

@@ -1,6 +1,6 @@
 """Finds the rest pose that many programs write before the dance.
 
-The rule and its numbers are those of the page's reader (web/motion/rest-frame.ts), so that a file means the same motion
+The rule and its numbers are those of the page's reader (web/motion/bvh/t-pose.ts), so that a file means the same motion
 in training and there.
 """
 

@@ -1,6 +1,6 @@
 import { musicFeatures, type MusicFeatures } from './features';
 import type { AudioRecipe } from './recipe';
-import { resample } from './resample';
+import { resample } from './dsp/resample';
 import { encodeWav } from './wav';
 
 /** Everything that is computed from the samples of a song. */

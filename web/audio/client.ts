@@ -1,11 +1,11 @@
 import { proxy, transfer, wrap } from 'comlink';
 import type { Analysis } from './analyse';
 import { type DecodedSong, decodeSong } from './decode';
-import { AudioError } from './errors';
+import { AudioError } from './error';
 import { type AudioRecipe, readRecipe } from './recipe';
 import type { AudioWorker } from './worker';
 
-export { AudioError } from './errors';
+export { AudioError } from './error';
 export { createPlayer, type Player } from './player';
 
 /** A loaded song. */

@@ -1,4 +1,4 @@
-import { AudioError } from './errors';
+import { AudioError } from './error';
 
 /**
  * Hz at which songs are decoded and played: common, and far enough above the recipe's rate that the browser's own

@@ -1,14 +1,14 @@
-import { trackBeats } from './beats';
-import { chromaFilters, normalizeRow } from './chroma';
-import { delta } from './delta';
-import { applyToPower } from './filters';
-import { separate } from './hpss';
-import { melFilters } from './mel';
-import { cepstrum } from './mfcc';
-import { onsetStrength } from './onset';
+import { trackBeats } from './dsp/beats';
+import { chromaFilters, normalizeRow } from './dsp/chroma';
+import { delta } from './dsp/delta';
+import { applyToPower } from './dsp/filters';
+import { separate } from './dsp/hpss';
+import { melFilters } from './dsp/mel';
+import { cepstrum } from './dsp/mfcc';
+import { onsetStrength } from './dsp/onset';
 import { type AudioRecipe, frameCount } from './recipe';
-import { magnitudes } from './stft';
-import { beatPeriod } from './tempo';
+import { magnitudes } from './dsp/stft';
+import { beatPeriod } from './dsp/tempo';
 
 /** What a song tells the model, and what the page shows of it. */
 export interface MusicFeatures {

@@ -1,5 +1,5 @@
-import { createDeck, type Deck } from './deck';
-import { AudioError } from './errors';
+import { createDeck, type Deck } from './audio-element';
+import { AudioError } from './error';
 
 /** The sound and the clock of the page. */
 export interface Player {

@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { AudioError } from './errors';
+import { AudioError } from './error';
 
 const positive = v.pipe(v.number(), v.finite(), v.gtValue(0));
 const count = v.pipe(v.number(), v.integer(), v.minValue(1));

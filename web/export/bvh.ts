@@ -1,5 +1,5 @@
 import { strToU8, zipSync } from 'fflate';
-import { writeBvh } from '../motion/bvh-write';
+import { writeBvh } from '../motion/bvh/write';
 import type { Role } from '../view/theme';
 import type { Dance } from './dance';
 

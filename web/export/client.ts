@@ -11,7 +11,6 @@ export type { About, Dance, MotionFormat } from './dance';
 export { ExportError } from './error';
 export { estimateBytes } from './sizes';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';
-export { secondsLeft } from './video/left';
 export type { VideoPlan } from './video/plan';
 
 const TYPES: Readonly<Record<MotionFormat, string>> = {
@@ -84,4 +83,13 @@ export async function planVideo(
 export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
   const video = await import('./video/write');
   return video.writeVideo(footage, plan, options);
+}
+
+/** Work this short says nothing about the rest yet, seconds. */
+const SOON = 0.8;
+
+/** Whole seconds that the rest will take if it goes on as so far; null while that is a guess. */
+export function secondsLeft(elapsed: number, done: number, total: number): number | null {
+  if (elapsed < SOON || done < 1) return null;
+  return Math.ceil((elapsed / done) * (total - done));
 }

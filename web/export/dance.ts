@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../motion/clip';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Role } from '../view/theme';
 
 /** Where a motion comes from and what it was made with: written into every format that has room for it. */

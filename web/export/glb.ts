@@ -10,13 +10,13 @@ import {
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh-names';
-import type { SolvedMotion } from '../motion/clip';
-import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton';
+import { BVH_NAMES } from '../motion/bvh/joint-names';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
-import { createRig, type Rig } from '../view/rig';
+import { createRig, type Rig } from '../view/dancer/rig';
 import { LOOKS, type Role, type Theme } from '../view/theme';
 import type { Dance } from './dance';
 

@@ -1,7 +1,7 @@
-import { JOINT_COUNT } from '../motion/skeleton';
-import type { SolvedMotion } from '../motion/clip';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Dance } from './dance';
-import { described } from './described';
+import { described } from './metadata';
 
 /** A tenth of a millimetre. */
 const DECIMALS = 1e4;

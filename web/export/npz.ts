@@ -1,8 +1,8 @@
 import { zipSync } from 'fflate';
-import { JOINT_COUNT, SMPL22 } from '../motion/skeleton';
+import { JOINT_COUNT, SMPL22 } from '../motion/skeleton/skeleton';
 import { type Dance, firstMotion } from './dance';
 import { npyBytes } from './npy';
-import { described } from './described';
+import { described } from './metadata';
 
 /** The date that NumPy gives its archives: the same motion is the same file on every day. */
 const LONG_AGO = new Date(1980, 0, 1);

@@ -1,5 +1,5 @@
-import { JOINT_COUNT } from '../motion/skeleton';
-import { writeBvh } from '../motion/bvh-write';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
+import { writeBvh } from '../motion/bvh/write';
 import { type Dance, firstMotion, type MotionFormat, sampled } from './dance';
 import { writeJson } from './json';
 import { writeNpz } from './npz';

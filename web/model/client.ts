@@ -1,13 +1,13 @@
 import { proxy, type Remote, wrap } from 'comlink';
-import type { SolvedMotion } from '../motion/clip';
-import type { Backend, Preference } from './backend';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import type { Backend, Preference } from './load/backend';
 import { ModelError } from './error';
-import type { ModelFolder } from './folder';
-import type { CoarseRequest, GenerateRequest } from './inputs';
-import type { Status } from './load';
+import type { ModelFolder } from './load/folder';
+import type { CoarseRequest, GenerateRequest } from './sample/inputs';
+import type { Status } from './load/load';
 import type { Manifest } from './manifest';
-import type { DownloadPart } from './parts';
-import type { GenerateOptions, GenerateResult, Made, Preview } from './pipeline';
+import type { DownloadPart } from './load/assets';
+import type { GenerateOptions, GenerateResult, Made, Preview } from './sample/pipeline';
 import type { Progress } from './progress';
 import type { Failure, ModelWorker, Outcome, WorkerEvent } from './protocol';
 

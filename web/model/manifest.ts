@@ -1,6 +1,6 @@
 import * as v from 'valibot';
-import { FLOOR } from '../motion/axes-units';
-import { PARENTS, SMPL22 } from '../motion/skeleton';
+import { FLOOR } from '../motion/bvh/axes-and-units';
+import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { ModelError } from './error';
 
 const count = v.pipe(v.number(), v.integer(), v.minValue(1));
@@ -56,7 +56,7 @@ const schema = v.object({
     feet: v.array(natural),
     /** Metres; the body height (motion/scale.ts) that every leader is scaled to. */
     reference_height: v.pipe(v.number(), v.minValue(0.1)),
-    /** See FLOOR in motion/axes-units.ts. */
+    /** See FLOOR in motion/bvh/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   fps: v.pipe(v.number(), v.minValue(1)),

@@ -1,11 +1,11 @@
 /** What client and worker say to each other. Errors cross as data: a structured clone would lose code and hint. */
-import type { SolvedMotion } from '../motion/clip';
-import type { Backend } from './backend';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import type { Backend } from './load/backend';
 import { ModelError, type ModelErrorCode } from './error';
-import type { CoarseRequest, GenerateRequest } from './inputs';
-import type { LoadOptions, Status } from './load';
+import type { CoarseRequest, GenerateRequest } from './sample/inputs';
+import type { LoadOptions, Status } from './load/load';
 import type { Manifest } from './manifest';
-import type { GenerateResult, Preview } from './pipeline';
+import type { GenerateResult, Preview } from './sample/pipeline';
 import type { Progress } from './progress';
 
 export type Failure =

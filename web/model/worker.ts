@@ -1,7 +1,7 @@
 /** The one worker that owns onnxruntime. */
 import { expose, transfer } from 'comlink';
-import type { SolvedMotion } from '../motion/clip';
-import { type LoadedModel, loadModel } from './load';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import { type LoadedModel, loadModel } from './load/load';
 import { type ModelWorker, type Outcome, outcome, type WorkerEvent } from './protocol';
 
 let model: LoadedModel | undefined;

@@ -1,6 +1,6 @@
-import { beatScores } from '../motion/beat-match';
+import { beatScores } from '../motion/beats/beat-match';
 import { concern, type Measure, type MomentKind, type Scale, worstMoments, worstOf } from './moments';
-import { motionBeats } from '../motion/motion-beats';
+import { motionBeats } from '../motion/beats/motion-beats';
 import type { Duet, Rules } from './rules';
 
 /** How well the reactor's beats fall on those of somebody else; NaN where the other has none. */

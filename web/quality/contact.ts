@@ -1,6 +1,6 @@
-import { LEAVE } from '../motion/planted';
-import { FEET, JOINT_COUNT } from '../motion/skeleton';
-import { percentile } from '../motion/statistics';
+import { LEAVE } from '../motion/contact/foot-contacts';
+import { FEET, JOINT_COUNT } from '../motion/skeleton/skeleton';
+import { percentile } from '../motion/math/statistics';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 

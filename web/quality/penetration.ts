@@ -1,6 +1,13 @@
-import { type BodyRule, type CapsuleBody, capsuleBody, closePairs, deepest } from '../motion/capsules';
-import { percentile } from '../motion/statistics';
-import { rootDistance } from './distance';
+import {
+  type BodyRule,
+  type CapsuleBody,
+  capsuleBody,
+  closePairs,
+  deepest,
+} from '../motion/contact/capsules';
+import { percentile } from '../motion/math/statistics';
+import { distance, readVec } from '../motion/math/vec3';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
@@ -54,4 +61,12 @@ export function measureCloseness(duet: Duet, rules: Rules): Measure<Closeness> {
     rows: [row],
     worst: worstMoments(row, duet.fps, 'overlap', (frame) => depth[frame]!),
   };
+}
+
+/** Distance between the roots in every frame, metres: `root_distance` of training/metrics/distance.py. */
+function rootDistance({ leader, reactor, frames }: Duet): Float64Array {
+  return Float64Array.from({ length: frames }, (_, frame) => {
+    const root = frame * JOINT_COUNT;
+    return distance(readVec(leader, root), readVec(reactor, root));
+  });
 }

@@ -1,4 +1,4 @@
-import type { BodyRule } from '../motion/capsules';
+import type { BodyRule } from '../motion/contact/capsules';
 
 /**
  * The constants of the measures, the same as in training/metrics. They come from Python through the manifest (its

@@ -1,4 +1,4 @@
-import { JOINT_COUNT } from '../motion/skeleton';
+import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { concern, type Measure, type Moment, type Scale, worstOf } from './moments';
 import type { Duet, Rules } from './rules';
 

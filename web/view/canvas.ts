@@ -1,7 +1,7 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
-import { createEdges, type Area, type Edges } from './edges';
+import { createEdges, type Area, type Edges } from './edge-smoothing';
 import { ViewError } from './error';
-import { copySheet, plainSheet } from './sheet';
+import { copySheet, plainSheet } from './frame-presenter';
 
 /** A picture of the couple over the whole canvas, or one of its two halves. */
 export type Picture = 'whole' | 'left' | 'right';

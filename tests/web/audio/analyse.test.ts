@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { analyse, mixDown } from '../../../web/audio/analyse';
 import { encodeWav } from '../../../web/audio/wav';
-import { recipe, songs } from './fixtures';
-import { processorSeconds } from './processor-time';
+import { recipe, songs } from '../support/audio-fixtures';
+import { processorSeconds } from '../support/processor-time';
 
 const second = 48000;
 const ignore = (): void => undefined;

@@ -1,9 +1,9 @@
 import { afterAll, describe, expect, it } from 'vitest';
 import { type MusicFeatures, musicFeatures } from '../../../web/audio/features';
-import { agreement, beatAgreement, beatFrames, columnGroups } from './compare';
-import { recipe, type ReferenceSong, songs } from './fixtures';
-import { absence, loadRealSongs, realSongs } from './real-songs';
-import { processorSeconds } from './processor-time';
+import { agreement, beatAgreement, beatFrames, columnGroups } from '../support/feature-parity';
+import { recipe, type ReferenceSong, songs } from '../support/audio-fixtures';
+import { absence, loadRealSongs, realSongs } from '../support/real-songs';
+import { processorSeconds } from '../support/processor-time';
 
 /**
  * Largest mean absolute difference of a column, in standard deviations of the reference. 0.01, with a correlation of

@@ -4,11 +4,11 @@ import { validateBytes } from 'gltf-validator';
 import { beforeAll, expect, test } from 'vitest';
 import { writeGlb } from '../../../web/export/glb';
 import { estimateBytes } from '../../../web/export/sizes';
-import { BVH_NAMES } from '../../../web/motion/bvh-names';
-import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton';
-import { makeBody } from '../../../web/view/body/lighter';
+import { BVH_NAMES } from '../../../web/motion/bvh/joint-names';
+import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { makeBody } from '../../../web/view/body/simplify';
 import { LOOKS } from '../../../web/view/theme';
-import { madeDance } from './made-dance';
+import { madeDance } from '../support/made-dance';
 
 /** The page's own meshing, without its worker. */
 const bodies = { request: makeBody };

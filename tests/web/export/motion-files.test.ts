@@ -2,9 +2,9 @@ import { unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
 import { estimateBytes, type MotionFormat, motionEnding, writeMotion } from '../../../web/export/client';
 import { writeNpz } from '../../../web/export/npz';
-import { readBvh } from '../../../web/motion/bvh-read';
-import { SMPL22 } from '../../../web/motion/skeleton';
-import { madeDance } from './made-dance';
+import { readBvh } from '../../../web/motion/bvh/read';
+import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { madeDance } from '../support/made-dance';
 
 const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>
   new Uint8Array(await (await file).arrayBuffer());

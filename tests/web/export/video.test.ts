@@ -1,6 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { planVideo } from '../../../web/export/client';
-import { secondsLeft } from '../../../web/export/video/left';
+import { planVideo, secondsLeft } from '../../../web/export/client';
 import { videoPixels } from '../../../web/export/video/size';
 import { songStretch } from '../../../web/export/video/song';
 

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { ModelError } from '../../../web/model/error';
 import { parseManifest } from '../../../web/model/manifest';
-import { smallJson } from './small-manifest';
+import { smallJson } from '../support/small-manifest';
 
 type Json = ReturnType<typeof smallJson>;
 

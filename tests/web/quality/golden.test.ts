@@ -6,8 +6,8 @@ import { measure } from '../../../web/quality/measure';
 import { overlapDepth } from '../../../web/quality/penetration';
 import type { Duet, Rules } from '../../../web/quality/rules';
 import { boundaries, velocityChange } from '../../../web/quality/seams';
-import { LEAVE } from '../../../web/motion/planted';
-import { readNpz } from '../../../web/model/npz';
+import { LEAVE } from '../../../web/motion/contact/foot-contacts';
+import { readNpz } from '../../../web/model/load/npz';
 
 const folder = new URL('../../fixtures/', import.meta.url);
 const golden = JSON.parse(readFileSync(new URL('quality.json', folder), 'utf8')) as {

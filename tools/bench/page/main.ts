@@ -2,7 +2,7 @@
 import { musicFeatures } from '../../../web/audio/features';
 import { readRecipe } from '../../../web/audio/recipe';
 import { createGenerator } from '../../../web/model/client';
-import { readNpz } from '../../../web/model/npz';
+import { readNpz } from '../../../web/model/load/npz';
 
 export type Seconds = Record<'features' | 'condition' | 'steps' | 'decode' | 'solve', number>;
 

@@ -8,7 +8,7 @@ import {
   QUALITY_HIGH,
   WebMOutputFormat,
 } from 'mediabunny';
-import { breath } from './breath';
+import { breath } from './yield-to-page';
 import type { Footage, VideoOptions } from './footage';
 import type { VideoPlan } from './plan';
 import { decodeSound, songStretch } from './song';

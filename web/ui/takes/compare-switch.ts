@@ -1,9 +1,9 @@
-import { el, listen, setAttribute, together } from '../dom';
-import type { Mount } from '../services';
-import type { Compare, Letter } from '../state';
-import { apply, watchAll } from '../store';
-import { compareSet, flipped } from './changes';
-import { otherTake } from './take';
+import { el, listen, setAttribute, together } from '../widgets/dom';
+import type { Mount } from '../store/services';
+import type { Compare, Letter } from '../store/state';
+import { apply, watchAll } from '../store/store';
+import { compareSet, flipped } from '../store/actions/takes';
+import { otherTake } from '../store/take';
 
 /** A key that is held this long is a look at the other take, not a change to it, milliseconds. */
 const HELD = 350;

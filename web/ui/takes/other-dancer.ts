@@ -1,8 +1,8 @@
-import type { SolvedMotion } from '../../motion/clip';
-import { reactorMotion } from '../reactor-motion';
-import type { Letter, Take } from '../state';
-import { type Store, watchAll } from '../store';
-import { otherTake, takeOnStage, takeTitle } from './take';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { reactorMotion } from '../store/reactor-motion';
+import type { Letter, Take } from '../store/state';
+import { type Store, watchAll } from '../store/store';
+import { otherTake, takeOnStage, takeTitle } from '../store/take';
 
 /** The reactor of the other take, as it is to be seen at the same playhead. */
 export interface OtherDancer {

@@ -1,5 +1,5 @@
-import { el, setText } from '../dom';
-import { LONGEST_NAME } from './changes';
+import { el, setText } from '../widgets/dom';
+import { LONGEST_NAME } from '../store/actions/takes';
 
 /** The name of a take, which turns into a field and back. */
 export interface TakeName {

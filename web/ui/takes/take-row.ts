@@ -1,9 +1,16 @@
-import { el, setAttribute, setText } from '../dom';
-import { icon, type IconName } from '../icons';
-import type { AppState, Letter, Take } from '../state';
-import { apply, type Store } from '../store';
-import { letterGiven, takeChosen, takeDeleted, takeRenamed, takeStarred, whyNoLetter } from './changes';
-import { letterOf, takeTitle } from './take';
+import { el, setAttribute, setText } from '../widgets/dom';
+import { icon, type IconName } from '../widgets/icons';
+import type { AppState, Letter, Take } from '../store/state';
+import { apply, type Store } from '../store/store';
+import {
+  letterGiven,
+  takeChosen,
+  takeDeleted,
+  takeRenamed,
+  takeStarred,
+  whyNoLetter,
+} from '../store/actions/takes';
+import { letterOf, takeTitle } from '../store/take';
 import { createTakeName } from './take-name';
 import { allTakeWords, takeWords } from './take-words';
 

@@ -1,5 +1,5 @@
-import { columnOf, guidanceWords } from '../guidance-matrix';
-import type { AppState, Inputs, Take } from '../state';
+import { columnOf, guidanceWords } from '../store/guidance-matrix';
+import type { AppState, Inputs, Take } from '../store/state';
 
 /** Longest name of a file in a line, characters. */
 const LONGEST = 16;

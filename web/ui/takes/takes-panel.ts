@@ -1,13 +1,13 @@
-import { closeButton } from '../close-button';
-import { el, listen, setText, together } from '../dom';
-import type { Mount } from '../services';
-import type { AppState } from '../state';
-import { apply, watch, watchAll } from '../store';
-import { opened } from '../view-changes';
-import { takeChosen, takeDeleted, takeStarred } from './changes';
+import { closeButton } from '../widgets/close-button';
+import { el, listen, setText, together } from '../widgets/dom';
+import type { Mount } from '../store/services';
+import type { AppState } from '../store/state';
+import { apply, watch, watchAll } from '../store/store';
+import { opened } from '../store/actions/view';
+import { takeChosen, takeDeleted, takeStarred } from '../store/actions/takes';
 import { createTakeRow, type TakeRow } from './take-row';
-import { takeOnStage } from './take';
-import { mountUndo } from './undo-buttons';
+import { takeOnStage } from '../store/take';
+import { mountUndo } from './undo';
 
 /** The list of takes in the panel; on the phone a sheet over the page. */
 export const mountTakes: Mount = (root, store, services) => {

@@ -1,4 +1,4 @@
-import { J } from '../../motion/skeleton';
+import { J } from '../../motion/skeleton/skeleton';
 import { add, ramp, scale, sub, unit, type Vec3 } from './field';
 import {
   hinge,

@@ -1,4 +1,4 @@
-import { J, JOINT_COUNT, PARENTS } from '../../motion/skeleton';
+import { J, JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
 import type { Vec3 } from './field';
 
 /** Where the joints are while the body is meshed and bound: a relaxed A instead of the skeleton's T. */

@@ -1,5 +1,5 @@
 import { BufferAttribute, BufferGeometry } from 'three';
-import type { Body } from './lighter';
+import type { Body } from './simplify';
 
 /** A body as three.js draws it: the near triangles first in the index, the light ones behind them. */
 export interface BodyGeometry {

@@ -1,4 +1,4 @@
-import { J } from '../../motion/skeleton';
+import { J } from '../../motion/skeleton/skeleton';
 import { add, dot, length, meltUnion, ramp, scale, sub, unit, type Vec3 } from './field';
 import { ball, hinge, limbPart, pass, ruler, widened, type Part, type Plan, type Side } from './part';
 

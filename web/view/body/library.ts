@@ -1,6 +1,6 @@
 import { wrap, type Remote } from 'comlink';
 import type { Build } from './part';
-import type { Body } from './lighter';
+import type { Body } from './simplify';
 import type { Mesher } from './worker';
 
 /** Bodies already meshed, by skeleton and build; meshes the others in a worker. */
@@ -34,7 +34,7 @@ export function createBodyLibrary(): BodyLibrary {
     } catch (error) {
       // Slower and felt, but a stage without its worker still shows the dance.
       console.warn('Bodies are made on the main thread, their worker failed:', error);
-      const { makeBody } = await import('./lighter');
+      const { makeBody } = await import('./simplify');
       return makeBody(offsets, build);
     }
   }

@@ -1,4 +1,4 @@
-import { J } from '../../motion/skeleton';
+import { J } from '../../motion/skeleton/skeleton';
 import { anatomy } from './anatomy';
 import { bindPose } from './bind-pose';
 import { meltCut, meltUnion, ramp } from './field';

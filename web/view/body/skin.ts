@@ -1,4 +1,4 @@
-import { JOINT_COUNT } from '../../motion/skeleton';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { near, type Part } from './part';
 import type { Net } from './surface-nets';
 

@@ -1,4 +1,4 @@
-import { J } from '../../motion/skeleton';
+import { J } from '../../motion/skeleton/skeleton';
 import { add, ramp, scale, type Vec3 } from './field';
 import { shoulderCentre } from './arm';
 import {

@@ -1,5 +1,5 @@
 import { expose, transfer } from 'comlink';
-import { makeBody, type Body } from './lighter';
+import { makeBody, type Body } from './simplify';
 import type { Build } from './part';
 
 /** Meshing off the main thread: a third of a second of arithmetic that must not be felt. */

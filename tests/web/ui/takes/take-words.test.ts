@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
-import type { AppState, Inputs, Take } from '../../../../web/ui/state';
-import { initialState } from '../../../../web/ui/store';
+import type { AppState, Inputs, Take } from '../../../../web/ui/store/state';
+import { initialState } from '../../../../web/ui/store/store';
 import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
-import { small } from '../../model/small-manifest';
-import { alike, leader, song, still } from '../made';
+import { small } from '../../support/small-manifest';
+import { alike, leader, song, still } from '../../support/made-state';
 
 const music = small.guidance.music.default;
 const settings = {

@@ -1,0 +1,107 @@
+import { readFileSync } from 'node:fs';
+import { readBvh } from '../../web/motion/bvh/read';
+import { bvhText } from './support/files';
+import { App, farthest, meanSpeed } from './support/app-page';
+import { expect, test } from './support/fixtures';
+import { serveDemo } from './support/made-demo';
+
+test('the shipped demo plays a duet on one click', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.until(({ demo, reading }) => demo !== 'loading' && !reading.song);
+  await expect(page.getByRole('button', { name: /^Song: .*demo/ })).toBeVisible();
+  await expect(page.getByRole('button', { name: /^Leader: .*demo/ })).toBeVisible();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await app.until(({ playback }) => playback.playing && playback.time > 0.5);
+  await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
+  await app.until(({ reaction, song }) => reaction && song);
+  expect(meanSpeed(await app.reactor())).toBeGreaterThan(0.02);
+});
+
+test('the foot lock is switched by key, and stage and file follow at once', async ({ page }) => {
+  const app = new App(page);
+  await app.open();
+  await app.settled();
+  const lock = page.getByRole('switch', { name: 'Foot lock' });
+  await expect(lock).toBeChecked();
+  await expect(lock).toHaveAccessibleDescription('Keeps planted feet from sliding');
+  const locked = await app.onScreen();
+  await page.getByRole('button', { name: 'Swap roles' }).focus();
+  await page.keyboard.press('Tab');
+  await expect(lock).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect(lock).not.toBeChecked();
+  const free = await app.onScreen();
+  expect(farthest(locked, free)).toBeGreaterThan(0.005);
+  expect(await app.read(({ reaction, job }) => [reaction?.label, job])).toEqual(['demo reaction', null]);
+  const frame = Math.round(30 * (await app.read(({ playback }) => playback.time)));
+  for (const shown of [free, locked]) {
+    const coming = page.waitForEvent('download');
+    await page.getByRole('button', { name: 'Download', exact: true }).click();
+    await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
+    const { clip } = readBvh(readFileSync(await (await coming).path(), 'utf8'));
+    const saved = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
+    expect(farthest(shown, saved)).toBeLessThan(0.001);
+    await lock.click();
+  }
+});
+
+test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {
+  const column = { coarse: 0.5, fine: 0.25 };
+  const guidance = { upper: column, lower: column, placement: column };
+  const settings = { guidance, music: 1.5, steps: 3, seed: 77, role: 'reactor' };
+  await serveDemo(page, settings);
+  let release: () => void = () => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/models/tiny/*.onnx', async (route) => {
+    await held;
+    await route.continue();
+  });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await page.getByRole('button', { name: 'Play the demo' }).click();
+  await app.until(({ playback, reaction }) => playback.playing && playback.time > 0.2 && reaction);
+  expect(await app.read(({ model }) => model.phase)).toBe('loading');
+  await expect(page.getByRole('complementary')).toContainText('demo reaction');
+  await expect(page.getByRole('spinbutton', { name: 'Seed' })).toHaveValue('77');
+  release();
+  await app.settled();
+  expect(await app.read(({ reaction, job }) => [reaction?.label, job])).toEqual(['demo reaction', null]);
+  // Steering it makes a reaction of this page's own.
+  await page.getByRole('slider', { name: 'Fine guidance' }).fill('1');
+  await app.until(({ reaction }) => reaction?.label === null);
+});
+
+test('without a ready-made reaction the demo gets its partner by itself', async ({ page }) => {
+  await serveDemo(page, null);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.reaction('Made demo leader');
+});
+
+test('files of the visitor win over a demo that is still coming', async ({ page }) => {
+  await serveDemo(page, null);
+  let release: () => void = () => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/demo/leader.bvh', async (route) => {
+    await held;
+    await route.fallback();
+  });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
+  await app.reaction('mine.bvh');
+  release();
+  await app.until(({ demo }) => demo === 'ready');
+  expect(await app.read(({ leader, song }) => [leader?.name, song])).toEqual(['mine.bvh', null]);
+});
+
+test('a page without its demo says so and works', async ({ page }) => {
+  await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo is not here');
+  await expect(page.getByRole('button', { name: 'Play the demo' })).toBeHidden();
+  await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
+  await app.reaction('mine.bvh');
+});

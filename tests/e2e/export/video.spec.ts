@@ -1,0 +1,227 @@
+import { readFile } from 'node:fs/promises';
+import type { Download, Page } from '@playwright/test';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import { probe } from '../support/ffprobe';
+import { demoSettings as settings, serveDemo } from '../support/made-demo';
+
+const FRAMES = 24;
+const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
+
+// A small stage: what draws here is the processor.
+test.use({ viewport: { width: 480, height: 580 } });
+
+async function openMenu(page: Page, frames = FRAMES): Promise<App> {
+  await serveDemo(page, settings, frames);
+  const app = new App(page);
+  await app.open();
+  await app.settled();
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  return app;
+}
+
+async function film(page: Page): Promise<Download> {
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  const coming = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save video' }).click();
+  return coming;
+}
+
+/** What a person sees and hears of a film. */
+interface Watched {
+  /** Shares of warm and cool pixels in its middle. */
+  readonly warm: number;
+  readonly cool: number;
+  readonly loudest: number;
+  /** Second of the first sound. */
+  readonly begins: number;
+}
+
+async function watched(page: Page, file: string): Promise<Watched> {
+  return page.evaluate(
+    async (base64) => {
+      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+      const video = document.createElement('video');
+      video.src = URL.createObjectURL(new Blob([bytes]));
+      await new Promise((resolve) => (video.onloadeddata = resolve));
+      video.currentTime = video.duration / 2;
+      await new Promise((resolve) => (video.onseeked = resolve));
+      const context = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d');
+      if (!context) throw new Error('No canvas to look at the film with.');
+      context.drawImage(video, 0, 0);
+      const { data } = context.getImageData(0, 0, video.videoWidth, video.videoHeight);
+      let [warm, cool] = [0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        const [red = 0, green = 0, blue = 0] = [data[i], data[i + 1], data[i + 2]];
+        if (red >= 90 && red >= 1.3 * green && green >= blue) warm += 4 / data.length;
+        if (blue >= 90 && blue >= 1.3 * red) cool += 4 / data.length;
+      }
+      const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
+      const heard = sound.getChannelData(0).map(Math.abs);
+      const loudest = Math.max(...heard);
+      return { warm, cool, loudest, begins: heard.findIndex((sample) => sample > 0.2 * loudest) / 48000 };
+    },
+    (await readFile(file)).toString('base64'),
+  );
+}
+
+test('the stage is filmed with its song, every frame of it, and has not noticed', async ({ page }) => {
+  // As in Safari 18, where pages may encode pictures but no sound: the page brings its own encoder along.
+  await page.addInitScript(() => {
+    Reflect.deleteProperty(globalThis, 'AudioEncoder');
+    // And as on a phone, where the system passes films on; a desktop's Chromium does not.
+    Object.assign(navigator, {
+      canShare: ({ files }: { files: File[] }) => files.every(({ type }) => type.startsWith('video/')),
+      share: ({ files }: { files: File[] }) => {
+        Object.assign(window, { shared: files.map(({ name, size, type }) => ({ name, size, type })) });
+        return Promise.resolve();
+      },
+    });
+  });
+  const app = await openMenu(page);
+  // Here the processor draws: full HD would take minutes, and is there for who asks for it.
+  await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
+  const size = await page.evaluate('window.reactdance.stage.pictureSize()');
+  const before = await app.onScreen();
+  const download = await film(page);
+  expect(download.suggestedFilename()).toBe(`${PREFIX}_stage.mp4`);
+  const { format, streams } = await probe(await download.path());
+  expect(format.format_name).toContain('mp4');
+  expect(Number(format.duration)).toBeCloseTo(FRAMES / 30, 1);
+  const [video, audio] = streams;
+  expect(video).toMatchObject({ codec_name: 'h264', nb_read_frames: String(FRAMES) });
+  const even = (pixels: number): number => 2 * Math.round(pixels / 2);
+  const { width, height } = size as { width: number; height: number };
+  expect([video?.width, video?.height]).toEqual([even(width), even(height)]);
+  expect(audio).toMatchObject({ codec_type: 'audio', codec_name: 'aac', channels: 1 });
+  const { warm, cool, loudest, begins } = await watched(page, await download.path());
+  expect(warm).toBeGreaterThan(0.001);
+  expect(cool).toBeGreaterThan(0.001);
+  expect(loudest).toBeGreaterThan(0.2);
+  // The song begins with a kick; a twentieth of a second is less than anyone sees or hears.
+  expect(begins).toBeLessThan(0.05);
+  const region = page.getByRole('region', { name: 'Video' });
+  await expect(region).toContainText(/Saved, \d+ KB/);
+  await region.getByRole('button', { name: 'Share the video' }).click();
+  expect(await page.evaluate('window.shared')).toEqual([
+    { name: `${PREFIX}_stage.mp4`, size: Number(format.size), type: 'video/mp4' },
+  ]);
+  expect(await app.onScreen()).toEqual(before);
+  expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
+});
+
+test('where nothing encodes H.264, the video is WebM; no video waits for the clock', async ({ page }) => {
+  await page.addInitScript(() => {
+    const supports = VideoEncoder.isConfigSupported.bind(VideoEncoder);
+    VideoEncoder.isConfigSupported = async (config) =>
+      config.codec.startsWith('avc1') ? { supported: false, config } : supports(config);
+  });
+  await page.clock.install();
+  await openMenu(page);
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText('WebM');
+  // From here on the page's clock and timers run a hundred times too slow, and so would what waits for them.
+  await page.clock.pauseAt(new Date(Date.now() + 60_000));
+  const pageClock = () => page.evaluate<number>('performance.now()');
+  const [begun, begunThere] = [Date.now(), await pageClock()];
+  let download: Download | null = null;
+  void film(page).then((done) => (download = done));
+  while (!download) {
+    await page.waitForTimeout(500);
+    await page.clock.runFor(5);
+  }
+  const [took, tookThere] = [(Date.now() - begun) / 1000, ((await pageClock()) - begunThere) / 1000];
+  test.info().annotations.push({
+    type: 'measured',
+    description: `${FRAMES / 30} s of dance filmed in ${took.toFixed(1)} s, in ${tookThere.toFixed(2)} s of its own`,
+  });
+  expect(tookThere).toBeLessThan(FRAMES / 30 / 2);
+  const done = download as Download;
+  expect(done.suggestedFilename()).toBe(`${PREFIX}_stage.webm`);
+  const { streams } = await probe(await done.path());
+  expect(streams.map(({ codec_name }) => codec_name)).toEqual(['vp9', 'opus']);
+  expect(streams[0]?.nb_read_frames).toBe(String(FRAMES));
+});
+
+test('a video tells how far it is, with the menu closed too, and is cancelled at once', async ({ page }) => {
+  const app = await openMenu(page, 1800);
+  const button = page.getByRole('button', { name: 'Download', exact: true });
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  await page.getByRole('button', { name: 'Save video' }).click();
+  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await expect(page.getByRole('progressbar', { name: 'Video' })).toBeVisible();
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Frame \d+ of 1,800/);
+  await page.keyboard.press('Escape');
+  await expect(button).toHaveAttribute('title', /Writing the video, \d+ %/);
+  await button.click();
+  await page.getByRole('button', { name: 'Cancel the video' }).click();
+  const left = await app.read(({ filming, problem, saved }) => [filming, problem, saved]);
+  expect(left).toEqual([null, null, null]);
+  await expect(page.getByRole('progressbar', { name: 'Video' })).toBeHidden();
+  await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
+  await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
+});
+
+/** What the page has done beside filming since it began to be counted. */
+interface Beside {
+  readonly milliseconds: number;
+  /** Pictures that went to the encoder. */
+  readonly filmed: number;
+  /** Pictures that the stage on the page has drawn. */
+  readonly drawn: number;
+  /** Times that the progress on the page changed. */
+  readonly told: number;
+}
+
+test('while it films, the page stands still and tells how far it is only now and then', async ({ page }) => {
+  await page.addInitScript(() => {
+    const counts = { filmed: 0, told: 0, drawn: 0, since: performance.now() };
+    Object.assign(window, { counts });
+    globalThis.VideoEncoder = class extends VideoEncoder {
+      override encode(...picture: Parameters<VideoEncoder['encode']>): void {
+        counts.filmed++;
+        super.encode(...picture);
+      }
+    };
+  });
+  const app = await openMenu(page, 300);
+  await page.keyboard.press('Escape');
+  // Without an end: on a busy machine the dance may be over before the film has begun.
+  await page.keyboard.press('l');
+  await page.getByRole('button', { name: 'Play', exact: true }).click();
+  await app.until(({ playback }) => playback.playing && playback.loop && playback.time > 0.1);
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+  await page.getByRole('radio', { name: /As on stage/ }).click();
+  await page.getByRole('button', { name: 'Save video' }).click();
+  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await page.evaluate(`
+    const { counts } = window;
+    Object.assign(counts, { filmed: 0, since: performance.now() });
+    window.reactdance.stage.onFrame(() => counts.drawn++);
+    const meter = document.querySelector('[role=progressbar][aria-label=Video]');
+    const told = new MutationObserver(() => counts.told++);
+    told.observe(meter.parentElement, { subtree: true, childList: true, characterData: true });
+  `);
+  await expect.poll(() => page.evaluate('window.counts.filmed'), { timeout: 60_000 }).toBeGreaterThan(20);
+  const beside = await page.evaluate<Beside>(
+    '({ ...window.counts, milliseconds: performance.now() - window.counts.since })',
+  );
+  const each = (beside.milliseconds / beside.filmed).toFixed(0);
+  const description = `${each} ms a picture; ${beside.told} times told, ${beside.drawn} drawn on the page`;
+  test.info().annotations.push({ type: 'measured', description });
+  expect(beside.told).toBeGreaterThan(0);
+  expect.soft(beside.told).toBeLessThanOrEqual(1 + beside.milliseconds / 400);
+  // The camera may still come to rest.
+  expect.soft(beside.drawn).toBeLessThan(beside.filmed / 4);
+});
+
+test('where pages may not encode, the video is recorded in real time', async ({ page }) => {
+  await page.addInitScript(() => {
+    Reflect.deleteProperty(globalThis, 'VideoEncoder');
+  });
+  await openMenu(page, 120);
+  await expect(page.getByRole('region', { name: 'Video' })).toContainText('takes 0:04');
+  const download = await film(page);
+  const { streams } = await probe(await download.path());
+  expect(streams.map(({ codec_type }) => codec_type).sort()).toEqual(['audio', 'video']);
+  expect(Number(streams.find((stream) => stream.codec_type === 'video')?.nb_read_frames)).toBeGreaterThan(3);
+});

@@ -1,0 +1,166 @@
+import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './support/files';
+import { App, SHIPPED } from './support/app-page';
+import { expect, test } from './support/fixtures';
+
+/** Every failure is a sentence with a hint, in a dialog that Esc closes; what was loaded before stays. */
+async function expectSentence(app: App, title: RegExp, hint: RegExp): Promise<void> {
+  await expect(app.alert).toBeVisible({ timeout: 60_000 });
+  await expect(app.alert.getByRole('heading')).toHaveText(title);
+  await expect(app.alert.getByRole('paragraph')).toHaveText(hint);
+  // The dialog holds the focus on its first way out.
+  await expect(app.alert.getByRole('button').first()).toBeFocused();
+  await app.page.keyboard.press('Escape');
+  await expect(app.alert).toBeHidden();
+}
+
+/** Nothing is broken: a good leader still gets its partner. */
+async function expectLife(app: App): Promise<void> {
+  await app.chooseLeader(bvh({ frames: 60, name: 'alive.bvh' }));
+  await app.reaction('alive.bvh');
+}
+
+const HINT = /[a-z].{20,}\.$/i;
+
+test.describe('files', () => {
+  const cases: readonly (readonly [string, () => TestFile, RegExp])[] = [
+    ['not audio', notAudio, /^holiday\.mp3/],
+    ['an empty file', emptyFile, /^nothing\.bvh is empty\.$/],
+    [
+      'neither song nor motion',
+      () => ({ name: 'tax.pdf', mimeType: 'application/pdf', buffer: Buffer.from('%PDF-1.7') }),
+      /^tax\.pdf is neither/,
+    ],
+    [
+      'an FBX',
+      () => ({ name: 'dance.fbx', mimeType: '', buffer: Buffer.from('Kaydara FBX Binary  \0') }),
+      /^dance\.fbx is a motion/,
+    ],
+    ['a truncated BVH', brokenLeaders.truncated, /^cut off\.bvh/],
+    ['a BVH without legs', brokenLeaders.noLegs, /^arms only\.bvh/],
+    ['a BVH of one frame', brokenLeaders.oneFrame, /^statue\.bvh/],
+    ['a BVH with NaN', brokenLeaders.notNumbers, /^not numbers\.bvh/],
+  ];
+
+  test('are refused one by one, and the page lives on with what it had', async ({ page }) => {
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.drop(bvh({ frames: 60, name: 'good.bvh' }), wav({ seconds: 2, name: 'good.wav' }));
+    await app.reaction('good.bvh');
+    for (const [name, make, title] of cases) {
+      await test.step(name, async () => {
+        await app.drop(make());
+        await expectSentence(app, title, HINT);
+        expect(await app.read(({ leader, song }) => [leader?.name, song?.name])).toEqual([
+          'good.bvh',
+          'good.wav',
+        ]);
+        expect(await app.read(({ reaction }) => reaction?.inputs.leader.name)).toBe('good.bvh');
+      });
+    }
+    await expectLife(app);
+  });
+
+  test('that lie about their kind are taken for what they are', async ({ page }) => {
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.chooseSong({ ...bvh({ frames: 60 }), name: 'song.mp3', mimeType: 'audio/mpeg' });
+    await app.reaction('song.mp3');
+    await app.chooseLeader({ ...wav({ seconds: 2 }), name: 'dance.bvh' });
+    await app.until(({ song }) => song?.name === 'dance.bvh');
+    await expect(app.alert).toBeHidden();
+  });
+
+  test('a song of twenty minutes is refused with its length', async ({ page }) => {
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.settled();
+    await app.chooseSong(wav({ seconds: 1200, rate: 8000, name: 'symphony.wav' }));
+    await expectSentence(app, /^symphony\.wav.*minutes/, HINT);
+    await expectLife(app);
+  });
+
+  test('a silent song is danced to, and the page says so', async ({ page }) => {
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.drop(
+      wav({ seconds: 2, silent: true, name: 'nothing heard.wav' }),
+      bvh({ frames: 60, name: 'leader.bvh' }),
+    );
+    await app.reaction('leader.bvh');
+    await expect(page.getByRole('list', { name: 'Notes' })).toContainText('The song is silent');
+  });
+});
+
+test.describe('the model', () => {
+  test('missing on the server is said, and can be tried again', async ({ page }) => {
+    const app = new App(page);
+    let missing = true;
+    await page.route('**/models/tiny/*.onnx', (route) =>
+      missing ? route.fulfill({ status: 404, body: 'no' }) : route.continue(),
+    );
+    await app.openWithoutPicture();
+    await expectSentence(app, /404/, HINT);
+    await app.chooseLeader(bvh({ frames: 60, name: 'patient.bvh' }));
+    await app.until(({ leader, job }) => leader?.name === 'patient.bvh' && !job);
+    missing = false;
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await app.until(({ model }) => model.phase === 'ready');
+    await page.getByRole('button', { name: 'Generate' }).click();
+    await app.reaction('patient.bvh');
+  });
+
+  test('served as a web page is recognised', async ({ page }) => {
+    const app = new App(page);
+    await page.route('**/models/tiny/manifest.json', (route) =>
+      route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>Not here</title>' }),
+    );
+    await app.openWithoutPicture();
+    await expectSentence(app, /web page instead of the model/, HINT);
+  });
+
+  test('works without storage to keep it in', async ({ page, baseURL }) => {
+    const session = await page.context().newCDPSession(page);
+    await session.send('Storage.overrideQuotaForOrigin', {
+      origin: new URL(baseURL ?? '').origin,
+      quotaSize: 1000,
+    });
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await expectLife(app);
+    await expect(page.getByRole('list', { name: 'Notes' })).toContainText('could not keep the model');
+  });
+
+  test('runs without WebGPU and says why', async ({ page }) => {
+    const app = new App(page);
+    await page.addInitScript(() => {
+      Object.defineProperty(navigator, 'gpu', { value: undefined });
+    });
+    await app.openWithoutPicture('/?model=/models/tiny/manifest.json');
+    await app.until(({ model }) => model.phase === 'ready');
+    expect(await app.read(({ model }) => model.phase === 'ready' && model.backend)).toBe('wasm');
+    await expect(page.getByRole('banner')).toContainText('WebAssembly');
+    await expect(page.getByRole('complementary')).toContainText(/WebGPU/);
+    await expectLife(app);
+  });
+
+  test('crashing while it works is said, and the next attempt starts afresh', async ({ page }) => {
+    const app = new App(page);
+    // The real model: its steps take seconds, so that the crash comes in the middle of them on any machine.
+    await app.openWithoutPicture(SHIPPED);
+    await app.settled();
+    await app.chooseLeader(bvh({ frames: 1200, name: 'unlucky.bvh' }));
+    await app.until(({ job }) => job?.stage === 'step');
+    const worker = page.workers().find((one) => /worker/.test(one.url()) && !/leader-worker/.test(one.url()));
+    await worker?.evaluate('setTimeout(() => { throw new Error("out of luck"); })');
+    await expectSentence(app, /stopped unexpectedly/, HINT);
+    await page.getByRole('button', { name: 'Generate' }).click();
+    await app.reaction('unlucky.bvh');
+  });
+});
+
+test('without WebGL the page still makes and hands out the motion', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await expectLife(app);
+  await expect(page.getByRole('button', { name: 'Download', exact: true })).toBeEnabled();
+});

@@ -1,0 +1,67 @@
+/** The model on WebGPU, on the software adapter: slow, but the same shaders and the same code as on a graphics card. */
+import { zipSync } from 'fflate';
+import { expect, test } from '../support/model-site';
+
+test.describe.configure({ timeout: 600_000 });
+
+test.beforeEach(async ({ page }) => {
+  await page.goto('/');
+});
+
+test('a whole sampling agrees with Python, on WebGPU and nothing else', async ({ page }) => {
+  const { error, submissions } = await page.evaluate(() => model.golden('tiny/', 'webgpu'));
+  expect(error).toBeLessThan(1e-4);
+  expect(submissions).toBeGreaterThan(0);
+});
+
+test('numbers that differ from the reference move the work to the processor, with the reason', async ({
+  page,
+}) => {
+  // A reference of two latent frames in which the partner is at the origin with all joints.
+  const npy = (name: string, shape: number[], value: (i: number) => number): [string, Uint8Array] => {
+    const dict = `{'descr': '<f4', 'fortran_order': False, 'shape': (${shape.join(', ')},), }`;
+    const header = new TextEncoder().encode(`${dict.padEnd(117)}\n`);
+    const head = [0x93, ...new TextEncoder().encode('NUMPY'), 1, 0, header.length, 0, ...header];
+    const length = shape.reduce((product, n) => product * n, 1);
+    const values = Float32Array.from({ length }, (_, i) => value(i));
+    return [`${name}.npy`, Uint8Array.from([...head, ...new Uint8Array(values.buffer)])];
+  };
+  const golden = zipSync(
+    Object.fromEntries([
+      npy('leader', [8, 22, 3], Math.sin),
+      npy('music', [8, 54], () => 0),
+      npy('music_valid', [8], () => 0),
+      npy('role', [1], () => 0),
+      npy('guidance', [3, 2], () => 0),
+      npy('music_guidance', [1], () => 0),
+      npy('seed', [1], () => 0),
+      npy('steps', [1], () => 1),
+      npy('reactor', [8, 22, 3], () => 0),
+    ]),
+  );
+  await page.route('**/tiny/golden.npz', (route) =>
+    route.fulfill({ contentType: 'application/octet-stream', body: Buffer.from(golden) }),
+  );
+  const opened = await page.evaluate(() =>
+    model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }),
+  );
+  expect(opened).toMatchObject({
+    backend: {
+      name: 'wasm',
+      reason: expect.stringMatching(/^The GPU's numbers differed from the reference by [\d.]+ m/),
+    },
+  });
+});
+
+test('the worker computes on WebGPU when it is asked to', async ({ page }) => {
+  const opened = await page.evaluate(() =>
+    model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }),
+  );
+  expect(opened).toMatchObject({ backend: { name: 'webgpu' } });
+  const checked = await page.evaluate(() => model.statuses.find(({ kind }) => kind === 'checked'));
+  expect(checked).toMatchObject({ kind: 'checked' });
+  expect(checked !== undefined && 'error' in checked ? checked.error : NaN).toBeLessThan(1e-4);
+  await page.evaluate(() => model.readGolden('tiny/golden.npz'));
+  const { positions } = await page.evaluate(() => model.generate({ frames: 250, steps: 1 }));
+  expect(positions).toHaveLength(250 * 66);
+});

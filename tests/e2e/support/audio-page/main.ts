@@ -1,0 +1,164 @@
+/** The audio client without the app around it, for browser tests to call. */
+import { createPlayer, loadSong, type Song } from '../../../../web/audio/client';
+import { encodeWav } from '../../../../web/audio/wav';
+
+/** What a test asks to be loaded: a file of the server, or a made one. */
+export type Source = { url: string } | { text: string } | { silentSeconds: number; rate: number };
+
+/** A failure as data, for the test's process. */
+export interface Told {
+  readonly name: string;
+  readonly code: string | undefined;
+  readonly message: string;
+  readonly hint: string | undefined;
+}
+
+/** A song as data, without its samples. */
+export interface Heard {
+  readonly duration: number;
+  readonly samples: number;
+  readonly frames: number;
+  readonly columns: number;
+  readonly tempo: number;
+  readonly beats: number;
+  readonly silent: boolean;
+  readonly peak: number;
+  /** Seconds at which a tick begins after 50 ms without one. */
+  readonly ticks: number[];
+  readonly progress: number[];
+  readonly seconds: number;
+  /** Longest time between two frames that the page drew meanwhile, seconds. */
+  readonly longestFreeze: number;
+}
+
+async function open(source: Source): Promise<Blob> {
+  if ('url' in source) return (await fetch(source.url)).blob();
+  if ('text' in source) return new Blob([source.text]);
+  return encodeWav([new Float32Array(source.silentSeconds * source.rate)], source.rate);
+}
+
+function findTicks({ pcm, sampleRate }: Song): number[] {
+  const ticks: number[] = [];
+  let quietSince = -Infinity;
+  pcm.forEach((sample, i) => {
+    if (Math.abs(sample) < 0.1) return;
+    if (i - quietSince > 0.05 * sampleRate) ticks.push(i / sampleRate);
+    quietSince = i;
+  });
+  return ticks;
+}
+
+/** Watches the page's frames until it is told to stop; returns the longest time between two, in seconds. */
+function watchFreezes(): () => number {
+  let [longest, last, running] = [0, performance.now(), true];
+  const frame = (): void => {
+    longest = Math.max(longest, performance.now() - last);
+    last = performance.now();
+    if (running) requestAnimationFrame(frame);
+  };
+  requestAnimationFrame(frame);
+  return () => {
+    running = false;
+    frame();
+    return longest / 1000;
+  };
+}
+
+let song: Song | undefined;
+
+/** The elements that were made to sound, the player's first two: only they tell what is really heard. */
+const elements: HTMLAudioElement[] = [];
+window.Audio = class extends Audio {
+  constructor() {
+    super();
+    elements.push(this);
+  }
+};
+const player = createPlayer();
+
+export const page = {
+  player,
+
+  /** Loads a song; `abortAt` gives up at that fraction of the progress. */
+  async load(
+    source: Source,
+    recipe: Record<string, unknown>,
+    abortAt = Infinity,
+  ): Promise<Heard | { error: Told }> {
+    const file = await open(source);
+    const controller = new AbortController();
+    const progress: number[] = [];
+    const started = performance.now();
+    const stopWatching = watchFreezes();
+    try {
+      song = await loadSong(file, recipe, {
+        signal: controller.signal,
+        onProgress: ({ fraction }) => {
+          progress.push(fraction);
+          if (fraction >= abortAt) controller.abort();
+        },
+      });
+      return {
+        duration: song.duration,
+        samples: song.pcm.length,
+        frames: song.frames,
+        columns: song.features.length / song.frames,
+        tempo: song.tempo,
+        beats: song.beats.length,
+        silent: song.silent,
+        peak: song.pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0),
+        ticks: findTicks(song),
+        progress,
+        seconds: (performance.now() - started) / 1000,
+        longestFreeze: stopWatching(),
+      };
+    } catch (error) {
+      const { name, code, message, hint } = error as Told;
+      return { error: { name, code, message, hint } };
+    } finally {
+      stopWatching();
+    }
+  },
+
+  /** Features of the song loaded last, row by row. */
+  features(): number[] {
+    return Array.from(song?.features ?? []);
+  },
+
+  /** Gives the song loaded last, silence or something that is no sound to the player. */
+  hand(what: 'song' | 'silence' | 'nonsense', duration: number): void {
+    const sounds = { song: song?.sound ?? null, silence: null, nonsense: new Blob(['la la la']) };
+    player.load(sounds[what], duration);
+  },
+
+  /** Plays; returns the failure if there is one. */
+  async play(): Promise<Told | null> {
+    try {
+      await player.play();
+      return null;
+    } catch (error) {
+      const { name, code, message, hint } = error as Told;
+      return { name, code, message, hint };
+    }
+  },
+
+  /** Seconds of the song that are heard now; null when there is silence. */
+  heard(): number | null {
+    const [element] = elements.filter(({ paused, ended }) => !paused && !ended);
+    return element ? element.currentTime : null;
+  },
+
+  /** Reads both clocks at every frame for some seconds: [the page's, the player's] in seconds. */
+  async watch(seconds: number): Promise<[number, number][]> {
+    const readings: [number, number][] = [];
+    const start = performance.now();
+    while (performance.now() - start < seconds * 1000) {
+      await new Promise(requestAnimationFrame);
+      readings.push([performance.now() / 1000, player.time]);
+    }
+    return readings;
+  },
+};
+
+export type Page = typeof page;
+Object.assign(globalThis, { audio: page });

@@ -1,0 +1,62 @@
+import { existsSync } from 'node:fs';
+import path from 'node:path';
+import { test as base, expect } from '@playwright/test';
+import { createSite, listen } from '../../../tools/serve.mjs';
+
+export { expect };
+
+const project = path.resolve(import.meta.dirname, '../../..');
+
+interface WorkerFixtures {
+  /** Address of the built app; the tiny model of the fixtures is below models/tiny/. */
+  readonly site: string;
+}
+
+interface TestFixtures {
+  /** Every address that the browser asked for in this test. After the test none may be of another origin. */
+  readonly requests: string[];
+}
+
+/** Playwright's test, with the built app served as `npm start` does and every request of the browser watched. */
+export const test = base.extend<TestFixtures, WorkerFixtures>({
+  site: [
+    // eslint-disable-next-line no-empty-pattern -- Playwright reads the wanted fixtures from this pattern
+    async ({}, use) => {
+      const root = path.join(project, 'dist');
+      if (!existsSync(path.join(root, 'index.html')))
+        throw new Error('dist/ is empty: npm run build comes first');
+      const mounts = { '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model') };
+      const server = createSite({ root, mounts });
+      await use(await listen(server, { port: 0 }));
+      server.close();
+      server.closeAllConnections();
+    },
+    { scope: 'worker' },
+  ],
+
+  baseURL: ({ site }, use) => use(site),
+
+  requests: [
+    async ({ context, site }, use) => {
+      const requests: string[] = [];
+      context.on('request', (request) => requests.push(request.url()));
+      context.on('page', (page) => page.on('websocket', (socket) => requests.push(socket.url())));
+      await use(requests);
+      expect(foreign(requests, site), 'nothing leaves the page').toEqual([]);
+    },
+    { auto: true },
+  ],
+});
+
+/**
+ * The addresses that lead away from the page. What lies in the page's own memory (blob:, data:) doesn't.
+ *
+ * @param site address of the app
+ */
+export function foreign(addresses: readonly string[], site: string): string[] {
+  const own = new URL(site).origin;
+  return addresses.filter((address) => {
+    const { protocol, origin } = new URL(address);
+    return protocol !== 'blob:' && protocol !== 'data:' && origin !== own;
+  });
+}

@@ -1,0 +1,153 @@
+/** The model client without the app around it, for browser tests to call. */
+import { goldenError, readGolden } from '../../../../web/model/load/golden';
+import { GRAPHS, type GraphName, parseManifest } from '../../../../web/model/manifest';
+import { openSession, type Provider } from '../../../../web/model/load/session';
+import { readNpz } from '../../../../web/model/load/npz';
+import {
+  createGenerator,
+  type Generator,
+  type GenerateRequest,
+  type GeneratorOptions,
+  type Status,
+} from '../../../../web/model/client';
+
+/** A failure or cancellation as data, for the test's process. */
+export interface Told {
+  readonly name: string;
+  readonly code: string | undefined;
+  readonly message: string;
+  readonly hint: string | undefined;
+}
+
+export interface Asked {
+  readonly frames: number;
+  readonly steps: number;
+}
+
+export interface Answer {
+  readonly stages: readonly string[];
+  readonly positions?: readonly number[];
+  readonly error?: Told;
+}
+
+function tell(error: unknown): Told {
+  const { name, code, message, hint } = error as Partial<Told>;
+  return {
+    name: name ?? 'none',
+    code: typeof code === 'string' ? code : undefined,
+    message: message ?? '',
+    hint,
+  };
+}
+
+async function bytes(url: string): Promise<Uint8Array> {
+  return new Uint8Array(await (await fetch(url)).arrayBuffer());
+}
+
+/** Progress that the worker has sent: the page answers each such call through a port, whoever listens. */
+let answered = 0;
+// eslint-disable-next-line @typescript-eslint/unbound-method -- called with the port it was called on
+const { postMessage } = MessagePort.prototype;
+MessagePort.prototype.postMessage = function (this: MessagePort, ...values: [unknown]) {
+  answered += 1;
+  postMessage.apply(this, values);
+};
+
+let generator: Generator | undefined;
+let golden: ReturnType<typeof readNpz> | undefined;
+
+export const page = {
+  statuses: [] as Status[],
+  /** Block computations of the generation under way. */
+  done: 0,
+
+  /** Whether the worker sends any progress within a second. */
+  async busy(): Promise<boolean> {
+    const before = answered;
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+    return answered > before;
+  },
+
+  /** Load a model; returns where it computes, or how it failed. */
+  async open(options: GeneratorOptions): Promise<{ backend: Generator['backend'] } | { error: Told }> {
+    page.statuses = [];
+    try {
+      generator = await createGenerator({ ...options, onStatus: (status) => page.statuses.push(status) });
+      return { backend: generator.backend };
+    } catch (error) {
+      return { error: tell(error) };
+    }
+  },
+
+  async readGolden(url: string): Promise<void> {
+    golden = readNpz(await bytes(url));
+  },
+
+  /**
+   * The golden sampling of a model folder on one execution provider, in the page itself: metres from Python's joints
+   * where they differ most, and how much work the page gave to the GPU.
+   */
+  async golden(folder: string, provider: Provider): Promise<{ error: number; submissions: number }> {
+    let submissions = 0;
+    const gpu = globalThis.GPUQueue?.prototype as GPUQueue | undefined;
+    if (gpu !== undefined) {
+      // eslint-disable-next-line @typescript-eslint/unbound-method -- called with the queue it was called on
+      const { submit } = gpu;
+      gpu.submit = function (this: GPUQueue, buffers) {
+        submissions += 1;
+        submit.call(this, buffers);
+      };
+    }
+    const manifest = parseManifest(await (await fetch(`${folder}manifest.json`)).json());
+    const files = await Promise.all(
+      GRAPHS.map(
+        async (name) => [name, await bytes(folder + manifest.graphs[name].files[provider].path)] as const,
+      ),
+    );
+    const graphs = Object.fromEntries(files) as Record<GraphName, Uint8Array>;
+    const session = await openSession(manifest, graphs, provider, 1);
+    const error = await goldenError(manifest, session, readGolden(await bytes(`${folder}golden.npz`)));
+    await session.release();
+    return { error, submissions };
+  },
+
+  /** A request made of the first frames of the golden leader and its song. */
+  request({ frames, steps }: Asked): GenerateRequest {
+    const array = (name: string): Float32Array => Float32Array.from(golden?.get(name)?.data ?? []);
+    const columns = (golden?.get('music')?.shape[1] ?? 0) * frames;
+    return {
+      leader: { fps: 30, frames, positions: array('leader').slice(0, frames * 66) },
+      music: { features: array('music').slice(0, columns), frames },
+      guidance: array('guidance'),
+      musicGuidance: array('music_guidance')[0] ?? NaN,
+      steps,
+      seed: 1,
+    };
+  },
+
+  /** Generate; `abortAt` cancels after that many block computations. */
+  async generate(asked: Asked, abortAt = Infinity): Promise<Answer> {
+    if (generator === undefined) throw new Error('open comes first');
+    const controller = new AbortController();
+    const stages: string[] = [];
+    try {
+      const { motion } = await generator.generate(page.request(asked), {
+        signal: controller.signal,
+        onProgress: ({ stage, done }) => {
+          stages.push(stage);
+          page.done = stage === 'step' ? done : 0;
+          if (stage === 'step' && done >= abortAt) controller.abort();
+        },
+      });
+      return { stages, positions: Array.from(motion.positions) };
+    } catch (error) {
+      return { stages, error: tell(error) };
+    }
+  },
+};
+
+Object.assign(globalThis, { model: page });
+
+declare global {
+  var model: typeof page;
+}

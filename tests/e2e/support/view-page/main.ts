@@ -1,0 +1,144 @@
+/** Single pictures of what the stage draws with, for browser tests to compare. */
+import {
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  PlaneGeometry,
+  Scene,
+  SkinnedMesh,
+  VSMShadowMap,
+  WebGLRenderer,
+} from 'three';
+import { toGeometry } from '../../../../web/view/body/geometry';
+import { makeBody } from '../../../../web/view/body/simplify';
+import { BUILDS } from '../../../../web/view/body/part';
+import { createEdges } from '../../../../web/view/edge-smoothing';
+import { createLights } from '../../../../web/view/lights';
+import { cornerPaint, pixelPaint, type Paint } from '../../../../web/view/dancer/body-material';
+import { createRig } from '../../../../web/view/dancer/rig';
+import { LOOKS, type Theme } from '../../../../web/view/theme';
+import { person } from '../../../web/support/skeletons';
+
+const SIDE = 360;
+
+/** RGB of a picture, from its lower left corner. */
+type Picture = readonly (readonly [red: number, green: number, blue: number])[];
+
+function read(renderer: WebGLRenderer): Picture {
+  const gl = renderer.getContext();
+  const data = new Uint8Array(SIDE * SIDE * 4);
+  gl.readPixels(0, 0, SIDE, SIDE, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  return Array.from({ length: SIDE * SIDE }, (_, i) => [data[i * 4]!, data[i * 4 + 1]!, data[i * 4 + 2]!]);
+}
+
+function rendererOf(antialias: boolean): WebGLRenderer {
+  const renderer = new WebGLRenderer({ antialias, preserveDrawingBuffer: true });
+  renderer.setPixelRatio(1);
+  renderer.setSize(SIDE, SIDE);
+  return renderer;
+}
+
+/** One body in the stage's light, an arm raised so that it throws a shadow on the trunk. */
+async function bodyPainted(paint: Paint, theme: Theme): Promise<Picture> {
+  const renderer = rendererOf(true);
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = VSMShadowMap;
+  const offsets = person();
+  const geometry = toGeometry(await makeBody(offsets, BUILDS.leader));
+  const rig = createRig();
+  rig.fit(offsets);
+  rig.bind(offsets);
+  const mesh = new SkinnedMesh(geometry.near, paint.material);
+  mesh.castShadow = mesh.receiveShadow = true;
+  mesh.frustumCulled = false;
+  mesh.bind(rig.skeleton);
+  rig.skeleton.bones[16]!.rotateY(-1);
+  rig.root.position.y = 0.95;
+  const lights = createLights();
+  lights.setLook(LOOKS[theme]);
+  lights.aim(0, 0, 0);
+  paint.setTint(LOOKS[theme].leader);
+  const scene = new Scene().add(mesh, rig.root, lights.object);
+  const camera = new PerspectiveCamera(30, 1, 0.1, 20);
+  camera.position.set(0, 1, 3.6);
+  camera.lookAt(0, 0.95, 0);
+  renderer.render(scene, camera);
+  const picture = read(renderer);
+  renderer.dispose();
+  renderer.forceContextLoss();
+  return picture;
+}
+
+/** How far two colours are apart in the channel in which they differ most. */
+const apart = (a: readonly number[], b: readonly number[]): number =>
+  Math.max(...a.map((value, i) => Math.abs(value - b[i]!)));
+const ascending = (values: number[]): number[] => values.sort((a, b) => a - b);
+const share = (sorted: readonly number[], part: number): number => sorted[Math.floor(part * sorted.length)]!;
+
+// What is compared stays here: a picture is long on its way to a test.
+const page = {
+  /** How far the same body lit at the corners of its triangles is from one lit at every pixel, of 255. */
+  async paints(theme: Theme): Promise<{ pixels: number; mean: number; most: number; contrast: number }> {
+    const [pixel, corner] = [await bodyPainted(pixelPaint(), theme), await bodyPainted(cornerPaint(), theme)];
+    const body = pixel.flatMap((value, i) => (apart(value, [0, 0, 0]) > 8 ? [i] : []));
+    const differences = ascending(body.map((i) => apart(pixel[i]!, corner[i]!)));
+    const blues = ascending(body.map((i) => pixel[i]![2]));
+    return {
+      pixels: body.length,
+      mean: differences.reduce((sum, value) => sum + value, 0) / differences.length,
+      most: share(differences, 0.95),
+      contrast: share(blues, 0.95) - share(blues, 0.05),
+    };
+  },
+
+  /**
+   * A white square on black, turned by `angle` radians, with its edges smoothed in the left half of the picture: what
+   * became of pixels, and how far the left half is from four samples a pixel, before and after.
+   */
+  edges(angle: number): {
+    drawnGrey: number;
+    leftGrey: number;
+    rightGrey: number;
+    inside: number;
+    insideChanged: number;
+    stepped: number;
+    smooth: number;
+  } {
+    const square = new Mesh(new PlaneGeometry(1.2, 1.2), new MeshBasicMaterial({ color: 0xffffff }));
+    square.rotation.z = angle;
+    const scene = new Scene().add(square);
+    const camera = new PerspectiveCamera(30, 1, 0.1, 20);
+    camera.position.z = 4;
+    const sampled = rendererOf(true);
+    sampled.render(scene, camera);
+    const wanted = read(sampled);
+    sampled.forceContextLoss();
+    const renderer = rendererOf(false);
+    renderer.render(scene, camera);
+    const drawn = read(renderer);
+    createEdges(renderer).smooth({ left: 0, bottom: 0, width: SIDE / 2, height: SIDE });
+    const smoothed = read(renderer);
+    renderer.forceContextLoss();
+    const grey = (picture: Picture): number[] =>
+      picture.flatMap(([red], i) => (red > 16 && red < 239 ? [i] : []));
+    const left = (i: number): boolean => i % SIDE < SIDE / 2;
+    const around = [-1, 0, 1].flatMap((across) => [-SIDE, 0, SIDE].map((up) => across + up));
+    const inside = drawn.flatMap((value, i) =>
+      around.every((step) => apart(drawn[i + step] ?? value, value) === 0) ? [i] : [],
+    );
+    const off = (picture: Picture): number =>
+      picture.reduce((sum, value, i) => sum + (left(i) ? apart(value, wanted[i]!) : 0), 0);
+    return {
+      drawnGrey: grey(drawn).length,
+      leftGrey: grey(smoothed).filter(left).length,
+      rightGrey: grey(smoothed).filter((i) => !left(i)).length,
+      inside: inside.length / drawn.length,
+      insideChanged: inside.filter((i) => apart(smoothed[i]!, drawn[i]!) > 0).length,
+      stepped: off(drawn),
+      smooth: off(smoothed),
+    };
+  },
+};
+
+export type Page = typeof page;
+Object.assign(globalThis, { view: page });

@@ -1,0 +1,154 @@
+import { createHash } from 'node:crypto';
+import { describe, expect, it } from 'vitest';
+import { download, type FileStore } from '../../../../web/model/load/download';
+import { ModelError } from '../../../../web/model/error';
+
+const BASE = 'https://dance.example/models/salsa/manifest.json';
+const bytesOf = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode(text);
+const listed = (path: string, text: string) => ({
+  path,
+  bytes: bytesOf(text).length,
+  sha256: createHash('sha256').update(text).digest('hex'),
+});
+
+/** A server with these files, and a record of what was asked of it. */
+function server(files: Record<string, () => Response>) {
+  const asked: string[] = [];
+  const get: typeof fetch = (input) => {
+    const url = input as string;
+    asked.push(url);
+    return Promise.resolve(files[url]?.() ?? new Response('not here', { status: 404 }));
+  };
+  return { get, asked };
+}
+
+/** A store in memory; `full` makes it refuse new files as a browser out of space does. */
+function memoryStore(full = false) {
+  const files = new Map<string, Uint8Array<ArrayBuffer>>();
+  const store: FileStore = {
+    get: (key) => Promise.resolve(files.get(key)),
+    put(key, bytes) {
+      if (full) return Promise.reject(new DOMException('no space', 'QuotaExceededError'));
+      files.set(key, bytes);
+      return Promise.resolve();
+    },
+    keepOnly(keys) {
+      for (const key of files.keys()) if (!keys.includes(key)) files.delete(key);
+      return Promise.resolve();
+    },
+  };
+  return { store, files };
+}
+
+const a = listed('a.onnx', 'graph a');
+const b = listed('b.onnx', 'graph bb');
+const both = () =>
+  server({
+    'https://dance.example/models/salsa/a.onnx': () => new Response('graph a'),
+    'https://dance.example/models/salsa/b.onnx': () => new Response('graph bb'),
+  });
+
+async function failure(response: () => Response): Promise<ModelError> {
+  const { get } = server({ 'https://dance.example/models/salsa/a.onnx': response });
+  const error: unknown = await download(BASE, [a], { fetch: get }).catch((reason: unknown) => reason);
+  if (error instanceof ModelError) return error;
+  throw new Error('the download was accepted');
+}
+
+describe('download', () => {
+  it('fetches beside the manifest, tells the bytes, and gives the files in order', async () => {
+    const progress: [number, number][] = [];
+    const files = await download(BASE, [a, b], {
+      fetch: both().get,
+      onProgress: (loaded, total) => progress.push([loaded, total]),
+    });
+    expect(files.map((bytes) => new TextDecoder().decode(bytes))).toEqual(['graph a', 'graph bb']);
+    expect(progress.at(-1)).toEqual([15, 15]);
+    expect(progress.map(([loaded]) => loaded)).toEqual(
+      [...progress.map(([loaded]) => loaded)].sort((x, y) => x - y),
+    );
+  });
+
+  it('fetches nothing that the store has, and forgets what the model no longer uses', async () => {
+    const { store, files } = memoryStore();
+    files.set('old', bytesOf('old'));
+    await download(BASE, [a, b], { fetch: both().get, store });
+    expect([...files.keys()]).toEqual([a.sha256, b.sha256]);
+    const again = both();
+    const results = await download(BASE, [a, b], { fetch: again.get, store });
+    expect(again.asked).toEqual([]);
+    expect(results[1]).toEqual(bytesOf('graph bb'));
+  });
+
+  it('tells from the start what is here already', async () => {
+    const { store, files } = memoryStore();
+    files.set(b.sha256, bytesOf('graph bb'));
+    const progress: [number, number, number][] = [];
+    const { get, asked } = both();
+    const results = await download(BASE, [a, b], {
+      fetch: get,
+      store,
+      onProgress: (loaded, total, kept) => progress.push([loaded, total, kept]),
+    });
+    expect(progress[0]).toEqual([8, 15, 8]);
+    expect(progress.at(-1)).toEqual([15, 15, 8]);
+    expect(asked).toEqual(['https://dance.example/models/salsa/a.onnx']);
+    expect(results.map((bytes) => new TextDecoder().decode(bytes))).toEqual(['graph a', 'graph bb']);
+  });
+
+  it('does not forget files that may be wanted again', async () => {
+    const { store, files } = memoryStore();
+    files.set(b.sha256, bytesOf('graph bb'));
+    await download(BASE, [a], { fetch: both().get, store, spare: [b.sha256] });
+    expect([...files.keys()].sort()).toEqual([a.sha256, b.sha256].sort());
+  });
+
+  it('fetches again what was spoiled in the store', async () => {
+    const { store, files } = memoryStore();
+    files.set(a.sha256, bytesOf('graph A'));
+    const { get, asked } = both();
+    expect(await download(BASE, [a], { fetch: get, store })).toEqual([bytesOf('graph a')]);
+    expect(asked).toHaveLength(1);
+    expect(files.get(a.sha256)).toEqual(bytesOf('graph a'));
+  });
+
+  it('goes on without a store that is full, and says so', async () => {
+    const reasons: unknown[] = [];
+    const files = await download(BASE, [a, b], {
+      fetch: both().get,
+      store: memoryStore(true).store,
+      onUnkept: (reason) => reasons.push(reason),
+    });
+    expect(files).toEqual([bytesOf('graph a'), bytesOf('graph bb')]);
+    expect(reasons).toHaveLength(1);
+    expect((reasons[0] as DOMException).name).toBe('QuotaExceededError');
+  });
+
+  it('says that a page came instead of the model', async () => {
+    const error = await failure(
+      () => new Response('<html>', { headers: { 'content-type': 'text/html; charset=utf-8' } }),
+    );
+    expect(error.code).toBe('model-missing');
+    expect(error.message).toContain('a.onnx');
+  });
+
+  it.each<[string, () => Response, string]>([
+    ['a missing file', () => new Response('', { status: 404 }), 'model-missing'],
+    ['a broken server', () => new Response('', { status: 503 }), 'download-failed'],
+    ['other bytes of the same length', () => new Response('graph z'), 'model-corrupt'],
+    ['a cut file', () => new Response('graph'), 'model-corrupt'],
+    [
+      'a connection that breaks',
+      () =>
+        new Response(new ReadableStream({ pull: (controller) => void controller.error(new Error('reset')) })),
+      'download-failed',
+    ],
+  ])('refuses %s', async (_, response, code) => {
+    expect((await failure(response)).code).toBe(code);
+  });
+
+  it('says that there is no connection', async () => {
+    const get: typeof fetch = () => Promise.reject(new TypeError('Failed to fetch'));
+    await expect(download(BASE, [a], { fetch: get })).rejects.toMatchObject({ code: 'download-failed' });
+  });
+});

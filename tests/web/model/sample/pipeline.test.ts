@@ -1,0 +1,242 @@
+/** From a leader clip and a song to the partner's solved motion, on the tiny model in onnxruntime's wasm build. */
+import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { ConditionInput } from '../../../../web/model/sample/chunks';
+import type { GenerateRequest } from '../../../../web/model/sample/inputs';
+import { Pipeline } from '../../../../web/model/sample/pipeline';
+import type { Progress } from '../../../../web/model/progress';
+import type { ModelSession } from '../../../../web/model/load/session';
+import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { bodyHeight, scaleClip } from '../../../../web/motion/skeleton/scale';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
+
+let model: OpenedModel;
+let conditions: ConditionInput[];
+let stepRuns: number;
+let pipeline: Pipeline;
+
+beforeAll(async () => {
+  model = await openModel(TINY);
+}, 60_000);
+afterAll(() => model.session.release());
+beforeEach(() => {
+  conditions = [];
+  stepRuns = 0;
+  const { session } = model;
+  const watched: ModelSession = {
+    ...session,
+    condition(input) {
+      conditions.push(input);
+      return session.condition(input);
+    },
+    step(input) {
+      stepRuns += 1;
+      return session.step(input);
+    },
+  };
+  pipeline = new Pipeline(model.manifest, watched, () => performance.now() / 1000);
+});
+
+/** The first frames of the golden leader, and features as long. */
+function request(frames: number, changes: Partial<GenerateRequest> = {}): GenerateRequest {
+  const { golden, manifest } = model;
+  return {
+    leader: { fps: 30, frames, positions: golden.leader.slice(0, frames * 66) },
+    music: { features: golden.music.slice(0, frames * manifest.audio.features), frames },
+    guidance: new Float32Array(6),
+    musicGuidance: 0,
+    steps: 2,
+    seed: 1,
+    ...changes,
+  };
+}
+
+describe('Pipeline', () => {
+  it.each([1, 2, 3, 4, 5, 119, 241, 483])('answers %i frames with as many', async (frames) => {
+    const { motion, seconds } = await pipeline.generate(request(frames));
+    expect(motion.frames).toBe(frames);
+    expect(motion.positions).toHaveLength(frames * 66);
+    expect(motion.positions.every(Number.isFinite)).toBe(true);
+    expect(Object.values(seconds).every((time) => time >= 0)).toBe(true);
+  });
+
+  it('gives the same partner for the same seed and another for another', async () => {
+    const [a, b, c] = [
+      await pipeline.generate(request(121)),
+      await pipeline.generate(request(121)),
+      await pipeline.generate(request(121, { seed: 2 })),
+    ];
+    expect(b.motion.positions).toEqual(a.motion.positions);
+    expect(maxDifference(c.motion.positions, a.motion.positions)).toBeGreaterThan(1e-3);
+  });
+
+  it('brings the leader to the reference height and the partner back to the size of the leader', async () => {
+    const { leader } = request(120);
+    const large = scaleClip(leader, 1.3);
+    const [plain, scaled] = [
+      await pipeline.generate(request(120, { leader })),
+      await pipeline.generate(request(120, { leader: large })),
+    ];
+    const seen: MotionClip = { fps: 30, frames: 120, positions: conditions[0]?.leader ?? new Float32Array() };
+    expect(bodyHeight(seen)).toBeCloseTo(model.manifest.skeleton.reference_height, 4);
+    const expected = plain.motion.positions.map((value) => value * 1.3);
+    // The solver's own bone lengths scale with the body, up to its convergence.
+    expect(maxDifference(scaled.motion.positions, expected)).toBeLessThan(1e-2);
+  });
+
+  it('computes the memory once per leader, song and role', async () => {
+    const first = request(120);
+    await pipeline.generate(first);
+    await pipeline.generate({
+      ...first,
+      guidance: new Float32Array(6).fill(1),
+      steps: 1,
+      seed: 3,
+    });
+    expect(conditions).toHaveLength(1);
+    // The same numbers in other arrays, as after crossing to a worker, are the same input.
+    await pipeline.generate(request(120));
+    expect(conditions).toHaveLength(1);
+    await pipeline.generate({ ...first, role: 'leader' });
+    const other = first.music?.features.map((value) => value + 1) ?? new Float32Array();
+    await pipeline.generate({ ...first, music: { features: other, frames: 120 }, role: 'leader' });
+    await pipeline.generate({ ...first, music: null, role: 'leader' });
+    await pipeline.generate({ ...first, leader: scaleClip(request(119).leader, 1) });
+    expect(conditions.map(({ role }) => role)).toEqual([0, 1, 1, 1, 0]);
+  });
+
+  it('marks silence before the model: no song, and a song shorter than the dance', async () => {
+    await pipeline.generate(request(120, { music: null }));
+    const { music } = request(50);
+    await pipeline.generate(request(120, { music }));
+    const heard = conditions.map(({ musicValid }) => musicValid.reduce((sum, v) => sum + v, 0));
+    expect(heard).toEqual([0, 50]);
+    expect(conditions[1]?.musicValid[49]).toBe(1);
+  });
+
+  it('takes as much of a longer song as there is dance', async () => {
+    await pipeline.generate(request(50, { music: request(120).music }));
+    expect(conditions[0]?.music).toHaveLength(52 * model.manifest.audio.features);
+    expect(conditions[0]?.musicValid.reduce((sum, v) => sum + v, 0)).toBe(52);
+  });
+
+  it('decodes the coarse layer alone from the latents of a reaction, as long and as large as the whole', async () => {
+    const large = request(121, { leader: scaleClip(request(121).leader, 1.3) });
+    const { motion, latents } = await pipeline.generate(large);
+    expect(latents).toHaveLength(31 * model.manifest.latent.layers.length * model.manifest.latent.channels);
+    const asked: number[][] = [];
+    const { session, manifest } = model;
+    const watched: ModelSession = {
+      ...session,
+      decode(input) {
+        asked.push([...input.layers]);
+        return session.decode(input);
+      },
+    };
+    const runs = stepRuns;
+    const coarse = await new Pipeline(manifest, watched, () => 0).coarse({ leader: large.leader, latents });
+    expect(asked).toEqual([[1, 0]]);
+    expect(stepRuns).toBe(runs);
+    expect(coarse.frames).toBe(motion.frames);
+    expect(maxDifference(coarse.positions, motion.positions)).toBeGreaterThan(1e-4);
+    // Without its fine layer a reaction is its own coarse reaction.
+    const width = manifest.latent.channels;
+    const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));
+    const again = await pipeline.coarse({ leader: large.leader, latents: plain });
+    expect(again.positions).toEqual(coarse.positions);
+  });
+
+  it('keeps the partner, whole or coarse, out of the body of the leader', async () => {
+    // What is decoded is the leader, a hand's breadth beside itself.
+    const session: ModelSession = {
+      ...model.session,
+      decode: ({ leader }) => Promise.resolve(leader.map((value, i) => (i % 3 === 0 ? value + 0.1 : value))),
+    };
+    const inside = new Pipeline(model.manifest, session, () => 0);
+    const { leader, ...rest } = request(120);
+    const { motion, locked, latents } = await inside.generate({ leader, ...rest });
+    const coarse = await inside.coarse({ leader, latents });
+    const apart = [motion, locked, coarse].map(({ positions }) => {
+      let [least, most] = [Infinity, 0];
+      for (let frame = 0; frame < leader.frames; frame++) {
+        const at = 3 * (frame * JOINT_COUNT + J.spine3);
+        const gap = [0, 1, 2].map((axis) => positions[at + axis]! - leader.positions[at + axis]!);
+        [least, most] = [Math.min(least, Math.hypot(...gap)), Math.max(most, Math.hypot(...gap))];
+      }
+      return { least, most };
+    });
+    for (const { least, most } of apart) {
+      expect(least).toBeGreaterThan(0.18);
+      expect(most).toBeLessThan(0.8);
+    }
+  });
+
+  it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
+    const { latents } = await pipeline.generate(request(120));
+    const { leader } = request(200);
+    await expect(pipeline.coarse({ leader, latents })).rejects.toMatchObject({
+      code: 'bad-request',
+      message: expect.stringMatching(/not made for this leader/) as string,
+    });
+    const coarse = pipeline.coarse({ leader: request(120).leader, latents }, { signal: AbortSignal.abort() });
+    await expect(coarse).rejects.toThrow(/abort/i);
+  });
+
+  it('tells its progress, never backwards, up to the end', async () => {
+    const seen: Progress[] = [];
+    await pipeline.generate(request(483), { onProgress: (progress) => seen.push(progress) });
+    expect([...new Set(seen.map(({ stage }) => stage))]).toEqual(['condition', 'step', 'decode', 'solve']);
+    const fractions = seen.map(({ fraction }) => fraction);
+    expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
+    expect(fractions.at(-1)).toBe(1);
+  });
+
+  it('stops between two steps when it is cancelled, and works on afterwards', async () => {
+    const controller = new AbortController();
+    const result = pipeline.generate(request(120, { steps: 10 }), {
+      signal: controller.signal,
+      onProgress: ({ stage, done }) => {
+        if (stage === 'step' && done === 3) setTimeout(() => controller.abort());
+      },
+    });
+    await expect(result).rejects.toThrow(/abort/i);
+    expect(stepRuns).toBe(3);
+    expect((await pipeline.generate(request(120))).motion.frames).toBe(120);
+  });
+
+  it.each<[string, () => Partial<GenerateRequest>, RegExp]>([
+    ['too many steps', () => ({ steps: 51 }), /51 is not a number of steps between 1 and 50/],
+    ['half a step', () => ({ steps: 1.5 }), /1.5 is not/],
+    ['a short guidance', () => ({ guidance: new Float32Array(5) }), /not 3 x 2 numbers/],
+    ['music guidance that is no number', () => ({ musicGuidance: NaN }), /music is not a number/],
+    ['a seed with a fraction', () => ({ seed: 0.5 }), /seed 0.5/],
+    ['no frames', () => ({ leader: { fps: 30, frames: 0, positions: new Float32Array() } }), /empty/],
+    ['another frame rate', () => ({ leader: { ...request(4).leader, fps: 60 } }), /60 frames per second/],
+    [
+      'a position that is not a number',
+      () => ({ leader: { fps: 30, frames: 4, positions: new Float32Array(264).fill(NaN) } }),
+      /not a number/,
+    ],
+    [
+      'a body without size',
+      () => ({ leader: { fps: 30, frames: 4, positions: new Float32Array(264) } }),
+      /no body height/,
+    ],
+    ['other features', () => ({ music: { features: new Float32Array(7), frames: 1 } }), /54 features/],
+  ])('refuses %s in a sentence', async (_, changes, message) => {
+    const result = pipeline.generate(request(120, changes()));
+    await expect(result).rejects.toMatchObject({
+      name: 'ModelError',
+      code: 'bad-request',
+      message: expect.stringMatching(message) as string,
+    });
+    expect(conditions).toHaveLength(0);
+  });
+
+  it('says when the numbers of the model are not finite', async () => {
+    const { session, manifest } = model;
+    const broken = { ...session, decode: () => Promise.resolve(new Float32Array(120 * 66).fill(NaN)) };
+    const result = new Pipeline(manifest, broken, () => 0).generate(request(120));
+    await expect(result).rejects.toMatchObject({ code: 'not-finite' });
+  });
+});

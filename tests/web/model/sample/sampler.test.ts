@@ -1,0 +1,145 @@
+import { describe, expect, it } from 'vitest';
+import type { Block } from '../../../../web/model/sample/blocks';
+import { noise } from '../../../../web/model/sample/noise';
+import { partitions, sample, type Sampling, type StepRunner } from '../../../../web/model/sample/sampler';
+import { ddim } from '../../../../web/model/sample/schedule';
+import { reachesAround } from '../../../../web/model/sample/block-order';
+import { small } from '../../support/small-manifest';
+
+const { latent } = small;
+const width = latent.layers.length * latent.channels;
+
+/** Stands in for the graph: mixes each valid token with its left neighbour inside the block, the memory and the time. */
+const mixing: StepRunner = (input) => {
+  const { coefficients, time } = input;
+  const x0 = input.x.map((value, i) => {
+    const token = Math.floor(i / width);
+    if (input.valid[token] !== 1) return NaN;
+    const left = token % latent.block === 0 ? 0 : (input.x[i - width] ?? 0);
+    return 0.5 * value + 0.3 * left + (input.memory[token * latent.memory_width] ?? 0) + time;
+  });
+  const [a, b] = coefficients;
+  const x = input.x.map((value, i) => a * value + b * (x0[i] ?? 0));
+  return Promise.resolve({ x, x0 });
+};
+
+function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
+  return {
+    latent,
+    alternatingPhase: false,
+    schedule: ddim(small.diffusion, 4),
+    latents,
+    memory: Float32Array.from({ length: latents * latent.memory_width }, (_, i) => Math.sin(i)),
+    guidance: new Float32Array(6),
+    musicGuidance: 0,
+    noise: noise(9, latents, width),
+    runStep: mixing,
+    blocksPerRun: 100,
+    ...changes,
+  };
+}
+
+/** The same arithmetic frame by frame, without blocks being packed. */
+function reference(latents: number, alternating: boolean): Float32Array {
+  let x = noise(9, latents, width);
+  const { memory, schedule } = sampling(latents);
+  schedule.forEach(({ time, coefficients: [a, b] }, k) => {
+    const shift = alternating && k % 2 === 1 ? latent.block / 2 : 0;
+    x = x.map((value, i) => {
+      const frame = Math.floor(i / width);
+      const first = frame === 0 || (frame - shift) % latent.block === 0;
+      const left = first ? 0 : (x[i - width] ?? 0);
+      const x0 = Math.fround(0.5 * value + 0.3 * left + (memory[frame * latent.memory_width] ?? 0) + time);
+      return a * value + b * x0;
+    });
+  });
+  return x;
+}
+
+describe('sample', () => {
+  it.each([false, true])(
+    'equals the arithmetic without blocks for every length (alternating: %s)',
+    async (alternating) => {
+      for (const latents of [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 15, 21, 30, 45, 58, 60]) {
+        const result = await sample(sampling(latents, { alternatingPhase: alternating }));
+        const expected = reference(latents, alternating);
+        expect(result.every((value, i) => Math.abs(value - (expected[i] ?? NaN)) < 1e-6)).toBe(true);
+      }
+    },
+  );
+
+  it('does not depend on how many blocks go through the graph at once', async () => {
+    const whole = await sample(sampling(50, { alternatingPhase: true }));
+    for (const blocksPerRun of [1, 2, 3]) {
+      expect(await sample(sampling(50, { alternatingPhase: true, blocksPerRun }))).toEqual(whole);
+    }
+  });
+
+  it.each([
+    [4, false],
+    [4, true],
+    [5, true],
+  ])(
+    'gives the same from any place outwards, each block computed once (%s steps, alternating: %s)',
+    async (steps, alternatingPhase) => {
+      const schedule = ddim(small.diffusion, steps);
+      const plain = sampling(58, { schedule, alternatingPhase, blocksPerRun: 2 });
+      const whole = await sample(plain);
+      for (const place of [0, 7, 30, 57, 1000]) {
+        const seen: Block[] = [];
+        let computed = 0;
+        const result = await sample({
+          ...plain,
+          reaches: reachesAround(partitions(plain), place, () => true),
+          runStep: (input) => {
+            computed += input.blocks;
+            return mixing(input);
+          },
+          onReach: (reach, x) => {
+            seen.push(reach);
+            expect(x).toEqual(whole.slice(reach.start * width, (reach.start + reach.length) * width));
+            return Promise.resolve();
+          },
+        });
+        expect(result).toEqual(whole);
+        expect(computed).toBe(partitions(plain).flat().length);
+        expect(seen.length).toBeGreaterThan(1);
+        for (const { start, length } of seen) {
+          expect(start).toBeLessThanOrEqual(Math.min(place, 57));
+          expect(start + length).toBeGreaterThan(Math.min(place, 57));
+        }
+      }
+    },
+  );
+
+  it('leaves the noise that it starts from as it is', async () => {
+    const start = noise(9, 20, width);
+    await sample(sampling(20, { noise: start }));
+    expect(start).toEqual(noise(9, 20, width));
+  });
+
+  it('counts the blocks of all steps', async () => {
+    const calls: [number, number][] = [];
+    await sample(
+      sampling(13, {
+        alternatingPhase: true,
+        blocksPerRun: 2,
+        onProgress: (done, total) => calls.push([done, total]),
+      }),
+    );
+    expect(calls).toEqual([2, 3, 5, 6, 8, 9, 11, 12].map((done) => [done, 12]));
+  });
+
+  it('stops before the next step when a message cancels it while a step runs', async () => {
+    const controller = new AbortController();
+    let steps = 0;
+    const runStep: StepRunner = (input) => {
+      steps += 1;
+      // As a message from the page would: in a task of its own, after this run.
+      if (steps === 2) setTimeout(() => controller.abort(new Error('enough')));
+      return mixing(input);
+    };
+    await expect(sample(sampling(10, { runStep, signal: controller.signal }))).rejects.toThrow('enough');
+    expect(steps).toBe(2);
+  });
+});

@@ -1,0 +1,35 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { beatScores } from '../../../../web/motion/beats/beat-match';
+import { motionBeats } from '../../../../web/motion/beats/motion-beats';
+import { small } from '../../support/small-manifest';
+
+const { smoothing, tolerance } = small.quality.beats;
+const golden = JSON.parse(
+  readFileSync(new URL('../../../fixtures/motion-beats.json', import.meta.url), 'utf8'),
+) as { frames: number; positions: number[]; beats: number[]; music: number[]; scores: number[] }[];
+
+describe('motion beats', () => {
+  for (const { frames, positions, beats, music, scores } of golden) {
+    it(`are those of Python in ${frames} frames`, () => {
+      const metres = Float32Array.from(positions, (value) => value / 4096);
+      expect(motionBeats({ positions: metres, frames }, smoothing)).toEqual(beats);
+    });
+
+    it(`fall on the music as in Python in ${frames} frames`, () => {
+      const ours = beatScores(beats, music, tolerance);
+      expect(ours).toHaveLength(scores.length);
+      ours.forEach((score, index) => expect(score).toBeCloseTo(scores[index] ?? NaN, 9));
+    });
+  }
+
+  it('are none where nobody moves and in a clip of one frame or none', () => {
+    expect(motionBeats({ positions: new Float32Array(90 * 66), frames: 90 }, smoothing)).toEqual([]);
+    expect(motionBeats({ positions: new Float32Array(66), frames: 1 }, smoothing)).toEqual([]);
+    expect(motionBeats({ positions: new Float32Array(0), frames: 0 }, smoothing)).toEqual([]);
+  });
+
+  it('score nothing without music', () => {
+    expect(beatScores([3, 7], [], tolerance)).toEqual([0, 0]);
+  });
+});

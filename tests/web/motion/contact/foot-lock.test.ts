@@ -1,0 +1,288 @@
+import { describe, expect, test } from 'vitest';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { lockFeet } from '../../../../web/motion/contact/foot-lock';
+import { restingShift } from '../../../../web/motion/contact/least-squares-shift';
+import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
+import { type Leg, reachFor } from '../../../../web/motion/contact/two-bone-ik';
+import { plantedStretches } from '../../../../web/motion/contact/foot-contacts';
+import { quatDot, readQuat, rotate } from '../../../../web/motion/math/quat';
+import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { solve } from '../../../../web/motion/fit/ik';
+import { add, cross, distance, dot, length, readVec, sub, type Vec3 } from '../../../../web/motion/math/vec3';
+import { madeDancer } from '../../support/made-dancer';
+import { eased, madeStander } from '../../support/made-stander';
+
+const at = (motion: SolvedMotion, frame: number, joint: number): Vec3 =>
+  readVec(motion.positions, frame * JOINT_COUNT + joint);
+
+/** Speeds over the floor in m/s, from each frame to the next. */
+function slides(motion: SolvedMotion, joint: number): number[] {
+  return Array.from({ length: motion.frames - 1 }, (_, frame) => {
+    const [x, , z] = sub(at(motion, frame + 1, joint), at(motion, frame, joint));
+    return Math.hypot(x, z) * motion.fps;
+  });
+}
+
+/** How far a joint is moved in each frame, metres. */
+function moves(a: SolvedMotion, b: SolvedMotion, joint: number): number[] {
+  return Array.from({ length: a.frames }, (_, frame) => distance(at(a, frame, joint), at(b, frame, joint)));
+}
+
+/** Largest acceleration of a joint, m/s^2. */
+function jolt(motion: SolvedMotion, joint: number): number {
+  let most = 0;
+  for (let frame = 1; frame < motion.frames - 1; frame++) {
+    const [before, now, after] = [-1, 0, 1].map((by) => at(motion, frame + by, joint)) as [Vec3, Vec3, Vec3];
+    most = Math.max(most, length(sub(sub(after, now), sub(now, before))) * motion.fps ** 2);
+  }
+  return most;
+}
+
+const top = (values: readonly number[]): number => Math.max(...values);
+
+const LEGS = [
+  [J.left_hip, J.left_knee, J.left_ankle],
+  [J.right_hip, J.right_knee, J.right_ankle],
+] as const;
+const KNEES = LEGS.map(([, knee]) => knee);
+
+/** What must hold whatever was locked. */
+function expectSound(free: SolvedMotion, locked: SolvedMotion): void {
+  const again = forwardKinematics(locked.offsets, locked.root, locked.rotations);
+  let apart = 0;
+  let unit = 0;
+  let flips = 0;
+  for (let i = 0; i < locked.frames * JOINT_COUNT; i++) {
+    apart = Math.max(apart, distance(readVec(again, i), readVec(locked.positions, i)));
+    const q = readQuat(locked.rotations, i);
+    unit = Math.max(unit, Math.abs(quatDot(q, q) - 1));
+    if (i >= JOINT_COUNT && quatDot(q, readQuat(locked.rotations, i - JOINT_COUNT)) < 0) flips++;
+  }
+  expect(locked.positions.every(Number.isFinite)).toBe(true);
+  // Drawn joints are those of the exported rotations, and so bones are as long as their offsets.
+  expect(apart).toBeLessThan(1e-5);
+  expect(unit).toBeLessThan(1e-5);
+  expect(flips).toBe(0);
+  expect(locked.offsets).toEqual(free.offsets);
+  expect(locked.root).toEqual(free.root);
+  for (let joint = 0; joint < JOINT_COUNT; joint++) {
+    if (FEET.includes(joint) || KNEES.includes(joint)) continue;
+    expect(top(moves(free, locked, joint))).toBe(0);
+  }
+}
+
+/** Carried to and fro by 5 cm, at up to 0.31 m/s. */
+const sway = (frame: number): [number, number] => [
+  0.05 * Math.sin(frame / 4.8),
+  0.02 * Math.cos(frame / 4.8),
+];
+
+describe('locked feet', () => {
+  test('rest where they slid, and the body above goes on', () => {
+    const free = madeStander({ frames: 120, path: sway });
+    const locked = lockFeet(free);
+    expectSound(free, locked);
+    for (const joint of FEET) {
+      expect(top(slides(free, joint))).toBeGreaterThan(0.3);
+      expect(top(slides(locked, joint))).toBeLessThan(0.06);
+      for (let frame = 0; frame < free.frames; frame++) {
+        expect(at(locked, frame, joint)[1]).toBeCloseTo(at(free, frame, joint)[1], 5);
+      }
+    }
+  });
+
+  test('hold on to the floor through short steps, with the other foot in the air', () => {
+    const lift = (frame: number): number => eased(frame, 30, 36) - eased(frame, 54, 60);
+    const free = madeStander({ frames: 90, path: sway, lift });
+    const locked = lockFeet(free);
+    expectSound(free, locked);
+    expect(top(slides(locked, J.right_foot))).toBeLessThan(0.06);
+    const left = moves(free, locked, J.left_foot);
+    expect(top(left)).toBeGreaterThan(0.02);
+    expect(top(left.slice(42, 49))).toBeLessThan(0.001);
+    expect(top(moves(free, locked, J.left_knee).slice(42, 49))).toBeLessThan(0.001);
+    // The lock comes and goes without a jolt.
+    for (const joint of [...FEET, ...KNEES]) expect(jolt(locked, joint)).toBeLessThan(jolt(free, joint) + 2);
+  });
+
+  test('are left alone where nothing slides', () => {
+    const lift = (frame: number): number => eased(frame, 20, 30) - eased(frame, 40, 50);
+    const free = madeStander({ frames: 80, lift });
+    const locked = lockFeet(free);
+    expectSound(free, locked);
+    // A foot that is put down slides by a hair.
+    for (const joint of [...FEET, ...KNEES]) expect(top(moves(free, locked, joint))).toBeLessThan(5e-4);
+    const still = madeStander({ frames: 80 });
+    const rested = lockFeet(still);
+    for (const joint of [...FEET, ...KNEES]) expect(top(moves(still, rested, joint))).toBeLessThan(1e-6);
+  });
+
+  test('follow slowly when they are carried on and on', () => {
+    const free = madeStander({ frames: 120, path: (frame) => [0, 1.2 * eased(frame, 30, 90)] });
+    const locked = lockFeet(free);
+    expectSound(free, locked);
+    for (const joint of FEET) {
+      expect(top(moves(free, locked, joint))).toBeLessThan(0.11);
+      expect(jolt(locked, joint)).toBeLessThan(jolt(free, joint) + 2);
+    }
+  });
+
+  test('are let go before a nearly straight leg would have to stretch, without a pop of the knee', () => {
+    const path = (frame: number): [number, number] => [0, 0.15 * Math.sin(frame / 9)];
+    const free = madeStander({ frames: 150, path, bend: 0.2 });
+    const locked = lockFeet(free);
+    expectSound(free, locked);
+    for (const [hip, knee, ankle] of LEGS) {
+      for (let frame = 0; frame < free.frames; frame++) {
+        const long = distance(at(locked, frame, hip), at(locked, frame, ankle));
+        expect(long).toBeLessThan(
+          Math.max(0.985 * 0.83, distance(at(free, frame, hip), at(free, frame, ankle))) + 1e-3,
+        );
+      }
+      expect(top(slides(locked, ankle))).toBeLessThan(0.7 * top(slides(free, ankle)));
+      expect(jolt(locked, ankle)).toBeLessThan(jolt(free, ankle) + 2);
+      expect(jolt(locked, knee)).toBeLessThan(10);
+    }
+  });
+
+  test('keep the knees looking ahead', () => {
+    const locked = lockFeet(madeStander({ frames: 120, path: sway }));
+    for (const [hip, knee, ankle] of LEGS) {
+      for (let frame = 0; frame < locked.frames; frame++) {
+        const thigh = sub(at(locked, frame, knee), at(locked, frame, hip));
+        const hinge = cross(thigh, sub(at(locked, frame, ankle), at(locked, frame, knee)));
+        expect(hinge[0]).toBeGreaterThan(0.95 * length(hinge));
+      }
+    }
+  });
+
+  test.each([1, 2, 3])('leave a dancer whole who was solved, seed %i', (seed) => {
+    const free = solve(madeDancer({ frames: 120, seed, spin: 0.3 * seed }));
+    expectSound(free, lockFeet(free));
+  });
+
+  test('of one frame are as they were', () => {
+    const free = madeStander({ frames: 1 });
+    expectSound(free, lockFeet(free));
+  });
+});
+
+describe('planted stretches', () => {
+  test('are one where a slide is faster for a moment, and none of what never rests or is too short', () => {
+    /** Carried on at these speeds in m/s, one a frame. */
+    const carried = (speeds: readonly number[]) => {
+      const places = [0];
+      for (const speed of speeds) places.push(places.at(-1)! + speed / 30);
+      return plantedStretches(
+        madeStander({ frames: places.length, path: (t) => [places[t]!, 0] }),
+        J.left_foot,
+      );
+    };
+    const row = (count: number, speed: number): number[] => new Array<number>(count).fill(speed);
+    expect(carried([...row(5, 2), ...row(6, 0.3), ...row(3, 0.7), ...row(6, 0.3), ...row(5, 2)])).toEqual([
+      { first: 5, last: 20 },
+    ]);
+    expect(carried([...row(9, 0.3), ...row(5, 2), ...row(15, 0.7), ...row(5, 2)])).toEqual([
+      { first: 0, last: 9 },
+    ]);
+    expect(carried([...row(5, 2), ...row(3, 0.1), ...row(5, 2)])).toEqual([]);
+  });
+
+  test('end where the foot is lifted', () => {
+    const lift = (frame: number): number => eased(frame, 30, 40) - eased(frame, 50, 60);
+    const stretches = plantedStretches(madeStander({ frames: 90, lift }), J.left_foot);
+    expect(stretches).toHaveLength(2);
+    expect(stretches[0]!.last).toBeGreaterThan(28);
+    expect(stretches[0]!.last).toBeLessThan(32);
+    expect(stretches[1]!.first).toBeGreaterThan(58);
+    expect(stretches[1]!.last).toBe(89);
+  });
+});
+
+describe('the shift', () => {
+  test('is the one of least squares: no single frame can be bettered', () => {
+    const places = Float64Array.from(
+      { length: 40 },
+      (_, t) => 0.1 * Math.sin(t / 3) + 0.02 * Math.cos(t * t),
+    );
+    const tracks = [
+      { places, planted: [{ first: 0, last: 12 }] },
+      {
+        places: places.map((place) => place ** 2),
+        planted: [
+          { first: 8, last: 15 },
+          { first: 30, last: 39 },
+        ],
+      },
+    ];
+    const stay = Float64Array.from({ length: 40 }, (_, t) => 1 + (t % 5));
+    const cost = (shift: Float64Array): number => {
+      let sum = 0;
+      shift.forEach((s, t) => (sum += stay[t]! * s * s));
+      for (const { places: from, planted } of tracks) {
+        for (const { first, last } of planted) {
+          for (let t = first; t < last; t++)
+            sum += 100 * (from[t + 1]! + shift[t + 1]! - from[t]! - shift[t]!) ** 2;
+        }
+      }
+      for (let t = 1; t < 39; t++) sum += 12 * (shift[t - 1]! - 2 * shift[t]! + shift[t + 1]!) ** 2;
+      return sum;
+    };
+    const best = restingShift(tracks, stay);
+    expect(top([...best])).toBeGreaterThan(0.01);
+    for (let t = 0; t < 40; t++) {
+      for (const by of [1e-4, -1e-4]) {
+        const other = best.slice();
+        other[t]! += by;
+        expect(cost(other)).toBeGreaterThan(cost(best));
+      }
+    }
+  });
+});
+
+describe('reaching with a leg', () => {
+  const bentBy = (angle: number): Leg => ({
+    hip: [0.1, 0.9, 0],
+    thigh: [0, -0.42, 0],
+    shin: [0.03, -0.4 * Math.cos(angle), -0.4 * Math.sin(angle)],
+    hinge: [1, 0, 0],
+  });
+  const ankleOf = (leg: Leg, target: Vec3): Vec3 => {
+    const { thigh, shin } = reachFor(leg, target);
+    return add(leg.hip, add(rotate(thigh, leg.thigh), rotate(shin, leg.shin)));
+  };
+
+  test.each([0.1, 0.6, 1.4])('brings the ankle there, bent by %f', (angle) => {
+    for (const target of [
+      [0.1, 0.1, 0],
+      [0.2, 0.2, 0.1],
+      [0, 0.3, -0.2],
+    ] as const) {
+      expect(distance(ankleOf(bentBy(angle), target), target)).toBeLessThan(1e-9);
+    }
+  });
+
+  test('stops short of what is too far, on the way there', () => {
+    const target: Vec3 = [0.1, -0.3, 0.4];
+    const leg = bentBy(0.6);
+    const way = sub(ankleOf(leg, target), leg.hip);
+    expect(length(way)).toBeCloseTo(Math.hypot(0.82, 0.03), 3);
+    expect(dot(way, sub(target, leg.hip))).toBeCloseTo(length(way) * distance(target, leg.hip), 9);
+  });
+
+  test('leaves a leg as it is, even one that noise has bent the wrong way', () => {
+    for (const angle of [-0.1, -0.01, 0.01, 0.5]) {
+      const leg = bentBy(angle);
+      const { thigh, shin } = reachFor(leg, add(leg.hip, add(leg.thigh, leg.shin)));
+      for (const turn of [thigh, shin]) expect(Math.abs(turn[3])).toBeGreaterThan(1 - 1e-9);
+    }
+  });
+
+  test('has no jump where the knee comes through the straight leg', () => {
+    const target: Vec3 = [0.15, 0.12, 0.05];
+    const kneeAt = (angle: number): Vec3 => rotate(reachFor(bentBy(angle), target).thigh, [0, -0.42, 0]);
+    for (let angle = -0.1; angle < 0.1; angle += 0.005) {
+      expect(distance(kneeAt(angle), kneeAt(angle + 0.005))).toBeLessThan(0.003);
+    }
+  });
+});

@@ -1,0 +1,55 @@
+import { describe, expect, test } from 'vitest';
+import { bodyHeight, scaleClip } from '../../../../web/motion/skeleton/scale';
+import { J, MIRROR, PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
+import { median, percentile } from '../../../../web/motion/math/statistics';
+import { BODY, madeDancer } from '../../support/made-dancer';
+
+const bone = (joint: number): number => Math.hypot(...BODY[joint]!);
+const HEIGHT =
+  bone(J.left_knee) +
+  bone(J.left_ankle) +
+  bone(J.spine1) +
+  bone(J.spine2) +
+  bone(J.spine3) +
+  bone(J.neck) +
+  bone(J.head);
+
+describe('body height', () => {
+  test('is leg plus spine, in any pose', () => {
+    expect(bodyHeight(madeDancer({ frames: 40, seed: 1 }))).toBeCloseTo(HEIGHT, 5);
+    expect(bodyHeight(madeDancer({ frames: 40, seed: 2, spin: 1 }))).toBeCloseTo(HEIGHT, 5);
+  });
+  test('follows the scale, and so does the path', () => {
+    const clip = madeDancer({ frames: 40 });
+    const scaled = scaleClip(clip, 1.2);
+    expect(bodyHeight(scaled)).toBeCloseTo(1.2 * HEIGHT, 5);
+    expect(scaled.positions[2000]).toBeCloseTo(1.2 * clip.positions[2000]!, 5);
+    expect(scaled).toMatchObject({ fps: 30, frames: 40 });
+  });
+  test('is not misled by a few broken frames', () => {
+    const clip = madeDancer({ frames: 40 });
+    clip.positions.fill(9, 0, 5 * 66);
+    expect(bodyHeight(clip)).toBeCloseTo(HEIGHT, 5);
+  });
+});
+
+describe('percentiles', () => {
+  test('interpolate between ranks', () => {
+    expect(percentile([4, 1, 3, 2], 50)).toBe(2.5);
+    expect(percentile([10, 20], 10)).toBe(11);
+    expect(percentile([5], 90)).toBe(5);
+    expect(median([3, 1, 2])).toBe(2);
+    expect(median([])).toBeNaN();
+  });
+});
+
+describe('the skeleton', () => {
+  test('lists parents before children and mirrors to itself', () => {
+    expect(SMPL22).toHaveLength(22);
+    PARENTS.forEach((parent, joint) => expect(parent).toBeLessThan(joint));
+    MIRROR.forEach((other, joint) => {
+      expect(MIRROR[other]).toBe(joint);
+      expect(PARENTS[other]).toBe(joint === 0 ? -1 : MIRROR[PARENTS[joint]!]);
+    });
+  });
+});

@@ -1,0 +1,52 @@
+import { beforeAll, expect, it, vi } from 'vitest';
+import type { Role } from '../../web/view/theme';
+import type { Entrance, Stage } from '../../web/view/stage';
+import type { AppState, Inputs, Take } from '../../web/ui/store/state';
+import { initialState } from '../../web/ui/store/store';
+import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
+import * as change from './support/actions';
+import { alike, leader, still } from './support/made-state';
+
+let showOn: (shown: Stage, store: change.Store) => () => void;
+beforeAll(async () => {
+  // Node has no screen to ask.
+  vi.stubGlobal('matchMedia', () => ({ matches: false }));
+  ({ showOn } = await import('../../web/stage-binding'));
+});
+
+const dancer = leader(30);
+const take = (id: string): Take => {
+  const settings = { guidance: alike(1, 1), music: 1, steps: 5, seed: 1, role: 'reactor' as Role };
+  const inputs: Inputs = { leader: dancer, song: null, shift: 0, settings };
+  const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
+  return { id, number: 1, name: null, starred: false, createdAt: 0, reaction };
+};
+
+it('passes softly from one take to the next, but not where each goes on in a half of its own', () => {
+  const takes = [take('a'), take('b'), take('c')];
+  const store = change.createAppStore('dark');
+  const state: Partial<AppState> = {
+    ...takes[0]!.reaction.inputs,
+    reaction: takes[0]!.reaction,
+    takes,
+    other: 'b',
+  };
+  store.setState({ ...initialState('dark'), ...state });
+  const entrances: (boolean | undefined)[] = [];
+  const nothing = (): void => undefined;
+  const stage = new Proxy(
+    { setDancers: (_: unknown, how?: Entrance) => entrances.push(how?.softly) },
+    { get: (known, name) => (name in known ? known.setDancers : nothing) },
+  ) as unknown as Stage;
+  const stop = showOn(stage, store);
+  const softly = (...changes: change.Change[]): boolean | undefined => {
+    for (const one of changes) change.apply(store, one);
+    return entrances.at(-1);
+  };
+  expect(softly(flipped())).toBe(true);
+  expect(softly(compareSet('side'), flipped())).toBe(false);
+  expect(softly(flipped())).toBe(false);
+  expect(softly(takeChosen('c'))).toBe(true);
+  expect(softly(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
+  stop();
+});

@@ -1,0 +1,8 @@
+/** Everything that can happen to the state, for tests that make much of it happen. */
+export * from '../../../web/ui/store/actions/files';
+export * from '../../../web/ui/store/actions/model';
+export * from '../../../web/ui/store/actions/reaction';
+export * from '../../../web/ui/store/actions/settings';
+export * from '../../../web/ui/store/store';
+export * from '../../../web/ui/store/actions/notices';
+export * from '../../../web/ui/store/actions/view';

@@ -1,0 +1,81 @@
+import type { Song } from '../../../web/audio/client';
+import type { LeaderFile } from '../../../web/motion/bvh/read';
+import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
+import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { uniform } from '../../../web/ui/store/guidance-matrix';
+import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/state';
+import { small } from './small-manifest';
+
+/** Guidance of the small model with every body part alike. */
+export function alike(coarse: number, fine: number): Guidance {
+  return uniform(small.latent.streams, small.latent.layers, (layer) => (layer === 'coarse' ? coarse : fine));
+}
+
+/** A motion of the right shape in which nobody moves. */
+export function still(frames: number): SolvedMotion {
+  return {
+    fps: 30,
+    frames,
+    offsets: new Float32Array(66),
+    root: new Float32Array(frames * 3),
+    rotations: new Float32Array(frames * 88),
+    positions: new Float32Array(frames * 66),
+    fitError: 0.002,
+  };
+}
+
+export function leaderFile(frames: number, warnings: string[] = [], remarks: string[] = []): LeaderFile {
+  return {
+    clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
+    report: {
+      dialect: 'Mixamo',
+      joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
+      filled: [],
+      recut: [],
+      sourceFps: 60,
+      sourceFrames: frames * 2,
+      sourceDuration: frames / 30,
+      unit: 'centimetres',
+      upAxis: 'y',
+      warnings,
+      remarks,
+    } as unknown as LeaderFile['report'],
+  };
+}
+
+export function leader(
+  frames: number,
+  name = 'lead_0412.bvh',
+  warnings: string[] = [],
+  remarks: string[] = [],
+): LoadedLeader {
+  return {
+    name,
+    label: null,
+    text: 'HIERARCHY',
+    fps: null,
+    file: leaderFile(frames, warnings, remarks),
+    motion: still(frames),
+  };
+}
+
+/** A song with a beat each half second. */
+export function heard(seconds: number, more: Partial<Song> = {}): Song {
+  const frames = Math.round(seconds * 30);
+  return {
+    duration: seconds,
+    sampleRate: 15360,
+    pcm: new Float32Array(0),
+    sound: new Blob(),
+    features: new Float32Array(frames * 54),
+    frames,
+    tempo: 120,
+    beats: Array.from({ length: Math.floor(seconds * 2) }, (_, index) => index / 2),
+    silent: false,
+    ...more,
+  };
+}
+
+export function song(seconds: number, more: Partial<Song> = {}): LoadedSong {
+  return { name: 'Descarga.mp3', label: null, file: new Blob(['ID3']), data: heard(seconds, more) };
+}

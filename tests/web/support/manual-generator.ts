@@ -1,0 +1,34 @@
+import type { GenerateOptions, GenerateRequest, GenerateResult, Generator } from '../../../web/model/client';
+import { small } from './small-manifest';
+import { still } from './made-state';
+
+/** A generator whose answers the test gives by hand. */
+export class Hand {
+  readonly calls: {
+    request: GenerateRequest;
+    options: GenerateOptions;
+    answer: (result: GenerateResult) => void;
+    fail: (error: Error) => void;
+  }[] = [];
+  readonly generator = {
+    manifest: small,
+    backend: { name: 'wasm', reason: '', threads: 1 },
+    generate: (request: GenerateRequest, options: GenerateOptions = {}) =>
+      new Promise<GenerateResult>((answer, fail) => {
+        this.calls.push({ request, options, answer, fail });
+        options.signal?.addEventListener('abort', () => {
+          fail(options.signal?.reason as Error);
+        });
+      }),
+    coarse: () => Promise.resolve(still(60)),
+    dispose: () => undefined,
+  } satisfies Generator;
+}
+
+/** What it may answer. */
+export const result = (frames = 60): GenerateResult => ({
+  motion: still(frames),
+  locked: still(frames),
+  latents: new Float32Array(frames),
+  seconds: { condition: 0.5, steps: 2, decode: 0.25, solve: 0.25 },
+});

@@ -1,0 +1,34 @@
+import { readFileSync } from 'node:fs';
+import { type Golden, readGolden } from '../../../web/model/load/golden';
+import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
+import { type NpzArray, readNpz } from '../../../web/model/load/npz';
+import { type ModelSession, openSession } from '../../../web/model/load/session';
+
+/** A model folder, opened in Node on the wasm runtime with one thread. */
+export interface OpenedModel {
+  readonly manifest: Manifest;
+  readonly session: ModelSession;
+  readonly golden: Golden;
+  readonly arrays: Map<string, NpzArray>;
+}
+
+export async function openModel(folder: URL): Promise<OpenedModel> {
+  const read = (path: string): Uint8Array => new Uint8Array(readFileSync(new URL(path, folder)));
+  const manifest = parseManifest(JSON.parse(new TextDecoder().decode(read('manifest.json'))));
+  const graphs = Object.fromEntries(
+    GRAPHS.map((name) => [name, read(manifest.graphs[name].files.wasm.path)]),
+  ) as Record<GraphName, Uint8Array>;
+  const session = await openSession(manifest, graphs, 'wasm', 1);
+  const bytes = read(manifest.golden?.path ?? 'golden.npz');
+  return { manifest, session, golden: readGolden(bytes), arrays: readNpz(bytes) };
+}
+
+export const TINY = new URL('../../fixtures/tiny-model/', import.meta.url);
+
+/** Largest absolute difference; NaN when lengths differ or a value is not a number. */
+export function maxDifference(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  if (a.length !== b.length) return NaN;
+  let worst = 0;
+  for (let i = 0; i < a.length; i++) worst = Math.max(worst, Math.abs((a[i] ?? NaN) - (b[i] ?? NaN)));
+  return worst;
+}

@@ -1,0 +1,78 @@
+import { FLOOR } from '../../../web/motion/bvh/axes-and-units';
+import { PARENTS, SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { type Manifest, parseManifest } from '../../../web/model/manifest';
+
+const file = (path: string) => ({ path, bytes: 3, sha256: '0'.repeat(64) });
+const graph = (path: string) => ({
+  inputs: {},
+  outputs: {},
+  files: { wasm: file(path), webgpu: file(path) },
+});
+
+/** A manifest with round little numbers, as parsed JSON: blocks of 6, 4 channels, memory of 2. */
+export function smallJson() {
+  return {
+    format: 'reactdance-model',
+    version: 2,
+    id: 'small',
+    name: 'Small',
+    created: '2026-01-01',
+    licence: { weights: 'MIT' },
+    attribution: 'nobody',
+    notes: [] as string[],
+    skeleton: {
+      joints: [...SMPL22] as string[],
+      parents: [...PARENTS],
+      upper: [3],
+      lower: [1],
+      feet: [7],
+      reference_height: 1.5,
+      floor: { ...FLOOR } as { toe_rest: number; percentile: number },
+    },
+    fps: 30,
+    latent: {
+      stride: 4,
+      block: 6,
+      channels: 3,
+      streams: ['upper', 'lower', 'placement'],
+      layers: ['coarse', 'fine'],
+      memory_width: 2,
+      receptive_field: { condition: 2 },
+    },
+    diffusion: {
+      train_steps: 1000,
+      alphas_cumprod: Array.from({ length: 1000 }, (_, t) => Math.cos(((t + 1) / 1001) * (Math.PI / 2)) ** 2),
+      schedule: 'cosine',
+      prediction: 'x0',
+      clamp: 'quantiser range',
+      sampler: 'ddim',
+      alternating_phase: true,
+      steps: { default: 10, min: 1, max: 50 },
+    },
+    guidance: {
+      convention: '(1+s)*cond - s*uncond',
+      min: -1,
+      max: 3,
+      step: 0.05,
+      default: { coarse: 0, fine: 0 } as Record<string, number>,
+      music: { min: 0, max: 4, default: 2 },
+    },
+    noise: { algorithm: 'philox4x32-10' },
+    decode: { sharpen: 0, foot_contact: 0 },
+    architecture: {},
+    audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },
+    quality: {
+      contact: { percentile: 5, height: 0.03, vertical_speed: 0.1, slide_speed: 0.2 },
+      penetration: {
+        capsules: [{ from: 'pelvis', to: 'spine1', radius: 0.1, beyond: 0 }],
+        reference_height: 1.4,
+        deep: 0.01,
+      },
+      beats: { smoothing: 5, tolerance: 3 },
+      seams: { radius: 2, clear: 8, paper_radius: 30 },
+    },
+    graphs: { condition: graph('condition.onnx'), step: graph('step.onnx'), decode: graph('decode.onnx') },
+  };
+}
+
+export const small: Manifest = parseManifest(smallJson());

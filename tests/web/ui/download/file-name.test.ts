@@ -1,0 +1,49 @@
+import { expect, test } from 'vitest';
+import { motionFileName, videoFileName } from '../../../../web/ui/download/file-name';
+import { alike, leader, song } from '../../support/made-state';
+
+const settings = { guidance: alike(1.2, 0.6), music: 3, steps: 10, seed: 1204, role: 'reactor' as const };
+const inputs = { leader: leader(90), song: song(3), shift: 0, settings };
+
+test('a name says song, leader, take, seed, guidance, foot lock and whose motion it is', () => {
+  expect(motionFileName({ inputs, footLock: false }, 'reactor', 'bvh')).toBe(
+    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_reactor.bvh',
+  );
+  expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'both', 'glb')).toBe(
+    'descarga_lead-0412_softer-hands_s1204_c1.20-f0.60-m3.00_footlock_both.glb',
+  );
+  expect(motionFileName({ inputs, footLock: true }, 'both', 'bvh')).toMatch(/_footlock_both-bvh\.zip$/);
+  expect(motionFileName({ inputs: { ...inputs, song: null }, footLock: true }, 'reactor', 'npz')).toMatch(
+    /^no-song_lead-0412_s1204_c1.20-f0.60_footlock_/,
+  );
+});
+
+test('a leader alone is named after what it depends on', () => {
+  expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'leader', 'json')).toBe(
+    'descarga_lead-0412_leader.json',
+  );
+});
+
+test('a video says its size instead', () => {
+  expect(videoFileName({ inputs, footLock: true, take: '' }, '1080p', 'webm')).toBe(
+    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm',
+  );
+});
+
+test('where roles are swapped, the leader is what was made', () => {
+  const swapped = { ...inputs, settings: { ...settings, role: 'leader' as const } };
+  expect(motionFileName({ inputs: swapped, footLock: false }, 'leader', 'bvh')).toBe(
+    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_leader.bvh',
+  );
+  expect(motionFileName({ inputs: swapped, footLock: false }, 'reactor', 'bvh')).toBe(
+    'descarga_lead-0412_reactor.bvh',
+  );
+});
+
+test('body parts that differ are said to', () => {
+  const guidance = { ...settings.guidance, upper: { coarse: 3, fine: 0.6 } };
+  const mixed = { ...inputs, settings: { ...settings, guidance } };
+  expect(motionFileName({ inputs: mixed, footLock: false }, 'reactor', 'bvh')).toContain(
+    '_c1.80-f0.60-mixed-m3.00_',
+  );
+});

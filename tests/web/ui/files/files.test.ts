@@ -1,0 +1,137 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import { MotionError } from '../../../../web/motion/error';
+import { createFiles } from '../../../../web/ui/files/files';
+import type { Files, Readers } from '../../../../web/ui/store/services';
+import * as change from '../../support/actions';
+import { small } from '../../support/small-manifest';
+import { heard, leaderFile, still } from '../../support/made-state';
+
+const file = (name: string, content: string): File => new File([content], name);
+const BVH = 'HIERARCHY\nROOT Hips\n';
+const SONG = 'ID3 and so on';
+
+describe('files', () => {
+  let store: change.Store;
+  let files: Files;
+  let readers: { -readonly [K in keyof Readers]: Readers[K] };
+
+  beforeEach(() => {
+    store = change.createAppStore('dark');
+    change.apply(store, change.manifestArrived(small, 7));
+    readers = {
+      loadSong: (_file, _recipe, { onProgress }) => {
+        onProgress({ fraction: 0.5 });
+        return Promise.resolve(heard(2));
+      },
+      readLeader: ({ fps }) => {
+        const frames = fps === null ? 60 : 120;
+        return Promise.resolve({ file: leaderFile(frames), motion: still(frames) });
+      },
+      manifest: () => Promise.resolve(small),
+    };
+    files = createFiles(store, {
+      loadSong: (...all) => readers.loadSong(...all),
+      readLeader: (...all) => readers.readLeader(...all),
+      manifest: () => readers.manifest(),
+    });
+  });
+
+  it('are told apart by content and read together', async () => {
+    await files.open([file('a', SONG), file('b', BVH)]);
+    const { song, leader, reading, visiting, problem } = store.getState();
+    expect([song?.name, leader?.name]).toEqual(['a', 'b']);
+    expect(reading).toEqual({ song: null, leader: null });
+    expect(visiting).toBe(false);
+    expect(problem).toBeNull();
+  });
+
+  it('become a sentence that names them when they cannot be read, and change nothing else', async () => {
+    await files.open([file('good.bvh', BVH)]);
+    const before = store.getState().leader;
+    readers.readLeader = () =>
+      Promise.reject(new MotionError('missing-joints', 'The legs are missing.', 'Export the whole body.'));
+    await files.open([file('arms.bvh', BVH)]);
+    expect(store.getState().problem).toEqual({
+      code: 'missing-joints',
+      title: 'arms.bvh: The legs are missing.',
+      hint: 'Export the whole body.',
+      remedy: 'leader',
+      refused: { side: 'leader', name: 'arms.bvh' },
+    });
+    expect(store.getState().leader).toBe(before);
+    expect(store.getState().reading.leader).toBeNull();
+  });
+
+  it.each([
+    ['empty.bvh', '', 'empty-file'],
+    ['tax.pdf', '%PDF', 'unknown-file'],
+    ['dance.glb', 'glTF', 'other-motion'],
+  ])('refuses %s without reading it', async (name, content, code) => {
+    await files.open([file(name, content)]);
+    expect(store.getState().problem?.code).toBe(code);
+    expect(store.getState().visiting).toBe(true);
+  });
+
+  it('the newest of a kind wins, even if an older one is ready later', async () => {
+    const answers: (() => void)[] = [];
+    readers.readLeader = ({ text }) =>
+      new Promise((resolve) => {
+        const frames = text.length;
+        answers.push(() => {
+          resolve({ file: leaderFile(frames), motion: still(frames) });
+        });
+      });
+    const first = files.openLeader('1234', 'first.bvh', null);
+    const second = files.openLeader('12', 'second.bvh', null);
+    answers[1]?.();
+    await second;
+    answers[0]?.();
+    expect(await first).toBeNull();
+    expect(store.getState().leader?.name).toBe('second.bvh');
+  });
+
+  it('an older one that fails after a newer one came says nothing', async () => {
+    let fail: (error: Error) => void = () => undefined;
+    readers.readLeader = () => new Promise((_, reject) => (fail = reject));
+    const first = files.openLeader(BVH, 'first.bvh', null);
+    readers.readLeader = () => Promise.resolve({ file: leaderFile(3), motion: still(3) });
+    await files.openLeader(BVH, 'second.bvh', null);
+    fail(new Error('too late'));
+    await first;
+    expect(store.getState()).toMatchObject({ problem: null, leader: { name: 'second.bvh' } });
+  });
+
+  it('progress that comes after the result does not make it unread again', async () => {
+    let late: (progress: { fraction: number }) => void = () => undefined;
+    readers.loadSong = (_file, _recipe, { onProgress }) => {
+      late = onProgress;
+      return Promise.resolve(heard(2));
+    };
+    await files.openSong(file('a', SONG), 'a.mp3', null);
+    late({ fraction: 1 });
+    expect(store.getState().reading.song).toBeNull();
+  });
+
+  it('a song waits for the recipe of the model', async () => {
+    let arrive: (manifest: typeof small) => void = () => undefined;
+    readers.manifest = () => new Promise((resolve) => (arrive = resolve));
+    const opening = files.openSong(file('a', SONG), 'a.mp3', 'demo song');
+    expect(store.getState().reading.song).toEqual({ name: 'a.mp3', fraction: 0 });
+    arrive(small);
+    await opening;
+    expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
+  });
+
+  it('a leader is read again at another frame rate from what was kept of it', async () => {
+    expect(await files.rereadLeader(60)).toBeNull();
+    await files.openLeader(BVH, 'a.bvh', 'demo leader');
+    await files.rereadLeader(60);
+    expect(store.getState().leader).toMatchObject({
+      name: 'a.bvh',
+      label: 'demo leader',
+      fps: 60,
+      text: BVH,
+    });
+    expect(store.getState().leader?.file.clip.frames).toBe(120);
+  });
+});

@@ -1,0 +1,36 @@
+import { expect, test } from 'vitest';
+import { readBvh } from '../../../../web/motion/bvh/read';
+import { writeBvh } from '../../../../web/motion/bvh/write';
+import { solve } from '../../../../web/motion/fit/ik';
+import { jointCount, jointWords } from '../../../../web/ui/files/joint-words';
+import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
+
+const withoutToes: BodyNames = Object.fromEntries(
+  Object.entries(MIXAMO).filter(([part]) => part !== 'toe'),
+) as unknown as BodyNames;
+const report = (names: BodyNames) => readBvh(madeBvh({ joints: madeBody(names) }).text).report;
+
+test('a whole body whose back is cut otherwise lacks nothing', () => {
+  for (const count of [1, 3, 5]) {
+    const spine = Array.from({ length: count }, (_, i) => `mixamorig:Spine${i}`);
+    const other = report({ ...MIXAMO, spine });
+    expect(jointWords(other)).toBe('all found; pelvis and spine placed along its back');
+    expect(jointCount(other)).toBe(22);
+  }
+});
+
+test('joints that are missing are named', () => {
+  const lacking = report(withoutToes);
+  expect(jointWords(lacking)).toBe(
+    '20 of 22 found; filled in: left foot, right foot; pelvis and spine placed along its back',
+  );
+  expect(jointCount(lacking)).toBe(20);
+  const stiff = report({ ...MIXAMO, spine: [] });
+  expect(jointWords(stiff)).toBe('18 of 22 found; filled in: pelvis, spine1, spine2, spine3');
+});
+
+test('a file of our own has all', () => {
+  const { clip } = readBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
+  const own = readBvh(writeBvh(solve(clip))).report;
+  expect(jointWords(own)).toBe('all 22 found');
+});

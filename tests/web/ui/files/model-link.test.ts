@@ -1,0 +1,150 @@
+import { describe, expect, it } from 'vitest';
+import { ModelError, type Generator, type ModelFolder, type Status } from '../../../../web/model/client';
+import { createModelLink } from '../../../../web/ui/files/model-link';
+import type { LoadedSong } from '../../../../web/ui/store/state';
+import { createAppStore } from '../../../../web/ui/store/store';
+import { small } from '../../support/small-manifest';
+
+const generator = { manifest: small } as Generator;
+const backend = { name: 'wasm', reason: 'Processor, 2 threads: no WebGPU.', threads: 2 } as const;
+
+function loading() {
+  const store = createAppStore('dark');
+  const attempts: {
+    tell: (status: Status) => void;
+    succeed: (made: Generator) => void;
+    fail: (error: Error) => void;
+    folder: ModelFolder | null;
+  }[] = [];
+  const link = createModelLink(
+    store,
+    (tell, folder) => new Promise((succeed, fail) => attempts.push({ tell, succeed, fail, folder })),
+  );
+  return { store, link, attempts };
+}
+
+describe('loading the model', () => {
+  it('shows bytes, then what it prepares, then where it computes', async () => {
+    const { store, link, attempts } = loading();
+    const [attempt] = attempts;
+    attempt?.tell({ kind: 'manifest', manifest: small });
+    expect(store.getState().settings?.steps).toBe(10);
+    expect(await link.manifest()).toBe(small);
+    const parts = [
+      { name: 'runtime', loaded: 4, total: 4, kept: 4 },
+      { name: 'model', loaded: 1, total: 5, kept: 0 },
+    ] as const;
+    attempt?.tell({ kind: 'download', parts });
+    expect(store.getState().model).toEqual({
+      phase: 'loading',
+      label: 'Model',
+      received: 5,
+      total: 9,
+      parts,
+    });
+    attempt?.tell({ kind: 'warm-up' });
+    expect(store.getState().model).toMatchObject({ phase: 'loading', label: 'Warming up', total: 0 });
+    attempt?.tell({ kind: 'ready', backend });
+    expect(store.getState().model).toEqual({
+      phase: 'ready',
+      backend: 'wasm',
+      reason: backend.reason,
+      threads: 2,
+    });
+    attempt?.succeed(generator);
+    expect(await link.generator()).toBe(generator);
+  });
+
+  it('tells a failure in words and can try again, keeping settings', async () => {
+    const { store, link, attempts } = loading();
+    attempts[0]?.tell({ kind: 'manifest', manifest: small });
+    const { settings } = store.getState();
+    attempts[0]?.fail(new ModelError('model-missing', 'The server answered 404.', 'Copy the model folder.'));
+    await expect(link.generator()).rejects.toThrow('404');
+    expect(store.getState().problem).toMatchObject({ code: 'model-missing', remedy: 'model' });
+    attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, kept: 0 }] });
+    expect(store.getState().model.phase, 'a download beside the one that failed').toBe('failed');
+    link.retry();
+    attempts[1]?.tell({ kind: 'manifest', manifest: small });
+    attempts[1]?.tell({ kind: 'ready', backend });
+    attempts[1]?.succeed(generator);
+    expect(await link.generator()).toBe(generator);
+    expect(store.getState().settings).toBe(settings);
+  });
+
+  it('does not load twice', () => {
+    const { link, attempts } = loading();
+    link.retry();
+    expect(attempts).toHaveLength(1);
+  });
+
+  it('keeps what is worth knowing as a remark', () => {
+    const { store, attempts } = loading();
+    attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
+    expect(store.getState().remarks).toEqual(['Not kept. Free some space.']);
+    expect(store.getState().problem).toBeNull();
+  });
+});
+
+describe('opening a model of the visitor', () => {
+  const folder = { 'manifest.json': new Blob(['{}']) };
+  const other = { ...small, id: 'other', name: 'Tango' };
+
+  async function danced() {
+    const all = loading();
+    let disposed = false;
+    all.attempts[0]?.tell({ kind: 'manifest', manifest: small });
+    all.attempts[0]?.tell({ kind: 'ready', backend });
+    const present = { manifest: small, dispose: () => void (disposed = true) } as Generator;
+    all.attempts[0]?.succeed(present);
+    await all.link.generator();
+    return { ...all, present, isDisposed: () => disposed };
+  }
+
+  it('takes over when it can dance, and not before', async () => {
+    const { store, link, attempts, present, isDisposed } = await danced();
+    const opened = link.open(folder);
+    expect(attempts[1]?.folder).toBe(folder);
+    attempts[1]?.tell({ kind: 'manifest', manifest: other });
+    expect(store.getState().manifest).toBe(small);
+    expect(await link.generator()).toBe(present);
+    attempts[1]?.tell({ kind: 'ready', backend });
+    const made = { manifest: other } as Generator;
+    attempts[1]?.succeed(made);
+    expect(await opened).toBe(true);
+    expect(store.getState().manifest).toBe(other);
+    expect(await link.manifest()).toBe(other);
+    expect(await link.generator()).toBe(made);
+    expect(isDisposed()).toBe(true);
+    expect(store.getState().remarks.join()).toContain('Tango');
+  });
+
+  it('leaves everything as it was when it fails, and says why', async () => {
+    const { store, link, attempts, present, isDisposed } = await danced();
+    const before = store.getState();
+    const opened = link.open(folder);
+    attempts[1]?.tell({ kind: 'download', parts: [{ name: 'model', loaded: 1, total: 2, kept: 0 }] });
+    attempts[1]?.fail(new ModelError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
+    expect(await opened).toBe(false);
+    const { problem, ...after } = store.getState();
+    expect(problem).toMatchObject({ code: 'model-missing' });
+    expect({ ...after, problem: null }).toEqual(before);
+    expect(await link.generator()).toBe(present);
+    expect(isDisposed()).toBe(false);
+  });
+
+  it('lets go of a song that it would hear in another way', async () => {
+    for (const [audio, kept] of [
+      [small.audio, true],
+      [{ ...small.audio, hop: 2 * small.audio.hop }, false],
+    ] as const) {
+      const { store, link, attempts } = await danced();
+      store.setState({ song: { name: 'a.mp3' } as LoadedSong });
+      const opened = link.open(folder);
+      attempts[1]?.succeed({ manifest: { ...other, audio } } as Generator);
+      await opened;
+      expect(store.getState().song !== null).toBe(kept);
+      expect(store.getState().remarks.join().includes('a.mp3')).toBe(!kept);
+    }
+  });
+});

@@ -1,0 +1,183 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { CoarseRequest, GenerateOptions, Generator } from '../../../../web/model/client';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { coarseIsMissing, createCoarseLayer } from '../../../../web/ui/generation/coarse-layer';
+import { coarseMotion, otherCoarseMotion } from '../../../../web/ui/store/reactor-motion';
+import type { Reaction } from '../../../../web/ui/store/state';
+import * as change from '../../support/actions';
+import { compareSet, flipped, letterGiven } from '../../../../web/ui/store/actions/takes';
+import { small } from '../../support/small-manifest';
+import { alike, leader, still } from '../../support/made-state';
+
+/** A model whose answers the test gives by hand. */
+class Hand {
+  readonly calls: {
+    request: CoarseRequest;
+    signal: AbortSignal | undefined;
+    answer: (motion: SolvedMotion) => void;
+    fail: (error: Error) => void;
+  }[] = [];
+  readonly generator = {
+    manifest: small,
+    backend: { name: 'wasm', reason: '', threads: 1 },
+    generate: () => Promise.reject(new Error('Nothing is generated here.')),
+    coarse: (request: CoarseRequest, { signal }: Pick<GenerateOptions, 'signal'> = {}) =>
+      new Promise<SolvedMotion>((answer, fail) => {
+        this.calls.push({ request, signal, answer, fail });
+        signal?.addEventListener('abort', () => {
+          fail(signal.reason as Error);
+        });
+      }),
+    dispose: () => undefined,
+  } satisfies Generator;
+}
+
+describe('the coarse layer', () => {
+  let store: change.Store;
+  let hand: Hand;
+  let stop: () => void;
+  const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
+  const state = () => store.getState();
+  const reaction = (latents: Float32Array | null): Reaction => {
+    const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+    const inputs = { leader: leader(60), song: null, shift: 0, settings };
+    return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
+  };
+  const show = (shown: Reaction) => change.apply(store, change.reacted(shown));
+  const toggle = () => change.apply(store, change.shownToggled('ghost'));
+
+  beforeEach(() => {
+    store = change.createAppStore('dark');
+    change.apply(store, change.footLockSet(false));
+    hand = new Hand();
+    stop = createCoarseLayer(store, () => Promise.resolve(hand.generator));
+  });
+  afterEach(() => {
+    stop();
+    vi.restoreAllMocks();
+  });
+
+  it('is decoded when it is wanted, from the latents of the reaction and its leader', async () => {
+    const shown = reaction(new Float32Array([1, 2]));
+    show(shown);
+    await turn();
+    expect(hand.calls).toHaveLength(0);
+    toggle();
+    await turn();
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
+    expect(hand.calls[0]?.request).toEqual({ leader: shown.inputs.leader.file.clip, latents: shown.latents });
+    const motion = still(60);
+    hand.calls[0]?.answer(motion);
+    await turn();
+    expect(state().coarse).toEqual({ motion, other: null, decoding: false });
+    expect(coarseMotion(state())).toBe(motion);
+    toggle();
+    expect(coarseMotion(state())).toBeNull();
+  });
+
+  it('is decoded once for each reaction, however often takes are changed and the ghost is switched', async () => {
+    const [one, two] = [reaction(new Float32Array([1])), reaction(new Float32Array([2]))];
+    toggle();
+    const motions = [];
+    for (const each of [one, two]) {
+      show(each);
+      await turn();
+      const motion = still(60);
+      motions.push(motion);
+      hand.calls.at(-1)?.answer(motion);
+      await turn();
+    }
+    toggle();
+    show({ ...one });
+    toggle();
+    expect(state().coarse).toEqual({ motion: motions[0], other: null, decoding: false });
+    show(two);
+    expect(state().coarse.motion).toBe(motions[1]);
+    await turn();
+    expect(hand.calls).toHaveLength(2);
+  });
+
+  it('is decoded for both halves of a comparison, the stage first, and goes along when they are flipped', async () => {
+    const dancer = leader(60);
+    const made = (seed: number): Reaction => {
+      const { inputs, ...rest } = reaction(new Float32Array([seed]));
+      return { ...rest, inputs: { ...inputs, leader: dancer, settings: { ...inputs.settings, seed } } };
+    };
+    change.apply(store, change.manifestArrived(small, 1));
+    change.apply(store, change.leaderLoaded(dancer));
+    change.apply(store, change.reacted(made(1), { id: 'one', at: 1 }));
+    change.apply(store, change.reacted(made(2), { id: 'two', at: 2 }));
+    change.apply(store, letterGiven('one', 'B'));
+    toggle();
+    change.apply(store, compareSet('ghost'));
+    await turn();
+    // In one picture, the other take's would only be in the way.
+    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2]]);
+    change.apply(store, compareSet('side'));
+    await turn();
+    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2], [2]]);
+    const [two, one] = [still(60), still(60)];
+    hand.calls[1]?.answer(two);
+    await turn();
+    expect(state().coarse).toEqual({ motion: two, other: null, decoding: true });
+    expect([...hand.calls[2]!.request.latents]).toEqual([1]);
+    hand.calls[2]?.answer(one);
+    await turn();
+    expect(state().coarse).toEqual({ motion: two, other: one, decoding: false });
+    expect(otherCoarseMotion(state())).toBe(one);
+    change.apply(store, flipped());
+    expect(state().coarse).toEqual({ motion: one, other: two, decoding: false });
+    change.apply(store, compareSet('side'));
+    expect(state().coarse).toEqual({ motion: one, other: null, decoding: false });
+    await turn();
+    expect(hand.calls).toHaveLength(3);
+  });
+
+  it('drops what it decodes when another reaction comes, and keeps the ghost until the next is there', async () => {
+    toggle();
+    show(reaction(new Float32Array([1])));
+    await turn();
+    const first = still(60);
+    hand.calls[0]?.answer(first);
+    await turn();
+    show(reaction(new Float32Array([2])));
+    await turn();
+    expect(state().coarse).toEqual({ motion: first, other: null, decoding: true });
+    show(reaction(new Float32Array([3])));
+    await turn();
+    expect(hand.calls[1]?.signal?.aborted).toBe(true);
+    expect(state().coarse.decoding).toBe(true);
+    const last = still(60);
+    hand.calls[2]?.answer(last);
+    await turn();
+    expect(state().coarse).toEqual({ motion: last, other: null, decoding: false });
+    change.apply(store, change.leaderLoaded(leader(30)));
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
+  });
+
+  it('is missing from a reaction that came ready-made, or was made by a model that has gone', async () => {
+    toggle();
+    show(reaction(null));
+    await turn();
+    expect(coarseIsMissing(state())).toBe(true);
+    expect(hand.calls).toHaveLength(0);
+    show(reaction(new Float32Array([1])));
+    expect(coarseIsMissing(state())).toBe(false);
+    change.apply(store, change.modelOpened(small, 1));
+    expect(coarseIsMissing(state())).toBe(true);
+    expect(hand.calls.every(({ signal }) => signal?.aborted)).toBe(true);
+  });
+
+  it('tells a failure in words and switches the ghost off, so that it is not tried again by itself', async () => {
+    show(reaction(new Float32Array([1])));
+    toggle();
+    await turn();
+    hand.calls[0]?.fail(new Error('boom'));
+    await turn();
+    expect(state().problem).toMatchObject({ code: 'coarse-failed', remedy: 'generate' });
+    expect(state().shown.ghost).toBe(false);
+    expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
+    await turn();
+    expect(hand.calls).toHaveLength(1);
+  });
+});

@@ -1,0 +1,124 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { createFiles } from '../../../../web/ui/files/files';
+import type { Readers } from '../../../../web/ui/store/services';
+import type { Kept } from '../../../../web/ui/project/schema';
+import { createKeeping, type Keeping } from '../../../../web/ui/project/autosave';
+import { notes } from '../../../../web/ui/store/selectors';
+import * as change from '../../support/actions';
+import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
+import { presentInputs } from '../../../../web/ui/store/take';
+import { small } from '../../support/small-manifest';
+import { leader, still } from '../../support/made-state';
+
+const never = () => Promise.reject(new Error('Nothing is read here.'));
+const readers: Readers = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
+
+describe('keeping what is on the page', () => {
+  let store: change.Store;
+  let keeping: Keeping;
+  /** Titles of the takes as they were written, one write after the other. */
+  let writes: (readonly (string | null)[])[];
+  /** Takes that the browser has room for, and what it says when they are more. */
+  let room: number;
+  let failure: Error;
+  const made = (id: string): void => {
+    const inputs = presentInputs(store.getState())!;
+    const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
+    change.apply(store, change.seedSet(writes.length + id.length));
+    change.apply(store, change.reacted(reaction, { id, at: 1e6 * id.length }));
+  };
+  const pass = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
+  const warnings = () => notes(store.getState()).filter(({ look }) => look);
+
+  /** Opens the page in a browser with room for so many takes, -1 for nothing at all. */
+  const visit = async (takes: number) => {
+    writes = [];
+    room = takes;
+    failure = new DOMException('No room.', 'QuotaExceededError');
+    store = change.createAppStore('dark');
+    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.leaderLoaded(leader(30)));
+    keeping = createKeeping(store, createFiles(store, readers), readers, {
+      read: () => Promise.resolve(null),
+      write: ({ takes }: Kept) => {
+        if (takes.length > room) return Promise.reject(failure);
+        writes.push(takes.map(({ name }) => name));
+        return Promise.resolve();
+      },
+      clear: () => Promise.resolve(),
+    });
+    await keeping.restore();
+    await pass(1000);
+    writes = [];
+  };
+
+  beforeEach(async () => {
+    vi.useFakeTimers();
+    await visit(9);
+  });
+  afterEach(() => {
+    keeping.dispose();
+    vi.useRealTimers();
+  });
+
+  it('writes a change once it rests, also while the playhead never does', async () => {
+    made('a');
+    change.apply(store, takeRenamed('a', 'One'));
+    for (let frame = 0; frame < 60; frame++) {
+      change.apply(store, change.playbackSet({ time: frame / 60 }));
+      await pass(16);
+    }
+    expect(writes).toEqual([['One']]);
+  });
+
+  it('tells once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
+    room = 1;
+    made('a');
+    made('bb');
+    await pass(1000);
+    expect(store.getState().problem).toMatchObject({ code: 'storage-full', remedy: 'project' });
+    expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
+    change.apply(store, change.dismissed());
+    change.apply(store, takeRenamed('a', 'One'));
+    await pass(30_000);
+    expect(store.getState().problem).toBeNull();
+    expect(writes).toEqual([]);
+    // Room was made elsewhere.
+    room = 2;
+    await pass(20_000);
+    expect(writes).toEqual([[null, 'One']]);
+    expect(warnings()).toEqual([]);
+    await pass(60_000);
+    expect(writes).toHaveLength(1);
+  });
+
+  it('keeps on as soon as the visitor has made room', async () => {
+    room = 1;
+    made('a');
+    made('bb');
+    await pass(1000);
+    change.apply(store, takeDeleted('a'));
+    await pass(1000);
+    expect(writes).toEqual([[null]]);
+    expect(store.getState().keeping).toBe('kept');
+  });
+
+  it('says only in the notes that there never was any room', async () => {
+    keeping.dispose();
+    await visit(-1);
+    made('a');
+    await pass(1000);
+    expect(store.getState().keeping).toBe('full');
+    expect(store.getState().problem).toBeNull();
+    expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
+  });
+
+  it('says only in the notes that the browser keeps nothing at all', async () => {
+    room = 0;
+    failure = new DOMException('Not in this window.', 'SecurityError');
+    made('a');
+    await pass(1000);
+    expect(store.getState().problem).toBeNull();
+    expect(warnings()[0]?.text).toContain('keeps nothing');
+  });
+});

@@ -1,0 +1,310 @@
+import { strToU8, unzipSync, zipSync } from 'fflate';
+import { describe, expect, it } from 'vitest';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { projectOpened, startedAfresh } from '../../../../web/ui/store/actions/project';
+import { ProjectError } from '../../../../web/ui/project/error';
+import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/project/schema';
+import { readProject, writeProject } from '../../../../web/ui/project/project-file';
+import { type Rereaders, reviving } from '../../../../web/ui/project/restore';
+import type { AppState } from '../../../../web/ui/store/state';
+import * as change from '../../support/actions';
+import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
+import { redone, undone } from '../../../../web/ui/store/history';
+import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
+import { small } from '../../support/small-manifest';
+import { alike, heard, leader, leaderFile, song, still } from '../../support/made-state';
+
+/** A motion in which every number is another one. */
+function numbered(frames: number, from: number): SolvedMotion {
+  const motion = still(frames);
+  let value = from;
+  for (const part of [motion.offsets, motion.root, motion.rotations, motion.positions])
+    for (let i = 0; i < part.length; i++) part[i] = Math.fround((value += 0.1));
+  return motion;
+}
+
+/** Latents of a dance, each of them another number; not all have a short form. */
+const latents = (frames: number, from: number): Float32Array =>
+  Float32Array.from({ length: Math.ceil(frames / 4) * 6 }, (_, index) => Math.sin(from + index));
+
+/** A page with a song, two leaders and three takes, the first without latents, the second compared with the third. */
+function filled(): change.Store {
+  const store = change.createAppStore('dark');
+  const react = (at: number): void => {
+    const inputs = presentInputs(store.getState());
+    if (!inputs) throw new Error('no inputs');
+    const motion = numbered(inputs.leader.motion.frames, at);
+    change.apply(
+      store,
+      change.reacted(
+        { motion, latents: at === 1 ? null : latents(60, at), inputs, label: null, seconds: 2 },
+        { id: `t${at}`, at: at * 1e6 },
+      ),
+    );
+  };
+  change.apply(store, change.manifestArrived(small, 7));
+  change.apply(store, change.leaderLoaded(leader(30, 'früher.bvh')));
+  react(1);
+  change.apply(
+    store,
+    change.songLoaded({ ...song(4), file: new Blob(['ID3 song'], { type: 'audio/mpeg' }) }),
+  );
+  change.apply(store, change.leaderLoaded(leader(60, 'lead_0412.bvh')));
+  change.apply(store, change.guidanceSet('coarse', 1.2));
+  react(2);
+  change.apply(store, change.seedSet(99));
+  react(3);
+  change.apply(store, takeStarred('t1'));
+  change.apply(store, takeRenamed('t2', 'Softer hands'));
+  change.apply(store, letterGiven('t2', 'B'));
+  change.apply(store, change.footLockSet(false));
+  change.apply(store, change.playbackSet({ time: 1.5 }));
+  return store;
+}
+
+const readers: Rereaders = {
+  song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: heard(4) }),
+  leader: ({ name, label, text, fps }) =>
+    Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+};
+
+function empty(): change.Store {
+  const store = change.createAppStore('dark');
+  change.apply(store, change.manifestArrived(small, 5));
+  return store;
+}
+
+async function contentOf(kept: Kept, state: AppState, how = readers) {
+  const revival = reviving(kept);
+  await revival.readPage(how);
+  await revival.readRest(how);
+  return { content: revival.content(state), losses: revival.losses() };
+}
+
+const summary = (state: AppState) => ({
+  takes: state.takes.map((take) => ({
+    title: takeTitle(take),
+    starred: take.starred,
+    createdAt: take.createdAt,
+    settings: take.reaction.inputs.settings,
+    leader: take.reaction.inputs.leader.name,
+    song: take.reaction.inputs.song?.name,
+    motion: take.reaction.motion,
+    latents: take.reaction.latents,
+  })),
+  onStage: takeOnStage(state)?.id,
+  rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
+  time: state.playback.time,
+  takesMade: state.takesMade,
+});
+
+describe('a project', () => {
+  it('brings everything back through its file, to the bit', async () => {
+    const before = filled().getState();
+    const kept = readProject(await writeProject(keep(before)));
+    const store = empty();
+    const { content, losses } = await contentOf(kept, store.getState());
+    change.apply(store, projectOpened(content));
+    expect(summary(store.getState())).toEqual(summary(before));
+    expect(losses).toEqual([]);
+    expect(await store.getState().song?.file.text()).toBe('ID3 song');
+    expect(store.getState().song?.file.type).toBe('audio/mpeg');
+    // The same files are the same objects, so that nothing is made anew.
+    expect(store.getState().reaction?.inputs).toEqual(presentInputs(store.getState()));
+    expect(store.getState().reaction?.inputs.leader).toBe(store.getState().leader);
+  });
+
+  it('holds files that other programs open', async () => {
+    const files = unzipSync(await writeProject(keep(filled().getState())));
+    expect(Object.keys(files).sort()).toEqual([
+      'leaders/1-lead-0412.bvh',
+      'leaders/2-fruher.bvh',
+      'project.json',
+      'songs/1-descarga.mp3',
+      'takes/1-latents.f32',
+      'takes/1.f32',
+      'takes/2-latents.f32',
+      'takes/2.f32',
+      'takes/3.f32',
+    ]);
+    expect(files['takes/1.f32']?.byteLength).toBe(4 * (66 + 60 * 157));
+    expect(files['takes/1-latents.f32']?.byteLength).toBe(4 * 15 * 6);
+  });
+
+  it('takes the place of what is there, and undoing brings that back', async () => {
+    const kept = readProject(await writeProject(keep(filled().getState())));
+    const store = filled();
+    const before = store.getState();
+    const { content } = await contentOf(kept, before);
+    change.apply(store, projectOpened(content));
+    const opened = summary(store.getState());
+    expect(store.getState().takes[0]).not.toBe(before.takes[0]);
+    change.apply(store, undone());
+    expect(summary(store.getState())).toEqual(summary(before));
+    expect(store.getState().takes).toBe(before.takes);
+    change.apply(store, redone());
+    expect(summary(store.getState())).toEqual(opened);
+  });
+
+  it('starting afresh empties the page, and undoing brings it back', () => {
+    const store = filled();
+    const before = store.getState();
+    change.apply(store, startedAfresh(small, 3));
+    expect(store.getState()).toMatchObject({
+      takes: [],
+      leader: null,
+      song: null,
+      reaction: null,
+      visiting: true,
+    });
+    expect(store.getState().settings?.seed).toBe(3);
+    expect(worthKeeping(store.getState())).toBe(false);
+    change.apply(store, undone());
+    expect(summary(store.getState())).toEqual(summary(before));
+  });
+});
+
+describe('latents', () => {
+  const latentsIn = async (kept: Kept, state: AppState) =>
+    (await contentOf(kept, state)).content.takes?.map(({ reaction }) => reaction.latents);
+
+  it('are left out where another decoder would read them, whatever its model is called', async () => {
+    const kept = keep(filled().getState());
+    const { decode, ...graphs } = small.graphs;
+    const { wasm, webgpu } = decode.files;
+    const tuned = { ...decode, files: { wasm: { ...wasm, sha256: '1'.repeat(64) }, webgpu } };
+    const store = change.createAppStore('dark');
+    change.apply(store, change.manifestArrived({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
+    expect(decoderOf(store.getState().manifest!)).not.toBe(decoderOf(small));
+    expect(await latentsIn(kept, store.getState())).toEqual([null, null, null]);
+    expect(await latentsIn(kept, empty().getState())).toEqual([latents(60, 3), latents(60, 2), null]);
+  });
+
+  it('are missing from takes that were kept without them, which open all the same', async () => {
+    const files = unzipSync(await writeProject(keep(filled().getState())));
+    const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as {
+      motions: Record<string, unknown>[];
+    };
+    for (const motion of manifest.motions) delete motion['latents'];
+    const bytes = zipSync({ ...files, 'project.json': strToU8(JSON.stringify(manifest)) });
+    expect(await latentsIn(readProject(bytes), empty().getState())).toEqual([null, null, null]);
+  });
+});
+
+describe('what cannot be read any more', () => {
+  const kept = () => keep(filled().getState());
+
+  it('takes only its own takes with it when it is a leader', async () => {
+    const { content, losses } = await contentOf(kept(), empty().getState(), {
+      ...readers,
+      leader: (one) => (one.name === 'früher.bvh' ? Promise.resolve(null) : readers.leader(one)),
+    });
+    expect(content.takes?.map(takeTitle)).toEqual(['Take 3', 'Softer hands']);
+    expect(losses).toEqual(['The leader früher.bvh could not be read again; its take is left out.']);
+    expect(content.leader?.name).toBe('lead_0412.bvh');
+  });
+
+  it('leaves the takes when it is a song', async () => {
+    const { content, losses } = await contentOf(kept(), empty().getState(), {
+      ...readers,
+      song: () => Promise.resolve(null),
+    });
+    expect(content.takes).toHaveLength(3);
+    expect(content.song).toBeNull();
+    expect(losses[0]).toContain('Descarga.mp3');
+  });
+
+  it('is replaced by the page’s own value when it is a setting', async () => {
+    const before = kept();
+    const takes = before.takes.map((take) => ({
+      ...take,
+      inputs: { settings: { guidance: { upper: { coarse: 'much', fine: 0.6 } }, seed: null, old: 1 } },
+    }));
+    const { content } = await contentOf({ ...before, takes }, empty().getState());
+    expect(content.takes?.[0]?.reaction.inputs.settings).toEqual({
+      guidance: { ...alike(0, 0), upper: { coarse: 0, fine: 0.6 } },
+      music: 2,
+      steps: 10,
+      seed: 5,
+      role: 'reactor',
+    });
+  });
+});
+
+describe('a broken project', () => {
+  const whole = writeProject(keep(filled().getState()));
+  const changed = async (alter: (files: Record<string, Uint8Array>) => void): Promise<Uint8Array> => {
+    const files = unzipSync(await whole);
+    alter(files);
+    return zipSync(files);
+  };
+  const json = async (alter: (manifest: Record<string, unknown>) => void): Promise<Uint8Array> =>
+    changed((files) => {
+      const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as Record<string, unknown>;
+      alter(manifest);
+      files['project.json'] = strToU8(JSON.stringify(manifest));
+    });
+
+  it.each<[string, () => Promise<Uint8Array>, string, RegExp]>([
+    [
+      'that is something else',
+      () => Promise.resolve(strToU8('%PDF-1.4')),
+      'not-a-project',
+      /not a ReactDance project/,
+    ],
+    ['that is empty', () => Promise.resolve(new Uint8Array()), 'not-a-project', /not a ReactDance project/],
+    ['that is cut off', async () => (await whole).slice(0, 4000), 'damaged-project', /cut off/],
+    [
+      'without project.json',
+      () => changed((files) => delete files['project.json']),
+      'not-a-project',
+      /no project.json/,
+    ],
+    [
+      'with a torn project.json',
+      () => changed((files) => (files['project.json'] = strToU8('{"format": '))),
+      'damaged-project',
+      /no JSON/,
+    ],
+    [
+      'from a newer page',
+      () => json((manifest) => (manifest['version'] = 2)),
+      'newer-project',
+      /newer version/,
+    ],
+    [
+      'with a wrong value',
+      () => json((manifest) => (manifest['takes'] = [{ id: 5 }])),
+      'damaged-project',
+      /takes\.0\.id/,
+    ],
+    [
+      'without its song',
+      () => changed((files) => delete files['songs/1-descarga.mp3']),
+      'missing-part',
+      /songs\/1/,
+    ],
+    [
+      'with half the latents',
+      () => changed((files) => (files['takes/1-latents.f32'] = new Uint8Array(80))),
+      'damaged-project',
+      /takes\/1-latents\.f32 .* 80 bytes where 90 latents have 360/,
+    ],
+    [
+      'with half a take',
+      () => changed((files) => (files['takes/2.f32'] = new Uint8Array(100))),
+      'damaged-project',
+      /takes\/2\.f32 .* 100 bytes/,
+    ],
+  ])('%s says so', async (_, make, code, words) => {
+    const bytes = await make();
+    let caught: unknown;
+    try {
+      readProject(bytes);
+    } catch (error) {
+      caught = error;
+    }
+    expect(caught).toBeInstanceOf(ProjectError);
+    expect(caught).toMatchObject({ code, message: words, hint: expect.stringMatching(/\w/) as string });
+  });
+});

@@ -1,0 +1,69 @@
+import { describe, expect, it } from 'vitest';
+import { measure } from '../../../../web/quality/measure';
+import { aboveChance, about, atMost, measureRows } from '../../../../web/ui/quality/quality-rows';
+import { madeStander } from '../../support/made-stander';
+import { small } from '../../support/small-manifest';
+
+describe('how a number stands beside its reference', () => {
+  it('is good up to a little beyond what should not be exceeded', () => {
+    expect([0.2, 0.36, 0.5, 0.7].map((value) => atMost(value, 0.33))).toEqual([
+      'good',
+      'good',
+      'so-so',
+      'poor',
+    ]);
+    expect(atMost(NaN, 0.33)).toBeNull();
+    expect(atMost(0.2, null)).toBeNull();
+  });
+
+  it('is no better for being far below what it should be like', () => {
+    expect([0.46, 0.34, 0.2].map((value) => about(value, 0.48))).toEqual(['good', 'so-so', 'poor']);
+    expect(about(0.9, 0.48)).toBe('poor');
+  });
+
+  it('counts on the beat only what is above chance, and never calls chance good', () => {
+    expect([0.31, 0.25, 0.16].map((value) => aboveChance(value, 0.15, 0.32))).toEqual([
+      'good',
+      'so-so',
+      'poor',
+    ]);
+    // Recorded dancers were no better than chance either.
+    expect([0.25, 0.16, 0.1].map((value) => aboveChance(value, 0.15, 0.15))).toEqual([
+      'good',
+      'so-so',
+      'poor',
+    ]);
+    expect(aboveChance(0.15, 0.15, null)).toBe('so-so');
+    expect(aboveChance(NaN, NaN, 0.3)).toBeNull();
+  });
+});
+
+it('names each measure once, with its number, its reference and a word only where there is one', () => {
+  const { positions, fps, frames } = madeStander({ frames: 900, path: (t) => [0.3 * Math.sin(t / 20), 0] });
+  const leader = positions.map((value, index) => (index % 3 === 2 ? value + 1 : value));
+  const duet = { fps, frames, leader, reactor: positions, beats: [], block: 240 };
+  const report = measure(duet, small.quality);
+  const reference = {
+    model: 'small',
+    skateShare: 0.33,
+    contactShare: 0.48,
+    slideSpeed: null,
+    overlapShare: 0.08,
+    music: 0.15,
+    leader: 0.32,
+  };
+  const rows = measureRows(report, reference);
+  expect(rows.feet[0]).toMatchObject({ name: 'Feet slide', beside: 'recorded 33 %' });
+  expect(rows.closeness[0]).toEqual({
+    name: 'Bodies overlap',
+    hint: 'never; hips never nearer than 1.00 m',
+    value: '0 %',
+    beside: 'recorded 8 %',
+    verdict: 'good',
+  });
+  expect(rows.beats[0]).toMatchObject({ value: '–', beside: '', verdict: null });
+  expect(rows.beats[1]?.beside).toMatch(/^recorded 0\.32, by chance \d\.\d\d$/);
+  const alone = Object.values(measureRows(report, null)).flat();
+  expect(alone.filter(({ beside }) => beside.startsWith('recorded'))).toEqual([]);
+  expect(alone.find(({ name }) => name === 'Feet slide')).toMatchObject({ beside: '', verdict: null });
+});

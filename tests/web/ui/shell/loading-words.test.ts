@@ -1,0 +1,34 @@
+import { describe, expect, it } from 'vitest';
+import { loadingWords } from '../../../../web/ui/shell/loading-words';
+
+const loading = { phase: 'loading', label: 'Model', received: 0, total: 0 } as const;
+const part = (name: 'runtime' | 'model', loaded: number, total: number, kept = 0) => ({
+  name,
+  loaded: loaded * 1e6,
+  total: total * 1e6,
+  kept: kept * 1e6,
+});
+
+describe('what is loading, in words', () => {
+  it('counts what comes from the network together', () => {
+    expect(loadingWords({ ...loading, parts: [part('runtime', 4, 14.2), part('model', 8, 23.8)] })).toEqual({
+      title: 'Runtime and model',
+      detail: '12.0 of 38.0 MB',
+    });
+  });
+
+  it('tells what was here from what comes', () => {
+    const parts = [part('runtime', 12, 24), part('model', 23.8, 23.8, 23.8)];
+    expect(loadingWords({ ...loading, parts })).toEqual({
+      title: 'Runtime',
+      detail: '12.0 of 24.0 MB, model from this device',
+    });
+    expect(
+      loadingWords({ ...loading, parts: parts.map((p) => ({ ...p, loaded: p.total, kept: p.total })) }),
+    ).toEqual({ title: 'Runtime and model', detail: 'from this device' });
+  });
+
+  it('says what is prepared when there is nothing to count', () => {
+    expect(loadingWords({ ...loading, label: 'Warming up' })).toEqual({ title: 'Warming up', detail: '' });
+  });
+});

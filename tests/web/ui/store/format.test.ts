@@ -1,0 +1,59 @@
+import { describe, expect, it } from 'vitest';
+import {
+  byteSize,
+  bytesOf,
+  clockTime,
+  duration,
+  rate,
+  slug,
+  tempo,
+  toStep,
+} from '../../../../web/ui/store/format';
+
+describe('words and numbers on the page', () => {
+  it('cuts the clock like a clock', () => {
+    expect(clockTime(16.79)).toBe('0:16.7');
+    expect(clockTime(59.99)).toBe('0:59.9');
+    expect(clockTime(125.5, false)).toBe('2:05');
+    expect(clockTime(-1)).toBe('0:00.0');
+  });
+
+  it('does not lose a tenth to binary fractions', () => {
+    expect(clockTime(0.3)).toBe('0:00.3');
+    expect(clockTime(69 / 30)).toBe('0:02.3');
+  });
+
+  it('rounds lengths', () => {
+    expect(duration(34.96)).toBe('0:35');
+    expect(duration(59.6)).toBe('1:00');
+  });
+
+  it('writes bytes', () => {
+    expect(bytesOf(24_600_000, 38_400_000)).toBe('24.6 of 38.4 MB');
+    expect(bytesOf(1_250_000, 0)).toBe('1.3 MB');
+    expect(byteSize(912_000)).toBe('912 KB');
+    expect(byteSize(1_600_000)).toBe('1.6 MB');
+    expect(byteSize(3)).toBe('1 KB');
+  });
+
+  it('writes rates and tempi', () => {
+    expect(rate(120.0048)).toBe('120');
+    expect(rate(29.97003)).toBe('29.97');
+    expect(tempo(174.6)).toBe('175 BPM');
+    expect(tempo(0)).toBe('no beat found');
+  });
+
+  it('snaps to fader steps without binary dust', () => {
+    expect(toStep(0.151, 0.05, -1)).toBe(0.15);
+    expect(toStep(-0.999, 0.05, -1)).toBe(-1);
+    expect(toStep(0.6000000001, 0.05, -1)).toBe(0.6);
+  });
+
+  it('makes file names that every system takes', () => {
+    expect(slug('Descarga en Ré.mp3', 'song')).toBe('descarga-en-re');
+    expect(slug('lead_0412.bvh', 'leader')).toBe('lead-0412');
+    expect(slug('../..\\evil:name?.wav', 'song')).toBe('evil-name');
+    expect(slug('歌.mp3', 'song')).toBe('song');
+    expect(slug(`${'a'.repeat(300)}.mp3`, 'song')).toHaveLength(40);
+  });
+});

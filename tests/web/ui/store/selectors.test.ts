@@ -1,0 +1,130 @@
+import { describe, expect, it } from 'vitest';
+import * as select from '../../../../web/ui/store/selectors';
+import type { AppState, Settings } from '../../../../web/ui/store/state';
+import { initialState } from '../../../../web/ui/store/store';
+import { small } from '../../support/small-manifest';
+import { alike, leader, song, still } from '../../support/made-state';
+
+const settings: Settings = { guidance: alike(1.2, 0.6), music: 2, steps: 10, seed: 1204, role: 'reactor' };
+const state = (more: Partial<AppState>): AppState => ({
+  ...initialState('dark'),
+  manifest: small,
+  settings,
+  ...more,
+});
+
+describe('what is wanted', () => {
+  it('is nothing without a leader, or while a file is still being read', () => {
+    expect(select.wantedInputs(state({ song: song(5) }))).toBeNull();
+    const reading = { song: { name: 'a.mp3', fraction: 0 }, leader: null };
+    expect(select.wantedInputs(state({ leader: leader(30), reading }))).toBeNull();
+    expect(select.wantedInputs(state({ leader: leader(30), settings: null }))).toBeNull();
+  });
+
+  it('needs no song', () => {
+    const one = leader(30);
+    expect(select.wantedInputs(state({ leader: one }))).toEqual({
+      leader: one,
+      song: null,
+      shift: 0,
+      settings,
+    });
+  });
+
+  it('is up to date exactly while the reaction was made from the same', () => {
+    const one = leader(30);
+    const inputs = { leader: one, song: null, shift: 0, settings };
+    const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
+    expect(select.upToDate(state({ leader: one, reaction }))).toBe(true);
+    expect(
+      select.upToDate(
+        state({ leader: one, reaction, settings: { ...settings, guidance: { ...settings.guidance } } }),
+      ),
+    ).toBe(true);
+    expect(select.upToDate(state({ leader: one, reaction, song: song(3) }))).toBe(false);
+    for (const changed of [
+      { ...settings, seed: 1 },
+      { ...settings, steps: 4 },
+      { ...settings, music: 0 },
+      { ...settings, guidance: alike(1.2, 0.65) },
+      { ...settings, guidance: { ...settings.guidance, lower: { coarse: 1.2, fine: 0.65 } } },
+      { ...settings, role: 'leader' as const },
+    ])
+      expect(select.upToDate(state({ leader: one, reaction, settings: changed }))).toBe(false);
+  });
+});
+
+describe('guidance matrix', () => {
+  it('is streams by layers, row by row', () => {
+    const matrix = select.guidanceMatrix(settings, small.latent);
+    expect([...matrix].map((value) => Number(value.toFixed(2)))).toEqual([1.2, 0.6, 1.2, 0.6, 1.2, 0.6]);
+    const lower = { ...settings, guidance: { ...settings.guidance, lower: { coarse: 2, fine: 3 } } };
+    expect([...select.guidanceMatrix(lower, small.latent)].slice(2, 4)).toEqual([2, 3]);
+  });
+});
+
+describe('bar and count', () => {
+  const beats = [0.5, 1, 1.5, 2, 2.5];
+  it('counts in four from the first beat', () => {
+    expect(select.barAt(beats, 0.4)).toBeNull();
+    expect(select.barAt(beats, 0.5)).toEqual({ bar: 1, count: 1 });
+    expect(select.barAt(beats, 2.2)).toEqual({ bar: 1, count: 4 });
+    expect(select.barAt([], 1)).toBeNull();
+  });
+  it('ends with the last beat', () => {
+    expect(select.barAt(beats, 2.9)).toEqual({ bar: 2, count: 1 });
+    expect(select.barAt(beats, 3)).toBeNull();
+    expect(select.barAt(beats, 9)).toBeNull();
+    expect(select.barAt([2], 2.4)).toEqual({ bar: 1, count: 1 });
+    expect(select.barAt([2], 2.6)).toBeNull();
+  });
+});
+
+describe('what is said', () => {
+  it('of lengths: the leader rules, silence is named', () => {
+    expect(select.lengthNote(state({}))).toBeNull();
+    expect(select.lengthNote(state({ leader: leader(300) }))).toContain('No song');
+    expect(select.lengthNote(state({ leader: leader(300), song: song(10.2) }))).toBeNull();
+    expect(select.lengthNote(state({ leader: leader(300), song: song(6) }))).toContain('silence follows');
+    expect(select.lengthNote(state({ leader: leader(300), song: song(60) }))).toContain('not used');
+  });
+
+  it('of silent songs, missing beats, file warnings and remarks', () => {
+    const texts = (more: Partial<AppState>): string[] => select.notes(state(more)).map(({ text }) => text);
+    expect(texts({ song: song(5, { silent: true, beats: [] }) })).toEqual([
+      'The song is silent: it carries no beat to dance to.',
+    ]);
+    expect(texts({ song: song(5, { beats: [] }) })).toEqual(['No steady beat was found in the song.']);
+    expect(texts({ leader: leader(30, 'a.bvh', ['The feet slide.']), song: song(1) })).toEqual([
+      'The feet slide.',
+    ]);
+    const moved = leader(30, 'a.bvh', ['The feet slide.'], ['The first frame is left out.']);
+    expect(select.notes(state({ leader: moved, song: song(1) }))).toEqual([
+      { text: 'The feet slide.', look: true },
+      { text: 'The first frame is left out.', look: false },
+    ]);
+    expect(texts({ remarks: ['The storage is full.'] })).toEqual(['The storage is full.']);
+  });
+
+  it('in one sentence where there is no room for more: what may change the dance comes first', () => {
+    const silent = song(3, { silent: true, beats: [] });
+    expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
+      text: 'The song is silent: it carries no beat to dance to.',
+      look: true,
+    });
+    expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');
+    expect(
+      select.firstNote(state({ leader: leader(300), song: song(10.2), remarks: ['Elsewhere.'] })),
+    ).toBeNull();
+  });
+
+  it('of the job, in words', () => {
+    const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
+    const job = { done: 2, total: 10, fraction: 0.3, fresh: null };
+    const from = { model: loading, settings };
+    expect(select.jobWords({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
+    expect(select.jobWords({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');
+    expect(select.jobWords({ ...job, stage: 'step', done: 10 }, from)).toBe('step 10 of 10');
+    expect(select.jobWords({ ...job, stage: 'step', done: 24, total: 50 }, from)).toBe('step 5 of 10');
+  });
+});

@@ -1,0 +1,194 @@
+import { describe, expect, it } from 'vitest';
+import * as change from '../../support/actions';
+import type { Problem } from '../../../../web/ui/store/state';
+import { small } from '../../support/small-manifest';
+import { alike, leader, song, still } from '../../support/made-state';
+
+const ready = (): change.Store => {
+  const store = change.createAppStore('dark');
+  change.apply(store, change.manifestArrived(small, 7));
+  return store;
+};
+
+describe('settings', () => {
+  it('come from the manifest, with the seed that was rolled', () => {
+    const store = ready();
+    expect(store.getState().settings).toEqual({
+      guidance: alike(0, 0),
+      music: 2,
+      steps: 10,
+      seed: 7,
+      role: 'reactor',
+    });
+  });
+
+  it('do not exist before the manifest', () => {
+    const store = change.createAppStore('dark');
+    change.apply(store, change.guidanceSet('coarse', 1));
+    change.apply(store, change.stepsSet(4));
+    change.apply(store, change.seedSet(4));
+    expect(store.getState().settings).toBeNull();
+  });
+
+  it('hold guidance to range and step, each layer for itself', () => {
+    const store = ready();
+    change.apply(store, change.guidanceSet('coarse', 9));
+    change.apply(store, change.guidanceSet('fine', 0.33));
+    expect(store.getState().settings?.guidance).toEqual(alike(3, 0.35));
+    change.apply(store, change.guidanceReset('coarse'));
+    expect(store.getState().settings?.guidance).toEqual(alike(0, 0.35));
+    change.apply(store, change.guidanceReset());
+    expect(store.getState().settings?.guidance).toEqual(alike(0, 0));
+  });
+
+  it('hold the guidance of the music to its own range, and reset it with the rest', () => {
+    const store = ready();
+    const music = () => store.getState().settings?.music;
+    change.apply(store, change.musicSet(9));
+    expect(music()).toBe(4);
+    change.apply(store, change.musicSet(1.23));
+    expect(music()).toBe(1.25);
+    change.apply(store, change.musicReset());
+    expect(music()).toBe(2);
+    change.apply(store, change.musicSet(0));
+    change.apply(store, change.guidanceSet('fine', 1));
+    expect(music()).toBe(0);
+    change.apply(store, change.guidanceReset());
+    expect(store.getState().settings).toMatchObject({ guidance: alike(0, 0), music: 2 });
+    change.apply(store, change.presetChosen({ guidance: alike(1, 1.2), music: 0 }));
+    expect(store.getState().settings).toMatchObject({ guidance: alike(1, 1.2), music: 0 });
+  });
+
+  it('are the same object while nothing changes, so that nothing is made anew', () => {
+    const store = ready();
+    const before = store.getState().settings;
+    change.apply(store, change.guidanceSet('coarse', 0.01));
+    change.apply(store, change.musicSet(2.01));
+    change.apply(store, change.guidanceReset());
+    expect(store.getState().settings).toBe(before);
+  });
+
+  it('hold steps and seed to what the model takes', () => {
+    const store = ready();
+    change.apply(store, change.stepsSet(0));
+    change.apply(store, change.seedSet(-3));
+    expect(store.getState().settings).toMatchObject({ steps: 1, seed: 0 });
+    change.apply(store, change.stepsSet(999));
+    change.apply(store, change.seedSet(2 ** 40));
+    expect(store.getState().settings).toMatchObject({ steps: 50, seed: 0xffffffff });
+    change.apply(store, change.seedSet(Number.NaN));
+    expect(store.getState().settings?.seed).toBe(0xffffffff);
+  });
+});
+
+describe('files', () => {
+  it('a new leader takes the old reaction off the stage and starts over', () => {
+    const store = ready();
+    const first = leader(300);
+    change.apply(store, change.leaderLoaded(first));
+    const { settings } = store.getState();
+    if (!settings) throw new Error('no settings');
+    change.apply(
+      store,
+      change.reacted({
+        motion: still(300),
+        latents: null,
+        inputs: { leader: first, song: null, shift: 0, settings },
+        label: null,
+        seconds: 1,
+      }),
+    );
+    change.apply(store, change.playbackSet({ time: 5, playing: true }));
+    change.apply(store, change.leaderLoaded(leader(90)));
+    expect(store.getState()).toMatchObject({ reaction: null, playback: { time: 0, playing: false } });
+  });
+
+  it('a new song leaves the reaction where it is until the next one is ready', () => {
+    const store = ready();
+    const first = leader(300);
+    change.apply(store, change.leaderLoaded(first));
+    const { settings } = store.getState();
+    if (!settings) throw new Error('no settings');
+    const reaction = {
+      motion: still(300),
+      latents: null,
+      inputs: { leader: first, song: null, shift: 0, settings },
+      label: null,
+      seconds: 1,
+    };
+    change.apply(store, change.reacted(reaction));
+    change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0.5 }));
+    change.apply(store, change.songLoaded(song(5)));
+    expect(store.getState().reaction).toBe(reaction);
+    expect(store.getState().reading.song).toBeNull();
+  });
+});
+
+describe('playing', () => {
+  it('stays inside the dance, whose length the leader rules', () => {
+    const store = ready();
+    change.apply(store, change.songLoaded(song(20)));
+    change.apply(store, change.playbackSet({ time: 99 }));
+    expect(store.getState().playback.time).toBe(20);
+    change.apply(store, change.leaderLoaded(leader(150)));
+    change.apply(store, change.playbackSet({ time: 99 }));
+    expect(store.getState().playback.time).toBe(5);
+    change.apply(store, change.playbackSet({ time: -1 }));
+    expect(store.getState().playback.time).toBe(0);
+  });
+
+  it('opens one floating thing at a time and closes it by the same door', () => {
+    const store = ready();
+    change.apply(store, change.opened('download'));
+    change.apply(store, change.opened('keys'));
+    expect(store.getState().open).toBe('keys');
+    change.apply(store, change.opened('keys'));
+    expect(store.getState().open).toBeNull();
+  });
+
+  it('tells failures one after the other, each once', () => {
+    const store = ready();
+    const problem = (code: string): Problem => ({
+      code,
+      title: code,
+      hint: '',
+      remedy: 'none',
+      refused: null,
+    });
+    change.apply(store, change.told(problem('first')));
+    change.apply(store, change.told(problem('second')));
+    change.apply(store, change.told(problem('first')));
+    change.apply(store, change.told(problem('second')));
+    expect(store.getState().problem?.code).toBe('first');
+    change.apply(store, change.dismissed());
+    expect(store.getState().problem?.code).toBe('second');
+    change.apply(store, change.dismissed());
+    expect(store.getState()).toMatchObject({ problem: null, waitingProblems: [] });
+  });
+
+  it('keeps a remark once', () => {
+    const store = ready();
+    change.apply(store, change.remarked('The storage is full.'));
+    change.apply(store, change.remarked('The storage is full.'));
+    expect(store.getState().remarks).toEqual(['The storage is full.']);
+  });
+});
+
+describe('watching', () => {
+  it('calls at once and then only when the selected part changes', () => {
+    const store = ready();
+    const seen: number[] = [];
+    const stop = change.watch(
+      store,
+      (state) => state.playback.speed,
+      (speed) => {
+        seen.push(speed);
+      },
+    );
+    change.apply(store, change.themeSet('light'));
+    change.apply(store, change.playbackSet({ speed: 2 }));
+    stop();
+    change.apply(store, change.playbackSet({ speed: 0.5 }));
+    expect(seen).toEqual([1, 2]);
+  });
+});

@@ -1,0 +1,434 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { AppState, LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/state';
+import { columnOf } from '../../../../web/ui/store/guidance-matrix';
+import * as change from '../../support/actions';
+import { MOST_TAKES } from '../../../../web/ui/store/add-take';
+import * as edit from '../../../../web/ui/store/actions/takes';
+import { redone, undone, unremembered } from '../../../../web/ui/store/history';
+import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
+import { letterOf, presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
+import { small } from '../../support/small-manifest';
+import { leader, song, still } from '../../support/made-state';
+
+/** A page on which reactions arrive by hand. */
+class Page {
+  readonly store = change.createAppStore('dark');
+  now = 1_000_000;
+  private made = 0;
+
+  constructor(readonly dancer: LoadedLeader = leader(300)) {
+    change.apply(this.store, change.manifestArrived(small, 7));
+    change.apply(this.store, change.leaderLoaded(dancer));
+  }
+
+  get state(): AppState {
+    return this.store.getState();
+  }
+  get titles(): string[] {
+    return this.state.takes.map(takeTitle);
+  }
+  get onStage(): string | undefined {
+    const take = takeOnStage(this.state);
+    return take ? takeTitle(take) : undefined;
+  }
+  get coarse(): number | undefined {
+    const { settings } = this.state;
+    return settings ? columnOf(settings.guidance, 'coarse').value : undefined;
+  }
+  do(...changes: change.Change[]): void {
+    for (const one of changes) change.apply(this.store, one);
+  }
+  /** The reaction to what is asked for now arrives. */
+  arrive({ label = null, after = 60_000 }: { label?: string | null; after?: number } = {}): Reaction {
+    const inputs = presentInputs(this.state);
+    if (!inputs) throw new Error('nothing to react to');
+    this.now += after;
+    const frames = inputs.leader.motion.frames;
+    const reaction = {
+      motion: still(frames),
+      latents: null,
+      inputs,
+      label,
+      seconds: label === null ? 1 : null,
+    };
+    this.do(change.reacted(reaction, { id: `id-${++this.made}`, at: this.now }));
+    return reaction;
+  }
+  id(title: string): string {
+    const take = this.state.takes.find((one) => takeTitle(one) === title);
+    if (!take) throw new Error(`no take ${title} among ${this.titles.join(', ')}`);
+    return take.id;
+  }
+  seed(seed: number): void {
+    this.do(change.seedSet(seed));
+  }
+}
+
+let page: Page;
+beforeEach(() => {
+  page = new Page();
+});
+
+describe('a reaction that arrives', () => {
+  it('becomes a take with what it was made from, the newest first', () => {
+    const first = page.arrive();
+    page.seed(8);
+    const second = page.arrive();
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    expect(page.state.takes.map(({ reaction }) => reaction)).toEqual([second, first]);
+    expect(page.onStage).toBe('Take 2');
+    expect(page.state.takes[0]).toMatchObject({ starred: false, name: null, createdAt: page.now });
+  });
+
+  it('is called what the page calls it when it came ready-made, and takes no number', () => {
+    page.arrive({ label: 'demo reaction' });
+    page.seed(8);
+    page.arrive();
+    expect(page.titles).toEqual(['Take 1', 'Demo reaction']);
+  });
+
+  it('is the same take when the same motion is told anew what it was made from', () => {
+    const before = page.arrive({ label: 'demo reaction' });
+    page.do(unremembered(change.songLoaded(song(10))));
+    const inputs = { ...before.inputs, song: page.state.song };
+    page.do(change.reacted({ ...before, inputs }, { id: 'later', at: page.now }));
+    expect(page.titles).toEqual(['Demo reaction']);
+    expect(takeOnStage(page.state)?.reaction.inputs.song).toBe(page.state.song);
+  });
+
+  it('is the same take when the same is asked for again', () => {
+    page.arrive();
+    page.seed(8);
+    page.arrive();
+    page.seed(7);
+    page.arrive();
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    expect(page.onStage).toBe('Take 1');
+  });
+});
+
+describe('a drag of guidance', () => {
+  const drag = (...values: number[]): void => {
+    for (const value of values) {
+      page.do(change.guidanceSet('coarse', value));
+      page.arrive({ after: 300 });
+    }
+  };
+  const beginAtRest = (): void => {
+    page.arrive();
+    page.now += 60_000;
+  };
+
+  it('leaves one take, the last', () => {
+    beginAtRest();
+    drag(0.5, 0.6, 0.7);
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    expect(page.state.takes[0]?.reaction.inputs.settings.guidance.lower?.coarse).toBe(0.7);
+    page.now += 10_000;
+    drag(0.8);
+    expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
+  });
+
+  it.each<[string, (id: string) => change.Change]>([
+    ['starred', edit.takeStarred],
+    ['named', (id) => edit.takeRenamed(id, 'Mine')],
+  ])('leaves a take that was %s as it is', (_, mark) => {
+    beginAtRest();
+    drag(0.5);
+    page.do(mark(page.state.takes[0]?.id ?? ''));
+    drag(0.6);
+    expect(page.state.takes).toHaveLength(3);
+  });
+
+  it('leaves a take that is compared as it is', () => {
+    beginAtRest();
+    drag(0.5);
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.flipped());
+    // Take 1 is on the stage now and takes the drag up; Take 2 is what it is compared with.
+    page.do(change.guidanceSet('coarse', 0.55));
+    page.arrive({ after: 300 });
+    expect(page.state.takes).toHaveLength(3);
+    page.do(change.guidanceSet('coarse', 0.6));
+    page.arrive({ after: 300 });
+    expect(page.state.takes).toHaveLength(3);
+    expect(page.id('Take 2')).toBe(page.state.other);
+  });
+
+  it('does not swallow another seed, a ready-made reaction or another leader', () => {
+    page.arrive({ label: 'demo reaction' });
+    drag(0.5);
+    page.seed(9);
+    page.arrive({ after: 300 });
+    expect(page.titles).toEqual(['Take 2', 'Take 1', 'Demo reaction']);
+    page.do(change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive({ after: 300 });
+    expect(page.titles).toHaveLength(4);
+  });
+
+  it('is one step of undo, however many reactions came, and the last can be had again', () => {
+    beginAtRest();
+    drag(0.5, 0.6, 0.7);
+    page.do(undone());
+    expect([page.coarse, page.onStage]).toEqual([0, 'Take 1']);
+    expect(page.state.history.past).toHaveLength(0);
+    page.do(redone());
+    expect([page.coarse, page.onStage]).toEqual([0.7, 'Take 2']);
+  });
+});
+
+describe('the oldest takes', () => {
+  it('make room, unless they are starred, named or in use', () => {
+    page.arrive();
+    page.do(edit.takeStarred(page.id('Take 1')));
+    for (let seed = 100; seed < 100 + MOST_TAKES + 3; seed++) {
+      page.seed(seed);
+      page.arrive();
+      if (seed === 100) page.do(edit.takeRenamed(page.id('Take 2'), 'Mine'));
+      if (seed === 101) page.do(edit.letterGiven(page.id('Mine'), 'B'));
+    }
+    expect(page.titles).toHaveLength(MOST_TAKES);
+    expect(page.titles.slice(-3)).toEqual(['Take 7', 'Mine', 'Take 1']);
+  });
+});
+
+describe('choosing a take', () => {
+  it('shows it at the same playhead with files and settings as they were, so that nothing is made anew', () => {
+    const first = page.arrive();
+    page.do(change.songLoaded(song(10)));
+    page.seed(8);
+    page.arrive();
+    page.do(change.playbackSet({ time: 4 }));
+    page.do(edit.takeChosen(page.id('Take 1')));
+    expect(page.state.reaction).toBe(first);
+    expect(presentInputs(page.state)).toEqual(first.inputs);
+    expect(page.state.song).toBeNull();
+    expect(page.state.playback.time).toBe(4);
+  });
+
+  it('brings its own leader, and a playhead inside its dance', () => {
+    page.arrive();
+    page.do(change.leaderLoaded(leader(600, 'long.bvh')));
+    page.arrive();
+    page.do(change.playbackSet({ time: 18 }), edit.takeChosen(page.id('Take 1')));
+    expect(page.state.leader).toBe(page.dancer);
+    expect(page.state.playback.time).toBe(10);
+    page.do(undone());
+    expect([page.state.leader?.name, page.onStage]).toEqual(['long.bvh', 'Take 2']);
+  });
+});
+
+describe('A and B', () => {
+  const letters = (): string =>
+    page.state.takes.map((take) => `${takeTitle(take)} ${letterOf(take, page.state) ?? '-'}`).join(', ');
+  beforeEach(() => {
+    for (const seed of [1, 2, 3]) {
+      page.seed(seed);
+      page.arrive();
+    }
+  });
+
+  it('flip on the stage and stay with their takes', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect(letters()).toBe('Take 3 A, Take 2 -, Take 1 B');
+    page.do(edit.flipped());
+    expect([page.onStage, letters()]).toEqual(['Take 1', 'Take 3 A, Take 2 -, Take 1 B']);
+    expect(page.state.settings?.seed).toBe(1);
+    page.do(edit.flipped());
+    expect([page.onStage, letters()]).toEqual(['Take 3', 'Take 3 A, Take 2 -, Take 1 B']);
+  });
+
+  it('are nothing to undo when looked at in turn', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    const { history } = page.state;
+    page.do(edit.flipped(), edit.flipped());
+    expect(page.state.history).toBe(history);
+  });
+
+  it('without a B, B is the newest other take', () => {
+    page.do(edit.flipped());
+    expect(letters()).toBe('Take 3 A, Take 2 B, Take 1 -');
+    expect(page.onStage).toBe('Take 2');
+  });
+
+  it('go to the take that is given them, and change places with each other', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.letterGiven(page.id('Take 1'), 'A'));
+    expect([letters(), page.onStage]).toEqual(['Take 3 B, Take 2 -, Take 1 A', 'Take 1']);
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect([letters(), page.onStage]).toEqual(['Take 3 A, Take 2 -, Take 1 B', 'Take 1']);
+    page.do(edit.letterGiven(page.id('Take 2'), 'B'));
+    expect([letters(), page.onStage]).toEqual(['Take 3 A, Take 2 B, Take 1 -', 'Take 2']);
+    page.do(edit.letterGiven(page.id('Take 3'), 'A'));
+    // Without a comparison the one on the stage is A.
+    expect(letters()).toBe('Take 3 -, Take 2 A, Take 1 -');
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect(letters()).toBe('Take 3 -, Take 2 A, Take 1 B');
+  });
+
+  it('are seen together only while there are two, and end with either', () => {
+    page.do(edit.compareSet('ghost'));
+    expect(page.state.compare).toBe('off');
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'), edit.compareSet('ghost'));
+    expect(page.state.compare).toBe('ghost');
+    page.do(edit.compareSet('ghost'));
+    expect(page.state.compare).toBe('off');
+    page.do(edit.compareSet('side'), edit.takeDeleted(page.id('Take 1')));
+    expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
+    page.do(undone());
+    expect([page.state.compare, letters()]).toEqual(['side', 'Take 3 A, Take 2 -, Take 1 B']);
+  });
+
+  it('are given both at once: the take that gets B leaves A to the newest other one', () => {
+    page.do(edit.letterGiven(page.id('Take 3'), 'A'));
+    expect(letters()).toBe('Take 3 A, Take 2 -, Take 1 -');
+    page.do(edit.letterGiven(page.id('Take 3'), 'B'));
+    expect([letters(), page.onStage]).toEqual(['Take 3 B, Take 2 A, Take 1 -', 'Take 3']);
+  });
+
+  it('have A on the left and B on the right, whichever is on the stage', () => {
+    let seen: OtherDancer | null = null;
+    const stop = showOther(page.store, { setOther: (other) => (seen = other) });
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
+    const labels = { left: 'A Take 3', right: 'B Take 1' };
+    expect(seen).toMatchObject({ mode: 'right', labels });
+    page.do(edit.flipped());
+    expect(seen).toMatchObject({ mode: 'left', labels });
+    page.do(edit.compareSet('ghost'));
+    expect(seen).toMatchObject({ mode: 'ghost' });
+    stop();
+  });
+
+  it('do not compare a leader with a reactor', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'), change.rolesSwapped());
+    expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
+    page.arrive();
+    const [take] = page.state.takes.filter(({ id }) => id === page.id('Take 1'));
+    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('Dances the other part.');
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'));
+    expect(page.state.other).toBeNull();
+    const [alone] = page.state.takes.filter(({ id }) => id === page.id('Take 4'));
+    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
+  });
+
+  it('wait while another leader is there, and never stand beside a dance to it', () => {
+    let seen: OtherDancer | null = null;
+    const stop = showOther(page.store, { setOther: (other) => (seen = other) });
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
+    page.do(change.leaderLoaded(leader(90, 'other.bvh')));
+    expect(seen).toBeNull();
+    page.arrive();
+    expect([seen, letters()]).toEqual([null, 'Take 4 A, Take 3 -, Take 2 -, Take 1 -']);
+    page.do(undone());
+    expect(seen).toMatchObject({ labels: { left: 'A Take 3', right: 'B Take 1' } });
+    stop();
+  });
+
+  it('are two takes, also after undoing leads to the one that was the other', () => {
+    page.do(edit.letterGiven(page.id('Take 2'), 'B'), edit.compareSet('side'), undone());
+    expect([page.onStage, letters()]).toEqual(['Take 2', 'Take 3 -, Take 2 A, Take 1 -']);
+    page.do(edit.takeChosen(page.id('Take 1')));
+    expect([page.state.compare, letters()]).toEqual(['off', 'Take 3 -, Take 2 -, Take 1 A']);
+  });
+
+  it('are over when the one that waits is shown itself', () => {
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive();
+    page.do(edit.takeChosen(page.id('Take 1')), edit.takeChosen(page.id('Take 2')));
+    expect(letters()).toBe('Take 4 -, Take 3 -, Take 2 A, Take 1 -');
+  });
+
+  it('do not compare dances to different leaders', () => {
+    page.do(change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive();
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.flipped());
+    expect([page.state.other, page.onStage]).toEqual([null, 'Take 4']);
+  });
+});
+
+describe('undo and redo', () => {
+  beforeEach(() => {
+    page.arrive();
+    page.seed(8);
+    page.arrive();
+  });
+
+  it('go over names, stars and deletions', () => {
+    page.do(edit.takeRenamed(page.id('Take 1'), '  Softer   hands '));
+    page.do(edit.takeStarred(page.id('Softer hands')));
+    page.do(edit.takeDeleted(page.id('Softer hands')));
+    expect(page.titles).toEqual(['Take 2']);
+    page.do(undone());
+    expect(page.state.takes[1]).toMatchObject({ name: 'Softer hands', starred: true });
+    page.do(undone());
+    expect(page.state.takes[1]).toMatchObject({ name: 'Softer hands', starred: false });
+    page.do(undone());
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    page.do(redone(), redone(), redone());
+    expect(page.titles).toEqual(['Take 2']);
+    expect(page.state.history.future).toHaveLength(0);
+  });
+
+  it('lead to the take before and leave the one that arrived in the list', () => {
+    page.do(undone());
+    expect([page.onStage, page.state.settings?.seed]).toEqual(['Take 1', 7]);
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    page.do(redone());
+    expect([page.onStage, page.state.settings?.seed]).toEqual(['Take 2', 8]);
+  });
+
+  it('keep takes that arrived after what is undone', () => {
+    page.do(edit.takeDeleted(page.id('Take 1')));
+    page.seed(9);
+    page.arrive();
+    page.do(undone(), undone());
+    expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
+  });
+
+  it('deleting the take on the stage shows the next one; the last leaves the stage as it is', () => {
+    page.do(edit.takeDeleted(page.id('Take 2')));
+    expect([page.onStage, page.state.settings?.seed]).toEqual(['Take 1', 7]);
+    const { reaction } = page.state;
+    page.do(edit.takeDeleted(page.id('Take 1')));
+    expect(page.state.takes).toEqual([]);
+    expect(page.state.reaction).toBe(reaction);
+    page.do(undone(), undone());
+    expect([page.onStage, page.titles]).toEqual(['Take 2', ['Take 2', 'Take 1']]);
+  });
+
+  it('bring back a take that a later drag has taken the place of', () => {
+    page.do(change.guidanceSet('fine', 1));
+    const kept = page.arrive();
+    // A step of its own, but within the time of folding.
+    page.do((state) => ({ history: { ...state.history, open: false } }));
+    page.do(change.guidanceSet('fine', 2));
+    page.arrive({ after: 2000 });
+    expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
+    page.do(undone());
+    expect(page.state.reaction).toBe(kept);
+    expect([page.onStage, page.state.takes.length]).toEqual(['Take 3', 3]);
+    page.do(redone());
+    expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(2);
+  });
+
+  it('a new change ends what could be redone; what comes to the same is no change', () => {
+    page.do(undone());
+    const settings = { ...(page.state.settings as Settings) };
+    page.do(change.settingsSet(settings));
+    expect(page.state.history.future).toHaveLength(1);
+    page.do(change.stepsSet(4));
+    expect(page.state.history.future).toHaveLength(0);
+  });
+
+  it('go over a leader that was dropped, with the reaction that was there', () => {
+    page.do(change.leaderLoaded(leader(90, 'other.bvh')));
+    expect(page.state.reaction).toBeNull();
+    page.do(undone());
+    expect([page.state.leader, page.onStage]).toEqual([page.dancer, 'Take 2']);
+  });
+
+  it('do not go over what the page does of its own accord', () => {
+    const fresh = new Page();
+    fresh.do(unremembered(change.songLoaded(song(10))), change.playbackSet({ time: 3 }));
+    fresh.arrive();
+    expect(fresh.state.history.past).toEqual([]);
+  });
+});

@@ -1,0 +1,95 @@
+import { describe, expect, it } from 'vitest';
+import { rulerMarks } from '../../../../web/ui/timeline/ruler';
+import { timeScale } from '../../../../web/ui/store/time-scale';
+
+const beats = (count: number, every: number, first = 0): number[] =>
+  Array.from({ length: count }, (_, index) => first + index * every);
+
+describe('ruler', () => {
+  it('numbers every bar from the first beat when there is room', () => {
+    const { name, marks } = rulerMarks(beats(16, 0.5, 0.25), timeScale({ from: 0, to: 10 }, 600));
+    expect(name).toBe('Bars');
+    expect(marks.map(({ text }) => text)).toEqual(['1', '2', '3', '4']);
+    expect(marks[1]?.at).toBeCloseTo(0.225);
+  });
+
+  it('numbers fewer bars when there is less room', () => {
+    const { marks } = rulerMarks(beats(100, 0.34), timeScale({ from: 0, to: 35 }, 520));
+    expect(marks.map(({ text }) => text)).toEqual([
+      '1',
+      '3',
+      '5',
+      '7',
+      '9',
+      '11',
+      '13',
+      '15',
+      '17',
+      '19',
+      '21',
+      '23',
+      '25',
+    ]);
+  });
+
+  it('leaves out bars after the end of the dance', () => {
+    const { marks } = rulerMarks(beats(40, 0.5), timeScale({ from: 0, to: 4.6 }, 300));
+    expect(marks.map(({ text }) => text)).toEqual(['1', '2', '3']);
+  });
+
+  it('counts between the bars when a part is seen so large that there is room', () => {
+    const { marks } = rulerMarks(beats(40, 0.5), timeScale({ from: 3.6, to: 6.2 }, 400));
+    expect(marks.map(({ text }) => text)).toEqual(['3', '3.2', '3.3', '3.4', '4']);
+    expect(marks[0]?.at).toBeCloseTo(0.4 / 2.6);
+  });
+
+  it('leaves room where a short song fills only a part of the dance', () => {
+    const { marks } = rulerMarks(beats(16, 0.5), timeScale({ from: 0, to: 30 }, 900));
+    expect(marks.map(({ text }) => text)).toEqual(['1', '2', '3', '4']);
+    const dense = rulerMarks(beats(16, 0.5), timeScale({ from: 0, to: 60 }, 900));
+    expect(dense.marks.map(({ text }) => text)).toEqual(['1', '3']);
+  });
+
+  it('tells the time of a part', () => {
+    const { marks } = rulerMarks([], timeScale({ from: 8.7, to: 11.3 }, 130));
+    expect(marks.map(({ text, at }) => [text, Number((at * 2.6).toFixed(3))])).toEqual([
+      ['0:09', 0.3],
+      ['0:10', 1.3],
+      ['0:11', 2.3],
+    ]);
+  });
+
+  it('tells the time where no beat is', () => {
+    const { name, marks } = rulerMarks([], timeScale({ from: 0, to: 10 }, 400));
+    expect(name).toBe('Time');
+    expect(marks.map(({ text }) => text)).toEqual([
+      '0:00',
+      '0:01',
+      '0:02',
+      '0:03',
+      '0:04',
+      '0:05',
+      '0:06',
+      '0:07',
+      '0:08',
+      '0:09',
+    ]);
+    expect(rulerMarks([], timeScale({ from: 0, to: 100 }, 400)).marks.map(({ text }) => text)).toEqual([
+      '0:00',
+      '0:10',
+      '0:20',
+      '0:30',
+      '0:40',
+      '0:50',
+      '1:00',
+      '1:10',
+      '1:20',
+      '1:30',
+    ]);
+  });
+
+  it('is empty before anything is loaded', () => {
+    expect(rulerMarks([], timeScale({ from: 0, to: 0 }, 1000)).marks).toEqual([]);
+    expect(rulerMarks([], timeScale({ from: 0, to: 10 }, 0)).marks).toEqual([]);
+  });
+});

@@ -1,0 +1,54 @@
+import { afterEach, describe, expect, it, vi } from 'vitest';
+import { createBodyLibrary } from '../../../../web/view/body/library';
+import { BUILDS } from '../../../../web/view/body/part';
+import { person } from '../../support/skeletons';
+import { topology } from '../../support/topology';
+
+/** How many vertices are computed when the last 16 are remembered. */
+function computed(triangles: Uint32Array): number {
+  const last: number[] = [];
+  return triangles.filter((vertex) => {
+    if (last.includes(vertex)) return false;
+    last.push(vertex);
+    if (last.length > 16) last.shift();
+    return true;
+  }).length;
+}
+
+afterEach(() => vi.restoreAllMocks());
+
+describe('the body library', () => {
+  it('makes bodies without a worker too, once for skeletons that differ by millimetres', async () => {
+    // Node has no Worker: what a page does whose worker could not be started.
+    const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
+    const library = createBodyLibrary();
+    const first = library.request(person(), BUILDS.leader);
+    const again = library.request(
+      person().map((value, i) => value + (i % 2 === 0 ? 0.008 : -0.008)),
+      BUILDS.leader,
+    );
+    expect(again).toBe(first);
+    const { indices, near, light, positions, offsets } = await first;
+    expect(offsets).toEqual(Float32Array.from(person()));
+    expect(indices.length).toBeGreaterThan(30_000);
+    const full = topology({ positions, indices });
+    for (const [triangles, share] of [
+      [near, 0.5],
+      [light, 0.25],
+    ] as const) {
+      expect(triangles.length / indices.length).toBeCloseTo(share, 1);
+      // Closed as the full surface, and of the same size.
+      const lighter = topology({ positions, indices: triangles });
+      expect(lighter).toMatchObject({ holes: 0, openEdges: 0 });
+      expect(lighter.volume / full.volume).toBeCloseTo(1, 1);
+      expect(computed(triangles)).toBeLessThan(0.75 * (triangles.length / 3));
+    }
+    expect(warn).toHaveBeenCalledTimes(1);
+    expect(library.request(person(), BUILDS.reactor)).not.toBe(first);
+    expect(library.request(person(1.1), BUILDS.leader)).not.toBe(first);
+    const oneBone = person();
+    oneBone[22] = oneBone[22]! + 0.012;
+    expect(library.request(oneBone, BUILDS.leader)).not.toBe(first);
+    library.dispose();
+  });
+});

@@ -1,0 +1,68 @@
+import { describe, expect, it } from 'vitest';
+import { Vector3 } from 'three';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { gesture } from '../../../../web/view/dancer/gesture';
+import { createPose, samplePose } from '../../../../web/view/dancer/pose';
+import { createRig, type Rig } from '../../../../web/view/dancer/rig';
+import { person, randomMotion } from '../../support/skeletons';
+
+/** Somebody in the T-pose at (x, z). */
+function standing(x: number, z: number): Rig {
+  const rig = createRig();
+  rig.fit(person());
+  const pose = createPose();
+  for (let joint = 0; joint < JOINT_COUNT; joint++) pose.rotations[joint * 4 + 3] = 1;
+  pose.root.set([x, 0.95, z]);
+  rig.apply(pose);
+  return rig;
+}
+
+const axisOf = (rig: Rig, joint: number, axis: Vector3): Vector3 =>
+  axis.clone().transformDirection(rig.bones[joint]!.matrixWorld);
+const FORWARD = new Vector3(0, 0, 1);
+
+describe('gestures', () => {
+  it('leave every joint where the motion has it', () => {
+    const [a, b] = [randomMotion(6, 21), randomMotion(6, 22)];
+    const [rigA, rigB] = [createRig(), createRig()];
+    const pose = createPose();
+    for (let frame = 0; frame < 6; frame++) {
+      for (const [rig, motion] of [
+        [rigA, a],
+        [rigB, b],
+      ] as const) {
+        rig.fit(motion.offsets);
+        samplePose(motion, frame / 30, pose);
+        rig.apply(pose);
+      }
+      gesture(rigA, rigB);
+      const joints = rigA.jointPositions(new Float32Array(JOINT_COUNT * 3));
+      for (let i = 0; i < joints.length; i++)
+        expect(Math.abs(joints[i]! - a.positions[frame * JOINT_COUNT * 3 + i]!)).toBeLessThan(2e-5);
+    }
+  });
+
+  it('turn the head towards the partner, part of the way', () => {
+    const rig = standing(0, 0);
+    gesture(rig, standing(1, 1));
+    const gaze = axisOf(rig, J.head, FORWARD);
+    const yaw = Math.atan2(gaze.x, gaze.z);
+    expect(yaw).toBeGreaterThan(0.3);
+    expect(yaw).toBeLessThan(Math.PI / 4);
+  });
+
+  it('do not turn the head to somebody behind', () => {
+    const rig = standing(0, 0);
+    gesture(rig, standing(0.1, -1));
+    expect(axisOf(rig, J.head, FORWARD).z).toBeGreaterThan(0.99);
+  });
+
+  it('turn a hand towards a hand nearby and leave it alone otherwise', () => {
+    const outward = new Vector3(1, 0, 0);
+    const [near, far] = [standing(0, 0), standing(0, 0)];
+    gesture(near, standing(0, 0.2));
+    gesture(far, standing(0, 2));
+    expect(axisOf(near, J.left_wrist, outward).z).toBeGreaterThan(0.3);
+    expect(axisOf(far, J.left_wrist, outward).x).toBeGreaterThan(0.9999);
+  });
+});

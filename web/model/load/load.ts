@@ -1,0 +1,165 @@
+import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
+import { conditionClip } from '../sample/chunks';
+import { ModelError } from '../error';
+import { folderFetch, type ModelFolder } from './folder';
+import { goldenError, readGolden } from './golden';
+import { fetchLatest } from './network-first';
+import { type Manifest, parseManifest } from '../manifest';
+import { type DownloadPart, downloadParts } from './assets';
+import { Pipeline } from '../sample/pipeline';
+import { type ModelSession, openSession, type Provider } from './session';
+import { sample } from '../sample/sampler';
+import { ddim } from '../sample/schedule';
+import { type AnswerStore, answerStore } from './cache';
+
+export interface LoadOptions {
+  /** Absolute address of manifest.json; the graphs' paths are relative to it. */
+  readonly manifestUrl: string;
+  /** The model's files, where they come from the visitor and not from the address. */
+  readonly folder?: ModelFolder | undefined;
+  readonly backend: Preference;
+  /** So many wasm threads instead of as many as suit the machine. */
+  readonly threads?: number | undefined;
+}
+
+/** What happens while a model is being loaded. */
+export type Status =
+  /** First of all: what the model is, before its bytes. */
+  | { readonly kind: 'manifest'; readonly manifest: Manifest }
+  | { readonly kind: 'download'; readonly parts: readonly DownloadPart[] }
+  | { readonly kind: 'open' | 'check' | 'warm-up' }
+  /** On WebGPU: metres between its golden sampling and Python's. */
+  | { readonly kind: 'checked'; readonly error: number }
+  | { readonly kind: 'notice'; readonly code: 'not-kept'; readonly message: string; readonly hint: string }
+  | { readonly kind: 'ready'; readonly backend: Backend };
+
+export interface LoadedModel {
+  readonly pipeline: Pipeline;
+  readonly backend: Backend;
+}
+
+// Metres. fp32 on another device differs by rounding only, which is far below; a broken driver is far above.
+const GOLDEN_TOLERANCE = 1e-3;
+
+async function fetchManifest(url: string, get: typeof fetch, store?: AnswerStore): Promise<Manifest> {
+  const bytes = await fetchLatest(url, get, store);
+  let json: unknown;
+  try {
+    json = JSON.parse(new TextDecoder().decode(bytes));
+  } catch (error) {
+    throw new ModelError(
+      'manifest-invalid',
+      `The model's manifest ${url} is not JSON.`,
+      'Export the model again and take its whole folder.',
+      { cause: error },
+    );
+  }
+  return parseManifest(json);
+}
+
+/** Metres by which a session's golden sampling differs from Python's; undefined for a model without one. */
+async function checkGolden(
+  manifest: Manifest,
+  session: ModelSession,
+  url: string,
+  get: typeof fetch,
+  store?: AnswerStore,
+): Promise<number | undefined> {
+  if (manifest.golden === undefined) return undefined;
+  const bytes = await fetchLatest(new URL(manifest.golden.path, url).href, get, store);
+  return goldenError(manifest, session, readGolden(bytes));
+}
+
+/** The first run of a graph compiles it; better now than when somebody waits for a dance. */
+async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> {
+  const { latent, audio, skeleton } = manifest;
+  const [latents, frames] = [latent.block, latent.block * latent.stride];
+  const width = latent.layers.length * latent.channels;
+  const leader = new Float32Array(frames * skeleton.joints.length * 3);
+  const music = new Float32Array(frames * audio.features);
+  const condition = { leader, music, musicValid: new Float32Array(frames), role: 0 };
+  const memory = await conditionClip(session.condition, condition, manifest, latents);
+  const sampled = await sample({
+    latent,
+    alternatingPhase: false,
+    schedule: ddim(manifest.diffusion, 1),
+    latents,
+    memory,
+    guidance: new Float32Array(latent.streams.length * latent.layers.length),
+    musicGuidance: 0,
+    noise: new Float32Array(latents * width),
+    runStep: session.step,
+    blocksPerRun: 1,
+  });
+  const layers = new Float32Array(latent.layers.length).fill(1);
+  await session.decode({ latents: sampled, leader, layers });
+}
+
+/**
+ * Fetch, verify, open and try a model.
+ * @param scope the worker's global scope
+ * @throws {ModelError}
+ */
+export async function loadModel(
+  { manifestUrl, folder, backend: preference, threads }: LoadOptions,
+  scope: typeof globalThis,
+  onStatus: (status: Status) => void,
+): Promise<LoadedModel> {
+  const get = folder ? folderFetch(folder, manifestUrl) : fetch;
+  const answers = folder ? undefined : answerStore(scope);
+  const manifest = await fetchManifest(manifestUrl, get, answers);
+  onStatus({ kind: 'manifest', manifest });
+  let backend = await chooseBackend(preference, surroundings(scope), threads);
+
+  const open = async (provider: Provider): Promise<ModelSession> => {
+    const { graphs, runtime } = await downloadParts(manifest, provider, {
+      manifestUrl,
+      folder,
+      scope,
+      onProgress: (parts) => {
+        onStatus({ kind: 'download', parts });
+      },
+      onUnkept: (reason) => {
+        onStatus({
+          kind: 'notice',
+          code: 'not-kept',
+          message: `The browser could not keep the model (${reason instanceof Error ? reason.name : String(reason)}).`,
+          hint: 'It works, but is downloaded again at the next visit; free some storage to avoid that.',
+        });
+      },
+    });
+    onStatus({ kind: 'open' });
+    return openSession(manifest, graphs, provider, backend.threads, runtime);
+  };
+
+  let session: ModelSession | undefined;
+  if (backend.name === 'webgpu') {
+    let doubt: string | undefined;
+    try {
+      session = await open('webgpu');
+      onStatus({ kind: 'check' });
+      const error = await checkGolden(manifest, session, manifestUrl, get, answers);
+      if (error !== undefined) onStatus({ kind: 'checked', error });
+      // Written so that an error which is not a number is a doubt too.
+      if (error !== undefined && !(error <= GOLDEN_TOLERANCE)) {
+        doubt = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
+      }
+    } catch (error) {
+      if (error instanceof ModelError) throw error;
+      doubt = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
+    }
+    if (doubt !== undefined) {
+      backend = demote(backend, doubt);
+      await session?.release();
+      session = undefined;
+    }
+  }
+  session ??= await open('wasm');
+  // The golden check has warmed a GPU up.
+  if (backend.name === 'wasm' || manifest.golden === undefined) {
+    onStatus({ kind: 'warm-up' });
+    await warmUp(manifest, session);
+  }
+  onStatus({ kind: 'ready', backend });
+  return { pipeline: new Pipeline(manifest, session, () => performance.now() / 1000), backend };
+}

@@ -1,0 +1,176 @@
+/** The only module that speaks to onnxruntime: three graphs, one execution provider, one run at a time. */
+import type * as ort from 'onnxruntime-web/wasm';
+import type { ConditionInput, ConditionRunner, DecodeInput, DecodeRunner } from '../sample/chunks';
+import { ModelError } from '../error';
+import { GRAPHS, type GraphName, type Manifest } from '../manifest';
+import type { StepInput, StepRunner } from '../sample/sampler';
+
+export type Provider = 'webgpu' | 'wasm';
+
+/** The three graphs of a model, ready to run. Calls may overlap; they are run one after the other. */
+export interface ModelSession {
+  readonly condition: ConditionRunner;
+  readonly step: StepRunner;
+  readonly decode: DecodeRunner;
+  /** Frees the graphs; running calls are finished first. */
+  release(): Promise<void>;
+}
+
+type Tensors = Record<string, ort.Tensor>;
+type Arrays = Record<string, Float32Array>;
+
+const INPUTS: Record<GraphName, readonly string[]> = {
+  condition: ['leader', 'music', 'music_valid', 'role'],
+  step: ['x', 'memory', 'valid', 'time', 'guidance', 'music_guidance', 'coefficients'],
+  decode: ['latents', 'leader', 'layers'],
+};
+const OUTPUTS: Record<GraphName, readonly string[]> = {
+  condition: ['memory'],
+  step: ['x_next', 'x0'],
+  decode: ['reactor'],
+};
+
+// Overlapping runs on a WebGPU device hang for ever without an error, so all sessions share one queue.
+let tail: Promise<unknown> = Promise.resolve();
+
+function inTurn<T>(job: () => Promise<T>): Promise<T> {
+  const result = tail.then(job);
+  tail = result.catch(() => undefined);
+  return result;
+}
+
+type Runtime = typeof ort;
+
+/**
+ * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
+ * as long there and is twice as large, so each provider has its own and only that one is downloaded.
+ */
+async function loadRuntime(
+  provider: Provider,
+  threads: number,
+  wasm?: Uint8Array<ArrayBuffer>,
+): Promise<Runtime> {
+  const runtime = await (provider === 'wasm'
+    ? import('onnxruntime-web/wasm')
+    : import('onnxruntime-web/webgpu'));
+  // Read once, when the first graph is opened.
+  runtime.env.wasm.numThreads = threads;
+  if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
+  runtime.env.logLevel = 'error';
+  return runtime;
+}
+
+async function open(
+  runtime: Runtime,
+  name: GraphName,
+  bytes: Uint8Array,
+  provider: Provider,
+): Promise<ort.InferenceSession> {
+  const session = await runtime.InferenceSession.create(bytes, {
+    // Exactly one: with two, the second would stand in for the first without a word.
+    executionProviders: [provider],
+    graphOptimizationLevel: 'all',
+  });
+  const missing = [
+    ...INPUTS[name].filter((input) => !session.inputNames.includes(input)),
+    ...OUTPUTS[name].filter((output) => !session.outputNames.includes(output)),
+  ];
+  if (missing.length === 0) return session;
+  await session.release();
+  throw new ModelError(
+    'model-mismatch',
+    `The graph "${name}" has no input or output named ${missing.map((m) => `"${m}"`).join(', ')}.`,
+    'Export the model again with this version of the project, or use the model it ships with.',
+  );
+}
+
+async function run(session: ort.InferenceSession, feeds: Tensors): Promise<Arrays> {
+  const results = await session.run(feeds);
+  const arrays: Arrays = {};
+  for (const [name, value] of Object.entries(results)) {
+    // Reading is what waits for a GPU; a result is only there once it has been read.
+    arrays[name] = (await value.getData()) as Float32Array;
+    value.dispose();
+  }
+  return arrays;
+}
+
+function output(arrays: Arrays, name: string): Float32Array {
+  const array = arrays[name];
+  if (array === undefined) throw new Error(`onnxruntime returned no "${name}"`);
+  return array;
+}
+
+/**
+ * Open the three graphs on one execution provider.
+ * @param graphs the ONNX files
+ * @param threads of the wasm runtime; the first session of a worker decides for all
+ * @param wasm the runtime's WebAssembly; without it onnxruntime fetches its own
+ * @throws {ModelError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
+ */
+export async function openSession(
+  manifest: Manifest,
+  graphs: Readonly<Record<GraphName, Uint8Array>>,
+  provider: Provider,
+  threads: number,
+  wasm?: Uint8Array<ArrayBuffer>,
+): Promise<ModelSession> {
+  const runtime = await loadRuntime(provider, threads, wasm);
+  const sessions: Partial<Record<GraphName, ort.InferenceSession>> = {};
+  const release = async (): Promise<void> => {
+    for (const session of Object.values(sessions)) await session.release();
+  };
+  try {
+    for (const name of GRAPHS)
+      sessions[name] = await inTurn(() => open(runtime, name, graphs[name], provider));
+  } catch (error) {
+    await inTurn(release);
+    throw error;
+  }
+  // Compiled by now: its bytes need not stay in memory.
+  delete runtime.env.wasm.wasmBinary;
+  const { condition, step, decode } = sessions as Record<GraphName, ort.InferenceSession>;
+  const { latent, audio } = manifest;
+  const joints = manifest.skeleton.joints.length;
+  const tensor = (data: Float32Array | readonly number[], dims: readonly number[]): ort.Tensor =>
+    new runtime.Tensor('float32', data instanceof Float32Array ? data : Float32Array.from(data), dims);
+  const [layers, streams] = [latent.layers.length, latent.streams.length];
+
+  return {
+    condition: ({ leader, music, musicValid, role }: ConditionInput) =>
+      inTurn(async () => {
+        const frames = musicValid.length;
+        const results = await run(condition, {
+          leader: tensor(leader, [frames, joints, 3]),
+          music: tensor(music, [frames, audio.features]),
+          music_valid: tensor(musicValid, [frames]),
+          role: tensor([role], [1]),
+        });
+        return output(results, 'memory');
+      }),
+    step: ({ blocks, x, memory, valid, time, guidance, musicGuidance, coefficients }: StepInput) =>
+      inTurn(async () => {
+        const state = [blocks, latent.block, layers, latent.channels];
+        const results = await run(step, {
+          x: tensor(x, state),
+          memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
+          valid: tensor(valid, [blocks, latent.block]),
+          time: tensor([time], [1]),
+          guidance: tensor(guidance, [streams, layers]),
+          music_guidance: tensor([musicGuidance], [1]),
+          coefficients: tensor(coefficients, [2]),
+        });
+        return { x: output(results, 'x_next'), x0: output(results, 'x0') };
+      }),
+    decode: ({ latents, leader, layers: multipliers }: DecodeInput) =>
+      inTurn(async () => {
+        const results = await run(decode, {
+          latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
+          leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
+          layers: tensor(multipliers, [layers]),
+        });
+        return output(results, 'reactor');
+      }),
+    release: () => inTurn(release),
+  };
+}

@@ -1,0 +1,131 @@
+import type { MotionClip } from '../../motion/skeleton/clip';
+import { bodyHeight } from '../../motion/skeleton/scale';
+import type { ConditionInput } from './chunks';
+import { ModelError } from '../error';
+import type { Manifest } from '../manifest';
+
+/** What a person asks for. */
+export interface GenerateRequest {
+  /** The dancer that is there, at the size of their file. */
+  readonly leader: MotionClip;
+  /**
+   * frames x features of the song; null for silence. The song starts at frame `start` of the clip, 0 when not given;
+   * below 0 its beginning is not heard.
+   */
+  readonly music: {
+    readonly features: Float32Array;
+    readonly frames: number;
+    readonly start?: number | undefined;
+  } | null;
+  /** streams x layers, s of the paper's Eq. 9. */
+  readonly guidance: Float32Array;
+  /** How much of what the song changes is added. */
+  readonly musicGuidance: number;
+  readonly steps: number;
+  /** Its lowest 32 bits count. */
+  readonly seed: number;
+  /** Whose part is wanted; the reactor's when not given. */
+  readonly role?: 'reactor' | 'leader' | undefined;
+}
+
+/** A reaction made before, of which less is wanted. */
+export interface CoarseRequest {
+  /** The dancer whom it answers, at the size of their file. */
+  readonly leader: MotionClip;
+  /** latents x layers x channels, as this model made them. */
+  readonly latents: Float32Array;
+}
+
+/** A request as the graphs take it. */
+export interface ModelInput {
+  readonly condition: ConditionInput;
+  /** The clip's positions were multiplied by this to reach the model's reference height. */
+  readonly scale: number;
+}
+
+function refuse(message: string, hint: string): never {
+  throw new ModelError('bad-request', message, hint);
+}
+
+/** @throws {ModelError} `bad-request`, a sentence about the first thing that the model cannot take */
+export function checkRequest(
+  { leader, music, guidance, musicGuidance, steps, seed }: GenerateRequest,
+  manifest: Manifest,
+): void {
+  const { skeleton, fps, diffusion, latent, audio } = manifest;
+  if (leader.fps !== fps) {
+    refuse(
+      `The leader has ${leader.fps} frames per second; the model takes ${fps}.`,
+      'Resample the clip first.',
+    );
+  }
+  if (leader.frames < 1 || leader.positions.length !== leader.frames * skeleton.joints.length * 3) {
+    refuse('The leader clip is empty or incomplete.', 'Choose another leader file.');
+  }
+  if (!leader.positions.every(Number.isFinite)) {
+    refuse('The leader clip holds a position that is not a number.', 'Choose another leader file.');
+  }
+  if (music !== null && music.features.length !== music.frames * audio.features) {
+    refuse(`The song does not have ${audio.features} features in every frame.`, 'Load the song again.');
+  }
+  if (music !== null && !music.features.every(Number.isFinite)) {
+    refuse('The song holds a feature that is not a number.', 'Choose another song.');
+  }
+  if (music?.start !== undefined && !Number.isInteger(music.start)) {
+    refuse(`The song starts at frame ${music.start}.`, 'Shift the song by whole frames.');
+  }
+  if (!Number.isInteger(steps) || steps < diffusion.steps.min || steps > diffusion.steps.max) {
+    refuse(
+      `${steps} is not a number of steps between ${diffusion.steps.min} and ${diffusion.steps.max}.`,
+      'Choose another number of steps.',
+    );
+  }
+  if (guidance.length !== latent.streams.length * latent.layers.length || !guidance.every(Number.isFinite)) {
+    refuse(
+      `The guidance is not ${latent.streams.length} x ${latent.layers.length} numbers.`,
+      'Set the guidance sliders again.',
+    );
+  }
+  if (!Number.isFinite(musicGuidance)) {
+    refuse('The guidance of the music is not a number.', 'Set the music slider again.');
+  }
+  if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
+}
+
+/** @throws {ModelError} `bad-request` when the latents are not those of a dance as long as the leader's */
+export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Manifest): void {
+  const wanted = Math.ceil(leader.frames / latent.stride) * latent.layers.length * latent.channels;
+  if (latents.length === wanted) return;
+  refuse('The reaction was not made for this leader by this model.', 'Generate the reaction again.');
+}
+
+/** Scale the leader to the reference height, and bring leader and music to a common, whole number of latent frames. */
+export function prepareInput(
+  { leader, music, role }: Pick<GenerateRequest, 'leader' | 'music' | 'role'>,
+  manifest: Manifest,
+): ModelInput {
+  const { latent, skeleton, audio } = manifest;
+  const frame = skeleton.joints.length * 3;
+  const frames = Math.ceil(leader.frames / latent.stride) * latent.stride;
+  const scale = skeleton.reference_height / bodyHeight(leader);
+  if (!Number.isFinite(scale)) refuse('The leader has no body height.', 'Choose another leader file.');
+  const positions = new Float32Array(frames * frame);
+  leader.positions.forEach((value, i) => (positions[i] = value * scale));
+  for (let at = leader.frames * frame; at < positions.length; at += frame) {
+    positions.copyWithin(at, (leader.frames - 1) * frame, leader.frames * frame);
+  }
+  const features = new Float32Array(frames * audio.features);
+  const musicValid = new Float32Array(frames);
+  if (music !== null) {
+    const { start = 0 } = music;
+    const from = Math.min(frames, Math.max(0, start));
+    const to = Math.max(from, Math.min(frames, start + music.frames));
+    const heard = music.features.subarray((from - start) * audio.features, (to - start) * audio.features);
+    features.set(heard, from * audio.features);
+    musicValid.fill(1, from, to);
+  }
+  return {
+    condition: { leader: positions, music: features, musicValid, role: role === 'leader' ? 1 : 0 },
+    scale,
+  };
+}

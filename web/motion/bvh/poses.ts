@@ -1,0 +1,81 @@
+import { BVHLoader } from 'three/addons/loaders/BVHLoader.js';
+import type { BvhNode } from './hierarchy';
+import type { BvhFile } from './text';
+import { readVec, sub, type Vec3, writeVec } from '../math/vec3';
+
+/** Local transforms of every node in chosen frames. */
+export interface BvhPoses {
+  /** frames x nodes x 4, xyzw. */
+  readonly rotations: Float32Array;
+  /** frames x nodes x 3, from the parent, in the file's unit. */
+  readonly translations: Float32Array;
+}
+
+/** Frames that the loader gets at once; it makes an object per joint and frame, so a long file must come in pieces. */
+const CHUNK = 256;
+
+/** The hierarchy in the one spelling that three's loader takes, with names that cannot clash. */
+function canonical(nodes: readonly BvhNode[], at: number): string[] {
+  const { endSite, offset, channels, parent } = nodes[at]!;
+  const children = nodes.flatMap((node, index) => (node.parent === at ? canonical(nodes, index) : []));
+  return [
+    endSite ? 'End Site' : `${parent < 0 ? 'ROOT' : 'JOINT'} j${at}`,
+    '{',
+    `OFFSET ${offset.join(' ')}`,
+    ...(endSite ? [] : [`CHANNELS ${channels.length} ${channels.join(' ')}`]),
+    ...children,
+    '}',
+  ];
+}
+
+/**
+ * Does this joint's position channel hold the whole way from the parent, or what is added to its OFFSET?
+ *
+ * Programs disagree. A joint hardly moves against its parent, so the reading that stays nearer to the offset is meant.
+ */
+function isWhole(offset: Vec3, values: readonly Vec3[]): boolean {
+  const squared = (v: Vec3): number => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  const asWhole = values.reduce((sum, value) => sum + squared(sub(value, offset)), 0);
+  return asWhole < values.reduce((sum, value) => sum + squared(value), 0);
+}
+
+/**
+ * Local transforms of the nodes in the frames `wanted`, computed by three's BVHLoader from text that has been checked.
+ */
+export function readPoses(file: BvhFile, wanted: readonly number[]): BvhPoses {
+  const { nodes, frameLines } = file;
+  const rotations = new Float32Array(wanted.length * nodes.length * 4);
+  const translations = new Float32Array(wanted.length * nodes.length * 3);
+  const head = ['HIERARCHY', ...canonical(nodes, 0), 'MOTION'].join('\n');
+  const moving = nodes.flatMap(({ endSite }, node) => (endSite ? [] : [node]));
+  const loader = new BVHLoader();
+  for (let first = 0; first < wanted.length; first += CHUNK) {
+    const lines = wanted.slice(first, first + CHUNK).map((frame) => frameLines[frame]!);
+    const text = `${head}\nFrames: ${lines.length}\nFrame Time: 1\n${lines.join('\n')}`;
+    const { tracks } = loader.parse(text).clip;
+    // Two tracks per joint, in the order of the file: position (offset included) and quaternion.
+    moving.forEach((node, index) => {
+      const places = tracks[2 * index]!.values;
+      const turns = tracks[2 * index + 1]!.values;
+      for (let frame = 0; frame < lines.length; frame++) {
+        const at = (first + frame) * nodes.length + node;
+        translations.set(places.subarray(3 * frame, 3 * frame + 3), 3 * at);
+        rotations.set(turns.subarray(4 * frame, 4 * frame + 4), 4 * at);
+      }
+    });
+  }
+  nodes.forEach((node, index) => {
+    const all = wanted.map((_, frame) => frame * nodes.length + index);
+    if (node.endSite) {
+      for (const at of all) {
+        writeVec(translations, at, node.offset);
+        rotations[4 * at + 3] = 1;
+      }
+    } else if (node.parent >= 0 && node.channels.some((channel) => channel.endsWith('position'))) {
+      const values = all.map((at) => sub(readVec(translations, at), node.offset));
+      if (isWhole(node.offset, values))
+        all.forEach((at, frame) => writeVec(translations, at, values[frame]!));
+    }
+  });
+  return { rotations, translations };
+}

@@ -1,0 +1,81 @@
+import { readFrames } from './frames';
+import { type BvhNode, readHierarchy } from './hierarchy';
+import { AGAIN } from './number';
+import { MotionError } from '../error';
+
+/** A BVH file whose every number has been looked at. */
+export interface BvhFile {
+  readonly nodes: readonly BvhNode[];
+  /** Values of one frame each, as text with as many numbers as there are channels. */
+  readonly frameLines: readonly string[];
+  /** Frame time as written, seconds. */
+  readonly frameTime: string;
+  readonly warnings: readonly string[];
+  /** Does the file end before its last frame does? `frameLines` are then those that are whole. */
+  readonly cutOff: boolean;
+}
+
+/** The line of a header entry such as "Frames: 12" and its value; both are undefined where it is missing. */
+function header(lines: readonly string[], from: number, key: RegExp): { line: number; value: string } | null {
+  for (let line = from; line < lines.length; line++) {
+    const text = lines[line]!.trim();
+    if (text === '') continue;
+    const match = key.exec(text);
+    return match ? { line, value: match[1]!.trim() } : null;
+  }
+  return null;
+}
+
+/**
+ * Takes a BVH file apart and looks at every number of it. Of a file that ends too early the whole frames are used.
+ *
+ * @throws MotionError `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
+ *   `too-few-frames` or `several-roots`, naming the line, and the joint where there is one
+ */
+export function parseBvhText(text: string): BvhFile {
+  const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);
+  const start = lines.findIndex((line) => line.trim() !== '');
+  if (start < 0) {
+    throw new MotionError('empty-file', 'The motion file is empty.', 'Choose a BVH file with a dance in it.');
+  }
+  if (lines[start]!.trim().split(/\s/)[0]!.toUpperCase() !== 'HIERARCHY') {
+    throw new MotionError(
+      'not-bvh',
+      'This is not a BVH file: it does not begin with HIERARCHY.',
+      'Export the motion as BVH, for example from Blender (File, Export, Motion Capture).',
+    );
+  }
+  const motion = lines.findIndex((line) => /^\s*MOTION\s*$/i.test(line));
+  const nodes = readHierarchy(lines, motion < 0 ? lines.length : motion);
+  if (motion < 0) {
+    throw new MotionError(
+      'truncated',
+      `The file ends at line ${lines.length}, after the skeleton: its motion is missing.`,
+      'The file is incomplete, or holds only a rest pose: export it again with its animation.',
+    );
+  }
+  const frames = header(lines, motion + 1, /^Frames\s*:(.*)$/i);
+  const time = frames && header(lines, frames.line + 1, /^Frame\s+Time\s*:(.*)$/i);
+  if (!frames || !time) {
+    const missing = frames ? '"Frame Time:"' : '"Frames:"';
+    throw new MotionError(
+      'bad-hierarchy',
+      `After MOTION in line ${motion + 1}, ${missing} is missing.`,
+      AGAIN,
+    );
+  }
+  const stated = Number(frames.value);
+  if (frames.value === '' || !Number.isInteger(stated) || stated < 0) {
+    const where = `Line ${frames.line + 1}: "${frames.value}" is no number of frames.`;
+    throw new MotionError('bad-number', where, AGAIN);
+  }
+  const { frameLines, warnings, cutOff } = readFrames(lines, time.line + 1, stated, nodes);
+  if (stated < 2) {
+    throw new MotionError(
+      'too-few-frames',
+      stated === 1 ? 'The file holds one frame, a pose and not a motion.' : 'The file holds no frames.',
+      'Export the whole animation, not only its current frame.',
+    );
+  }
+  return { nodes, frameLines, frameTime: time.value, warnings, cutOff };
+}

@@ -1,0 +1,41 @@
+import type { Dance } from '../../export/client';
+import { otherRole } from '../store/roles';
+import type { Named } from './file-name';
+import { reactorMotion } from '../store/reactor-motion';
+import type { AppState, Who } from '../store/state';
+import { takeOnStage, takeTitle } from '../store/take';
+
+/** What files of the reaction on the stage are named after; null without a reaction. */
+export function namedAfter(state: AppState): Named | null {
+  const { reaction, footLock } = state;
+  return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state) };
+}
+
+/** `Take 3`, or what it was named; null for a reaction whose take was deleted. */
+function titleOnStage(state: AppState): string | null {
+  const take = takeOnStage(state);
+  return take && takeTitle(take);
+}
+
+/** The couple on the stage or one of it, as they are taken home; null without a reaction. */
+export function danceOf(state: AppState, who: Who): Dance | null {
+  const { reaction, manifest, footLock } = state;
+  const motion = reactorMotion(state);
+  if (!reaction || !motion) return null;
+  const { song, leader, shift, settings } = reaction.inputs;
+  const made = { role: settings.role, motion };
+  const loaded = { role: otherRole(settings.role), motion: leader.motion };
+  const dancers: Dance['dancers'] = made.role === 'reactor' ? [loaded, made] : [made, loaded];
+  return {
+    dancers: who === 'both' ? dancers : dancers.filter(({ role }) => role === who),
+    about: {
+      song: song?.name ?? null,
+      leader: leader.name,
+      take: titleOnStage(state),
+      model: manifest && { id: manifest.id, name: manifest.name },
+      settings,
+      shift,
+      footLock,
+    },
+  };
+}

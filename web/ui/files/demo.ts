@@ -1,0 +1,116 @@
+import * as v from 'valibot';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import type { Files } from '../store/services';
+import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/state';
+import { demoChanged } from '../store/actions/files';
+import { reacted } from '../store/actions/reaction';
+import { settingsSet } from '../store/actions/settings';
+import { apply, type Store } from '../store/store';
+import { playbackSet } from '../store/actions/view';
+import { unremembered } from '../store/history';
+
+const text = v.pipe(v.string(), v.minLength(1));
+const named = { file: text, name: text, label: text };
+
+/** demo.json: the shipped demo's files, beside it, and what they are called on the page. */
+const schema = v.object({
+  song: v.object(named),
+  leader: v.object(named),
+  /** Moment that is shown before anything plays, seconds; the start when it is left out. */
+  poster: v.optional(v.pipe(v.number(), v.minValue(0)), 0),
+  /** A reaction made beforehand, so that the first click plays while the model is still coming. */
+  reactor: v.optional(
+    v.object({
+      file: text,
+      label: text,
+      settings: v.object({
+        /** By stream and layer. */
+        guidance: v.record(v.string(), v.record(v.string(), v.number())),
+        music: v.number(),
+        steps: v.number(),
+        seed: v.number(),
+        role: v.picklist(['leader', 'reactor']),
+      }),
+    }),
+  ),
+});
+
+export interface DemoReaders {
+  /** The motion in a BVH of ours. */
+  readonly readReactor: (bvh: string) => Promise<SolvedMotion>;
+  /** Resolves when the settings have their defaults. */
+  readonly settled: () => Promise<unknown>;
+}
+
+/**
+ * Loads the demo as if its files had been dropped, except that they say what they are. A visitor who was quicker
+ * with files of their own keeps them.
+ * @param folder address of the demo's folder
+ */
+export async function loadDemo(store: Store, files: Files, folder: URL, readers: DemoReaders): Promise<void> {
+  try {
+    const demo = v.parse(schema, await (await get('demo.json', folder)).json());
+    const { reactor } = demo;
+    const [songFile, leaderText, reactorText] = await Promise.all([
+      get(demo.song.file, folder).then((response) => response.blob()),
+      get(demo.leader.file, folder).then((response) => response.text()),
+      reactor ? get(reactor.file, folder).then((response) => response.text()) : null,
+    ]);
+    if (isUntouched(store)) {
+      const coming = files.openSong(songFile, demo.song.name, demo.song.label);
+      const leader = await files.openLeader(leaderText, demo.leader.name, demo.leader.label);
+      if (leader && store.getState().leader === leader) apply(store, playbackSet({ time: demo.poster }));
+      apply(store, demoChanged('ready'));
+      if (reactor && reactorText !== null && leader) {
+        const motion = await readers.readReactor(reactorText);
+        await showReaction(
+          store,
+          { motion, leader, label: reactor.label, settings: reactor.settings },
+          coming,
+          readers,
+        );
+      }
+      await coming;
+    }
+    apply(store, demoChanged('ready'));
+  } catch {
+    // Without its demo the page still does all it is for; the first-visit block says so.
+    apply(store, demoChanged('missing'));
+  }
+}
+
+/** Shows the ready-made reaction at once and ties it to the song as soon as that is heard. */
+async function showReaction(
+  store: Store,
+  made: { motion: SolvedMotion; leader: LoadedLeader; label: string; settings: Settings },
+  coming: Promise<LoadedSong | null>,
+  readers: DemoReaders,
+): Promise<void> {
+  const { motion, leader, label, settings } = made;
+  const shown = (song: LoadedSong | null): Reaction => ({
+    motion,
+    latents: null,
+    inputs: { leader, song, shift: 0, settings },
+    label,
+    seconds: null,
+  });
+  if (store.getState().leader !== leader) return;
+  apply(store, reacted(shown(null)));
+  await readers.settled();
+  if (store.getState().leader === leader) apply(store, unremembered(settingsSet(settings)));
+  const song = await coming;
+  if (song && store.getState().leader === leader) apply(store, reacted(shown(song)));
+}
+
+function isUntouched(store: Store): boolean {
+  const { song, leader, reading } = store.getState();
+  return !song && !leader && !reading.song && !reading.leader;
+}
+
+/** A file of the demo; servers of single-page apps answer for missing files with a page. */
+async function get(file: string, folder: URL): Promise<Response> {
+  const response = await fetch(new URL(file, folder));
+  const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
+  if (!response.ok || isPage) throw new Error(`The demo has no ${file}.`);
+  return response;
+}

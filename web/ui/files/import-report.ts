@@ -1,0 +1,150 @@
+import type { Manifest } from '../../model/client';
+import { loadedRole, roleName } from '../store/roles';
+import { el, together } from '../widgets/dom';
+import { clockTime, rate, tempo } from '../store/format';
+import { guidanceWords } from '../store/guidance-matrix';
+import { jointWords } from './joint-words';
+import { beingRead, notes } from '../store/selectors';
+import type { Mount, Services } from '../store/services';
+import type { AppState, LoadedLeader, ModelState, Reaction } from '../store/state';
+import { watchAll } from '../store/store';
+
+/** Frame rates that motion is recorded at; a file without a true one can be told. */
+const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
+
+/** What the page understood of the files, so that a wrong guess is seen before it is danced. */
+export const mountUnderstood: Mount = (root, store, services) => {
+  const facts = el('dl', { class: 'facts' });
+  const list = el('ul', { class: 'notes', attributes: { 'aria-label': 'Notes' } });
+  const section = el(
+    'section',
+    { class: 'sec', attributes: { 'aria-labelledby': 'understood-head' } },
+    el(
+      'div',
+      { class: 'head' },
+      el('h2', { text: 'What was understood', attributes: { id: 'understood-head' } }),
+    ),
+    facts,
+    list,
+  );
+  root.append(section);
+
+  const show = (state: AppState): void => {
+    const focused = document.activeElement?.id;
+    facts.replaceChildren(
+      ...songFacts(state),
+      ...leaderFacts(state, services),
+      ...(state.reaction ? reactionFacts(state.reaction) : []),
+      ...(state.manifest ? modelFacts(state.manifest, state.model) : []),
+    );
+    list.replaceChildren(
+      ...notes(state).map(({ text, look }) => el('li', { text, class: look ? 'look' : '' })),
+    );
+    if (focused) document.getElementById(focused)?.focus();
+  };
+  return together(
+    watchAll(
+      store,
+      (state) => [
+        state.song,
+        state.leader,
+        ...beingRead(state),
+        state.reaction,
+        state.manifest,
+        state.model,
+        state.remarks,
+        state.keeping,
+        state.settings?.role,
+      ],
+      show,
+    ),
+    () => {
+      section.remove();
+    },
+  );
+};
+
+function group(className: string, name: string): HTMLElement {
+  return el('dt', { class: `group ${className}` }, el('span', { class: 'dot' }), name);
+}
+
+function fact(name: string, value: string | HTMLElement): HTMLElement[] {
+  return [el('dt', { text: name }), el('dd', {}, value)];
+}
+
+function songFacts({ song, reading }: AppState): HTMLElement[] {
+  if (!song) return [group('', 'Song'), ...fact('File', reading.song ? 'being read' : 'none yet, silence')];
+  const { data } = song;
+  return [
+    group('', 'Song'),
+    ...fact('Length', clockTime(data.duration)),
+    ...fact('Tempo', data.tempo > 0 ? `${tempo(data.tempo)}, ${data.beats.length} beats` : tempo(0)),
+  ];
+}
+
+function leaderFacts(state: AppState, services: Services): HTMLElement[] {
+  const { leader, reading } = state;
+  const role = loadedRole(state);
+  const head = group(role === 'leader' ? 'lead' : 'reac', roleName(role));
+  if (!leader) return [head, ...fact('File', reading.leader ? 'being read' : 'none yet')];
+  const { clip, report } = leader.file;
+  return [
+    head,
+    ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
+    ...fact('Frame rate', rateSelect(leader, services)),
+    ...fact('Skeleton', report.dialect),
+    ...fact('Joints', jointWords(report)),
+    ...fact('Space', `${report.unit}, ${report.upAxis} up`),
+  ];
+}
+
+/** The file's frame rate, open to correction: the file is then read again. */
+function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
+  const { clip, report } = leader.file;
+  const select = el(
+    'select',
+    {
+      attributes: { id: 'leader-rate', 'aria-label': 'Frame rate of the leader file' },
+      on: {
+        change: () => {
+          services.rereadLeader(select.value === '' ? null : Number(select.value));
+        },
+      },
+    },
+    el('option', {
+      text: leader.fps === null ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
+      attributes: { value: '' },
+    }),
+    ...RATES.map((fps) => el('option', { text: `${fps} fps`, attributes: { value: fps } })),
+  );
+  select.value = leader.fps === null ? '' : String(leader.fps);
+  const rest = Math.abs(report.sourceFps - clip.fps) > 0.01 ? ` to ${rate(clip.fps)} fps` : '';
+  return el('span', {}, select, rest);
+}
+
+function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
+  const { seed, steps, role } = inputs.settings;
+  return [
+    group(role === 'leader' ? 'lead' : 'reac', roleName(role)),
+    ...fact('From', `seed ${seed}, ${steps} steps`),
+    ...fact('Guidance', guidanceWords(inputs.settings)),
+    ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
+    ...(label === null
+      ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)
+      : []),
+  ];
+}
+
+function millimetres(metres: number): string {
+  return `${(metres * 1000).toFixed(1)} mm`;
+}
+
+function modelFacts(manifest: Manifest, model: ModelState): HTMLElement[] {
+  return [
+    group('', 'Model'),
+    ...fact('Name', manifest.name),
+    ...(model.phase === 'ready' ? fact('Runs on', model.reason) : []),
+    ...fact('From', manifest.attribution),
+    ...manifest.notes.flatMap((note) => fact('Note', note)),
+  ];
+}

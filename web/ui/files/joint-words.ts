@@ -1,0 +1,26 @@
+import type { LeaderReport } from '../../motion/bvh/read';
+
+type Joints = Pick<LeaderReport, 'joints' | 'filled' | 'recut'>;
+
+/** Joints that a file lacks. The back cut into other pieces is not lacking. */
+function missing({ filled, recut }: Joints): string[] {
+  return filled.filter((joint) => !recut.includes(joint)).map((joint) => joint.replaceAll('_', ' '));
+}
+
+/** How many of our joints a file has, be it under another cut. */
+export function jointCount(report: Joints): number {
+  return Object.keys(report.joints).length - missing(report).length;
+}
+
+/** What was found of the body in a file: `all found; pelvis and spine placed along its back`. */
+export function jointWords(report: Joints): string {
+  const lacking = missing(report);
+  const all = Object.keys(report.joints).length;
+  const found =
+    lacking.length > 0
+      ? `${jointCount(report)} of ${all} found; filled in: ${lacking.join(', ')}`
+      : report.recut.length > 0
+        ? 'all found'
+        : `all ${all} found`;
+  return report.recut.length > 0 ? `${found}; pelvis and spine placed along its back` : found;
+}

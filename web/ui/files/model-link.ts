@@ -1,0 +1,116 @@
+import { rolledSeed } from '../store/actions/settings';
+import type { Generator, Manifest, ModelFolder, Status } from '../../model/client';
+import { modelProblem } from '../store/problems';
+import type { ModelState } from '../store/state';
+import { manifestArrived, modelChanged, modelOpened } from '../store/actions/model';
+import { apply, type Store } from '../store/store';
+import { told, remarked } from '../store/actions/notices';
+
+export interface ModelLink {
+  /** The model when it is ready; rejects when this attempt to load it has failed. */
+  readonly generator: () => Promise<Generator>;
+  /** The manifest, which comes before the model's bytes; waits through failed attempts. */
+  readonly manifest: () => Promise<Manifest>;
+  /** Loads again after a failure. */
+  readonly retry: () => void;
+  /** Takes the visitor's own model instead; when it can't be had, that is told and the present one stays. */
+  readonly open: (folder: ModelFolder) => Promise<boolean>;
+}
+
+/**
+ * Loads the page's model, or one that the visitor opens, and tells the store how that goes.
+ * @param create begins to load, from a folder or from where the page's model lies; told about everything that happens
+ */
+export function createModelLink(
+  store: Store,
+  create: (onStatus: (status: Status) => void, folder: ModelFolder | null) => Promise<Generator>,
+): ModelLink {
+  let tell: (manifest: Manifest) => void = () => undefined;
+  const manifest = new Promise<Manifest>((resolve) => {
+    tell = resolve;
+  });
+
+  const onStatus = (status: Status): void => {
+    if (status.kind === 'manifest') {
+      if (!store.getState().manifest) apply(store, manifestArrived(status.manifest, rolledSeed()));
+      tell(status.manifest);
+    } else if (status.kind === 'notice') apply(store, remarked(`${status.message} ${status.hint}`));
+    else apply(store, modelChanged(stateOf(status)));
+  };
+  const load = async (): Promise<Generator> => {
+    apply(store, modelChanged({ phase: 'loading', label: 'Asking for the model', received: 0, total: 0 }));
+    // Downloads beside the one that failed may still tell how far they are.
+    let failed = false;
+    try {
+      return await create((status) => {
+        if (!failed) onStatus(status);
+      }, null);
+    } catch (error) {
+      failed = true;
+      const problem = modelProblem(error);
+      apply(store, modelChanged({ phase: 'failed', problem }));
+      apply(store, told(problem));
+      throw error;
+    }
+  };
+  const begin = (): Promise<Generator> => {
+    const loading = load();
+    // The failure is told above; who asks for the generator hears of it again.
+    loading.catch(() => undefined);
+    return loading;
+  };
+
+  let current = begin();
+  return {
+    generator: () => current,
+    manifest: () => Promise.resolve(store.getState().manifest ?? manifest),
+    retry: () => {
+      if (store.getState().model.phase === 'failed') current = begin();
+    },
+    open: async (folder) => {
+      const before = current;
+      const shown = store.getState().model;
+      try {
+        // The present model's manifest stays until the other one can dance.
+        const made = await create((status) => status.kind !== 'manifest' && onStatus(status), folder);
+        current = Promise.resolve(made);
+        apply(store, modelOpened(made.manifest, rolledSeed()));
+        tell(made.manifest);
+        before.then(
+          (old) => old.dispose(),
+          () => undefined,
+        );
+        return true;
+      } catch (error) {
+        apply(store, modelChanged(shown));
+        apply(store, told(modelProblem(error)));
+        return false;
+      }
+    },
+  };
+}
+
+function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): ModelState {
+  const preparing = (label: string): ModelState => ({ phase: 'loading', label, received: 0, total: 0 });
+  switch (status.kind) {
+    case 'download':
+      return {
+        phase: 'loading',
+        label: 'Model',
+        received: status.parts.reduce((sum, part) => sum + part.loaded, 0),
+        total: status.parts.reduce((sum, part) => sum + part.total, 0),
+        parts: status.parts,
+      };
+    case 'open':
+      return preparing('Opening the model');
+    case 'check':
+    case 'checked':
+      return preparing('Checking its numbers');
+    case 'warm-up':
+      return preparing('Warming up');
+    case 'ready': {
+      const { name, reason, threads } = status.backend;
+      return { phase: 'ready', backend: name, reason, threads };
+    }
+  }
+}

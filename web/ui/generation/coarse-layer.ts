@@ -1,0 +1,85 @@
+import type { Generator } from '../../model/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { coarseProblem, isAbort } from '../store/problems';
+import type { AppState, Reaction } from '../store/state';
+import { apply, watchAll, type Store } from '../store/store';
+import { told } from '../store/actions/notices';
+import { coarseChanged, shownToggled } from '../store/actions/view';
+import { otherTake } from '../store/take';
+
+/** Whether the reaction on the stage can't tell its coarse layer, since it was not made here. */
+export const coarseIsMissing = ({ reaction }: Pick<AppState, 'reaction'>): boolean =>
+  reaction !== null && reaction.latents === null;
+
+/** The reaction that stands beside the one on the stage, each in its own half of the picture. */
+export const besideStage = (state: AppState): Reaction | null =>
+  state.compare === 'side' ? (otherTake(state)?.reaction ?? null) : null;
+
+/** A reaction that can tell its coarse layer. */
+type Layered = Reaction & { readonly latents: Float32Array };
+
+/**
+ * Decodes the coarse layer of the reaction on the stage, and of the one beside it, when somebody wants to see it: once
+ * for each reaction, dropped when another reaction takes its place.
+ * @param model resolves with the model that makes the reactions
+ * @returns how to stop
+ */
+export function createCoarseLayer(store: Store, model: () => Promise<Generator>): () => void {
+  /** By the latents; they go when no reaction has them any more. */
+  const known = new WeakMap<Float32Array, SolvedMotion>();
+  let running: AbortController | null = null;
+
+  const decoded = (reaction: Reaction | null): SolvedMotion | null =>
+    (reaction?.latents && known.get(reaction.latents)) ?? null;
+
+  /** Shows what is known by now. */
+  const show = (decoding: boolean): void => {
+    const state = store.getState();
+    const { reaction, coarse } = state;
+    const before = decoding && reaction?.latents ? coarse.motion : null;
+    const now = { motion: decoded(reaction) ?? before, other: decoded(besideStage(state)), decoding };
+    if (now.motion !== coarse.motion || now.other !== coarse.other || decoding !== coarse.decoding)
+      apply(store, coarseChanged(now));
+  };
+
+  const decode = async (missing: readonly Layered[]): Promise<void> => {
+    const controller = new AbortController();
+    running = controller;
+    const { signal } = controller;
+    show(true);
+    try {
+      const generator = await model();
+      for (const { inputs, latents } of missing) {
+        const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
+        known.set(latents, motion);
+        if (signal.aborted) return;
+        show(latents !== missing.at(-1)?.latents);
+      }
+    } catch (error) {
+      if (signal.aborted) return;
+      show(false);
+      if (isAbort(error)) return;
+      apply(store, told(coarseProblem(error)));
+      // Asked for again by hand, not by itself.
+      if (store.getState().shown.ghost) apply(store, shownToggled('ghost'));
+    }
+  };
+
+  const stop = watchAll(
+    store,
+    (state) => [state.reaction?.latents, besideStage(state)?.latents, state.shown.ghost],
+    (state) => {
+      running?.abort();
+      running = null;
+      const missing = [state.reaction, besideStage(state)].filter(
+        (reaction): reaction is Layered => Boolean(reaction?.latents) && !decoded(reaction),
+      );
+      if (state.shown.ghost && missing.length > 0) void decode(missing);
+      else show(false);
+    },
+  );
+  return () => {
+    stop();
+    running?.abort();
+  };
+}

@@ -1,0 +1,77 @@
+import { madeRole } from '../store/roles';
+import { el, setText, setVariable, together } from '../widgets/dom';
+import { jobWords } from '../store/selectors';
+import type { Mount } from '../store/services';
+import type { AppState } from '../store/state';
+import { watchAll } from '../store/store';
+
+/** Work shorter than this shows no progress at all, milliseconds. */
+const PATIENCE = 400;
+
+/** The pill over the stage while a reaction is being made. It changes no layout and holds Cancel. */
+export const mountProgress: Mount = (root, store, services) => {
+  const words = el('span', { class: 'soft' });
+  const fill = el('i');
+  const meter = el(
+    'span',
+    {
+      class: 'meter',
+      attributes: {
+        role: 'progressbar',
+        'aria-valuemin': 0,
+        'aria-valuemax': 100,
+        'aria-label': 'Generation',
+      },
+    },
+    fill,
+  );
+  const cancel = el(
+    'button',
+    {
+      class: 'btn tint',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.cancel();
+        },
+      },
+    },
+    'Cancel ',
+    el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
+  );
+  const title = el('b');
+  const pill = el('div', { class: 'float prog' }, el('span', {}, title, words), meter, cancel);
+  pill.hidden = true;
+  // Read out at the start, half way and at the end, not at every step.
+  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  root.append(pill, spoken);
+
+  let timer: ReturnType<typeof setTimeout> | null = null;
+  const show = (state: AppState): void => {
+    const { job } = state;
+    if (!job) {
+      if (timer !== null) clearTimeout(timer);
+      timer = null;
+      if (spoken.textContent) setText(spoken, state.reaction ? `The ${madeRole(state)} is ready.` : '');
+      pill.hidden = true;
+      return;
+    }
+    timer ??= setTimeout(() => {
+      pill.hidden = false;
+      setText(spoken, `The ${madeRole(state)} is being made.`);
+    }, PATIENCE);
+    if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
+    setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
+    setText(words, jobWords(job, state));
+    setVariable(fill, '--part', job.fraction);
+    meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));
+  };
+  return together(
+    watchAll(store, (state) => [state.job, state.model], show),
+    () => {
+      if (timer !== null) clearTimeout(timer);
+      pill.remove();
+      spoken.remove();
+    },
+  );
+};

@@ -1,0 +1,69 @@
+import { el, together } from '../widgets/dom';
+import { icon } from '../widgets/icons';
+import type { Mount } from '../store/services';
+import { seedLockSet, seedRolled, seedSet, rolledSeed } from '../store/actions/settings';
+import { apply, watchAll } from '../store/store';
+
+/** The seed: typed, rolled, or locked so that nothing but typing changes it. */
+export const mountSeedBox: Mount = (root, store) => {
+  const input = el('input', {
+    attributes: {
+      type: 'number',
+      min: 0,
+      max: 0xffffffff,
+      step: 1,
+      'aria-label': 'Seed',
+      inputmode: 'numeric',
+      title: 'The number behind the chance: the same seed and settings make the same reaction again',
+    },
+    on: {
+      change: () => {
+        apply(store, seedSet(input.valueAsNumber));
+        show();
+      },
+    },
+  });
+  const roll = el(
+    'button',
+    {
+      class: 'icon',
+      attributes: { type: 'button', 'aria-label': 'Roll a new seed' },
+      on: {
+        click: () => {
+          apply(store, seedRolled(rolledSeed()));
+        },
+      },
+    },
+    icon('dice'),
+  );
+  const lock = el('button', {
+    class: 'icon lock',
+    attributes: { type: 'button', 'aria-label': 'Lock the seed' },
+    on: {
+      click: () => {
+        apply(store, seedLockSet(!store.getState().seedLocked));
+      },
+    },
+  });
+  const box = el('span', { class: 'num' }, input, roll, lock);
+  const label = el('span', { class: 'lbl', text: 'Seed', attributes: { 'aria-hidden': true } });
+  root.append(label, box);
+
+  const show = (): void => {
+    const { settings, seedLocked } = store.getState();
+    input.disabled = lock.disabled = !settings;
+    roll.disabled = !settings || seedLocked;
+    input.value = settings ? String(settings.seed) : '';
+    roll.title = seedLocked ? 'The seed is locked' : 'Another reaction (D)';
+    lock.title = seedLocked ? 'Unlock the seed' : 'Lock the seed: generating again keeps it';
+    lock.setAttribute('aria-pressed', String(seedLocked));
+    lock.replaceChildren(icon(seedLocked ? 'lock' : 'unlock'));
+  };
+  return together(
+    watchAll(store, (state) => [state.settings, state.seedLocked], show),
+    () => {
+      label.remove();
+      box.remove();
+    },
+  );
+};

@@ -1,0 +1,47 @@
+import { el, setText, setVariable } from '../widgets/dom';
+import { type FaderEvents, type FaderRange, steer, valueWords } from '../widgets/fader';
+
+export interface MiniFader {
+  readonly root: HTMLElement;
+  /** Sets range and value; null draws it asleep. */
+  readonly show: (range: FaderRange | null, value: number) => void;
+}
+
+/** With the handle beyond this share of the way the number stands on the other side of it. */
+const HIGH = 0.7;
+
+/** A small fader, as of one cell of the matrix: as the large ones, without a hint of its own. */
+export function createMiniFader(
+  label: string,
+  hint: string,
+  on: FaderEvents,
+  words: (value: number) => string = valueWords,
+): MiniFader {
+  const value = el('output');
+  const input = el('input', {
+    attributes: {
+      type: 'range',
+      'aria-label': label,
+      title: `${hint} Double click for the default.`,
+      disabled: true,
+    },
+  });
+  steer(input, on);
+  const root = el('div', { class: 'mini' }, el('span', { class: 'fill' }), value, input);
+  return {
+    root,
+    show: (range, current) => {
+      input.disabled = range === null;
+      setText(value, range ? current.toFixed(2) : '');
+      if (!range) return;
+      input.min = String(range.min);
+      input.max = String(range.max);
+      input.step = String(range.step);
+      if (input.valueAsNumber !== current) input.value = String(current);
+      input.setAttribute('aria-valuetext', words(current));
+      const share = (current - range.min) / (range.max - range.min);
+      setVariable(root, '--v', share);
+      root.classList.toggle('high', share > HIGH);
+    },
+  };
+}

@@ -1,0 +1,54 @@
+import { el, setText, together } from '../widgets/dom';
+import { createMiniFader } from './mini-fader';
+import type { Mount } from '../store/services';
+import { musicReset, musicSet } from '../store/actions/settings';
+import { apply, watchAll } from '../store/store';
+
+const HINT = 'How strongly the song shapes the dance, beside the other dancer.';
+
+/** How loudly the song speaks to the model; asleep while there is none. */
+export const mountMusicFader: Mount = (root, store) => {
+  const fader = createMiniFader(
+    'Music guidance',
+    HINT,
+    {
+      change: (value) => {
+        apply(store, musicSet(value));
+      },
+      reset: () => {
+        apply(store, musicReset());
+      },
+    },
+    loudness,
+  );
+  const note = el('small');
+  const row = el(
+    'div',
+    { class: 'hear' },
+    el('span', { class: 'name', text: 'Music', attributes: { title: HINT } }),
+    fader.root,
+    note,
+  );
+  root.append(row);
+  return together(
+    watchAll(
+      store,
+      ({ settings, manifest, song }) => [settings?.music, manifest, song !== null],
+      ({ settings, manifest, song }) => {
+        const range = manifest && { ...manifest.guidance.music, step: manifest.guidance.step };
+        fader.show(song ? range : null, settings?.music ?? 0);
+        setText(note, song || !settings ? '' : 'no song');
+      },
+    ),
+    () => {
+      row.remove();
+    },
+  );
+};
+
+/** What a screen reader says of a value. */
+export function loudness(value: number): string {
+  const words =
+    value === 0 ? 'as it comes' : value < 2 ? 'a little more' : value < 3.5 ? 'clearly' : 'strongly';
+  return `${value.toFixed(2)}, the song is heard ${words}`;
+}

@@ -1,0 +1,76 @@
+import { el, setText, together } from '../widgets/dom';
+import { icon } from '../widgets/icons';
+import { type Preset, presetOf, presets } from './presets';
+import type { Mount } from '../store/services';
+import { presetChosen } from '../store/actions/settings';
+import { apply, watch, watchAll } from '../store/store';
+
+const CUSTOM = 'Custom';
+
+/** Guidance by name. The menu is the system's own, laid over the name of what is chosen. */
+export const mountPresetMenu: Mount = (root, store) => {
+  let list: Preset[] = [];
+  const name = el('span');
+  const menu = el('select', {
+    attributes: { 'aria-label': 'Guidance preset', disabled: true },
+    on: {
+      change: () => {
+        const preset = list[menu.selectedIndex];
+        if (preset) apply(store, presetChosen(preset));
+      },
+    },
+  });
+  const box = el('span', { class: 'btn preset' }, name, icon('fold'), menu);
+  root.append(box);
+  return together(
+    watch(
+      store,
+      ({ manifest }) => manifest,
+      (manifest) => {
+        list = manifest ? presets(manifest) : [];
+        menu.replaceChildren(...groups(list), custom());
+      },
+    ),
+    watchAll(
+      store,
+      ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music],
+      ({ settings }) => {
+        menu.disabled = !settings;
+        if (!settings) return;
+        const chosen = presetOf(list, settings);
+        menu.selectedIndex = chosen ? list.indexOf(chosen) : list.length;
+        setText(name, chosen?.name ?? CUSTOM);
+        menu.title = chosen ? chosen.words : 'Your own mix. Choose a preset to start from.';
+      },
+    ),
+    () => {
+      box.remove();
+    },
+  );
+};
+
+function groups(list: readonly Preset[]): HTMLElement[] {
+  return [...new Set(list.map(({ group }) => group))].map((group) =>
+    el(
+      'optgroup',
+      { attributes: { label: group } },
+      ...list
+        .filter((preset) => preset.group === group)
+        .map((preset) =>
+          el('option', { text: `${preset.name}  ${numbers(preset)}`, attributes: { title: preset.words } }),
+        ),
+    ),
+  );
+}
+
+/** What stands for values without a name; it can be shown but not chosen. */
+function custom(): HTMLElement {
+  return el('option', { text: CUSTOM, attributes: { disabled: true, hidden: true } });
+}
+
+function numbers({ guidance }: Preset): string {
+  const [row = {}] = Object.values(guidance);
+  return `(${Object.values(row)
+    .map((value) => value.toFixed(1))
+    .join(', ')})`;
+}

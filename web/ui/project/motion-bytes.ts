@@ -1,0 +1,51 @@
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
+
+/** Numbers of one skeleton, and of one frame: root, rotations, positions. */
+const SKELETON = JOINT_COUNT * 3;
+const FRAME = 3 + JOINT_COUNT * 4 + JOINT_COUNT * 3;
+
+/** Bytes of a packed motion of so many frames. */
+export const MOTION_BYTES = (frames: number): number => 4 * (SKELETON + frames * FRAME);
+
+/** A motion as float32, little-endian: offsets, root, rotations, positions, each as in `SolvedMotion`. */
+export function packMotion({ offsets, root, rotations, positions }: SolvedMotion): Uint8Array<ArrayBuffer> {
+  return packFloats(offsets, root, rotations, positions);
+}
+
+/** The parts one after the other as float32, little-endian. */
+export function packFloats(...parts: readonly Float32Array[]): Uint8Array<ArrayBuffer> {
+  const view = new DataView(new ArrayBuffer(4 * parts.reduce((sum, { length }) => sum + length, 0)));
+  let at = 0;
+  for (const part of parts)
+    for (const value of part) {
+      view.setFloat32(at, value, true);
+      at += 4;
+    }
+  return new Uint8Array(view.buffer);
+}
+
+/** All that `packFloats` has packed, in one. */
+export function unpackFloats({ buffer, byteOffset, byteLength }: Uint8Array): Float32Array {
+  const view = new DataView(buffer, byteOffset, byteLength);
+  return Float32Array.from({ length: byteLength / 4 }, (_, index) => view.getFloat32(4 * index, true));
+}
+
+/** @param bytes as many as `MOTION_BYTES(frames)` */
+export function unpackMotion(
+  bytes: Uint8Array,
+  { fps, frames, fitError }: Pick<SolvedMotion, 'fps' | 'frames' | 'fitError'>,
+): SolvedMotion {
+  const values = unpackFloats(bytes);
+  let at = 0;
+  const take = (length: number): Float32Array => values.slice(at, (at += length));
+  return {
+    fps,
+    frames,
+    fitError,
+    offsets: take(SKELETON),
+    root: take(frames * 3),
+    rotations: take(frames * JOINT_COUNT * 4),
+    positions: take(frames * JOINT_COUNT * 3),
+  };
+}

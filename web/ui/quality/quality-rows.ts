@@ -1,0 +1,118 @@
+import type { MeasureRow, Verdict } from '../widgets/info-card';
+import type { Reference } from '../store/state';
+import type { Report } from '../../quality/client';
+import type { Part } from './quality-words';
+
+const NOTHING = '–';
+const percent = (share: number): string => `${Math.round(share * 100)} %`;
+const score = (value: number): string => value.toFixed(2);
+const missing = (value: number | null | undefined): value is null | undefined =>
+  value === null || value === undefined || Number.isNaN(value);
+
+/** How far beyond its reference a number may be that should be small: still good, still so-so. */
+const [GOOD_TIMES, FAIR_TIMES] = [1.15, 1.75];
+/** Share of what recorded dancers have above chance that is good, and that is so-so. */
+const [GOOD_GAIN, FAIR_GAIN] = [0.75, 0.25];
+/** Scores that differ by less than this are the same. */
+const ALIKE = 0.03;
+
+/** A number that should not be larger than its reference. */
+export function atMost(value: number, reference: number | null | undefined): Verdict | null {
+  if (missing(reference) || Number.isNaN(value)) return null;
+  if (value <= reference * GOOD_TIMES) return 'good';
+  return value <= reference * FAIR_TIMES ? 'so-so' : 'poor';
+}
+
+/** A number that should be about its reference: neither much less nor much more. */
+export function about(value: number, reference: number | null | undefined): Verdict | null {
+  if (missing(reference) || Number.isNaN(value)) return null;
+  return atMost(Math.max(value, reference), Math.min(value, reference));
+}
+
+/**
+ * A number that should be above chance, as far as that of recorded dancers is. Where these are not above chance
+ * either, it can at best be so-so not to be: it proves nothing.
+ */
+export function aboveChance(
+  value: number,
+  chance: number,
+  recorded: number | null | undefined,
+): Verdict | null {
+  if (Number.isNaN(value) || Number.isNaN(chance)) return null;
+  const most = missing(recorded) ? chance : recorded;
+  if (most - chance < ALIKE) {
+    if (value - chance >= ALIKE) return 'good';
+    return value > chance - ALIKE ? 'so-so' : 'poor';
+  }
+  const gain = (value - chance) / (most - chance);
+  if (gain >= GOOD_GAIN) return 'good';
+  return gain >= FAIR_GAIN ? 'so-so' : 'poor';
+}
+
+/** The measures of a dance, by the lane that they belong to. */
+export function measureRows(
+  { feet, closeness, beats, seams }: Report,
+  reference: Reference | null,
+): Readonly<Record<Part, readonly MeasureRow[]>> {
+  const write = (value: number, how: (value: number) => string): string =>
+    Number.isNaN(value) ? NOTHING : how(value);
+  const recorded = (value: number | null | undefined, how: (value: number) => string): string =>
+    missing(value) ? '' : `recorded ${how(value)}`;
+  const onBeat = (
+    name: string,
+    beat: Report['beats']['whole']['music'],
+    known: number | null | undefined,
+  ) => ({
+    name: `On the ${name}’s beat`,
+    hint: Number.isNaN(beat.value) ? `no beats of the ${name} to meet` : 'from 0, never, to 1, always',
+    value: write(beat.value, score),
+    beside: Number.isNaN(beat.value)
+      ? ''
+      : [recorded(known, score), `by chance ${score(beat.chance)}`].filter(Boolean).join(', '),
+    verdict: aboveChance(beat.value, beat.chance, known),
+  });
+  const { whole: foot } = feet;
+  const { whole: close } = closeness;
+  const deep =
+    close.overlapShare > 0 ? `of the dance, ${(close.deepest * 100).toFixed(0)} cm at most` : 'never';
+  return {
+    feet: [
+      {
+        name: 'Feet slide',
+        hint: 'of their time on the floor',
+        value: write(foot.skateShare, percent),
+        beside: recorded(reference?.skateShare, percent),
+        verdict: atMost(foot.skateShare, reference?.skateShare),
+      },
+      {
+        name: 'Feet on the floor',
+        hint: 'of the dance',
+        value: write(foot.contactShare, percent),
+        beside: recorded(reference?.contactShare, percent),
+        verdict: about(foot.contactShare, reference?.contactShare),
+      },
+    ],
+    closeness: [
+      {
+        name: 'Bodies overlap',
+        hint: `${deep}; hips never nearer than ${close.closest.toFixed(2)} m`,
+        value: percent(close.overlapShare),
+        beside: recorded(reference?.overlapShare, percent),
+        verdict: atMost(close.overlapShare, reference?.overlapShare),
+      },
+    ],
+    beats: [
+      onBeat('music', beats.whole.music, reference?.music),
+      onBeat('leader', beats.whole.leader, reference?.leader),
+    ],
+    seams: [
+      {
+        name: 'Seams between blocks',
+        hint: 'times the change elsewhere',
+        value: seams.whole.seams === 0 ? NOTHING : write(seams.whole.ratio, score),
+        beside: seams.whole.seams === 0 ? '' : 'unseen around 1',
+        verdict: seams.whole.seams === 0 ? null : atMost(seams.whole.ratio, 1.1),
+      },
+    ],
+  };
+}

@@ -1,0 +1,163 @@
+import type { Reference } from '../store/state';
+import type { Moment, MomentKind, Report, Rules } from '../../quality/client';
+import type { Explanation } from '../widgets/info-card';
+import { clockTime } from '../store/format';
+
+export type Part = keyof Report;
+
+/** What a lane says of the whole dance. */
+export interface LaneWords {
+  /** The number beside the lane's name; a dash where there is nothing to measure. */
+  readonly value: string;
+  /** The same and what it means, in sentences. */
+  readonly sentence: string;
+}
+
+export const PART_NAMES: Readonly<Record<Part, string>> = {
+  feet: 'Feet',
+  closeness: 'Closest',
+  beats: 'Beats',
+  seams: 'Seams',
+};
+
+const percent = (share: number): string => `${Math.round(share * 100)} %`;
+const metres = (length: number): string => `${length.toFixed(2)} m`;
+const centimetres = (length: number): string => `${(length * 100).toFixed(length < 0.095 ? 1 : 0)} cm`;
+const speed = (value: number): string => `${value.toFixed(2)} m/s`;
+const score = (value: number): string => value.toFixed(2);
+const NOTHING = '–';
+
+/** ` (recorded dancers: 33 %)`, where that is known. */
+function recorded(value: number | null | undefined, write: (value: number) => string): string {
+  return value === null || value === undefined ? '' : ` (recorded dancers: ${write(value)})`;
+}
+
+/**
+ * What the lanes say.
+ * @param block length of the model's blocks, seconds
+ * @param reference what recorded dances score, if known for this model
+ */
+export function laneWords(
+  { feet, closeness, beats, seams }: Report,
+  block: number,
+  reference: Reference | null,
+): Readonly<Record<Part, LaneWords>> {
+  return {
+    feet: feetWords(feet.whole, reference),
+    closeness: closenessWords(closeness.whole, reference),
+    beats: beatWords(beats.whole, reference),
+    seams: seamWords(seams.whole, block),
+  };
+}
+
+function feetWords(
+  { skateShare, slideSpeed, contactShare }: Report['feet']['whole'],
+  reference: Reference | null,
+): LaneWords {
+  if (Number.isNaN(skateShare))
+    return { value: NOTHING, sentence: 'The feet never touch the floor for long.' };
+  return {
+    value: percent(skateShare),
+    sentence:
+      `Feet slide ${percent(skateShare)} of the time they touch the floor` +
+      `${recorded(reference?.skateShare, percent)}. Less is steadier. ` +
+      `They touch it ${percent(contactShare)} of the dance${recorded(reference?.contactShare, percent)} ` +
+      `and move ${speed(slideSpeed)} then${recorded(reference?.slideSpeed, speed)}.`,
+  };
+}
+
+function closenessWords(
+  { closest, overlapShare, deepest }: Report['closeness']['whole'],
+  reference: Reference | null,
+): LaneWords {
+  const overlap =
+    overlapShare > 0
+      ? `The bodies go more than a touch into each other for ${percent(overlapShare)} of the dance` +
+        `${recorded(reference?.overlapShare, percent)}, ${centimetres(deepest)} at most.`
+      : 'The bodies never go into each other.';
+  return {
+    value: metres(closest),
+    sentence: `At their closest the hips of the two are ${metres(closest)} apart. ${overlap}`,
+  };
+}
+
+function beatWords({ music, leader }: Report['beats']['whole'], reference: Reference | null): LaneWords {
+  const one = (name: string, { value, chance }: typeof music, known: number | null | undefined): string =>
+    Number.isNaN(value)
+      ? `There are no beats of the ${name} to meet.`
+      : `With the ${name}: ${score(value)}, by accident ${score(chance)}${recorded(known, score)}.`;
+  const brief = ({ value }: typeof music): string => (Number.isNaN(value) ? NOTHING : score(value));
+  return {
+    value: `${brief(music)} ${brief(leader)}`,
+    sentence:
+      'How often the partner turns round or rests just on a beat, from 0 (never) to 1 (on every one). ' +
+      `${one('music', music, reference?.music)} ${one('leader', leader, reference?.leader)}`,
+  };
+}
+
+function seamWords({ seams, ratio }: Report['seams']['whole'], block: number): LaneWords {
+  if (seams === 0 || Number.isNaN(ratio))
+    return { value: NOTHING, sentence: 'The dance is so short that it is made in one piece.' };
+  return {
+    value: score(ratio),
+    sentence:
+      `The dance is made in blocks of ${Number(block.toFixed(1))} s. Where they meet, movement changes ` +
+      `${score(ratio)} times as abruptly as elsewhere; around 1 no seam can be seen.`,
+  };
+}
+
+const KIND_NAMES: Readonly<Record<MomentKind, string>> = {
+  slide: 'Foot slide',
+  overlap: 'Bodies overlap',
+  music: 'Off the music’s beat',
+  leader: 'Off the leader’s beat',
+  seam: 'Rough seam',
+};
+
+/** What a mark is called: `Foot slide, 0.71 m/s at 0:25.1`. */
+export function momentWords({ kind, value, frame }: Moment, fps: number): string {
+  const at = clockTime(frame / fps);
+  const name = KIND_NAMES[kind];
+  switch (kind) {
+    case 'slide':
+      return `${name}, ${speed(value)} at ${at}`;
+    case 'overlap':
+      return `${name}, ${centimetres(value)} at ${at}`;
+    case 'music':
+    case 'leader':
+      return `${name}, ${score(value)} around ${at}`;
+    case 'seam':
+      return `${name}, ${score(value)} times the rest at ${at}`;
+  }
+}
+
+/** What a mark means, for somebody who has never heard of the measure: what happens there, and how bad that is. */
+export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): Explanation {
+  const { kind, value, frame } = moment;
+  const text = (): string => {
+    switch (kind) {
+      case 'slide':
+        return (
+          `A foot that stands on the floor slides at ${speed(value)}. ` +
+          `Up to ${speed(rules.contact.slide_speed)} counts as standing still.`
+        );
+      case 'overlap':
+        return (
+          `The two bodies go ${centimetres(value)} into each other. ` +
+          `Up to ${centimetres(rules.penetration.deep)} counts as a touch.`
+        );
+      case 'music':
+      case 'leader':
+        return (
+          `Around here the partner’s moves miss most beats of the ${kind}: ${score(value)} on a scale from ` +
+          `0 (none met) to 1 (all). By accident it would be ${score(beats.whole[kind].chance)}.`
+        );
+      case 'seam':
+        return (
+          `Two blocks of the dance meet here, and movement changes ${score(value)} times as abruptly ` +
+          'as elsewhere. Around 1 nobody sees the seam.'
+        );
+    }
+  };
+  return { title: KIND_NAMES[kind], aside: clockTime(frame / fps), text: text() };
+}

@@ -1,0 +1,68 @@
+import type { Duet, QualityQuestion, Report } from '../../quality/client';
+import { isAbort } from '../store/problems';
+import { reactorMotion } from '../store/reactor-motion';
+import { musicBeats } from '../store/song-shift';
+import type { AppState } from '../store/state';
+import { measured } from '../store/actions/reaction';
+import { apply, type Store, watchAll } from '../store/store';
+import { remarked } from '../store/actions/notices';
+
+/** What the measures follow from; compared by identity. */
+function parts(state: AppState): readonly unknown[] {
+  return [reactorMotion(state), state.leader, state.song, state.shift, state.manifest];
+}
+
+/** The duet on the stage as the measures take it, the made dancer as the reactor; null while there is none. */
+function duetOf(state: AppState): Duet | null {
+  const { leader, manifest } = state;
+  const reactor = reactorMotion(state);
+  if (!leader || !reactor || !manifest) return null;
+  const { fps } = reactor;
+  return {
+    fps,
+    frames: Math.min(leader.motion.frames, reactor.frames),
+    leader: leader.motion.positions,
+    reactor: reactor.positions,
+    beats: musicBeats(state).map((beat) => Math.round(beat * fps)),
+    block: manifest.latent.block * manifest.latent.stride,
+  };
+}
+
+/**
+ * Keeps the measures in step with what is on the stage; a newer dance drops the measuring of an older one. Numbers of
+ * the one before stay until the new ones are there.
+ * @param measure answers in its own time and ends at once when the signal says so
+ */
+export function createQuality(
+  store: Store,
+  measure: (question: QualityQuestion, signal: AbortSignal) => Promise<Report>,
+): () => void {
+  let running = new AbortController();
+
+  const begin = async (): Promise<void> => {
+    running.abort();
+    running = new AbortController();
+    const { signal } = running;
+    const state = store.getState();
+    const reactor = reactorMotion(state);
+    const duet = duetOf(state);
+    if (!duet || !reactor || !state.manifest) {
+      if (state.quality && !reactor) apply(store, measured(null));
+      return;
+    }
+    try {
+      const report = await measure({ duet, rules: state.manifest.quality }, signal);
+      if (!signal.aborted) apply(store, measured({ reactor, report }));
+    } catch (error) {
+      if (signal.aborted || isAbort(error)) return;
+      apply(store, measured(null));
+      apply(store, remarked('The quality of the dance could not be measured. All else works as before.'));
+    }
+  };
+
+  const stop = watchAll(store, parts, () => void begin());
+  return () => {
+    stop();
+    running.abort();
+  };
+}

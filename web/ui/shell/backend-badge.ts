@@ -1,0 +1,88 @@
+import { mountDeviceCard } from './device-card';
+import { el, setText, setVariable, together } from '../widgets/dom';
+import { icon } from '../widgets/icons';
+import { loadingWords } from './loading-words';
+import type { Mount } from '../store/services';
+import type { ModelState } from '../store/state';
+import { apply, watch } from '../store/store';
+import { opened } from '../store/actions/view';
+
+const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
+
+/** What computes and why; while the model comes, how much of it is here. */
+export const mountBackendBadge: Mount = (root, store, services) => {
+  const title = el('b');
+  const fill = el('i');
+  const meter = el(
+    'span',
+    { class: 'meter', attributes: { role: 'progressbar', 'aria-valuemin': 0, 'aria-valuemax': 100 } },
+    fill,
+  );
+  const bytes = el('span', { class: 'bytes' });
+  const dot = el('span', { class: 'dot', attributes: { 'aria-hidden': 'true' } });
+  const why = el('span', { class: 'why' });
+  const again = el('button', {
+    class: 'btn tint',
+    text: 'Try again',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        services.retryModel();
+      },
+    },
+  });
+  const about = el(
+    'button',
+    {
+      class: 'about',
+      attributes: { type: 'button', 'aria-haspopup': 'dialog' },
+      on: {
+        click: () => {
+          apply(store, opened('device'));
+        },
+      },
+    },
+    el('span', { class: 'phone-only' }, icon('device')),
+    dot,
+    title,
+    why,
+  );
+  const badge = el('div', { class: 'badge' }, about, meter, bytes, again);
+  root.append(badge);
+  const card = mountDeviceCard(badge, about, store, services);
+
+  const show = (model: ModelState): void => {
+    const loading = model.phase === 'loading';
+    meter.hidden = bytes.hidden = !loading;
+    dot.hidden = why.hidden = model.phase !== 'ready';
+    again.hidden = model.phase !== 'failed';
+    badge.className = `badge ${model.phase}`;
+    about.title = '';
+    if (model.phase === 'loading') {
+      const part = model.total > 0 ? model.received / model.total : 0;
+      const words = loadingWords(model);
+      setText(title, words.title);
+      setText(bytes, words.detail);
+      about.title = `${words.title} ${words.detail}`.trim();
+      setVariable(fill, '--part', part);
+      meter.setAttribute('aria-label', words.title);
+      meter.setAttribute('aria-valuenow', String(Math.round(part * 100)));
+    } else if (model.phase === 'ready') {
+      setText(title, BACKENDS[model.backend]);
+      setText(why, model.reason.replace(/\.$/, ''));
+      const threads =
+        model.backend === 'wasm' ? `, ${model.threads} thread${model.threads === 1 ? '' : 's'}` : '';
+      about.title = `Computes on ${BACKENDS[model.backend]}${threads}: ${model.reason}`;
+    } else {
+      setText(title, 'No model');
+      about.title = model.problem.title;
+    }
+  };
+  return together(
+    watch(store, (state) => state.model, show),
+    card,
+    () => {
+      badge.remove();
+    },
+  );
+};

@@ -1,0 +1,81 @@
+import { mountBackendBadge } from './backend-badge';
+import { mountChip } from '../files/file-chip';
+import { el, setAttribute, together } from '../widgets/dom';
+import { mountDownloadMenu } from '../download/download-menu';
+import { brandMark, icon } from '../widgets/icons';
+import { mountProjectMenu } from '../project/project-menu';
+import type { Mount } from '../store/services';
+import { apply, watch } from '../store/store';
+import { opened, themeSet } from '../store/actions/view';
+import { mountUndo } from '../takes/undo';
+
+/** The bar: what this is, the two files, what computes, light or dark, and the way out with the motion. */
+export const mountBar: Mount = (root, store, services) => {
+  const theme = el(
+    'button',
+    {
+      class: 'icon',
+      attributes: { type: 'button', title: 'Light or dark' },
+      on: {
+        click: () => {
+          apply(store, themeSet(store.getState().theme === 'dark' ? 'light' : 'dark'));
+        },
+      },
+    },
+    icon('theme'),
+  );
+  const keys = el(
+    'button',
+    {
+      class: 'icon desk',
+      attributes: {
+        type: 'button',
+        'aria-label': 'Keyboard shortcuts',
+        'aria-haspopup': 'dialog',
+        title: 'Keyboard shortcuts (?)',
+      },
+      on: {
+        click: () => {
+          apply(store, opened('keys'));
+        },
+      },
+    },
+    icon('keyboard'),
+  );
+  root.append(el('div', { class: 'brand' }, brandMark(), el('h1', { text: 'ReactDance' })));
+  const song = mountChip(root, store, services, 'song');
+  const leader = mountChip(root, store, services, 'leader');
+  root.append(el('span', { class: 'grow' }));
+  const badge = mountBackendBadge(root, store, services);
+  root.append(el('span', { class: 'vline' }));
+  const undo = mountUndo(root, store, services);
+  const project = mountProjectMenu(root, store, services);
+  root.append(keys, theme);
+  const download = mountDownloadMenu(root, store, services);
+
+  return together(
+    song,
+    leader,
+    badge,
+    undo,
+    project,
+    download,
+    watch(
+      store,
+      (state) => state.theme,
+      (value) => {
+        theme.setAttribute('aria-label', value === 'dark' ? 'Switch to light' : 'Switch to dark');
+      },
+    ),
+    watch(
+      store,
+      (state) => state.open === 'keys',
+      (open) => {
+        setAttribute(keys, 'aria-expanded', open ? 'true' : 'false');
+      },
+    ),
+    () => {
+      root.replaceChildren();
+    },
+  );
+};

@@ -1,0 +1,100 @@
+import { duration } from '../store/format';
+import { el, setText, together } from '../widgets/dom';
+import { howItWorks, opensHowItWorks, steps } from './how-it-works';
+import { icon, type IconName } from '../widgets/icons';
+import { danceDuration } from '../store/selectors';
+import type { Mount, Services } from '../store/services';
+import type { AppState, Side } from '../store/state';
+import { watchAll } from '../store/store';
+
+/** The block of the first minute: what this is, the demo in one click, a place for one's own files. */
+export const mountFirstVisit: Mount = (root, store, services) => {
+  const play = el(
+    'button',
+    {
+      class: 'btn primary',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.playDemo();
+        },
+      },
+    },
+    icon('play'),
+    'Play the demo',
+  );
+  const about = el('small');
+  const block = el(
+    'section',
+    { class: 'first', attributes: { 'aria-label': 'Start' } },
+    el('h1', { text: 'Drop a song and a lead. Watch the partner answer.' }),
+    el('p', {
+      class: 'lede',
+      text: 'Your browser dances the reacting partner and shows both in 3D.',
+    }),
+    el('div', { class: 'go' }, play, about),
+    el(
+      'div',
+      { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
+      half(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
+      half(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
+    ),
+    steps(opensHowItWorks('Where from?', 'link')),
+    el(
+      'p',
+      { class: 'how' },
+      icon('shield'),
+      el(
+        'span',
+        {},
+        el('span', { class: 'desk', text: 'Drop both anywhere on this page. ' }),
+        'Your files never leave this browser.',
+      ),
+      opensHowItWorks('How it works', 'link phone-only'),
+    ),
+    howItWorks(),
+  );
+  root.append(block);
+
+  const show = (state: AppState): void => {
+    block.hidden = !state.visiting;
+    root.classList.toggle('visiting', state.visiting);
+    play.hidden = state.demo === 'missing';
+    play.disabled = state.demo !== 'ready';
+    setText(about, demoWords(state));
+  };
+  return together(
+    watchAll(store, (state) => [state.visiting, state.demo, state.reaction, state.leader, state.song], show),
+    () => {
+      root.classList.remove('visiting');
+      block.remove();
+    },
+  );
+};
+
+function demoWords(state: AppState): string {
+  if (state.demo === 'loading') return 'Loading the demo';
+  if (state.demo === 'missing') return 'The demo is not here. Your own files work.';
+  const length = duration(danceDuration(state));
+  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
+}
+
+function half(services: Services, side: Side, name: string, kinds: string, ask: string): HTMLElement {
+  const sign: IconName = side;
+  return el(
+    'div',
+    {},
+    el('b', {}, el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(sign)), name),
+    el('p', { text: kinds }),
+    el('button', {
+      class: 'btn tint',
+      text: ask,
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.choose(side);
+        },
+      },
+    }),
+  );
+}

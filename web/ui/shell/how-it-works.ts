@@ -1,0 +1,76 @@
+import { el } from '../widgets/dom';
+import { icon } from '../widgets/icons';
+
+const ID = 'how-it-works';
+
+/** The three steps, short enough to stand beside the drop zone. */
+export function steps(...afterFirst: Node[]): HTMLElement {
+  return el(
+    'ol',
+    { class: 'steps' },
+    el('li', {}, 'Give a song and a leader, one dancer as a BVH file. ', ...afterFirst),
+    el('li', {
+      text: 'The partner answers by itself. Coarse, Fine and Music steer how.',
+    }),
+    el('li', { text: 'Play it, then download the motion for Blender, Maya and other tools.' }),
+  );
+}
+
+/** A button that opens the explanation. */
+export function opensHowItWorks(text: string, className: string): HTMLButtonElement {
+  return el('button', {
+    class: className,
+    text,
+    attributes: { type: 'button', popovertarget: ID, 'aria-haspopup': 'dialog' },
+  });
+}
+
+/** The whole explanation: how to use the page, what files it takes, and where a leader comes from. */
+export function howItWorks(): HTMLElement {
+  return el(
+    'div',
+    {
+      class: 'float explain',
+      attributes: { id: ID, popover: 'auto', role: 'dialog', 'aria-label': 'How it works' },
+    },
+    el(
+      'div',
+      { class: 'head' },
+      el('h2', { text: 'How it works' }),
+      el(
+        'button',
+        {
+          class: 'icon',
+          attributes: {
+            type: 'button',
+            'aria-label': 'Close',
+            popovertarget: ID,
+            popovertargetaction: 'hide',
+          },
+        },
+        icon('close'),
+      ),
+    ),
+    steps(),
+    el('h3', { text: 'What it takes' }),
+    el(
+      'ul',
+      {},
+      item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances to silence.'),
+      item('Leader', 'a BVH file of one whole body. The dance is as long as the leader.'),
+    ),
+    el('h3', { text: 'Where a leader comes from' }),
+    el(
+      'ul',
+      {},
+      item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
+      item('Mixamo', 'download a dance as FBX, import it into Blender, export it as BVH.'),
+      item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),
+      item('This page', 'a reactor downloaded here can lead the next dance.'),
+    ),
+  );
+}
+
+function item(name: string, words: string): HTMLElement {
+  return el('li', {}, el('b', { text: `${name}: ` }), words);
+}

@@ -1,0 +1,66 @@
+import { closeButton } from '../widgets/close-button';
+import { el, together } from '../widgets/dom';
+import type { Mount } from '../store/services';
+import { SHOWS } from '../store/overlays';
+import { apply, watch } from '../store/store';
+import { opened } from '../store/actions/view';
+
+const KEYS: readonly (readonly [readonly string[], string])[] = [
+  [['Space'], 'Play or pause'],
+  [['←', '→'], 'One frame back or on'],
+  [['Shift ←', 'Shift →'], 'One second back or on'],
+  [['Home', 'End'], 'Start, end'],
+  [['[', ']'], 'Slower, faster'],
+  [['← →'], 'On the song’s lane: shift it by a frame; with Shift by ten'],
+  [['L'], 'Loop on or off'],
+  [['I', 'O'], 'Loop from here, to here'],
+  [['+', '−', '0'], 'Zoom in, out, the whole dance'],
+  [['C', 'V', 'M'], 'Coarse, fine, music; then the arrows'],
+  [['R'], 'Guidance back to its default'],
+  [['D'], 'Another seed'],
+  [['S'], 'Star the take on the stage'],
+  [['B'], 'The other take; held, only while held'],
+  [['Ctrl Z', 'Ctrl Y'], 'Undo, redo'],
+  [['Ctrl S'], 'Save the project'],
+  [['F', 'T', 'X'], 'Follow, top, side view; again for orbit'],
+  [['A'], 'Frame both dancers'],
+  [SHOWS.map(({ key }) => key), SHOWS.map(({ label }) => label).join(', ')],
+  [['E'], 'Download'],
+  [['Esc'], 'Cancel, close what is open, or end the loop'],
+  [['?'], 'This list'],
+];
+
+/** The list of keys. */
+export const mountKeysDialog: Mount = (root, store) => {
+  const close = closeButton(() => {
+    apply(store, opened('keys'));
+  });
+  const rows = KEYS.flatMap(([keys, what]) => [
+    el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
+    el('dd', { text: what }),
+  ]);
+  const dialog = el(
+    'section',
+    { class: 'float keys', attributes: { role: 'dialog', 'aria-label': 'Keyboard shortcuts' } },
+    el('div', { class: 'head' }, el('h2', { text: 'Keyboard' }), close),
+    el('dl', {}, ...rows),
+  );
+  dialog.hidden = true;
+  root.append(dialog);
+  let before: Element | null = null;
+  return together(
+    watch(
+      store,
+      (state) => state.open === 'keys',
+      (open) => {
+        if (open) before = document.activeElement;
+        dialog.hidden = !open;
+        if (open) close.focus();
+        else if (before instanceof HTMLElement) before.focus();
+      },
+    ),
+    () => {
+      dialog.remove();
+    },
+  );
+};

@@ -1,0 +1,49 @@
+import { el, setText, together } from '../widgets/dom';
+import type { Mount } from '../store/services';
+import { apply, watch } from '../store/store';
+import { updateSet } from '../store/actions/view';
+
+/** Says that a newer build of the page is here; nothing reloads by itself, for work may be on the stage. */
+export const mountNewVersion: Mount = (root, store, services) => {
+  const words = el('span');
+  const note = el(
+    'div',
+    { class: 'float update', attributes: { role: 'status' } },
+    words,
+    el('button', {
+      class: 'btn tint',
+      text: 'Reload',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.takeUpdate();
+        },
+      },
+    }),
+    el('button', {
+      class: 'btn ghost',
+      text: 'Later',
+      attributes: { type: 'button', title: 'The next visit takes it by itself' },
+      on: {
+        click: () => {
+          apply(store, updateSet(false));
+        },
+      },
+    }),
+  );
+  root.append(note);
+  return together(
+    watch(
+      store,
+      (state) => state.update,
+      (update) => {
+        note.hidden = !update;
+        // Set when it is shown, so that it is read out.
+        setText(words, update ? 'A new version is there.' : '');
+      },
+    ),
+    () => {
+      note.remove();
+    },
+  );
+};

@@ -1,0 +1,112 @@
+import { el, together } from '../widgets/dom';
+import type { Mount, Services } from '../store/services';
+import type { AppState, Problem } from '../store/state';
+import { apply, watch, type Store } from '../store/store';
+import { dismissed } from '../store/actions/notices';
+
+/** A failure in words over the stage: what is wrong, what to do. Everything loaded before stays loaded. */
+export const mountProblemDialog: Mount = (root, store, services) => {
+  let dialog: HTMLElement | null = null;
+  let before: Element | null = null;
+
+  const close = (): void => {
+    if (!dialog) return;
+    const inside = dialog.contains(document.activeElement);
+    dialog.remove();
+    dialog = null;
+    root.classList.remove('dimmed');
+    if (inside && before instanceof HTMLElement && before.isConnected) before.focus();
+  };
+  const show = (problem: Problem | null, state: AppState): void => {
+    if (problem && !dialog) before = document.activeElement;
+    if (dialog) close();
+    if (!problem) return;
+    dialog = build(problem, state, store, services);
+    root.append(dialog);
+    root.classList.add('dimmed');
+    dialog.querySelector('button')?.focus();
+  };
+  return together(
+    watch(store, (state) => state.problem, show),
+    close,
+  );
+};
+
+function build(problem: Problem, state: AppState, store: Store, services: Services): HTMLElement {
+  const dismiss = (): void => {
+    apply(store, dismissed());
+  };
+  const action = (text: string, kind: string, run: () => void): HTMLElement =>
+    el('button', {
+      class: `btn ${kind}`,
+      text,
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          dismiss();
+          run();
+        },
+      },
+    });
+  const remedy = remedyOf(problem, services);
+  return el(
+    'section',
+    {
+      class: 'float err',
+      attributes: {
+        role: 'alertdialog',
+        'aria-labelledby': 'problem-title',
+        'aria-describedby': 'problem-hint',
+        'data-code': problem.code,
+      },
+    },
+    el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
+    el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
+    el(
+      'div',
+      { class: 'acts' },
+      remedy && action(remedy.text, 'primary', remedy.run),
+      action(keepWords(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
+    ),
+  );
+}
+
+/** A sentence whose short quotations stay on one line. */
+function unbroken(sentence: string): (Node | string)[] {
+  return sentence
+    .split(/("[^"]{0,24}")/)
+    .map((part, index) => (index % 2 === 1 ? el('span', { class: 'quoted', text: part }) : part));
+}
+
+function remedyOf(problem: Problem, services: Services): { text: string; run: () => void } | null {
+  switch (problem.remedy) {
+    case 'song':
+    case 'leader':
+    case 'any-file': {
+      const side = problem.remedy === 'any-file' ? 'any' : problem.remedy;
+      return {
+        text: 'Choose another file',
+        run: () => {
+          services.choose(side);
+        },
+      };
+    }
+    case 'model':
+      return { text: 'Try again', run: services.retryModel };
+    case 'generate':
+      return { text: 'Try again', run: services.generate };
+    case 'project':
+      return { text: 'Save project', run: services.saveProject };
+    case 'none':
+      return null;
+  }
+}
+
+/** The way back names what stays: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+export function keepWords(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
+  if (!problem.refused) return 'Close';
+  const { side } = problem.refused;
+  const kept = side ? [{ song, leader }[side]] : [song, leader];
+  const names = kept.flatMap((file) => (file ? [file.name] : []));
+  return names.length > 0 ? `Keep ${names.join(' and ')}` : 'Close';
+}

@@ -1,0 +1,123 @@
+import { el, together } from '../widgets/dom';
+import { coarseMotion } from '../store/reactor-motion';
+import type { Mount } from '../store/services';
+import { mountShowMenu } from './overlay-menu';
+import { icon } from '../widgets/icons';
+import { mountUndo } from '../takes/undo';
+import type { Camera } from '../store/state';
+import { apply, watch } from '../store/store';
+import { cameraSet } from '../store/actions/view';
+
+const CAMERAS: readonly (readonly [Camera, string])[] = [
+  ['orbit', 'Orbit'],
+  ['follow', 'Follow'],
+  ['top', 'Top'],
+  ['side', 'Side'],
+];
+
+/** On the phone, at the stage's lower edge under the thumb: back, forth, and both dancers in the picture again. */
+const mountStageTools: Mount = (root, store, services) => {
+  const tools = el('div', {
+    class: 'over tools',
+    attributes: { role: 'group', 'aria-label': 'Stage tools' },
+  });
+  const undo = mountUndo(tools, store, services);
+  const frame = el(
+    'button',
+    {
+      class: 'icon',
+      attributes: { type: 'button', 'aria-label': 'Frame both', title: 'Frame both' },
+      on: {
+        click: () => {
+          services.frameBoth();
+        },
+      },
+    },
+    icon('frame'),
+  );
+  tools.append(frame);
+  root.append(tools);
+  return together(undo, () => {
+    tools.remove();
+  });
+};
+
+/** Over the picture: who is who, and from where it is seen. */
+export const mountStageControls: Mount = (root, store, services) => {
+  const coarse = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Coarse only');
+  const legend = el(
+    'ul',
+    { class: 'over legend' },
+    el('li', { class: 'lead' }, el('span', { class: 'dot' }), 'Leader'),
+    el('li', { class: 'reac' }, el('span', { class: 'dot' }), 'Reactor'),
+    coarse,
+  );
+  const select = (camera: Camera): void => {
+    apply(store, cameraSet(camera));
+  };
+  const buttons = CAMERAS.map(([camera, label]) =>
+    el('button', {
+      class: 'btn',
+      text: label,
+      attributes: { type: 'button', role: 'radio' },
+      on: {
+        click: () => {
+          select(camera);
+        },
+        keydown: (event) => {
+          const move = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+          if (move === undefined) return;
+          event.preventDefault();
+          event.stopPropagation();
+          const index = CAMERAS.findIndex(([name]) => name === camera);
+          const next = (index + move + CAMERAS.length) % CAMERAS.length;
+          select(CAMERAS[next]?.[0] ?? camera);
+          buttons[next]?.focus();
+        },
+      },
+    }),
+  );
+  const group = el(
+    'div',
+    { class: 'group', attributes: { role: 'radiogroup', 'aria-label': 'Camera' } },
+    ...buttons,
+  );
+  const frame = el('button', {
+    class: 'btn once',
+    text: 'Frame both',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        services.frameBoth();
+      },
+    },
+  });
+  const views = el('div', { class: 'over views' }, group, frame);
+  root.append(legend, views);
+
+  return together(
+    mountShowMenu(root, store, services),
+    mountStageTools(root, store, services),
+    watch(
+      store,
+      (state) => coarseMotion(state) !== null,
+      (seen) => {
+        coarse.hidden = !seen;
+      },
+    ),
+    watch(
+      store,
+      (state) => state.camera,
+      (shown) => {
+        CAMERAS.forEach(([camera], index) => {
+          buttons[index]?.setAttribute('aria-checked', String(camera === shown));
+          buttons[index]?.setAttribute('tabindex', camera === shown ? '0' : '-1');
+        });
+      },
+    ),
+    () => {
+      legend.remove();
+      views.remove();
+    },
+  );
+};

@@ -1,0 +1,20 @@
+import type { DownloadChoice, Filming, AppState } from '../state';
+import type { Change } from '../store';
+
+/** Chooses in the download menu; what is not named stays. */
+export function downloadChosen(choice: Partial<DownloadChoice>): Change {
+  return ({ download }) => ({ download: { ...download, ...choice } });
+}
+
+export function writingChanged(writing: AppState['writing']): Change {
+  return () => ({ writing });
+}
+
+export function filmingChanged(filming: Filming | null): Change {
+  return () => ({ filming });
+}
+
+/** A file has gone to the browser's downloads; null forgets it. */
+export function savedChanged(saved: AppState['saved']): Change {
+  return () => ({ saved });
+}

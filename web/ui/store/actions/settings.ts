@@ -1,0 +1,125 @@
+/** What happens to the settings of a generation. */
+import type { Manifest } from '../../../model/client';
+import { otherRole } from '../roles';
+import { columnOf, defaultGuidance, guidanceAt, held, withCell, withColumn } from '../guidance-matrix';
+import { sameSettings } from '../selectors';
+import type { Guidance, Layer, Settings } from '../state';
+import type { Change } from '../store';
+
+/** Sets all of them, as a ready-made reaction was made with. */
+export function settingsSet(settings: Settings): Change {
+  return () => ({ settings });
+}
+
+/**
+ * Moves one layer of all streams together, held to the manifest's range and step (see `withColumn`).
+ * @param from where the streams stood when the fader was taken in hand; where they stand now when not given
+ */
+export function guidanceSet(layer: Layer, value: number, from?: Guidance): Change {
+  return guided(({ guidance }, { guidance: range }) => ({
+    guidance: withColumn(from ?? guidance, layer, value, range),
+  }));
+}
+
+/** Sets one layer of one stream. */
+export function guidanceCellSet(stream: string, layer: string, value: number): Change {
+  return guided(({ guidance }, { guidance: range }) => ({
+    guidance: withCell(guidance, stream, layer, value, range),
+  }));
+}
+
+/** Moves the guidance of the music, held to the manifest's range and step. */
+export function musicSet(value: number): Change {
+  return guided((_, { guidance: { music, step } }) => ({ music: held(value, { ...music, step }) }));
+}
+
+/** Sets the whole matrix and the music, as a preset has them. */
+export function presetChosen({ guidance, music }: Guided): Change {
+  return guided(() => ({ guidance, music }));
+}
+
+/** Back to the manifest's guidance: one layer of all streams, or everything, the music too. */
+export function guidanceReset(layer?: Layer): Change {
+  return guided(({ guidance }, manifest) => {
+    const own = defaultGuidance(manifest);
+    if (!layer) return { guidance: own, music: manifest.guidance.music.default };
+    const reset = (all: Guidance, stream: string): Guidance =>
+      withCell(all, stream, layer, columnOf(own, layer).value, manifest.guidance);
+    return { guidance: Object.keys(guidance).reduce(reset, guidance) };
+  });
+}
+
+/** Back to the manifest's guidance for one layer of one stream. */
+export function guidanceCellReset(stream: string, layer: string): Change {
+  return guided(({ guidance }, manifest) => {
+    const value = guidanceAt(defaultGuidance(manifest), stream, layer);
+    return { guidance: withCell(guidance, stream, layer, value, manifest.guidance) };
+  });
+}
+
+/** Back to the manifest's guidance of the music. */
+export function musicReset(): Change {
+  return guided((_, { guidance }) => ({ music: guidance.music.default }));
+}
+
+type Guided = Pick<Settings, 'guidance' | 'music'>;
+
+/** A change of the guidance alone; settings stay the same object when it comes out as it was. */
+function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided>): Change {
+  return ({ settings, manifest }) => {
+    if (!settings || !manifest) return {};
+    const wanted = { ...settings, ...next(settings, manifest) };
+    return sameSettings(wanted, settings) ? {} : { settings: wanted };
+  };
+}
+
+/**
+ * The dancers change parts. What the model danced in its old part makes no sense in the new one and leaves; who is
+ * taken home is the one who is made.
+ */
+export function rolesSwapped(): Change {
+  return ({ settings, download }) => {
+    if (!settings) return {};
+    const role = otherRole(settings.role);
+    const who = download.who === 'both' ? 'both' : role;
+    return {
+      settings: { ...settings, role },
+      download: { ...download, who },
+      reaction: null,
+      preview: null,
+      // A leader and a reactor are not compared.
+      other: null,
+      letter: 'A',
+      compare: 'off',
+    };
+  };
+}
+
+export function stepsSet(steps: number): Change {
+  return ({ settings, manifest }) => {
+    if (!settings || !manifest || !Number.isFinite(steps)) return {};
+    const { min, max } = manifest.diffusion.steps;
+    return { settings: { ...settings, steps: Math.min(max, Math.max(min, Math.round(steps))) } };
+  };
+}
+
+export function seedSet(seed: number): Change {
+  return ({ settings }) => {
+    if (!settings || !Number.isFinite(seed)) return {};
+    return { settings: { ...settings, seed: Math.min(0xffffffff, Math.max(0, Math.round(seed))) } };
+  };
+}
+
+/** Another seed, unless it is locked. */
+export function seedRolled(seed: number): Change {
+  return (state) => (state.seedLocked ? {} : seedSet(seed)(state));
+}
+
+export function seedLockSet(seedLocked: boolean): Change {
+  return () => ({ seedLocked });
+}
+
+/** A seed that nobody chose: small enough to read out and to type again. */
+export function rolledSeed(): number {
+  return 1 + Math.floor(Math.random() * 9999);
+}

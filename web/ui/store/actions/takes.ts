@@ -1,0 +1,123 @@
+import { danceDuration, upToDate } from '../selectors';
+import type { AppState, Compare, Letter, Take } from '../state';
+import type { Change } from '../store';
+import { comparable, hindrance, opposite, otherTake, stageLetter, takeOnStage } from '../take';
+
+/** Longest name of a take, characters. */
+export const LONGEST_NAME = 60;
+
+/** What shows a take, with files and settings set back to what it was made from, so that nothing is made anew. */
+function shown(state: AppState, { id, reaction }: Take): Partial<AppState> {
+  const { inputs } = reaction;
+  const time = Math.min(state.playback.time, danceDuration(inputs));
+  const other = otherTake(state);
+  const alone = other ? hindrance(other.reaction, reaction) !== null : id === state.other;
+  return {
+    ...inputs,
+    reaction,
+    ...(time !== state.playback.time && { playback: { ...state.playback, time } }),
+    ...(alone && { other: null, compare: 'off' }),
+  };
+}
+
+/** Shows a take at the same playhead. The take of the other letter is flipped to; any other gets the letter shown. */
+export function takeChosen(id: string): Change {
+  return (state) => {
+    const take = state.takes.find((one) => one.id === id);
+    if (!take || take.reaction === state.reaction) return {};
+    if (take === otherTake(state)) return flipped()(state);
+    return shown(state, take);
+  };
+}
+
+/**
+ * Swaps the take on the stage and the other one. Without another one it is the newest take to the same leader.
+ * Looking at one and the other is nothing to undo, unless settings that no take has yet would be lost.
+ */
+export function flipped(): Change {
+  return (state) => {
+    const stage = takeOnStage(state);
+    const other = partner(state);
+    if (!stage || !other) return {};
+    return {
+      ...shown(state, other),
+      other: stage.id,
+      letter: opposite(stageLetter(state)),
+      ...(upToDate(state) && { history: state.history }),
+    };
+  };
+}
+
+/** The other take of a comparison; before there is one, the newest that can be it. */
+function partner(state: AppState): Take | null {
+  return otherTake(state) ?? state.takes.find((take) => comparable(take, state)) ?? null;
+}
+
+/** Why a letter can't be given to a take, in a sentence; null when it can. */
+export function whyNoLetter(take: Take, letter: Letter, state: AppState): string | null {
+  if (letter === stageLetter(state)) return null;
+  if (take.reaction !== state.reaction) return state.reaction && hindrance(take.reaction, state.reaction);
+  return partner(state) ? null : 'There is no other take to compare it with.';
+}
+
+/** Gives a letter of the comparison to a take, or takes that of the other take away again. */
+export function letterGiven(id: string, letter: Letter): Change {
+  return (state) => {
+    const take = state.takes.find((one) => one.id === id);
+    if (!take) return {};
+    const mine = stageLetter(state);
+    const other = otherTake(state);
+    if (take.reaction === state.reaction) {
+      // The letter that it leaves goes to the other take; without one to the newest that can be compared.
+      const left = partner(state);
+      return left && letter !== mine ? { letter, other: left.id } : {};
+    }
+    if (letter === mine) {
+      const before = takeOnStage(state);
+      return { ...shown(state, take), ...(take === other && { other: before?.id ?? null }) };
+    }
+    if (!comparable(take, state)) return {};
+    return take === other ? { other: null, compare: 'off' } : { other: id, letter: mine };
+  };
+}
+
+/** Shows the other take beside or behind the one on the stage; asked for again, alone. */
+export function compareSet(compare: Exclude<Compare, 'off'>): Change {
+  return (state) => {
+    if (state.compare === compare) return { compare: 'off' };
+    return otherTake(state) ? { compare } : {};
+  };
+}
+
+/** Names a take; an empty name gives it its number back. */
+export function takeRenamed(id: string, name: string): Change {
+  const clean = name.replace(/\s+/g, ' ').trim().slice(0, LONGEST_NAME) || null;
+  return ({ takes }) =>
+    takes.some((take) => take.id === id && take.name !== clean)
+      ? { takes: takes.map((take) => (take.id === id ? { ...take, name: clean } : take)) }
+      : {};
+}
+
+export function takeStarred(id: string): Change {
+  return ({ takes }) => ({
+    takes: takes.map((take) => (take.id === id ? { ...take, starred: !take.starred } : take)),
+  });
+}
+
+/** Deletes a take. Was it on the stage, the next one to the same leader is shown; without one the stage stays. */
+export function takeDeleted(id: string): Change {
+  return (state) => {
+    const at = state.takes.findIndex((take) => take.id === id);
+    const take = state.takes[at];
+    if (!take) return {};
+    const takes = state.takes.filter((one) => one !== take);
+    const near = [...takes.slice(at), ...takes.slice(0, at).toReversed()];
+    const next = near.find((one) => one.reaction.inputs.leader === state.leader);
+    const moves = take.reaction === state.reaction && next;
+    return {
+      takes,
+      ...(moves && shown(state, next)),
+      ...((state.other === id || (moves && next.id === state.other)) && { other: null, compare: 'off' }),
+    };
+  };
+}

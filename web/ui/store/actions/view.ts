@@ -1,0 +1,41 @@
+/** What happens to playing and looking. */
+import { danceDuration } from '../selectors';
+import type { AppState, Camera, CoarseLayer, Playback, Shown, Theme } from '../state';
+import type { Change } from '../store';
+
+export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;
+
+/** Changes the transport; the time stays inside the dance. */
+export function playbackSet(change: Partial<Playback>): Change {
+  return (state) => {
+    const playback = { ...state.playback, ...change };
+    const time = Math.min(danceDuration(state), Math.max(0, playback.time));
+    return { playback: { ...playback, time } };
+  };
+}
+
+export function themeSet(theme: Theme): Change {
+  return () => ({ theme });
+}
+
+export function cameraSet(camera: Camera): Change {
+  return () => ({ camera });
+}
+
+export function updateSet(update: boolean): Change {
+  return () => ({ update });
+}
+
+/** Shows something about the dancers, or leaves it out again. */
+export function shownToggled(what: keyof Shown): Change {
+  return ({ shown }) => ({ shown: { ...shown, [what]: !shown[what] } });
+}
+
+export function coarseChanged(change: Partial<CoarseLayer>): Change {
+  return ({ coarse }) => ({ coarse: { ...coarse, ...change } });
+}
+
+/** Opens a floating thing, or closes it when it is the one that is open. */
+export function opened(open: AppState['open']): Change {
+  return (state) => ({ open: state.open === open ? null : open });
+}

@@ -1,0 +1,95 @@
+import type { Manifest } from '../../model/client';
+import { toStep } from './format';
+import type { Guidance, Layer, Settings } from './state';
+
+type Range = Pick<Manifest['guidance'], 'min' | 'max' | 'step'>;
+
+/** The same column for every stream: how a matrix with one value per layer is written. */
+export function uniform(
+  streams: readonly string[],
+  layers: readonly string[],
+  value: (layer: string) => number,
+): Guidance {
+  return Object.fromEntries(
+    streams.map((stream) => [stream, Object.fromEntries(layers.map((layer) => [layer, value(layer)]))]),
+  );
+}
+
+/** The manifest's own choice. */
+export function defaultGuidance({ latent, guidance }: Pick<Manifest, 'latent' | 'guidance'>): Guidance {
+  return uniform(latent.streams, latent.layers, (layer) => guidance.default[layer] ?? 0);
+}
+
+/** Guidance of one layer in one stream; 0, the plain condition, where the matrix has none. */
+export function guidanceAt(guidance: Guidance, stream: string, layer: string): number {
+  return guidance[stream]?.[layer] ?? 0;
+}
+
+/** One layer over all streams: its mean, and whether the streams differ. */
+export function columnOf(guidance: Guidance, layer: Layer): { value: number; mixed: boolean } {
+  const values = Object.values(guidance).map((row) => row[layer] ?? 0);
+  const sum = values.reduce((total, value) => total + value, 0);
+  const mixed = values.some((value) => value !== values[0]);
+  const mean = mixed ? sum / values.length : (values[0] ?? 0);
+  return { value: Math.round(mean * 1e6) / 1e6, mixed };
+}
+
+export function sameGuidance(a: Guidance, b: Guidance): boolean {
+  const cells = (guidance: Guidance): string[] =>
+    Object.entries(guidance)
+      .flatMap(([stream, row]) => Object.entries(row).map(([layer, value]) => `${stream} ${layer} ${value}`))
+      .sort();
+  const [one, other] = [cells(a), cells(b)];
+  return one.length === other.length && one.every((cell, i) => cell === other[i]);
+}
+
+/** With one cell set, held to range and step. */
+export function withCell(
+  guidance: Guidance,
+  stream: string,
+  layer: string,
+  value: number,
+  range: Range,
+): Guidance {
+  return { ...guidance, [stream]: { ...guidance[stream], [layer]: held(value, range) } };
+}
+
+/**
+ * With one layer moved so that its mean over the streams is `value`. Streams move together and keep their
+ * differences; one that reaches an end of the range waits there for the others, so at the end all are alike.
+ */
+export function withColumn(guidance: Guidance, layer: Layer, value: number, range: Range): Guidance {
+  const rows = Object.entries(guidance);
+  const before = rows.map(([, row]) => row[layer] ?? 0);
+  const by = shiftTo(before, Math.min(range.max, Math.max(range.min, value)), range);
+  return Object.fromEntries(
+    rows.map(([stream, row], i) => [stream, { ...row, [layer]: held((before[i] ?? 0) + by, range) }]),
+  );
+}
+
+/** What to add to each value so that their mean, each held to the range, is `mean`: it only grows, so halve. */
+function shiftTo(values: readonly number[], mean: number, { min, max }: Range): number {
+  const reached = (by: number): number =>
+    values.reduce((sum, value) => sum + Math.min(max, Math.max(min, value + by)), 0) / values.length;
+  let [low, high] = [min - max, max - min];
+  for (let turn = 0; turn < 50; turn++) {
+    const middle = (low + high) / 2;
+    if (reached(middle) < mean) low = middle;
+    else high = middle;
+  }
+  return Math.round(high * 1e9) / 1e9;
+}
+
+/** The value, held to range and step. */
+export function held(value: number, { min, max, step }: Range): number {
+  return toStep(Math.min(max, Math.max(min, value)), step, min);
+}
+
+/** `1.20 coarse, 0.60 fine, 3.00 music`, with `about` where the body parts differ. */
+export function guidanceWords({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): string {
+  const layers = (['coarse', 'fine'] as const).map((layer) => {
+    const { value, mixed } = columnOf(guidance, layer);
+    return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;
+  });
+  return [...layers, `${music.toFixed(2)} music`].join(', ');
+}

@@ -1,0 +1,198 @@
+import { danceDuration, sameSettings } from './selectors';
+import type { AppState, Inputs, Settings, Take } from './state';
+import type { Change } from './store';
+import { presentInputs, takeOnStage, withTake } from './take';
+
+/** A take as it was before and after a step; null where it was not there. */
+interface Edit {
+  readonly before: Take | null;
+  readonly after: Take | null;
+}
+
+/** One step that can be taken back. It holds only what differed, so that whatever else has come since then stays. */
+interface Step {
+  /** What was changed; steps of the same kind that follow each other at once are one. Null is like nothing else. */
+  readonly kind: string | null;
+  /** When it was last added to, milliseconds since 1970. */
+  readonly at: number;
+  /** The parts of the state as they were. */
+  readonly back: Partial<AppState>;
+  readonly edits: readonly Edit[];
+  /** The take that was on the stage, which a fold may have replaced since. */
+  readonly stage: Take | null;
+}
+
+/** What can be undone and redone, each with the nearest step last. */
+export interface History {
+  readonly past: readonly Step[];
+  readonly future: readonly Step[];
+  /** Whether the last step may still be added to. */
+  readonly open: boolean;
+}
+
+export const NO_HISTORY: History = { past: [], future: [], open: false };
+
+const MOST_STEPS = 100;
+
+/** A fader that rests this long has been let go of, milliseconds. */
+const SAME_GESTURE = 1000;
+
+/** The last step is complete: whatever comes next is another one. */
+export function sealed(history: History): History {
+  return history.open ? { ...history, open: false } : history;
+}
+
+/**
+ * Adds to a change the step that takes it back, if it is one that visitors take back: of settings, song, leader, any
+ * other input of a reaction, takes, or the choice of a take. Changes that set `history` have seen to it themselves;
+ * reactions that arrive are among them, so that undoing leads to the take before and not to less takes.
+ */
+export function remembered(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
+  if ('history' in patch) return patch;
+  const after = { ...before, ...patch };
+  const inputs = changedInputs(before, after);
+  const edits = editsBetween(before.takes, after.takes);
+  const chosen = after.reaction !== before.reaction && takeOnStage(after) !== null;
+  if (inputs.length === 0 && edits.length === 0 && !chosen) return patch;
+
+  const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
+  const { past, open } = before.history;
+  const last = past.at(-1);
+  const goesOn = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE;
+  const step: Step = goesOn
+    ? { ...last, at }
+    : {
+        kind,
+        at,
+        back: pick(before, [...inputs, 'reaction', ...(after.other === before.other ? [] : COMPARISON)]),
+        edits,
+        stage: takeOnStage(before),
+      };
+  const kept = goesOn ? past.slice(0, -1) : past.slice(1 - MOST_STEPS);
+  return { ...patch, history: { past: [...kept, step], future: [], open: true } };
+}
+
+/** A change that the page makes of its own accord, such as loading its demo: nobody has to take it back. */
+export function unremembered(change: Change): Change {
+  return (state) => ({ history: state.history, ...change(state) });
+}
+
+const COMPARISON = ['other', 'letter', 'compare'] as const;
+
+/** A change that replaces everything at once: taking it back brings everything back. */
+export function replacing(before: AppState, patch: Partial<AppState>): Partial<AppState> {
+  const nothing = before.takes.length === 0 && !before.leader && !before.song;
+  if (nothing) return { ...patch, history: NO_HISTORY };
+  const keys = Object.keys(patch) as (keyof AppState)[];
+  const step: Step = { kind: null, at: 0, back: pick(before, keys), edits: [], stage: null };
+  const past = [...before.history.past.slice(1 - MOST_STEPS), step];
+  return { ...patch, history: { past, future: [], open: false } };
+}
+
+/** Goes back one step. */
+export function undone(): Change {
+  return (state) => {
+    const { past, future } = state.history;
+    const step = past.at(-1);
+    if (!step) return {};
+    const history = { past: past.slice(0, -1), future: [...future, inverse(step, state)], open: false };
+    return { ...travelled(step, state), history };
+  };
+}
+
+/** Takes the last step back that was undone. */
+export function redone(): Change {
+  return (state) => {
+    const { past, future } = state.history;
+    const step = future.at(-1);
+    if (!step) return {};
+    const history = { past: [...past, inverse(step, state)], future: future.slice(0, -1), open: false };
+    return { ...travelled(step, state), history };
+  };
+}
+
+function travelled({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
+  const after = { ...state, ...back };
+  let { takes } = after;
+  for (const { before, after: since } of edits)
+    if (before) takes = withTake(takes, edited(takes, before));
+    else takes = takes.filter(({ id }) => id !== since?.id);
+  // The take that was on the stage may have been folded into the next one or have made room: it comes back.
+  if (stage && !back.takes && stage.reaction === after.reaction && !takes.some(sameAs(stage)))
+    takes = withTake(takes, {
+      ...edited(takes, stage),
+      reaction: stage.reaction,
+      createdAt: stage.createdAt,
+    });
+  const there = takes.some(({ id, reaction }) => id === after.other && reaction !== after.reaction);
+  const answers = after.reaction?.inputs.leader === after.leader;
+  return {
+    ...back,
+    takes,
+    reaction: answers ? after.reaction : null,
+    other: there ? after.other : null,
+    compare: there ? after.compare : 'off',
+    playback: { ...state.playback, time: Math.min(after.playback.time, danceDuration(after)) },
+  };
+}
+
+function inverse(step: Step, state: AppState): Step {
+  return {
+    kind: null,
+    at: 0,
+    back: pick(state, Object.keys(step.back) as (keyof AppState)[]),
+    edits: step.edits.map(({ before, after }) => ({ before: after, after: before })),
+    stage: takeOnStage(state),
+  };
+}
+
+const sameAs = (stage: Take) => (take: Take) => take.reaction === stage.reaction;
+
+/** The take with the name and the star of an earlier time and, if it is there, the motion of now. */
+function edited(takes: readonly Take[], earlier: Take): Take {
+  const now = takes.find(({ id }) => id === earlier.id);
+  return now ? { ...now, name: earlier.name, starred: earlier.starred } : earlier;
+}
+
+function editsBetween(before: readonly Take[], after: readonly Take[]): Edit[] {
+  if (before === after) return [];
+  const earlier = new Map(before.map((take) => [take.id, take]));
+  const edits: Edit[] = [];
+  for (const take of after) {
+    const old = earlier.get(take.id) ?? null;
+    earlier.delete(take.id);
+    if (old !== take) edits.push({ before: old, after: take });
+  }
+  for (const take of earlier.values()) edits.push({ before: take, after: null });
+  return edits;
+}
+
+/** The inputs of a reaction that differ, by their names, which are the same in the state. */
+function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
+  const inputs = presentInputs(before);
+  // Before there is a leader there is nothing to go back to.
+  if (!inputs) return [];
+  return (Object.keys(inputs) as (keyof Inputs)[]).filter((key) => {
+    if (key !== 'settings') return before[key] !== after[key];
+    const [a, b] = [before.settings, after.settings];
+    return a !== b && !(a && b && sameSettings(a, b));
+  });
+}
+
+/** `leader`, or `settings.guidance`: what a change is about. */
+function kindOf(inputs: readonly (keyof Inputs)[], before: AppState, after: AppState): string {
+  return inputs
+    .map((key) => {
+      if (key !== 'settings' || !before.settings || !after.settings) return key;
+      const [a, b] = [before.settings, after.settings];
+      const names = (Object.keys(b) as (keyof Settings)[]).filter(
+        (name) => JSON.stringify(a[name]) !== JSON.stringify(b[name]),
+      );
+      return `settings.${names.join('+')}`;
+    })
+    .join(' ');
+}
+
+function pick(state: AppState, keys: readonly (keyof AppState)[]): Partial<AppState> {
+  return Object.fromEntries(keys.map((key) => [key, state[key]]));
+}

@@ -1,0 +1,91 @@
+import { bestShift, type BestShift } from '../../motion/beats/beat-match';
+import { motionBeats } from '../../motion/beats/motion-beats';
+import type { AppState, LoadedLeader, LoadedSong } from './state';
+
+type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;
+
+/** Time of the dance at which the song begins, seconds; below 0 its beginning is not heard. */
+export function songStart({ leader, shift }: Pick<AppState, 'leader' | 'shift'>): number {
+  return leader ? shift / leader.file.clip.fps : 0;
+}
+
+/** Beats of the song in seconds of the dance, as they are heard; the first ones may be before its start. */
+export function musicBeats(parts: Parts): number[] {
+  const start = songStart(parts);
+  return parts.song?.data.beats.map((beat) => beat + start) ?? [];
+}
+
+/** Shifts that leave something of the song in the dance, frames; nothing to choose without both. */
+export function shiftRange({ song, leader }: Pick<AppState, 'song' | 'leader'>): {
+  readonly min: number;
+  readonly max: number;
+} {
+  if (!song || !leader) return { min: 0, max: 0 };
+  const { fps, frames } = leader.file.clip;
+  const heard = Math.floor(song.data.duration * fps);
+  return { min: -Math.max(0, heard - fps), max: Math.max(0, frames - fps) };
+}
+
+/** `+7`, `−12`, `0`. */
+export function signed(frames: number): string {
+  return frames > 0 ? `+${frames}` : frames < 0 ? `\u2212${-frames}` : '0';
+}
+
+/** `+7 frames`, `−1 frame`. */
+export function frameWords(frames: number): string {
+  return `${signed(frames)} ${Math.abs(frames) === 1 ? 'frame' : 'frames'}`;
+}
+
+/** `+7 frames, 0.23 s later`; without a leader there is nothing to shift against. */
+export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>): string {
+  if (frames === 0 || !leader) return 'as the files begin';
+  const seconds = (Math.abs(frames) / leader.file.clip.fps).toFixed(2);
+  return `${frameWords(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
+}
+
+/** How song and leader fit: a better shift, or why none is suggested, in a few words and in a sentence. */
+export type Fit =
+  { readonly better: BestShift } | { readonly better: null; readonly words: string; readonly reason: string };
+
+let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: Fit } | null = null;
+
+/**
+ * How much later the song should start than it does now so that its beats meet the leader's, where that is clearly
+ * better; null without song or leader. The last answer is remembered: many parts of the page ask.
+ */
+export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 'manifest'>): Fit | null {
+  if (!song || !leader || !manifest) return null;
+  if (answered?.leader === leader && answered.song === song && answered.shift === shift)
+    return answered.answer;
+  const { fps } = leader.file.clip;
+  const music = musicBeats({ song, leader, shift }).map((beat) => beat * fps);
+  const { smoothing, tolerance } = manifest.quality.beats;
+  const best = bestShift(motionBeats(leader.motion, smoothing), music, tolerance);
+  const { min, max } = shiftRange({ song, leader });
+  const possible = best !== null && shift + best.by >= min && shift + best.by <= max;
+  const answer = best?.clear && possible ? { better: best } : noBetter(best, leader);
+  answered = { leader, song, shift, answer };
+  return answer;
+}
+
+function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Fit {
+  if (best === null)
+    return {
+      better: null,
+      words: 'too few beats',
+      reason: 'Leader and song have too few beats together to tell how they fit. Drag the song to shift it.',
+    };
+  const now = `The leader's accents, the moments of least speed, meet the song's beats by ${percent(best.before)}`;
+  const seconds = (Math.abs(best.by) / clip.fps).toFixed(2);
+  const other =
+    best.by === 0
+      ? ', the best within two seconds'
+      : `; the best within two seconds is ${percent(best.score)}, ${seconds} s ${best.by > 0 ? 'later' : 'earlier'}` +
+        (best.clear ? '' : ', too little to tell from accident');
+  return { better: null, words: 'no better shift', reason: `${now}${other}. Drag the song to shift it.` };
+}
+
+/** `58 %`. */
+export function percent(part: number): string {
+  return `${Math.round(part * 100)} %`;
+}

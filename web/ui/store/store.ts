@@ -1,0 +1,96 @@
+import { NOTHING_SHOWN } from './overlays';
+import type { AppState, Theme } from './state';
+import { NO_HISTORY, remembered } from './history';
+import { createStore, type StoreApi } from 'zustand/vanilla';
+
+/** Everything that can happen to the state. A change is a pure function from state to what differs. */
+export type Change = (state: AppState) => Partial<AppState>;
+export type Store = StoreApi<AppState>;
+
+/** The state before anything is loaded. */
+export function initialState(theme: Theme): AppState {
+  return {
+    theme,
+    camera: 'orbit',
+    shown: NOTHING_SHOWN,
+    coarse: { motion: null, other: null, decoding: false },
+    visiting: true,
+    demo: 'loading',
+    open: null,
+    update: false,
+    model: { phase: 'loading', label: 'Model', received: 0, total: 0 },
+    manifest: null,
+    settings: null,
+    song: null,
+    leader: null,
+    shift: 0,
+    reading: { song: null, leader: null },
+    reaction: null,
+    preview: null,
+    choices: null,
+    seedLocked: false,
+    takes: [],
+    takesMade: 0,
+    other: null,
+    letter: 'A',
+    compare: 'off',
+    history: NO_HISTORY,
+    keeping: 'kept',
+    footLock: true,
+    quality: null,
+    reference: null,
+    job: null,
+    download: { who: 'reactor', format: 'bvh', size: '1080p' },
+    writing: null,
+    filming: null,
+    saved: null,
+    problem: null,
+    waitingProblems: [],
+    remarks: [],
+    news: null,
+    playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
+    zoom: null,
+  };
+}
+
+/** The one store of the page. */
+export function createAppStore(theme: Theme): Store {
+  return createStore<AppState>()(() => initialState(theme));
+}
+
+/** Applies a change; what the visitor may want to take back is remembered. */
+export function apply(store: Store, change: Change): void {
+  store.setState((state) => remembered(state, change(state), Date.now()));
+}
+
+/** Calls back now and whenever the selected part is another value; returns the unsubscription. */
+export function watch<T>(
+  store: Store,
+  select: (state: AppState) => T,
+  show: (value: T, state: AppState) => void,
+): () => void {
+  let shown = select(store.getState());
+  show(shown, store.getState());
+  return store.subscribe((state) => {
+    const value = select(state);
+    if (Object.is(value, shown)) return;
+    shown = value;
+    show(value, state);
+  });
+}
+
+/** `watch` for several parts at once. */
+export function watchAll(
+  store: Store,
+  select: (state: AppState) => readonly unknown[],
+  show: (state: AppState) => void,
+): () => void {
+  let shown = select(store.getState());
+  show(store.getState());
+  return store.subscribe((state) => {
+    const values = select(state);
+    if (values.every((value, index) => Object.is(value, shown[index]))) return;
+    shown = values;
+    show(state);
+  });
+}

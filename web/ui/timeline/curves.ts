@@ -1,0 +1,81 @@
+import type { Peaks } from '../widgets/lane-canvas';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import type { Span } from '../store/time-scale';
+
+/**
+ * The picture of a waveform.
+ * @param pcm mono samples
+ * @param rate samples per second
+ * @param span what the picture shows, seconds of the song; before its start and past its end it is flat
+ * @param columns width of the picture
+ */
+export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, columns: number): Peaks {
+  const low = new Float32Array(columns);
+  const high = new Float32Array(columns);
+  const sampleAt = (column: number): number => Math.floor((from + (column / columns) * (to - from)) * rate);
+  for (let column = 0; column < columns; column++) {
+    const first = sampleAt(column);
+    const end = Math.min(pcm.length, Math.max(first + 1, sampleAt(column + 1)));
+    let least = 0;
+    let most = 0;
+    for (let i = Math.max(0, first); i < end; i++) {
+      const value = pcm[i] ?? 0;
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+    low[column] = least;
+    high[column] = most;
+  }
+  return { low, high };
+}
+
+/** The loudest sample of a song, at least a little above silence so that one can divide by it. */
+export function loudest(pcm: Float32Array): number {
+  return pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 1e-3);
+}
+
+/** Speed of a dancer as drawn in its lane: mean over the joints in m/s per frame, smoothed over about 0.2 s. */
+export function speedCurve({
+  positions,
+  frames,
+  fps,
+}: Pick<SolvedMotion, 'positions' | 'frames' | 'fps'>): Float32Array {
+  const width = frames > 0 ? positions.length / frames : 0;
+  const joints = width / 3;
+  const raw = new Float32Array(frames);
+  for (let frame = 1; frame < frames; frame++) {
+    let sum = 0;
+    for (let joint = 0; joint < joints; joint++) {
+      const at = frame * width + joint * 3;
+      let square = 0;
+      for (let axis = 0; axis < 3; axis++) {
+        const step = (positions[at + axis] ?? 0) - (positions[at + axis - width] ?? 0);
+        square += step * step;
+      }
+      sum += Math.sqrt(square);
+    }
+    raw[frame] = (sum / joints) * fps;
+  }
+  raw[0] = raw[1] ?? 0;
+  return smooth(raw, Math.max(1, Math.round(fps / 15)));
+}
+
+/** A running mean over `radius` frames to either side, twice, which is close to a Gaussian. */
+function smooth(values: Float32Array, radius: number): Float32Array {
+  let from = values;
+  for (let pass = 0; pass < 2; pass++) {
+    const to = new Float32Array(from.length);
+    let sum = 0;
+    for (let i = -radius; i < from.length; i++) {
+      sum += from[i + radius] ?? 0;
+      if (i >= 0) {
+        const first = Math.max(0, i - radius);
+        const last = Math.min(from.length - 1, i + radius);
+        to[i] = sum / (last - first + 1);
+      }
+      sum -= from[i - radius] ?? 0;
+    }
+    from = to;
+  }
+  return from;
+}

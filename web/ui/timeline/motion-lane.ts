@@ -1,0 +1,117 @@
+import { beatScores } from '../../motion/beats/beat-match';
+import type { Manifest } from '../../model/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { motionBeats } from '../../motion/beats/motion-beats';
+import { speedCurve } from './curves';
+import { el, setText } from '../widgets/dom';
+import { clockTime } from '../store/format';
+import { drawCurve, drawDots, surface, token } from '../widgets/lane-canvas';
+import type { TimeScale } from '../store/time-scale';
+
+/** A motion beat that scores as much lies on a music beat: within two frames and a half. */
+const ON_MUSIC = 0.7;
+/** Opacity of motion that is about to be replaced. */
+const OLD = 0.35;
+
+/** What is drawn of a motion. */
+export interface DrawnMotion {
+  readonly speed: Float32Array;
+  readonly fps: number;
+  /** Frames. */
+  readonly beats: readonly number[];
+}
+
+/** Speed and beats of a motion; there are no beats before the manifest has told how they are found. */
+export function drawnMotion(motion: SolvedMotion, manifest: Manifest | null): DrawnMotion {
+  const beats = manifest ? motionBeats(motion, manifest.quality.beats.smoothing) : [];
+  return { speed: speedCurve(motion), fps: motion.fps, beats };
+}
+
+/** How a lane is drawn now. */
+export interface MotionPicture {
+  readonly scale: TimeScale;
+  /** Seconds of the dance. */
+  readonly musicBeats: readonly number[];
+  /** How far a motion beat may be from a music beat, frames. */
+  readonly tolerance: number;
+  /** The speed that reaches the upper edge, m/s. */
+  readonly top: number;
+  /** Whether a new motion is being made, and the seconds of it that are shown already. */
+  readonly stale: boolean;
+  readonly fresh: { readonly from: number; readonly to: number } | null;
+}
+
+/** The lane of one dancer: speed as a curve, motion beats as dots. */
+export interface MotionLane {
+  readonly root: HTMLElement;
+  readonly draw: (motion: DrawnMotion | null, picture: MotionPicture) => void;
+  /** What the lane says while there is no motion. */
+  readonly say: (word: string) => void;
+}
+
+/** An empty lane; `under` lies below the curve. */
+export function createMotionLane(
+  who: 'leader' | 'reactor',
+  className: string,
+  under: HTMLElement,
+): MotionLane {
+  const canvas = el('canvas');
+  const word = el('span', { class: 'word' });
+  const root = el('div', { class: className, attributes: { role: 'img' } }, under, canvas, word);
+  const name = who === 'leader' ? 'Leader' : 'Reactor';
+  return {
+    root,
+    say: (text) => {
+      setText(word, text);
+    },
+    draw: (motion, { scale, musicBeats, tolerance, top, stale, fresh }) => {
+      const on = surface(canvas);
+      if (!motion) {
+        root.setAttribute('aria-label', who === 'leader' ? 'No leader' : 'No reactor yet');
+        return;
+      }
+      const scores = beatScores(
+        motion.beats,
+        musicBeats.map((beat) => beat * motion.fps),
+        tolerance,
+      );
+      const beats = motion.beats.map((frame, index) => ({
+        time: frame / motion.fps,
+        onMusic: (scores[index] ?? 0) >= ON_MUSIC,
+      }));
+      root.setAttribute('aria-label', words(name, motion, beats.filter(({ onMusic }) => onMusic).length));
+      if (!on) return;
+      const line = token(root, `--${who}`);
+      const colours = { line, fill: token(root, `--${who}-soft`), ground: token(root, '--raised') };
+      const curve = { ...motion, top };
+      const paint = (opacity: number): void => {
+        on.context.globalAlpha = opacity;
+        drawCurve(on, curve, scale, colours);
+        drawDots(on, curve, beats, scale, colours);
+      };
+      paint(stale ? OLD : 1);
+      if (!stale || !fresh) return;
+      const [left, right] = [scale.x(fresh.from), scale.x(fresh.to)];
+      on.context.save();
+      on.context.beginPath();
+      on.context.rect(left, 0, right - left, on.height);
+      on.context.clip();
+      on.context.clearRect(left, 0, right - left, on.height);
+      paint(1);
+      on.context.restore();
+    },
+  };
+}
+
+function words(who: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
+  let sum = 0;
+  let most = 0;
+  let at = 0;
+  speed.forEach((value, index) => {
+    sum += value;
+    if (value > most) [most, at] = [value, index];
+  });
+  const mean = (sum / Math.max(1, speed.length)).toFixed(2);
+  const counted = `${beats.length} motion beats, ${onMusic} of them on the music`;
+  return `${who} speed, ${mean} metres per second on average, fastest at ${clockTime(at / fps)}; ${counted}`;
+}

@@ -1,0 +1,68 @@
+import { el, setText } from '../widgets/dom';
+import { fitOf, frameWords, percent, shiftWords, signed } from '../store/song-shift';
+import type { AppState } from '../store/state';
+import { apply, type Store } from '../store/store';
+import { shiftSet } from '../store/actions/timeline';
+
+/** The song's name in the lanes, with how it is shifted and how it would fit better. */
+export interface SongLabel {
+  readonly root: HTMLElement;
+  readonly show: (state: AppState) => void;
+}
+
+/** The label; its buttons and its quiet words come and go without moving anything. */
+export function createSongLabel(store: Store): SongLabel {
+  const back = el('button', {
+    class: 'shifted',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        apply(store, shiftSet(0));
+      },
+    },
+  });
+  const align = el('button', {
+    class: 'align',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        const state = store.getState();
+        const better = fitOf(state)?.better;
+        if (better) apply(store, shiftSet(state.shift + better.by));
+      },
+    },
+  });
+  const none = el('span', { class: 'no-align' });
+  const root = el(
+    'div',
+    { class: 'lab song' },
+    el('span', { class: 'of-song' }, el('span', { text: 'Song' }), back),
+    align,
+    none,
+  );
+  return {
+    root,
+    show: (state) => {
+      const { shift } = state;
+      back.hidden = shift === 0;
+      setText(back, `${signed(shift)} ×`);
+      back.setAttribute('aria-label', `Song shift ${frameWords(shift)}: put it back`);
+      back.title = `The song is shifted by ${shiftWords(shift, state)}. Click to put it back.`;
+      const fit = fitOf(state);
+      align.hidden = !fit?.better;
+      none.hidden = !fit || fit.better !== null;
+      if (!fit) return;
+      if (!fit.better) {
+        setText(none, fit.words);
+        none.title = fit.reason;
+        return;
+      }
+      const { by, score, before } = fit.better;
+      setText(align, `Align ${frameWords(by)}`);
+      align.title =
+        `The leader's accents, the moments of least speed, meet the song's beats better ` +
+        `${shiftWords(by, state).split(', ')[1] ?? ''}: ${percent(score)} instead of ${percent(before)}. ` +
+        'Click to shift the song.';
+    },
+  };
+}

@@ -1,0 +1,164 @@
+import { el, setText, setVariable } from './dom';
+import { drawing } from './icons';
+import type { Layer } from '../store/state';
+
+export interface FaderEvents {
+  readonly change: (value: number) => void;
+  readonly reset: () => void;
+  /** It is taken in hand; all changes until it is let go belong together. */
+  readonly grab?: () => void;
+  readonly letGo?: () => void;
+}
+
+/** A fader's range, from the manifest. */
+export interface FaderRange {
+  readonly min: number;
+  readonly max: number;
+  readonly step: number;
+}
+
+export interface Fader {
+  readonly root: HTMLElement;
+  readonly input: HTMLInputElement;
+  /** Sets range and value, the mean where the body parts are mixed; null draws it asleep. */
+  readonly show: (range: FaderRange | null, value: number, mixed?: boolean) => void;
+  /** The warm outline: this one is being applied. */
+  readonly setApplying: (applying: boolean) => void;
+}
+
+/** Width and height of the drawn curve. */
+const WAVE = { width: 112, height: 26 };
+
+/** What the layer is, drawn: a slow wave, and the same wave with ripples. */
+function wavePath(layer: Layer): string {
+  const ripple = layer === 'fine' ? 4 : 0;
+  const points: string[] = [];
+  for (let x = 2; x <= WAVE.width - 2; x += 0.6) {
+    const slow = Math.sin((x - 2) / 14) * (layer === 'fine' ? 4.5 : 8);
+    points.push(`${x.toFixed(1)} ${(WAVE.height / 2 - slow - Math.sin(x / 1.65) * ripple).toFixed(1)}`);
+  }
+  return `M${points.join('L')}`;
+}
+
+/**
+ * A native range input laid over a drawn well, so that keyboard, touch and screen readers work by themselves.
+ * Shift drags at a tenth; a double click asks for the default.
+ */
+export function createFader(layer: Layer, name: string, hint: string, on: FaderEvents): Fader {
+  const hintId = `hint-${layer}`;
+  const value = el('output', { class: 'val' });
+  const mix = el('small', { class: 'mix', text: 'mixed' });
+  mix.hidden = true;
+  const well = el(
+    'span',
+    { class: 'well' },
+    el('span', { class: 'fill' }),
+    el('span', { class: 'name', text: name }),
+    drawing(`0 0 ${WAVE.width} ${WAVE.height}`, 'w', [[wavePath(layer)]]),
+    mix,
+    value,
+  );
+  const input = el('input', {
+    attributes: {
+      type: 'range',
+      'aria-label': `${name} guidance`,
+      'aria-describedby': hintId,
+      title: `${hint} Double click for the default.`,
+      disabled: true,
+    },
+  });
+  steer(input, on);
+  const scale = el('div', { class: 'scale', attributes: { 'aria-hidden': 'true' } });
+  const root = el(
+    'div',
+    { class: 'fader' },
+    well,
+    input,
+    scale,
+    el('span', { class: 'hint', text: hint, attributes: { id: hintId } }),
+  );
+
+  let drawn: FaderRange | null = null;
+  return {
+    root,
+    input,
+    show: (range, current, mixed = false) => {
+      input.disabled = range === null;
+      setText(value, range ? current.toFixed(2) : '');
+      if (!range) return;
+      if (range !== drawn) {
+        drawn = range;
+        input.min = String(range.min);
+        input.max = String(range.max);
+        input.step = String(range.step);
+        scale.replaceChildren(...marks(range));
+      }
+      if (input.valueAsNumber !== current) input.value = String(current);
+      mix.hidden = !mixed;
+      input.setAttribute('aria-valuetext', valueWords(current, mixed));
+      setVariable(root, '--v', (current - range.min) / (range.max - range.min));
+    },
+    setApplying: (applying) => {
+      root.classList.toggle('applying', applying);
+    },
+  };
+}
+
+/** One mark per whole number; the ends say in a word what they do. */
+function marks({ min, max }: FaderRange): HTMLElement[] {
+  const list: HTMLElement[] = [];
+  for (let at = Math.ceil(min); at <= max; at++) {
+    const number = String(at).replace('-', '−');
+    const text = at === min ? `${number} loose` : at === max ? `close ${number}` : number;
+    const mark = el('span', { text });
+    setVariable(mark, '--at', (at - min) / (max - min));
+    list.push(mark);
+  }
+  return list;
+}
+
+/** What a screen reader says of a value. */
+export function valueWords(value: number, mixed = false): string {
+  const words = `${value.toFixed(2)}, ${closeness(value)}`;
+  return mixed ? `${words}, on average: the body parts are mixed` : words;
+}
+
+function closeness(value: number): string {
+  if (value <= -0.75) return 'hardly follows';
+  if (value < 0.5) return 'follows';
+  return value < 1.75 ? 'follows closely' : 'follows very closely';
+}
+
+/** Ties a range input to what it does: drag, keys, double click for the default, Shift to drag finely. */
+export function steer(input: HTMLInputElement, { change, reset, grab, letGo }: FaderEvents): void {
+  input.addEventListener('pointerdown', () => grab?.());
+  for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
+    input.addEventListener(type, () => letGo?.());
+  input.addEventListener('input', () => {
+    change(input.valueAsNumber);
+  });
+  input.addEventListener('dblclick', reset);
+  dragFinely(input, change);
+}
+
+/** With Shift held the value moves a tenth as far as the pointer. */
+function dragFinely(input: HTMLInputElement, change: (value: number) => void): void {
+  let from: { x: number; value: number } | null = null;
+  input.addEventListener('pointerdown', (event) => {
+    if (!event.shiftKey || input.disabled) return;
+    event.preventDefault();
+    input.focus();
+    input.setPointerCapture(event.pointerId);
+    from = { x: event.clientX, value: input.valueAsNumber };
+  });
+  input.addEventListener('pointermove', (event) => {
+    if (!from) return;
+    const range = Number(input.max) - Number(input.min);
+    change(from.value + ((event.clientX - from.x) / input.clientWidth) * range * 0.1);
+  });
+  const stop = (): void => {
+    from = null;
+  };
+  input.addEventListener('pointerup', stop);
+  input.addEventListener('pointercancel', stop);
+}

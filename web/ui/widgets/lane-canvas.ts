@@ -1,0 +1,158 @@
+import type { TimeScale } from '../store/time-scale';
+
+/** Loudness of a song as seen: per column the lowest and the highest sample. */
+export interface Peaks {
+  readonly low: Float32Array;
+  readonly high: Float32Array;
+}
+
+/** A canvas sized to its element in device pixels, with a context scaled to CSS pixels. */
+export interface Surface {
+  readonly context: CanvasRenderingContext2D;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Clears a canvas and fits it to its element; null while it has no size or no context. */
+export function surface(canvas: HTMLCanvasElement): Surface | null {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const context = canvas.getContext('2d');
+  if (!context || width === 0 || height === 0) return null;
+  const ratio = window.devicePixelRatio;
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  context.setTransform(canvas.width / width, 0, 0, canvas.height / height, 0, 0);
+  return { context, width, height };
+}
+
+/** A colour token of the style sheet, as the element sees it. */
+export function token(element: Element, name: `--${string}`): string {
+  return getComputedStyle(element).getPropertyValue(name).trim();
+}
+
+/** Height under the waveform that the beat marks take, CSS pixels. */
+const BEATS = 9;
+/** Room that a beat mark needs, CSS pixels. */
+const BEAT_ROOM = 4;
+
+/** A waveform, mirrored about its middle; `loudest` is the sample that takes all of the height. */
+export function drawWave(
+  { context, width, height }: Surface,
+  { low, high }: Peaks,
+  loudest: number,
+  colour: string,
+): void {
+  const middle = (height - BEATS) / 2;
+  const columns = high.length;
+  context.fillStyle = colour;
+  for (let column = 0; column < columns; column++) {
+    const up = ((high[column] ?? 0) / loudest) * middle;
+    const down = (-(low[column] ?? 0) / loudest) * middle;
+    const thick = Math.max(1, up + down);
+    context.fillRect(
+      (column / columns) * width,
+      middle - Math.max(up, 0.5),
+      Math.max(0.6, width / columns - 0.2),
+      thick,
+    );
+  }
+}
+
+/** Beat marks under the waveform, each fourth one taller, with its hairline through the waveform. */
+export function drawBeats(
+  { context, width, height }: Surface,
+  beats: readonly number[],
+  scale: TimeScale,
+  colours: { readonly bar: string; readonly beat: string; readonly line: string },
+): void {
+  const tooDense = within(beats, scale).length > width / BEAT_ROOM;
+  beats.forEach((beat, index) => {
+    const first = index % 4 === 0;
+    if (beat < scale.from || beat > scale.to || (tooDense && !first)) return;
+    const x = Math.round(scale.x(beat));
+    if (first) {
+      context.fillStyle = colours.line;
+      context.fillRect(x, 0, 1, height);
+    }
+    context.fillStyle = first ? colours.bar : colours.beat;
+    context.fillRect(x, height - (first ? 7 : 4), 1, first ? 7 : 4);
+  });
+}
+
+/** A dancer's speed and how it is drawn. */
+export interface Curve {
+  /** One value per frame, m/s. */
+  readonly speed: Float32Array;
+  readonly fps: number;
+  /** The speed that reaches the lane's upper edge, m/s. */
+  readonly top: number;
+}
+
+/** Height of a curve at a time, CSS pixels from the upper edge. */
+function heightAt({ speed, fps, top }: Curve, time: number, height: number): number {
+  const frame = Math.min(speed.length - 1, Math.max(0, time * fps));
+  const before = Math.floor(frame);
+  const here = speed[before] ?? 0;
+  const value = here + (frame - before) * ((speed[before + 1] ?? here) - here);
+  return height - 1.5 - Math.min(1, value / top) * (height - 5);
+}
+
+/** A dancer's speed over time as a filled line. */
+export function drawCurve(
+  { context, width, height }: Surface,
+  curve: Curve,
+  scale: TimeScale,
+  colours: { readonly line: string; readonly fill: string },
+): void {
+  const right = Math.min(width, scale.x(curve.speed.length / curve.fps));
+  if (right <= 0) return;
+  const columns = Math.max(2, Math.round(right));
+  context.beginPath();
+  for (let column = 0; column < columns; column++) {
+    const x = (column / (columns - 1)) * right;
+    const y = heightAt(curve, scale.time(x), height);
+    if (column === 0) context.moveTo(x, y);
+    else context.lineTo(x, y);
+  }
+  context.strokeStyle = colours.line;
+  context.lineWidth = 1.25;
+  context.stroke();
+  context.lineTo(right, height);
+  context.lineTo(0, height);
+  context.closePath();
+  context.fillStyle = colours.fill;
+  context.fill();
+}
+
+/** Room that a dot needs, CSS pixels. */
+const DOT_ROOM = 7;
+
+/** Motion beats as dots on the curve: full where a music beat is, rings elsewhere, left out where there is no room. */
+export function drawDots(
+  { context, width, height }: Surface,
+  curve: Curve,
+  beats: readonly { readonly time: number; readonly onMusic: boolean }[],
+  scale: TimeScale,
+  colours: { readonly line: string; readonly ground: string },
+): void {
+  const seen = beats.filter(({ time }) => time >= scale.from && time <= scale.to);
+  const tooDense = seen.length > width / DOT_ROOM;
+  for (const { time, onMusic } of seen) {
+    if (tooDense && !onMusic) continue;
+    const radius = tooDense ? 1.5 : onMusic ? 3 : 1.9;
+    const x = scale.x(time);
+    const y = Math.max(radius + 1, Math.min(height - radius - 1, heightAt(curve, time, height)));
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fillStyle = onMusic ? colours.line : colours.ground;
+    context.fill();
+    if (onMusic) continue;
+    context.strokeStyle = colours.line;
+    context.lineWidth = 1.25;
+    context.stroke();
+  }
+}
+
+function within(times: readonly number[], { from, to }: TimeScale): number[] {
+  return times.filter((time) => time >= from && time <= to);
+}
