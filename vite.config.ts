@@ -4,6 +4,7 @@ import { listedFile } from './tools/listed-file.mjs';
 import { offlineShell } from './tools/offline-shell.mjs';
 import { precompress } from './tools/precompress.mjs';
 import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
+import { licences } from './tools/vite/licences.mjs';
 
 const dist = fileURLToPath(new URL('dist', import.meta.url));
 
@@ -44,13 +45,15 @@ const brotli: Plugin = {
   closeBundle: () => precompress(dist),
 };
 
+const { page: licencesOfPage, worker: licencesOfWorker } = licences();
+
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [listedFile(), policyInPage, fontFirst, offlineShell(dist), brotli],
+  plugins: [listedFile(), policyInPage, fontFirst, licencesOfPage, offlineShell(dist), brotli],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
-  worker: { format: 'es', plugins: () => [listedFile()] },
+  worker: { format: 'es', plugins: () => [listedFile(), licencesOfWorker()] },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {
