@@ -4,7 +4,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { check, installPackages } from './check.mjs';
 import { installBrowser } from './install.mjs';
-import { must, python, runMain, step } from './run.mjs';
+import { runOrThrow, python, runMain, step } from './run.mjs';
 import { noReport, readPlaywright, readPytest, readVitest, summary } from './test-reports.mjs';
 
 /** @typedef {import('./test-reports.mjs').Report} Report */
@@ -36,12 +36,14 @@ await runMain(async () => {
   await step('browser', installBrowser);
   await check();
   await testStep('vitest', readVitest, (report) =>
-    must('vitest', ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${report}`]),
+    runOrThrow('vitest', ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${report}`]),
   );
-  await testStep('pytest', readPytest, (report) => must(python, ['-m', 'pytest', `--junitxml=${report}`]));
-  await step('build', () => must('vite', ['build', '--logLevel', 'warn']));
+  await testStep('pytest', readPytest, (report) =>
+    runOrThrow(python, ['-m', 'pytest', `--junitxml=${report}`]),
+  );
+  await step('build', () => runOrThrow('vite', ['build', '--logLevel', 'warn']));
   await testStep('browser tests', readPlaywright, (report) =>
-    must('playwright', ['test', '--reporter=list,json'], { PLAYWRIGHT_JSON_OUTPUT_NAME: report }),
+    runOrThrow('playwright', ['test', '--reporter=list,json'], { PLAYWRIGHT_JSON_OUTPUT_NAME: report }),
   );
 });
 

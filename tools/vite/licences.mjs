@@ -24,7 +24,7 @@ const LICENCE_FILE = /^(licen[cs]e|copying|notice)(\.(md|txt))?$/i;
 /** In Vite's own licence file, what follows concerns its program: pages contain only a few lines of its core. */
 const VITE_PROGRAM = '# Licenses of bundled dependencies';
 
-/** The innermost package that a module or a file belongs to. */
+/** Matches a path up to the folder of the innermost package in it; the group is the package's name. */
 const PACKAGE = /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)(?=\/)/;
 
 /**
@@ -36,7 +36,7 @@ const PACKAGE = /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)(?=\/)/;
  *   `worker.plugins`: workers are bundles of their own, built before the page's is written
  */
 export function licences() {
-  /** @type {Set<string>} */
+  /** @type {Set<string>} Folders of the packages found so far. */
   const folders = new Set();
   let root = '';
   /** @param {import('vite').Rolldown.OutputBundle} bundle */
