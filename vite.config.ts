@@ -1,14 +1,15 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
-import { listedFile } from './tools/listed-file.mjs';
-import { offlineShell } from './tools/offline-shell.mjs';
-import { precompress } from './tools/precompress.mjs';
 import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
+import { licences } from './tools/vite/licences.mjs';
+import { manifestEntry } from './tools/vite/manifest-entry.mjs';
+import { precompress } from './tools/vite/precompress.mjs';
+import { serviceWorker } from './tools/vite/service-worker.mjs';
 
 const dist = fileURLToPath(new URL('dist', import.meta.url));
 
-/** The built page carries its own policy. In development Vite's injected <style> elements would break on it. */
-const policyInPage: Plugin = {
+/** A <meta> element with the Content-Security-Policy. In development Vite's injected <style> elements would break on it. */
+const policyElement: Plugin = {
   name: 'content-security-policy',
   apply: 'build',
   transformIndexHtml: () => [
@@ -20,9 +21,9 @@ const policyInPage: Plugin = {
   ],
 };
 
-/** The typeface comes with the first files instead of after them, so that no word changes its width later. */
-const fontFirst: Plugin = {
-  name: 'font-first',
+/** Preloads the font with the first files, so that no word changes its width later. */
+const preloadFont: Plugin = {
+  name: 'preload-font',
   apply: 'build',
   transformIndexHtml: {
     order: 'post',
@@ -37,6 +38,7 @@ const fontFirst: Plugin = {
   },
 };
 
+/** Brotli copies of the built files. */
 const brotli: Plugin = {
   name: 'brotli',
   apply: 'build',
@@ -44,20 +46,22 @@ const brotli: Plugin = {
   closeBundle: () => precompress(dist),
 };
 
+const { page: licencesOfPage, worker: licencesOfWorker } = licences();
+
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [listedFile(), policyInPage, fontFirst, offlineShell(dist), brotli],
+  plugins: [manifestEntry(), policyElement, preloadFont, licencesOfPage, serviceWorker(dist), brotli],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
-  worker: { format: 'es', plugins: () => [listedFile()] },
+  worker: { format: 'es', plugins: () => [manifestEntry(), licencesOfWorker()] },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {
     outDir: dist,
     emptyOutDir: true,
     target: 'es2023',
-    // The time that brotli takes is no news.
+    // It would warn of the time that brotli takes, each time.
     rolldownOptions: { checks: { pluginTimings: false } },
     // data: addresses would need a hole in the policy.
     assetsInlineLimit: 0,

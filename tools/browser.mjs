@@ -1,8 +1,10 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 
+/** Programs that are looked for in PATH. */
 const names = ['chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable'];
-const elsewhere = [
+/** Where macOS and Windows install Chrome, outside PATH. */
+const installed = [
   '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
   'C:\\Program Files\\Google\\Chrome\\Application\\chrome.exe',
 ];
@@ -20,7 +22,7 @@ export async function findBrowser() {
   const candidates = [
     ...(named === undefined ? [] : [named]),
     ...system,
-    ...elsewhere,
+    ...installed,
     chromium.executablePath(),
   ];
   return candidates.find((candidate) => candidate !== '' && existsSync(candidate));

@@ -1,32 +1,31 @@
 /** `npm run check`: formatting, lint and types of both languages. */
-import { pathToFileURL } from 'node:url';
 import { installNodePackages, installPythonPackages } from './install.mjs';
-import { must, python, runMain, step } from './run.mjs';
+import { isProgram, runOrThrow, python, runMain, step } from './run.mjs';
 
-/** Each ends the program when it finds a fault. */
+/** Checks formatting, lint and types. @throws at the first fault */
 export async function check() {
   await step('format', async () => {
-    await must('prettier', ['--check', '--log-level', 'warn', '.']);
-    await must(python, ['-m', 'ruff', 'format', '--check', '--quiet']);
+    await runOrThrow('prettier', ['--check', '--log-level', 'warn', '.']);
+    await runOrThrow(python, ['-m', 'ruff', 'format', '--check', '--quiet']);
   });
   await step('lint', async () => {
-    await must('eslint', ['.']);
-    await must(python, ['-m', 'ruff', 'check', '--quiet']);
+    await runOrThrow('eslint', ['.']);
+    await runOrThrow(python, ['-m', 'ruff', 'check', '--quiet']);
   });
   await step('types', async () => {
-    await must('tsc', ['-p', 'web']);
-    await must('tsc', ['-p', '.']);
-    await must(python, ['-m', 'pyright']);
+    await runOrThrow('tsc', ['-p', 'web']);
+    await runOrThrow('tsc', ['-p', '.']);
+    await runOrThrow(python, ['-m', 'pyright']);
   });
 }
 
-/** What both `npm run check` and `npm test` need first. */
+/** Installs the packages that `npm run check` and `npm test` need. */
 export async function installPackages() {
   await step('node packages', installNodePackages);
   await step('python packages', installPythonPackages);
 }
 
-if (process.argv[1] !== undefined && import.meta.url === pathToFileURL(process.argv[1]).href) {
+if (isProgram(import.meta.url)) {
   await runMain(async () => {
     await installPackages();
     await check();

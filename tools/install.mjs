@@ -1,20 +1,22 @@
-/** Brings a fresh machine to where the project can be built and tested. Only built-in modules. */
+/** Installs what building and testing need. Imports built-in modules only: it runs before anything is installed. */
 import { createHash } from 'node:crypto';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { findBrowser } from './browser.mjs';
-import { ask, must, python, root, run } from './run.mjs';
+import { outputOf, python, root, run, runOrThrow } from './run.mjs';
 
-const NODE = /** @type {const} */ ([20, 19]);
-const PYTHON = /** @type {const} */ ([3, 11]);
+/** The oldest Node, major and minor. */
+const MIN_NODE = /** @type {const} */ ([20, 19]);
+/** The oldest Python, major and minor. */
+const MIN_PYTHON = /** @type {const} */ ([3, 11]);
 
 /** Installs the pinned node packages unless exactly these are there. */
 export async function installNodePackages() {
   const [major = 0, minor = 0] = process.versions.node.split('.').map(Number);
-  if (major < NODE[0] || (major === NODE[0] && minor < NODE[1])) {
-    throw new Error(`Node ${NODE.join('.')} or newer is needed; this is ${process.versions.node}`);
+  if (major < MIN_NODE[0] || (major === MIN_NODE[0] && minor < MIN_NODE[1])) {
+    throw new Error(`Node ${MIN_NODE.join('.')} or newer is needed; this is ${process.versions.node}`);
   }
-  if (!nodePackagesMatch()) await must('npm', ['ci']);
+  if (!nodePackagesMatch()) await runOrThrow('npm', ['ci']);
 }
 
 /** npm leaves a copy of the lock file of what it has installed: compare the versions. */
@@ -45,36 +47,36 @@ export async function installPythonPackages() {
   if (existsSync(python) && existsSync(stamp) && readFileSync(stamp, 'utf8') === hash) return;
 
   console.log('PyTorch comes with its CUDA libraries, about 2.7 GB: this takes minutes, once.');
-  const uv = (await ask('uv', ['--version'])) !== undefined;
+  const uv = (await outputOf('uv', ['--version'])) !== undefined;
   if (!existsSync(python)) {
     const interpreter = await findPython();
-    if (uv) await must('uv', ['venv', '--python', interpreter, '.venv']);
-    else await must(interpreter, ['-m', 'venv', '.venv']);
+    if (uv) await runOrThrow('uv', ['venv', '--python', interpreter, '.venv']);
+    else await runOrThrow(interpreter, ['-m', 'venv', '.venv']);
   }
-  if (uv) await must('uv', ['pip', 'sync', '--python', python, pins]);
-  else await must(python, ['-m', 'pip', 'install', '--no-deps', '-r', pins]);
+  if (uv) await runOrThrow('uv', ['pip', 'sync', '--python', python, pins]);
+  else await runOrThrow(python, ['-m', 'pip', 'install', '--no-deps', '-r', pins]);
   writeFileSync(stamp, hash);
 }
 
 /** The path of a Python that is new enough. */
 async function findPython() {
-  const tell = 'import sys; print(*sys.version_info[:2], sys.executable, sep="\\n")';
+  const script = 'import sys; print(*sys.version_info[:2], sys.executable, sep="\\n")';
   for (const name of ['python3', 'python3.13', 'python3.12', 'python3.11', 'python']) {
-    const [major, minor, executable] = (await ask(name, ['-c', tell]))?.split(/\r?\n/) ?? [];
-    if (executable && Number(major) === PYTHON[0] && Number(minor) >= PYTHON[1]) return executable;
+    const [major, minor, executable] = (await outputOf(name, ['-c', script]))?.split(/\r?\n/) ?? [];
+    if (executable && Number(major) === MIN_PYTHON[0] && Number(minor) >= MIN_PYTHON[1]) return executable;
   }
   throw new Error(
-    `Python ${PYTHON.join('.')} or newer is needed and none was found: install python3 with venv`,
+    `Python ${MIN_PYTHON.join('.')} or newer is needed and none was found: install python3 with venv`,
   );
 }
 
 /** Finds a Chromium for the browser tests, or installs one. */
 export async function installBrowser() {
   if ((await findBrowser()) !== undefined) return;
-  const debianRoot = process.getuid?.() === 0 && (await ask('apt-get', ['--version'])) !== undefined;
-  if (debianRoot) {
-    await must('apt-get', ['update']);
-    await must('apt-get', ['install', '-y', 'chromium'], { DEBIAN_FRONTEND: 'noninteractive' });
+  const isDebianRoot = process.getuid?.() === 0 && (await outputOf('apt-get', ['--version'])) !== undefined;
+  if (isDebianRoot) {
+    await runOrThrow('apt-get', ['update']);
+    await runOrThrow('apt-get', ['install', '-y', 'chromium'], { DEBIAN_FRONTEND: 'noninteractive' });
   } else {
     await run('playwright', ['install', 'chromium']);
   }

@@ -1,7 +1,7 @@
 import { runnerImport } from 'vite';
 
 /**
- * A module of the page, for programs that run without a page.
+ * Loads a TypeScript module of web/ into Node, for programs that compute as the page does.
  *
  * @template T
  * @param {string} file its path under web/, as in 'motion/fit/ik.ts'

@@ -1,13 +1,13 @@
 import { spawn } from 'node:child_process';
 import path from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 
 /** The folder of the project. */
 export const root = fileURLToPath(new URL('..', import.meta.url));
 
 const windows = process.platform === 'win32';
 
-/** The project's own interpreter. */
+/** Path of the Python interpreter in the project's virtual environment. */
 export const python = path.join(root, '.venv', windows ? 'Scripts/python.exe' : 'bin/python');
 
 /**
@@ -39,19 +39,19 @@ export function run(program, args, env = {}) {
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-export async function must(program, args, env) {
+export async function runOrThrow(program, args, env) {
   const code = await run(program, args, env);
   if (code !== 0) throw new Error(`${[program, ...args].join(' ')} ended with ${code}`);
 }
 
 /**
- * Runs a program silently.
+ * Runs a program without showing what it prints.
  *
  * @param {string} program
  * @param {string[]} args
  * @returns {Promise<string | undefined>} what it printed, or undefined when it failed or isn't there
  */
-export function ask(program, args) {
+export function outputOf(program, args) {
   return new Promise((resolve) => {
     let output = '';
     const child = spawn(program, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], shell: windows });
@@ -62,10 +62,11 @@ export function ask(program, args) {
 }
 
 /**
- * Does a piece of work, saying its name before and its seconds after. An error ends the program.
+ * Does a piece of work, printing its name before and its seconds after.
  *
  * @param {string} name
  * @param {() => Promise<void>} work
+ * @throws {StepFailed} when the work throws, once its error is printed
  */
 export async function step(name, work) {
   console.log(`\n== ${name}`);
@@ -81,12 +82,22 @@ export async function step(name, work) {
   console.log(`== ${name}: ${seconds(start)} s`);
 }
 
-/** A step has failed and has said so already. */
+/** A step has failed, and its error is already printed. */
 export class StepFailed extends Error {}
 
 /** @param {number} start */
 function seconds(start) {
   return ((performance.now() - start) / 1000).toFixed(1);
+}
+
+/**
+ * Whether a module is the program that was started, not one that a program imports.
+ *
+ * @param {string} url the module's import.meta.url
+ */
+export function isProgram(url) {
+  const [, started] = process.argv;
+  return started !== undefined && url === pathToFileURL(started).href;
 }
 
 /**

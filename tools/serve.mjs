@@ -7,7 +7,8 @@ import { stat } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import path from 'node:path';
 import { pipeline } from 'node:stream/promises';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { fileURLToPath } from 'node:url';
+import { isProgram } from './run.mjs';
 import { securityHeaders } from './security-headers.mjs';
 
 /** Tries this many ports after the wanted one. */
@@ -202,5 +203,4 @@ export async function serveApp() {
   console.log(`\n  ReactDance is at ${address}\n  Ctrl+C stops it.\n`);
 }
 
-if (process.argv[1] !== undefined && import.meta.url === pathToFileURL(process.argv[1]).href)
-  await serveApp();
+if (isProgram(import.meta.url)) await serveApp();

@@ -3,7 +3,7 @@ import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:f
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
-import { writeServiceWorker } from '../../tools/offline-shell.mjs';
+import { writeServiceWorker } from '../../tools/vite/service-worker.mjs';
 import { createSite, listen } from '../../tools/serve.mjs';
 import { App } from './support/app-page';
 import { expect, test as base } from './support/fixtures';

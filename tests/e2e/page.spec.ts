@@ -141,3 +141,11 @@ test('a song of three minutes is read while the page goes on', async ({ page }) 
   // Reading itself asks little of the page's own thread: to begin, and to show the song.
   expect(tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(4);
 });
+
+test('the licences of all software in the page are one click away', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  const opening = page.waitForEvent('popup');
+  await page.getByRole('link', { name: 'Licences' }).click();
+  await expect((await opening).getByText('Fabian Hiller').first()).toBeVisible();
+});

@@ -2,11 +2,11 @@ import { mkdtemp, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
 import { build } from 'vite';
-import { listedFile } from '../listed-file.mjs';
 import { createSite, listen } from '../serve.mjs';
+import { manifestEntry } from '../vite/manifest-entry.mjs';
 
 /**
- * Builds a small page as the app is built, and serves it as the app is served.
+ * Builds a small page with the settings of vite.config.ts that matter to speed, and serves it as the app is served.
  *
  * @param {string} root folder with index.html
  * @param {Record<string, string>} mounts address prefix, as '/model/', to the folder served there
@@ -20,8 +20,8 @@ export async function servePage(root, mounts) {
     base: './',
     publicDir: false,
     logLevel: 'error',
-    plugins: [listedFile()],
-    worker: { format: 'es', plugins: () => [listedFile()] },
+    plugins: [manifestEntry()],
+    worker: { format: 'es', plugins: () => [manifestEntry()] },
     build: { outDir, emptyOutDir: true, target: 'es2023', assetsInlineLimit: 0, chunkSizeWarningLimit: 5000 },
   });
   const server = createSite({ root: outDir, mounts });

@@ -13,7 +13,7 @@ import { parseArgs, promisify } from 'node:util';
 import { chromium } from '@playwright/test';
 import { findBrowser } from '../browser.mjs';
 import { installPythonPackages } from '../install.mjs';
-import { must, python, root, runMain } from '../run.mjs';
+import { runOrThrow, python, root, runMain } from '../run.mjs';
 import { servePage } from './built-page.mjs';
 import { STAGES, table, withRatios } from './table.mjs';
 
@@ -42,7 +42,7 @@ async function measurePython(folder, threads) {
   const { model, checkpoint, frames, steps, repeats } = options;
   const settings = { model, checkpoint, frames, steps, repeats, threads: String(threads), out: folder };
   const flags = Object.entries(settings).flatMap(([name, value]) => [`--${name}`, value]);
-  await must(python, ['-m', 'export.bench', ...flags]);
+  await runOrThrow(python, ['-m', 'export.bench', ...flags]);
   return /** @type {Row[]} */ (JSON.parse(await readFile(path.join(folder, 'python.json'), 'utf8')));
 }
 

@@ -1,4 +1,4 @@
-/** Serves the page from this device. The build writes it anew with the list of its files (tools/offline-shell.mjs). */
+/** Serves the page from this device. The build writes it anew with the list of its files (tools/vite/service-worker.mjs). */
 import { forgetOthers, fromShell, keepShell, type Shell, type ShellScope } from './shell';
 
 declare const self: ServiceWorkerGlobalScope;

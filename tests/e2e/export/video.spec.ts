@@ -126,6 +126,7 @@ test('where nothing encodes H.264, the video is WebM; no video waits for the clo
   let download: Download | null = null;
   void film(page).then((done) => (download = done));
   while (!download) {
+    // This is no wait for something: it sets the pace of the page's clock, 5 ms for each half second of ours.
     await page.waitForTimeout(500);
     await page.clock.runFor(5);
   }

@@ -59,6 +59,7 @@ test('who wants less movement sees none but the dance, from the moment they say 
   const view = (name: string) => () => page.getByRole('radio', { name, exact: true }).click();
 
   await test.step('nothing moves by itself', async () => {
+    // That nothing happens for a time is what is tested.
     expect(await drawn(page, () => page.waitForTimeout(1000))).toBe(0);
     expect(await app.read(({ playback }) => [playback.playing, playback.time])).toEqual([false, 0]);
     expect(await styled(page)).toEqual([]);

@@ -1,7 +1,8 @@
 import type { Page } from '@playwright/test';
 
 /**
- * Resolves when the stage rests: nothing has been drawn for longer than it waits to draw a sharper last picture.
+ * Resolves when the stage rests: nothing has been drawn for 400 ms, which is longer than it waits to draw a sharper last
+ * picture. That nothing happens for a time is the fact itself here.
  * @returns pictures drawn until then
  */
 export const rested = (page: Page): Promise<number> =>

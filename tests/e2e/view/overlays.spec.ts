@@ -227,6 +227,7 @@ test('everything at once, twice over, is within the budget, and nothing is drawn
   }
   await rested(page);
   const frames = await onStage(page, (stage) => stage.stats().frames);
+  // That nothing happens for a time is what is tested.
   await page.waitForTimeout(1000);
   expect(await onStage(page, (stage) => stage.stats().frames)).toBe(frames);
 });

@@ -4,8 +4,8 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { brotliDecompressSync } from 'node:zlib';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { precompress } from '../../../tools/precompress.mjs';
 import { createSite, listen } from '../../../tools/serve.mjs';
+import { precompress } from '../../../tools/vite/precompress.mjs';
 
 const script = 'export const steps = [1, 2, 3, 5, 6, 7];\n'.repeat(50);
 const song = Buffer.from(Array.from({ length: 1000 }, (_, index) => index % 251));

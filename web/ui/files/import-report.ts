@@ -146,5 +146,14 @@ function modelFacts(manifest: Manifest, model: ModelState): HTMLElement[] {
     ...(model.phase === 'ready' ? fact('Runs on', model.reason) : []),
     ...fact('From', manifest.attribution),
     ...manifest.notes.flatMap((note) => fact('Note', note)),
+    ...fact('Software', licencesLink()),
   ];
+}
+
+/** The build writes the file: licence texts of all software in the page. */
+function licencesLink(): HTMLElement {
+  return el('a', {
+    text: 'Licences',
+    attributes: { id: 'licences', href: 'licences.txt', target: '_blank' },
+  });
 }

@@ -61,11 +61,11 @@ export const page = {
   /** Block computations of the generation under way. */
   done: 0,
 
-  /** Whether the worker sends any progress within a second. */
-  async busy(): Promise<boolean> {
+  /** How often the worker sends progress within a second: that it stops is seen from nothing coming for a time. */
+  async progressInASecond(): Promise<number> {
     const before = answered;
     await new Promise((resolve) => setTimeout(resolve, 1000));
-    return answered > before;
+    return answered - before;
   },
 
   /** Load a model; returns where it computes, or how it failed. */

@@ -36,6 +36,7 @@ describe('the coarse layer', () => {
   let store: change.Store;
   let hand: Hand;
   let stop: () => void;
+  /** What promises do comes before the next task. */
   const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
   const state = () => store.getState();
   const reaction = (latents: Float32Array | null): Reaction => {

@@ -21,6 +21,7 @@ describe('measuring', () => {
     const inputs = { leader: state.leader!, song: state.song, shift: state.shift, settings };
     change.apply(store, change.reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
   };
+  /** What promises do comes before the next task. */
   const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
 
   beforeEach(() => {

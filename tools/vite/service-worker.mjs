@@ -3,16 +3,17 @@ import { readdir, readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
-import { isolationHeaders } from './security-headers.mjs';
+import { isolationHeaders } from '../security-headers.mjs';
 
-const source = fileURLToPath(new URL('../web/offline/service-worker.ts', import.meta.url));
+const source = fileURLToPath(new URL('../../web/offline/service-worker.ts', import.meta.url));
 const SCRIPT = 'service-worker.js';
 
-/** Kept by other means (runtime and models), for servers or people only, or the service worker itself. */
-const LEFT_OUT = /^models\/|\.wasm$|\.br$|\.md$|^service-worker\.js$/;
+/** Files that the service worker does not cache: runtime and models have caches of their own, others no page asks for. */
+const NOT_CACHED = /^models\/|\.wasm$|\.br$|\.md$|^service-worker\.js$/;
 
 /**
- * Writes service-worker.js into a built page, with the list of the page's files.
+ * Writes service-worker.js into a built page: web/offline/service-worker.ts with the list of the page's files and their
+ * hashes. It holds code of ours only, which is why licences.txt has no section for it.
  *
  * @param {string} dist folder of the built page
  */
@@ -21,7 +22,7 @@ export async function writeServiceWorker(dist) {
   const paths = entries
     .filter((entry) => entry.isFile())
     .map((entry) => path.relative(dist, path.join(entry.parentPath, entry.name)).replaceAll(path.sep, '/'))
-    .filter((file) => !LEFT_OUT.test(file))
+    .filter((file) => !NOT_CACHED.test(file))
     .sort();
   /** @type {Record<string, string>} */
   const files = {};
@@ -45,16 +46,16 @@ export async function writeServiceWorker(dist) {
 }
 
 /**
- * Makes a build serve itself without a connection.
+ * Adds a service worker to the build, so that the page starts without a connection from its second visit on.
  *
  * @param {string} dist folder of the built page
  * @returns {import('vite').Plugin}
  */
-export function offlineShell(dist) {
+export function serviceWorker(dist) {
   return {
-    name: 'offline-shell',
+    name: 'service-worker',
     apply: 'build',
-    // Before the copies for servers are made: they are no part of the page.
+    // Before the .br copies are made: only servers use them.
     closeBundle: { order: 'pre', sequential: true, handler: () => writeServiceWorker(dist) },
   };
 }

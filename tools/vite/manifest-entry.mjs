@@ -4,14 +4,15 @@ import { readFile } from 'node:fs/promises';
 const QUERY = /\?listed$/;
 
 /**
- * `import file from 'some/file.wasm?listed'` gives `{ path, bytes, sha256 }`: the file's address, and what it is known
- * by, so that the page can show its download, verify it and keep it as it does with the files of a model.
+ * Lets a module import the description of a file instead of its content: `import file from 'some/file.wasm?listed'` gives
+ * `{ path, bytes, sha256 }`, as a model's manifest describes its files: address, size and hash. The page downloads such a
+ * file with progress, verifies it and caches it, as it does with the files of a model.
  *
  * @returns {import('vite').Plugin}
  */
-export function listedFile() {
+export function manifestEntry() {
   return {
-    name: 'listed-file',
+    name: 'manifest-entry',
     enforce: 'pre',
     resolveId: {
       filter: { id: QUERY },

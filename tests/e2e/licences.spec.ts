@@ -1,0 +1,55 @@
+/** The built page carries the licence texts of everything in it (tools/vite/licences.mjs). */
+import { readdirSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { expect, test } from '@playwright/test';
+
+const project = path.resolve(import.meta.dirname, '../..');
+const read = (file: string): string => readFileSync(path.join(project, file), 'utf8');
+const written = read('dist/licences.txt');
+
+/** What is written about a package: facts and texts. */
+function section(name: string): string {
+  const { version } = JSON.parse(read(`node_modules/${name}/package.json`)) as { version: string };
+  const [, found = ''] = written.split(`\n${'='.repeat(80)}\n${name} ${version}\n`);
+  return found.split(`\n${'='.repeat(80)}\n`)[0] ?? '';
+}
+
+const { dependencies } = JSON.parse(read('package.json')) as { dependencies: Record<string, string> };
+
+for (const name of Object.keys(dependencies)) {
+  test(`the page has the licence of ${name}`, () => {
+    const files = readdirSync(path.join(project, 'node_modules', name));
+    const texts = files.filter((file) => /^licen[cs]e/i.test(file));
+    // The packages of onnxruntime bring none.
+    expect(texts.length).toBe(name.startsWith('onnxruntime') ? 0 : 1);
+    for (const file of texts) expect(section(name)).toContain(read(`node_modules/${name}/${file}`).trim());
+    expect(section(name).length).toBeGreaterThan(700);
+  });
+}
+
+test('the page has the licences of what lies inside other packages', () => {
+  expect(section('onnxruntime-web')).toContain('Copyright (c) Microsoft Corporation');
+  for (const part of ['Eigen', 'google/flatbuffers', 'abseil-cpp', 'google/XNNPACK', 'dawn'])
+    expect(section('onnxruntime-web')).toContain(`\n${part}\n`);
+  expect(section('onnxruntime-common')).toContain('Copyright (c) Microsoft Corporation');
+  expect(section('@mediabunny/aac-encoder')).toContain('GNU LESSER GENERAL PUBLIC LICENSE');
+  expect(section('@mediabunny/aac-encoder')).toContain('END OF TERMS AND CONDITIONS');
+  for (const tool of ['vite', 'rolldown']) expect(section(tool)).toContain('VoidZero Inc.');
+});
+
+test('all that meyda has bundled is named', () => {
+  const { sources } = JSON.parse(read('node_modules/meyda/dist/web/meyda.min.js.map')) as {
+    sources: string[];
+  };
+  const inside = new Set(sources.flatMap((file) => /node_modules\/([^/]+)/.exec(file)?.[1] ?? []));
+  expect([...inside].sort()).toEqual(['dct', 'fftjs', 'tslib']);
+  for (const name of ['dct', 'fftjs']) expect(section(name)).toContain('Permission is hereby granted');
+  expect(section('meyda')).toContain('tslib, which is under the licence 0BSD');
+});
+
+test('THIRD_PARTY.md names every package of the page with its version', () => {
+  const rows = read('THIRD_PARTY.md').split('\n');
+  const { devDependencies } = JSON.parse(read('package.json')) as { devDependencies: { vite: string } };
+  for (const [name, version] of Object.entries({ ...dependencies, vite: devDependencies.vite }))
+    expect(rows.filter((row) => row.includes(name) && row.includes(`| ${version} |`))).toHaveLength(1);
+});
