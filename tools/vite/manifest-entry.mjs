@@ -1,10 +1,10 @@
 import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 
-const QUERY = /\?listed$/;
+const QUERY = /\?manifest-entry$/;
 
 /**
- * Lets a module import the description of a file instead of its content: `import file from 'some/file.wasm?listed'` gives
+ * Lets a module import the description of a file instead of its content: `import file from 'some/file.wasm?manifest-entry'` gives
  * `{ path, bytes, sha256 }`, as a model's manifest describes its files: address, size and hash. The page downloads such a
  * file with progress, verifies it and caches it, as it does with the files of a model.
  *
@@ -18,7 +18,7 @@ export function manifestEntry() {
       filter: { id: QUERY },
       async handler(source, importer) {
         const file = await this.resolve(source.replace(QUERY, ''), importer, { skipSelf: true });
-        return file && `${file.id}?listed`;
+        return file && `${file.id}?manifest-entry`;
       },
     },
     load: {

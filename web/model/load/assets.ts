@@ -1,5 +1,5 @@
-import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?listed';
-import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?listed';
+import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
+import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
 import { download } from './download';
 import { folderFetch, type ModelFolder } from './folder';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';

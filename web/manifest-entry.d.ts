@@ -1,5 +1,5 @@
 /** See tools/vite/manifest-entry.mjs. */
-declare module '*?listed' {
+declare module '*?manifest-entry' {
   const file: { readonly path: string; readonly bytes: number; readonly sha256: string };
   export default file;
 }
