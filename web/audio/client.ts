@@ -1,11 +1,10 @@
 import { proxy, transfer, wrap } from 'comlink';
 import type { Analysis } from './analyse';
 import { type DecodedSong, decodeSong } from './decode';
-import { AudioError } from './error';
+import { AppError } from '../common/error';
 import { type AudioRecipe, readRecipe } from './recipe';
 import type { AudioWorker } from './worker';
 
-export { AudioError } from './error';
 export { createPlayer, type Player } from './player';
 
 /** A loaded song. */
@@ -41,7 +40,7 @@ const analyses = new Map<string, Song>();
  * loaded before, by content, comes back at once.
  *
  * @param audioBlock the manifest's `audio` block, checked here
- * @throws AudioError (see its codes), or the signal's reason when it is aborted
+ * @throws {AppError} (see its codes), or the signal's reason when it is aborted
  */
 export async function loadSong(
   file: Blob | ArrayBuffer,
@@ -107,8 +106,8 @@ async function analyseInWorker(
   }
 }
 
-function crash(reason: string): AudioError {
-  return new AudioError(
+function crash(reason: string): AppError {
+  return new AppError(
     'worker-crashed',
     `The analysis of the song stopped unexpectedly (${reason || 'no reason was given'}).`,
     'Load the song again. If it happens again, close other tabs or use a shorter song.',

@@ -1,7 +1,7 @@
 import { proxy, type Remote, wrap } from 'comlink';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
-import { ModelError } from './error';
+import { AppError } from '../common/error';
 import type { ModelFolder } from './load/folder';
 import type { CoarseRequest, GenerateRequest } from './sample/inputs';
 import type { Status } from './load/load';
@@ -26,7 +26,6 @@ export type {
   Progress,
   Status,
 };
-export { ModelError };
 
 export interface GeneratorOptions {
   /** Address of the model's manifest.json. */
@@ -47,13 +46,13 @@ export interface Generator {
   readonly backend: Backend;
   /**
    * Compute the partner of a dancer.
-   * @throws {ModelError}
+   * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
   /**
    * Compute the partner that the coarse layer alone of a reaction says.
-   * @throws {ModelError}
+   * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
   coarse(request: CoarseRequest, options?: Pick<GenerateOptions, 'signal'>): Promise<SolvedMotion>;
@@ -73,8 +72,8 @@ interface Running {
   end(error: Error): void;
 }
 
-function crashed(message: string): ModelError {
-  return new ModelError(
+function crashed(message: string): AppError {
+  return new AppError(
     'worker-crashed',
     `The model stopped unexpectedly: ${message}`,
     'Try again, it starts afresh; if it stops again, use a shorter clip or the processor instead of WebGPU.',
@@ -82,7 +81,7 @@ function crashed(message: string): ModelError {
 }
 
 function toError(failure: Failure): Error {
-  if (failure.kind === 'model') return new ModelError(failure.code, failure.message, failure.hint);
+  if (failure.kind === 'model') return new AppError(failure.code, failure.message, failure.hint);
   if (failure.kind === 'crash') return crashed(failure.message);
   return new DOMException('Cancelled.', 'AbortError');
 }
@@ -126,7 +125,7 @@ async function start(options: GeneratorOptions): Promise<Running> {
 
 /**
  * Start the model's worker and load the model into it.
- * @throws {ModelError}
+ * @throws {AppError}
  */
 export async function createGenerator(options: GeneratorOptions): Promise<Generator> {
   let latest = await start(options);

@@ -1,7 +1,7 @@
 /** What client and worker say to each other. Errors cross as data: a structured clone would lose code and hint. */
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend } from './load/backend';
-import { ModelError, type ModelErrorCode } from './error';
+import { AppError, type ErrorCode } from '../common/error';
 import type { CoarseRequest, GenerateRequest } from './sample/inputs';
 import type { LoadOptions, Status } from './load/load';
 import type { Manifest } from './manifest';
@@ -9,7 +9,7 @@ import type { GenerateResult, Preview } from './sample/pipeline';
 import type { Progress } from './progress';
 
 export type Failure =
-  | { readonly kind: 'model'; readonly code: ModelErrorCode; readonly message: string; readonly hint: string }
+  | { readonly kind: 'model'; readonly code: ErrorCode; readonly message: string; readonly hint: string }
   | { readonly kind: 'cancelled' }
   /** Anything nobody foresaw, out of memory or a lost GPU for example; the worker is not to be used again. */
   | { readonly kind: 'crash'; readonly message: string };
@@ -39,7 +39,7 @@ export async function outcome<T>(job: () => Promise<T>, signal?: AbortSignal): P
     return { ok: true, value: await job() };
   } catch (error) {
     if (signal?.aborted === true) return { ok: false, failure: { kind: 'cancelled' } };
-    if (error instanceof ModelError) {
+    if (error instanceof AppError) {
       const { code, message, hint } = error;
       return { ok: false, failure: { kind: 'model', code, message, hint } };
     }

@@ -1,6 +1,6 @@
 import type { LeaderFile } from './bvh/read';
 import type { SolvedMotion } from './skeleton/clip';
-import { MotionError, type MotionErrorCode } from './error';
+import { AppError, type ErrorCode } from '../common/error';
 
 export interface LeaderQuestion {
   readonly text: string;
@@ -13,7 +13,7 @@ export type LeaderAnswer =
   | {
       readonly ok: false;
       readonly failure: {
-        readonly code: MotionErrorCode;
+        readonly code: ErrorCode;
         readonly message: string;
         readonly hint: string;
       } | null;
@@ -27,7 +27,7 @@ export interface ReadLeader {
 
 /**
  * Reads a BVH in a worker of its own, which the signal ends at once.
- * @throws {MotionError} what is wrong with the file
+ * @throws {AppError} what is wrong with the file
  * @throws the signal's reason
  */
 export function readLeader(question: LeaderQuestion, signal?: AbortSignal): Promise<ReadLeader> {
@@ -56,8 +56,7 @@ export function readLeader(question: LeaderQuestion, signal?: AbortSignal): Prom
       if (data.ok) {
         end();
         resolve({ file: data.file, motion: data.motion });
-      } else if (data.failure)
-        fail(new MotionError(data.failure.code, data.failure.message, data.failure.hint));
+      } else if (data.failure) fail(new AppError(data.failure.code, data.failure.message, data.failure.hint));
       else fail(new Error('The reader failed for an unknown reason.'));
     };
     worker.postMessage(question);

@@ -1,6 +1,6 @@
 /** Reads and solves one motion file off the main thread, so that a long one does not freeze the page. */
 import { readBvh } from './bvh/read';
-import { MotionError } from './error';
+import { AppError } from '../common/error';
 import { solve } from './fit/ik';
 import type { LeaderAnswer, LeaderQuestion } from './client';
 
@@ -14,7 +14,7 @@ function answer({ text, fps }: LeaderQuestion): LeaderAnswer {
     return { ok: true, file, motion: solve(file.clip) };
   } catch (error) {
     // Errors cross as data: a structured clone would lose code and hint.
-    if (error instanceof MotionError) {
+    if (error instanceof AppError) {
       const { code, message, hint } = error;
       return { ok: false, failure: { code, message, hint } };
     }
