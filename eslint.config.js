@@ -12,9 +12,11 @@ const everywhere = towards(
 
 /**
  * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
- * motion, audio, motion and offline see nobody, and only main.ts and stage-binding.ts know everyone.
+ * motion, audio, motion and offline see nobody, common is seen by all, and only main.ts and stage-binding.ts know
+ * everyone.
  */
 const directions = {
+  common: [towards('audio|model|motion|quality|offline|view|export|ui', 'common imports nothing of ours')],
   offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],
   motion: [towards('audio|model|quality|view|export|ui', 'motion imports nothing of ours')],
   audio: [towards('motion|model|quality|view|export|ui', 'audio imports nothing of ours')],

@@ -112,12 +112,12 @@ test.describe('a real file is heard as Python hears it', () => {
 
 test.describe('refusals', () => {
   test('an empty file', async ({ page }) => {
-    expect(await refusal(page, { text: '' })).toMatchObject({ name: 'AudioError', code: 'empty-file' });
+    expect(await refusal(page, { text: '' })).toMatchObject({ name: 'AppError', code: 'empty-file' });
   });
 
   test('a file that is no sound', async ({ page }) => {
     const told = await refusal(page, { text: 'HIERARCHY\nROOT Hips\n' });
-    expect(told).toMatchObject({ name: 'AudioError', code: 'not-audio' });
+    expect(told).toMatchObject({ name: 'AppError', code: 'not-audio' });
     expect(told.hint).toContain('WAV');
   });
 
@@ -139,7 +139,7 @@ test.describe('refusals', () => {
 
   test('a crashed worker, and the next song gets a new one', async ({ page }) => {
     await page.route(/worker-.*\.js/, (route) => route.abort());
-    expect(await refusal(page, { url: SONG })).toMatchObject({ name: 'AudioError', code: 'worker-crashed' });
+    expect(await refusal(page, { url: SONG })).toMatchObject({ name: 'AppError', code: 'worker-crashed' });
     await page.unroute(/worker-.*\.js/);
     expect((await load(page, { url: SONG })).frames).toBe(301);
   });
@@ -245,7 +245,7 @@ test.describe('the player', () => {
 
   test('says when the browser refuses to play, and stands still', async ({ page }) => {
     await call(page, 'hand', 'nonsense', 10);
-    expect(await call(page, 'play')).toMatchObject({ name: 'AudioError', code: 'playback-refused' });
+    expect(await call(page, 'play')).toMatchObject({ name: 'AppError', code: 'playback-refused' });
     expect(new Set((await call<[number, number][]>(page, 'watch', 0.3)).map(([, time]) => time)).size).toBe(
       1,
     );

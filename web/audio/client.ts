@@ -1,11 +1,10 @@
-import { proxy, transfer, wrap } from 'comlink';
+import { AppError } from '../common/error';
+import { runInWorker } from '../common/run-in-worker';
 import type { Analysis } from './analyse';
-import { type DecodedSong, decodeSong } from './decode';
-import { AudioError } from './error';
+import { decodeSong } from './decode';
 import { type AudioRecipe, readRecipe } from './recipe';
-import type { AudioWorker } from './worker';
+import type { AudioTasks } from './worker';
 
-export { AudioError } from './error';
 export { createPlayer, type Player } from './player';
 
 /** A loaded song. */
@@ -41,7 +40,7 @@ const analyses = new Map<string, Song>();
  * loaded before, by content, comes back at once.
  *
  * @param audioBlock the manifest's `audio` block, checked here
- * @throws AudioError (see its codes), or the signal's reason when it is aborted
+ * @throws {AppError} (see its codes), or the signal's reason when it is aborted
  */
 export async function loadSong(
   file: Blob | ArrayBuffer,
@@ -68,49 +67,27 @@ async function load(
 ): Promise<Song> {
   const decoded = await decodeSong(file);
   signal?.throwIfAborted();
-  const analysis = await analyseInWorker(decoded, recipe, signal, (fraction) =>
-    onProgress({ stage: 'features', fraction: DECODING_SHARE + (1 - DECODING_SHARE) * fraction }),
+  // Every song gets a worker of its own, so that cancelling ends its analysis at once.
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'audio' });
+  const analysis = await runInWorker<AudioTasks, 'analyse'>(
+    worker,
+    'analyse',
+    { song: decoded, recipe },
+    {
+      signal,
+      transfers: decoded.channels.map((channel) => channel.buffer),
+      onReport: (fraction) =>
+        onProgress({ stage: 'features', fraction: DECODING_SHARE + (1 - DECODING_SHARE) * fraction }),
+      toError: crash,
+    },
   );
   return { ...analysis, duration: decoded.duration, sampleRate: recipe.sample_rate };
 }
 
-/**
- * Every song gets a worker of its own: ending it is how a running analysis is aborted, and a crash takes nothing
- * else down.
- */
-async function analyseInWorker(
-  { channels, sampleRate }: DecodedSong,
-  recipe: AudioRecipe,
-  signal: AbortSignal | undefined,
-  onProgress: (fraction: number) => void,
-): Promise<Analysis> {
-  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'audio' });
-  const failed = new Promise<never>((_, reject) => {
-    worker.onerror = (event) => {
-      event.preventDefault();
-      reject(crash(event.message));
-    };
-    worker.onmessageerror = () => reject(crash('a message could not be read'));
-    signal?.addEventListener('abort', () => reject(signal.reason as Error), { once: true });
-  });
-  const buffers = channels.map((channel) => channel.buffer);
-  try {
-    const call = wrap<AudioWorker>(worker).analyse(
-      transfer(channels, buffers),
-      sampleRate,
-      recipe,
-      proxy(onProgress),
-    );
-    return await Promise.race([call, failed]);
-  } finally {
-    worker.terminate();
-  }
-}
-
-function crash(reason: string): AudioError {
-  return new AudioError(
+function crash(reason: string): AppError {
+  return new AppError(
     'worker-crashed',
-    `The analysis of the song stopped unexpectedly (${reason || 'no reason was given'}).`,
+    `The analysis of the song stopped unexpectedly (${reason}).`,
     'Load the song again. If it happens again, close other tabs or use a shorter song.',
   );
 }

@@ -1,4 +1,4 @@
-import { AudioError } from './error';
+import { AppError } from '../common/error';
 
 /**
  * Hz at which songs are decoded and played: common, and far enough above the recipe's rate that the browser's own
@@ -28,11 +28,11 @@ export interface DecodedSong {
  * Encoders put silence before an MP3, M4A or Opus song. Chromium removes it where the file says how much (measured:
  * no offset against the same song as WAV); an MP3 without a LAME header stays about 25 ms late, less than one frame.
  *
- * @throws AudioError empty-file, unreadable-file, too-long, not-audio, no-sound
+ * @throws {AppError} empty-file, unreadable-file, too-long, not-audio, no-sound
  */
 export async function decodeSong(file: Blob): Promise<DecodedSong> {
   if (file.size === 0) {
-    throw new AudioError(
+    throw new AppError(
       'empty-file',
       'The song file is empty.',
       'Choose another file, or copy this one again.',
@@ -41,7 +41,7 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
   refuseLong(await probeDuration(file));
   const buffer = await decode(await readBytes(file));
   if (buffer.length === 0) {
-    throw new AudioError(
+    throw new AppError(
       'no-sound',
       'The song file holds no sound.',
       'Choose a file that plays in a music player.',
@@ -57,7 +57,7 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
 function refuseLong(duration: number): void {
   if (duration <= LONGEST) return;
   const minutes = (duration / 60).toFixed(1);
-  throw new AudioError(
+  throw new AppError(
     'too-long',
     `The song lasts ${minutes} minutes; songs of up to ${LONGEST / 60} minutes are taken.`,
     'Cut out the part to dance to with a sound editor and load that.',
@@ -86,7 +86,7 @@ async function readBytes(file: Blob): Promise<ArrayBuffer> {
   try {
     return await file.arrayBuffer();
   } catch (cause) {
-    throw new AudioError(
+    throw new AppError(
       'unreadable-file',
       'The song file could not be read.',
       'Check that it has not been moved or changed since it was chosen, and choose it again.',
@@ -99,7 +99,7 @@ async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
   try {
     return await new OfflineAudioContext(1, 1, DECODING_RATE).decodeAudioData(bytes);
   } catch (cause) {
-    throw new AudioError(
+    throw new AppError(
       'not-audio',
       'The file is not a sound that this browser can decode.',
       'Use a WAV, MP3, OGG, FLAC, M4A or Opus file.',

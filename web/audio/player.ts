@@ -1,5 +1,5 @@
 import { createDeck, type Deck } from './audio-element';
-import { AudioError } from './error';
+import { AppError } from '../common/error';
 
 /** The sound and the clock of the page. */
 export interface Player {
@@ -21,7 +21,7 @@ export interface Player {
    * Whatever lies before the part is played into it.
    */
   setLoop(loop: { readonly from: number; readonly to: number } | null): void;
-  /** @throws AudioError playback-refused */
+  /** @throws {AppError} playback-refused */
   play(): Promise<void>;
   pause(): void;
   /** Jumps to a time in seconds, kept within the duration. */
@@ -227,7 +227,7 @@ export function createPlayer(): Player {
       } catch (cause) {
         if ((cause as Error).name === 'AbortError') return;
         playing = false;
-        throw new AudioError(
+        throw new AppError(
           'playback-refused',
           'The browser did not start the sound.',
           'Press play again; some browsers only allow sound after a click on the page.',

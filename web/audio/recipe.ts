@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { AudioError } from './error';
+import { AppError } from '../common/error';
 
 const positive = v.pipe(v.number(), v.finite(), v.gtValue(0));
 const count = v.pipe(v.number(), v.integer(), v.minValue(1));
@@ -65,13 +65,13 @@ export type AudioRecipe = Readonly<v.InferOutput<typeof schema>>;
 /**
  * Checks the manifest's `audio` block.
  *
- * @throws AudioError bad-recipe
+ * @throws {AppError} bad-recipe
  */
 export function readRecipe(block: unknown): AudioRecipe {
   const result = v.safeParse(schema, block);
   if (result.success) return result.output;
   const [issue] = result.issues;
-  throw new AudioError(
+  throw new AppError(
     'bad-recipe',
     `The model's audio recipe cannot be used: ${v.getDotPath(issue) ?? 'audio'}: ${issue.message}.`,
     'Export the model again with this version of the project.',

@@ -1,20 +1,17 @@
-import { expose, transfer } from 'comlink';
+import { serve, type TaskContext } from '../common/run-in-worker';
 import { analyse, type Analysis } from './analyse';
+import type { DecodedSong } from './decode';
 import type { AudioRecipe } from './recipe';
 
-/** The call that the audio worker answers; its arguments are those of `analyse`. */
-const api = {
+const tasks = {
+  /** Reports the fraction that is done, 0 to 1. */
   analyse(
-    channels: Float32Array[],
-    sampleRate: number,
-    recipe: AudioRecipe,
-    onProgress: (fraction: number) => void,
+    { song, recipe }: { song: DecodedSong; recipe: AudioRecipe },
+    { report }: TaskContext<number>,
   ): Analysis {
-    const analysis = analyse(channels, sampleRate, recipe, onProgress);
-    return transfer(analysis, [analysis.pcm.buffer, analysis.features.buffer]);
+    return analyse(song.channels, song.sampleRate, recipe, report);
   },
 };
+export type AudioTasks = typeof tasks;
 
-export type AudioWorker = typeof api;
-
-expose(api);
+serve(tasks);

@@ -8,7 +8,6 @@ import type { Footage, VideoOptions } from './video/footage';
 import type { VideoPlan } from './video/plan';
 
 export type { About, Dance, MotionFormat } from './dance';
-export { ExportError } from './error';
 export { estimateBytes } from './sizes';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';
 export type { VideoPlan } from './video/plan';
@@ -78,7 +77,7 @@ export async function planVideo(
 /**
  * Films the footage with its song.
  *
- * @throws {ExportError} `video-failed`, `sound-failed`; the signal's reason when it is aborted
+ * @throws {AppError} `video-failed`, `sound-failed`; the signal's reason when it is aborted
  */
 export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
   const video = await import('./video/write');

@@ -1,7 +1,7 @@
-import { proxy, type Remote, wrap } from 'comlink';
+import { AppError } from '../common/error';
+import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
-import { ModelError } from './error';
 import type { ModelFolder } from './load/folder';
 import type { CoarseRequest, GenerateRequest } from './sample/inputs';
 import type { Status } from './load/load';
@@ -9,7 +9,7 @@ import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
 import type { GenerateOptions, GenerateResult, Made, Preview } from './sample/pipeline';
 import type { Progress } from './progress';
-import type { Failure, ModelWorker, Outcome, WorkerEvent } from './protocol';
+import type { Loaded, ModelTasks } from './worker';
 
 export type {
   Backend,
@@ -26,7 +26,6 @@ export type {
   Progress,
   Status,
 };
-export { ModelError };
 
 export interface GeneratorOptions {
   /** Address of the model's manifest.json. */
@@ -47,13 +46,13 @@ export interface Generator {
   readonly backend: Backend;
   /**
    * Compute the partner of a dancer.
-   * @throws {ModelError}
+   * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
   /**
    * Compute the partner that the coarse layer alone of a reaction says.
-   * @throws {ModelError}
+   * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
   coarse(request: CoarseRequest, options?: Pick<GenerateOptions, 'signal'>): Promise<SolvedMotion>;
@@ -62,147 +61,111 @@ export interface Generator {
 }
 
 /** A worker with a loaded model. */
-interface Running {
-  readonly remote: Remote<ModelWorker>;
-  readonly manifest: Manifest;
-  readonly backend: Backend;
-  /** Is rejected when the worker dies, so that nobody waits for its answer for ever. */
-  readonly death: Promise<never>;
-  /** Who wants to hear of each call under way. */
-  readonly listeners: Map<number, Pick<GenerateOptions, 'onProgress' | 'onPreview'>>;
-  end(error: Error): void;
+interface LoadedWorker extends Loaded {
+  readonly connection: WorkerConnection<ModelTasks>;
 }
 
-function crashed(message: string): ModelError {
-  return new ModelError(
+function crashed(message: string): AppError {
+  return new AppError(
     'worker-crashed',
     `The model stopped unexpectedly: ${message}`,
     'Try again, it starts afresh; if it stops again, use a shorter clip or the processor instead of WebGPU.',
   );
 }
 
-function toError(failure: Failure): Error {
-  if (failure.kind === 'model') return new ModelError(failure.code, failure.message, failure.hint);
-  if (failure.kind === 'crash') return crashed(failure.message);
-  return new DOMException('Cancelled.', 'AbortError');
-}
-
-async function start(options: GeneratorOptions): Promise<Running> {
+async function start(options: GeneratorOptions): Promise<LoadedWorker> {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'model' });
-  const remote = wrap<ModelWorker>(worker);
-  const listeners: Running['listeners'] = new Map();
-  let reject: (error: Error) => void = () => undefined;
-  const death = new Promise<never>((_, fail) => (reject = fail));
-  // Whoever waits races against it; when nobody does, a death is noticed at the next call.
-  death.catch(() => undefined);
-  const end = (error: Error): void => {
-    worker.terminate();
-    reject(error);
-  };
-  worker.addEventListener('error', (event) => {
-    end(crashed(event.message || 'its script could not be loaded'));
-  });
-  worker.addEventListener('messageerror', () => {
-    end(crashed('a message could not be read'));
-  });
-  const onEvent = (event: WorkerEvent): void => {
-    if (event.kind === 'status') options.onStatus?.(event.status);
-    else if (event.kind === 'preview') listeners.get(event.id)?.onPreview?.(event.preview);
-    else listeners.get(event.id)?.onProgress?.(event.progress);
-  };
+  const connection = new WorkerConnection<ModelTasks>(worker, crashed);
   const { folder, backend = 'auto', threads } = options;
   const manifestUrl = new URL(options.manifestUrl, document.baseURI).href;
-  const loaded = await Promise.race([
-    remote.load({ manifestUrl, folder, backend, threads }, proxy(onEvent)),
-    death,
-  ]);
-  if (!loaded.ok) {
-    const error = toError(loaded.failure);
-    end(error);
+  try {
+    const loaded = await connection.call(
+      'load',
+      { manifestUrl, folder, backend, threads },
+      { onReport: options.onStatus },
+    );
+    return { connection, ...loaded };
+  } catch (error) {
+    connection.dispose();
     throw error;
   }
-  return { remote, ...loaded.value, death, listeners, end };
+}
+
+class WorkerGenerator implements Generator {
+  /** The last worker that was loaded, perhaps crashed meanwhile. */
+  #latest: LoadedWorker;
+  /** The one that is being loaded in its place. */
+  #next: Promise<LoadedWorker> | undefined;
+  #disposed = false;
+
+  constructor(
+    first: LoadedWorker,
+    readonly options: GeneratorOptions,
+  ) {
+    this.#latest = first;
+  }
+
+  get manifest(): Manifest {
+    return this.#latest.manifest;
+  }
+
+  get backend(): Backend {
+    return this.#latest.backend;
+  }
+
+  async generate(
+    request: GenerateRequest,
+    { signal, at, onProgress, onPreview }: GenerateOptions = {},
+  ): Promise<GenerateResult> {
+    const connection = await this.#ready(signal);
+    return connection.call(
+      'generate',
+      { request, at: onPreview ? at : undefined },
+      {
+        signal,
+        onReport: (report) => {
+          if (report.kind === 'progress') onProgress?.(report.progress);
+          else onPreview?.(report.preview);
+        },
+      },
+    );
+  }
+
+  async coarse(
+    request: CoarseRequest,
+    { signal }: Pick<GenerateOptions, 'signal'> = {},
+  ): Promise<SolvedMotion> {
+    const connection = await this.#ready(signal);
+    return connection.call('coarse', request, { signal });
+  }
+
+  /** The present worker, or a fresh one after a crash. */
+  async #ready(signal: AbortSignal | undefined): Promise<WorkerConnection<ModelTasks>> {
+    if (this.#disposed) throw disposal();
+    signal?.throwIfAborted();
+    if (this.#latest.connection.ended) {
+      this.#next ??= start(this.options).finally(() => (this.#next = undefined));
+      this.#latest = await this.#next;
+      if (this.#disposed) this.dispose();
+      signal?.throwIfAborted();
+    }
+    return this.#latest.connection;
+  }
+
+  dispose(): void {
+    this.#disposed = true;
+    this.#latest.connection.dispose(disposal());
+  }
+}
+
+function disposal(): DOMException {
+  return new DOMException('The generator was disposed.', 'AbortError');
 }
 
 /**
  * Start the model's worker and load the model into it.
- * @throws {ModelError}
+ * @throws {AppError}
  */
 export async function createGenerator(options: GeneratorOptions): Promise<Generator> {
-  let latest = await start(options);
-  let current: Promise<Running> | undefined;
-  let calls = 0;
-  let disposed = false;
-
-  const use = (running: Running): void => {
-    latest = running;
-    running.death.catch(() => {
-      if (latest === running) current = undefined;
-    });
-  };
-  /** The present worker, or a fresh one after a crash. */
-  const ready = (): Promise<Running> => {
-    current ??= start(options).then(
-      (running) => {
-        use(running);
-        return running;
-      },
-      (error: unknown) => {
-        current = undefined;
-        throw error;
-      },
-    );
-    return current;
-  };
-  current = Promise.resolve(latest);
-  use(latest);
-
-  /** Has the worker do something, with its progress told and cancelled when the signal says so. */
-  async function call<T>(
-    { signal, onProgress, onPreview }: GenerateOptions,
-    ask: (remote: Running['remote'], id: number) => Promise<Outcome<T>>,
-  ): Promise<T> {
-    if (disposed) throw new DOMException('The generator was disposed.', 'AbortError');
-    signal?.throwIfAborted();
-    const running = await ready();
-    signal?.throwIfAborted();
-    const id = ++calls;
-    running.listeners.set(id, { onProgress, onPreview });
-    let cancel: () => void = () => undefined;
-    // The caller hears at once; the worker stops when its present graph run is over.
-    const cancelled = new Promise<never>((_, fail) => {
-      cancel = () => {
-        void running.remote.cancel(id);
-        fail(signal?.reason as Error);
-      };
-    });
-    signal?.addEventListener('abort', cancel);
-    let result: Outcome<T>;
-    try {
-      result = await Promise.race([ask(running.remote, id), running.death, cancelled]);
-    } finally {
-      signal?.removeEventListener('abort', cancel);
-      running.listeners.delete(id);
-    }
-    if (result.ok) return result.value;
-    const error = toError(result.failure);
-    if (result.failure.kind === 'crash') running.end(error);
-    throw error;
-  }
-
-  return {
-    get manifest() {
-      return latest.manifest;
-    },
-    get backend() {
-      return latest.backend;
-    },
-    generate: (request, { at, ...options } = {}) =>
-      call(options, (remote, id) => remote.generate(id, request, options.onPreview ? (at ?? null) : null)),
-    coarse: (request, options = {}) => call(options, (remote, id) => remote.coarse(id, request)),
-    dispose() {
-      disposed = true;
-      latest.end(new DOMException('The generator was disposed.', 'AbortError'));
-    },
-  };
+  return new WorkerGenerator(await start(options), options);
 }

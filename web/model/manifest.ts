@@ -1,7 +1,7 @@
 import * as v from 'valibot';
 import { FLOOR } from '../motion/bvh/axes-and-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
-import { ModelError } from './error';
+import { AppError } from '../common/error';
 
 const count = v.pipe(v.number(), v.integer(), v.minValue(1));
 const natural = v.pipe(v.number(), v.integer(), v.minValue(0));
@@ -117,8 +117,8 @@ export const GRAPHS: readonly GraphName[] = ['condition', 'step', 'decode'];
 
 const REEXPORT = 'Export the model again with this version of the project, or use the model it ships with.';
 
-function invalid(message: string): ModelError {
-  return new ModelError('manifest-invalid', message, REEXPORT);
+function invalid(message: string): AppError {
+  return new AppError('manifest-invalid', message, REEXPORT);
 }
 
 /** Says which field is wrong and how, in one sentence. */
@@ -135,14 +135,14 @@ function check(manifest: Manifest): void {
   const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
     a.length === b.length && a.every((value, i) => value === b[i]);
   if (!same(skeleton.joints, SMPL22) || !same(skeleton.parents, PARENTS)) {
-    throw new ModelError(
+    throw new AppError(
       'model-unsupported',
       "The model's skeleton is not the 22-joint SMPL body that this page draws.",
       REEXPORT,
     );
   }
   if (skeleton.floor.toe_rest !== FLOOR.toe_rest || skeleton.floor.percentile !== FLOOR.percentile) {
-    throw new ModelError(
+    throw new AppError(
       'model-unsupported',
       'The model was trained on dancers whose floor was found in another way than this page finds it.',
       REEXPORT,
@@ -170,14 +170,14 @@ function check(manifest: Manifest): void {
 
 /**
  * Check a parsed manifest.
- * @throws {ModelError} `manifest-invalid` naming the first wrong field, `model-unsupported` for another format,
+ * @throws {AppError} `manifest-invalid` naming the first wrong field, `model-unsupported` for another format,
  * version or skeleton
  */
 export function parseManifest(json: unknown): Manifest {
   const head = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);
   const expected = { format: schema.entries.format.literal, version: schema.entries.version.literal };
   if (head.success && (head.output.format !== expected.format || head.output.version !== expected.version)) {
-    throw new ModelError(
+    throw new AppError(
       'model-unsupported',
       `The model has format "${head.output.format}" version ${head.output.version}; ` +
         `this page reads "${expected.format}" version ${expected.version}.`,

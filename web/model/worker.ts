@@ -1,76 +1,54 @@
 /** The one worker that owns onnxruntime. */
-import { expose, transfer } from 'comlink';
+import { serve, type TaskContext } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
-import { type LoadedModel, loadModel } from './load/load';
-import { type ModelWorker, type Outcome, outcome, type WorkerEvent } from './protocol';
+import type { Backend } from './load/backend';
+import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
+import type { Manifest } from './manifest';
+import type { Progress } from './progress';
+import type { CoarseRequest, GenerateRequest } from './sample/inputs';
+import type { GenerateResult, Pipeline, Preview } from './sample/pipeline';
+
+export interface Loaded {
+  readonly manifest: Manifest;
+  readonly backend: Backend;
+}
+
+/** What is told of a generation under way. */
+type GenerateReport =
+  | { readonly kind: 'progress'; readonly progress: Progress }
+  | { readonly kind: 'preview'; readonly preview: Preview };
 
 let model: LoadedModel | undefined;
-let emit: (event: WorkerEvent) => void = () => undefined;
-const running = new Map<number, AbortController>();
 
-/** Does a job with the model that can be cancelled by its id. */
-async function run<T>(
-  id: number,
-  job: (loaded: LoadedModel, signal: AbortSignal) => Promise<T>,
-): Promise<Outcome<T>> {
-  const controller = new AbortController();
-  running.set(id, controller);
-  const { signal } = controller;
-  const result = await outcome(() => {
-    if (model === undefined) throw new Error('the model was asked before it was loaded');
-    return job(model, signal);
-  }, signal);
-  running.delete(id);
-  return result;
+function pipeline(): Pipeline {
+  if (model === undefined) throw new Error('the model was asked before it was loaded');
+  return model.pipeline;
 }
 
-/** The memory of motions, which is handed over instead of copied. Locked feet may share what they leave as it was. */
-function buffers(...motions: readonly SolvedMotion[]): ArrayBufferLike[] {
-  const all = motions.flatMap(({ offsets, root, rotations, positions }) =>
-    [offsets, root, rotations, positions].map((array) => array.buffer),
-  );
-  return [...new Set(all)];
-}
+const tasks = {
+  async load(options: LoadOptions, { report }: TaskContext<Status>): Promise<Loaded> {
+    model = await loadModel(options, globalThis, report);
+    return { manifest: model.pipeline.manifest, backend: model.backend };
+  },
 
-const worker: ModelWorker = {
-  load(options, onEvent) {
-    emit = onEvent;
-    return outcome(async () => {
-      model = await loadModel(options, globalThis, (status) => {
-        emit({ kind: 'status', status });
-      });
-      return { manifest: model.pipeline.manifest, backend: model.backend };
+  /** `at`: the frame that someone looks at, where a preview is wanted. */
+  generate(
+    { request, at }: { request: GenerateRequest; at: number | undefined },
+    { signal, report }: TaskContext<GenerateReport>,
+  ): Promise<GenerateResult> {
+    return pipeline().generate(request, {
+      signal,
+      at,
+      onProgress: (progress) => report({ kind: 'progress', progress }),
+      onPreview: (preview) => report({ kind: 'preview', preview }),
     });
   },
 
-  async generate(id, request, at) {
-    const result = await run(id, ({ pipeline }, signal) =>
-      pipeline.generate(request, {
-        signal,
-        onProgress: (progress) => {
-          emit({ kind: 'progress', id, progress });
-        },
-        at: at ?? undefined,
-        onPreview: (preview) => {
-          const { motion, locked } = preview;
-          emit(transfer({ kind: 'preview', id, preview }, buffers(motion, locked)));
-        },
-      }),
-    );
-    if (!result.ok) return result;
-    const { motion, locked, latents } = result.value;
-    return transfer(result, [...buffers(motion, locked), latents.buffer]);
-  },
-
-  async coarse(id, request) {
-    const result = await run(id, ({ pipeline }, signal) => pipeline.coarse(request, { signal }));
-    return result.ok ? transfer(result, buffers(result.value)) : result;
-  },
-
-  cancel(id) {
-    running.get(id)?.abort();
+  coarse(request: CoarseRequest, { signal }: TaskContext<never>): Promise<SolvedMotion> {
+    return pipeline().coarse(request, { signal });
   },
 };
+export type ModelTasks = typeof tasks;
 
 // onnxruntime starts its threads from the script that it is bundled into, which may be this one.
-if (!self.name.startsWith('em-pthread')) expose(worker);
+if (!self.name.startsWith('em-pthread')) serve(tasks);

@@ -1,23 +1,15 @@
 /** Reads and solves one motion file off the main thread, so that a long one does not freeze the page. */
+import { serve } from '../common/run-in-worker';
 import { readBvh } from './bvh/read';
-import { MotionError } from './error';
+import type { LeaderQuestion, ReadLeader } from './client';
 import { solve } from './fit/ik';
-import type { LeaderAnswer, LeaderQuestion } from './client';
 
-globalThis.onmessage = ({ data }: MessageEvent<LeaderQuestion>) => {
-  globalThis.postMessage(answer(data));
-};
-
-function answer({ text, fps }: LeaderQuestion): LeaderAnswer {
-  try {
+const tasks = {
+  read({ text, fps }: LeaderQuestion): ReadLeader {
     const file = readBvh(text, fps === null ? {} : { fps });
-    return { ok: true, file, motion: solve(file.clip) };
-  } catch (error) {
-    // Errors cross as data: a structured clone would lose code and hint.
-    if (error instanceof MotionError) {
-      const { code, message, hint } = error;
-      return { ok: false, failure: { code, message, hint } };
-    }
-    return { ok: false, failure: null };
-  }
-}
+    return { file, motion: solve(file.clip) };
+  },
+};
+export type MotionTasks = typeof tasks;
+
+serve(tasks);

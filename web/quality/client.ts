@@ -1,5 +1,7 @@
+import { runInWorker } from '../common/run-in-worker';
 import type { Report } from './measure';
 import type { Duet, Rules } from './rules';
+import type { QualityTasks } from './worker';
 
 export type { Moment, MomentKind } from './moments';
 export type { Duet, Report, Rules };
@@ -9,35 +11,13 @@ export interface QualityQuestion {
   readonly rules: Rules;
 }
 
-export type QualityAnswer = Report;
-
 /**
  * Measures a dance in a worker of its own, which the signal ends at once: a newer question need not wait for an older
  * one's answer.
  * @throws the signal's reason
  */
-export function measureDance(question: QualityQuestion, signal: AbortSignal): Promise<Report> {
-  return new Promise((resolve, reject) => {
-    signal.throwIfAborted();
-    const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'quality' });
-    const end = (): void => {
-      worker.terminate();
-      signal.removeEventListener('abort', cancel);
-    };
-    const cancel = (): void => {
-      end();
-      reject(signal.reason as Error);
-    };
-    signal.addEventListener('abort', cancel);
-    worker.onerror = (event) => {
-      event.preventDefault();
-      end();
-      reject(new Error(event.message || 'The measuring stopped.'));
-    };
-    worker.onmessage = ({ data }: MessageEvent<QualityAnswer>) => {
-      end();
-      resolve(data);
-    };
-    worker.postMessage(question);
-  });
+export async function measureDance(question: QualityQuestion, signal: AbortSignal): Promise<Report> {
+  signal.throwIfAborted();
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'quality' });
+  return runInWorker<QualityTasks, 'measure'>(worker, 'measure', question, { signal });
 }

@@ -1,7 +1,11 @@
 /** Measures one dance off the main thread. */
-import type { QualityAnswer, QualityQuestion } from './client';
-import { measure } from './measure';
+import { serve } from '../common/run-in-worker';
+import type { QualityQuestion } from './client';
+import { measure, type Report } from './measure';
 
-globalThis.onmessage = ({ data: { duet, rules } }: MessageEvent<QualityQuestion>) => {
-  globalThis.postMessage(measure(duet, rules) satisfies QualityAnswer);
+const tasks = {
+  measure: ({ duet, rules }: QualityQuestion): Report => measure(duet, rules),
 };
+export type QualityTasks = typeof tasks;
+
+serve(tasks);

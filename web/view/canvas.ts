@@ -1,6 +1,6 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
 import { createEdges, type Area, type Edges } from './edge-smoothing';
-import { ViewError } from './error';
+import { AppError } from '../common/error';
 import { copySheet, plainSheet } from './frame-presenter';
 
 /** A picture of the couple over the whole canvas, or one of its two halves. */
@@ -55,7 +55,7 @@ function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
       preserveDrawingBuffer: kept,
     });
   } catch {
-    throw new ViewError(
+    throw new AppError(
       'webgl-missing',
       'The stage needs WebGL 2, which this browser does not offer here.',
       'Turn on hardware acceleration in the browser settings, or open the page in a current Chrome, Edge, Firefox or Safari.',
@@ -68,7 +68,7 @@ function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
  * @param filmed the size of pictures that leave the page one by one; null follows the host
  * @param onRestored called when a lost graphics card is there again
  * @param onShown called when a picture that was not `shown` at once is on the page
- * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
+ * @throws {AppError} `webgl-missing` when the browser has no WebGL 2.
  */
 export function createCanvas(
   host: HTMLElement,

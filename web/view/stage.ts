@@ -7,7 +7,7 @@ import { createCast, type OtherMode, type Part } from './dancer/dancers';
 import { createContacts } from './contact-shadows';
 import { areaOf } from './edge-smoothing';
 import { createFloor } from './floor';
-import { ViewError } from './error';
+import { AppError } from '../common/error';
 import { easing, type Framing, isFar, measureCouple, nearestTurn, type View } from './camera/framing';
 import { createHalves, type Labels } from './split-labels';
 import { createLights } from './lights';
@@ -37,7 +37,7 @@ export interface Film extends Stage {
   /**
    * Draws the moment `seconds` now; `dt` seconds have passed since the picture before it.
    *
-   * @throws {ViewError} `webgl-lost` when the graphics card has taken the context away.
+   * @throws {AppError} `webgl-lost` when the graphics card has taken the context away.
    */
   shoot(seconds: number, dt: number): void;
 }
@@ -86,7 +86,7 @@ export interface Stage {
    * An empty stage beside this one, for pictures of `size` that leave the page. It shares nothing that moves, so
    * that neither disturbs the other.
    *
-   * @throws {ViewError} `webgl-missing` when the browser gives no second context.
+   * @throws {AppError} `webgl-missing` when the browser gives no second context.
    */
   film(size: PictureSize): Film;
   /** Calls `listener` after every drawn frame; returns how to stop that. */
@@ -125,7 +125,7 @@ const HALVES = ['left', 'right'] as const satisfies readonly Picture[];
 /**
  * Builds the stage inside `host` and fills it.
  *
- * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
+ * @throws {AppError} `webgl-missing` when the browser has no WebGL 2.
  */
 export function createStage(host: HTMLElement): Stage {
   const library = createBodyLibrary();
@@ -348,7 +348,7 @@ function buildStage(
     canvas: renderer.domElement,
     shoot(at, dt) {
       if (canvas.lost) {
-        throw new ViewError(
+        throw new AppError(
           'webgl-lost',
           'The graphics card stopped drawing the video.',
           'Try again, with a smaller picture or fewer other tabs open.',

@@ -106,7 +106,7 @@ test('a crash of the worker is told, and the next call starts a fresh one', asyn
     });
   });
   const { error } = await running;
-  expect(error).toMatchObject({ name: 'ModelError', code: 'worker-crashed' });
+  expect(error).toMatchObject({ name: 'AppError', code: 'worker-crashed' });
   expect(error?.message).toContain('the roof fell in');
   const next = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));
   expect(next.positions).toHaveLength(120 * 66);

@@ -1,17 +1,17 @@
 import { describe, expect, it } from 'vitest';
-import { ModelError } from '../../../web/model/error';
+import { AppError } from '../../../web/common/error';
 import { parseManifest } from '../../../web/model/manifest';
 import { smallJson } from '../support/small-manifest';
 
 type Json = ReturnType<typeof smallJson>;
 
-function failure(change: (json: Json) => unknown): ModelError {
+function failure(change: (json: Json) => unknown): AppError {
   const json = smallJson();
   const changed = change(json);
   try {
     parseManifest(changed ?? json);
   } catch (error) {
-    if (error instanceof ModelError) return error;
+    if (error instanceof AppError) return error;
     throw error;
   }
   throw new Error('the manifest was accepted');

@@ -1,4 +1,4 @@
-import { ExportError } from '../error';
+import { AppError } from '../../common/error';
 
 /** Hz at which songs are decoded: what Opus works at. */
 const RATE = 48_000;
@@ -12,7 +12,7 @@ export interface Sound {
 /**
  * Decodes a song. Two channels stay two; more than two are mixed into one.
  *
- * @throws {ExportError} `sound-failed`
+ * @throws {AppError} `sound-failed`
  */
 export async function decodeSound(file: Blob): Promise<Sound> {
   try {
@@ -21,7 +21,7 @@ export async function decodeSound(file: Blob): Promise<Sound> {
     const channels = Array.from({ length: buffer.numberOfChannels }, (_, i) => buffer.getChannelData(i));
     return { rate: buffer.sampleRate, channels: channels.length > 2 ? [mixed(channels)] : channels };
   } catch (cause) {
-    throw new ExportError(
+    throw new AppError(
       'sound-failed',
       'The song could not be read for the video.',
       'Load the song again and save the video once more, or remove the song.',

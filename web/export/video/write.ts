@@ -1,4 +1,4 @@
-import { ExportError } from '../error';
+import { AppError } from '../../common/error';
 import { encodeVideo } from './encode';
 import type { Footage, VideoOptions } from './footage';
 import type { VideoPlan } from './plan';
@@ -7,7 +7,7 @@ import { recordVideo } from './record';
 /**
  * Films the footage as planned.
  *
- * @throws {ExportError} `video-failed`, `sound-failed`; errors of the drawing as they are; the signal's reason at once
+ * @throws {AppError} `video-failed`, `sound-failed`; errors of the drawing as they are; the signal's reason at once
  * when it is aborted
  */
 export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
@@ -24,9 +24,8 @@ export async function writeVideo(footage: Footage, plan: VideoPlan, options: Vid
     return await Promise.race([work, aborted]);
   } catch (error) {
     signal.throwIfAborted();
-    const told = error instanceof Error && 'hint' in error;
-    if (told) throw error;
-    throw new ExportError(
+    if (error instanceof AppError) throw error;
+    throw new AppError(
       'video-failed',
       'The video could not be written.',
       'Try the smaller size, or close other tabs and try again. The dance and your settings are unchanged.',

@@ -39,7 +39,7 @@ export interface PartsOptions {
 
 /**
  * The runtime and the graphs for a provider, both at once, from this device where it has them.
- * @throws {ModelError} as `download`
+ * @throws {AppError} as `download`
  */
 export async function downloadParts(
   manifest: Manifest,

@@ -1,4 +1,4 @@
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import type { ManifestFile } from '../manifest';
 
 /** Keeps verified files between visits; the page's is the Cache API. */
@@ -34,7 +34,7 @@ export async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | u
 
 /**
  * Fetch something that must not be a page: servers of single-page apps answer a missing file with 200 and HTML.
- * @throws {ModelError} `model-missing` or `download-failed`
+ * @throws {AppError} `model-missing` or `download-failed`
  */
 export async function fetchFile(url: string, get: typeof fetch): Promise<Response> {
   let response: Response;
@@ -42,7 +42,7 @@ export async function fetchFile(url: string, get: typeof fetch): Promise<Respons
     // Ask the server each time: a manifest and graphs of different age would not fit each other.
     response = await get(url, { cache: 'no-cache' });
   } catch (error) {
-    throw new ModelError(
+    throw new AppError(
       'download-failed',
       `The model file ${url} could not be fetched.`,
       'Check the connection, then try again.',
@@ -51,14 +51,14 @@ export async function fetchFile(url: string, get: typeof fetch): Promise<Respons
   }
   if (!response.ok) {
     const missing = response.status === 404 || response.status === 410;
-    throw new ModelError(
+    throw new AppError(
       missing ? 'model-missing' : 'download-failed',
       `The server answered ${response.status} for the model file ${url}.`,
       missing ? MISSING_HINT : 'Try again in a moment.',
     );
   }
   if (response.headers.get('content-type')?.toLowerCase().includes('text/html') === true) {
-    throw new ModelError(
+    throw new AppError(
       'model-missing',
       `The server sent a web page instead of the model file ${url}.`,
       MISSING_HINT,
@@ -83,7 +83,7 @@ async function readBody(
       onBytes(loaded);
     }
   } catch (error) {
-    throw new ModelError(
+    throw new AppError(
       'download-failed',
       `The download of the model file ${url} broke off after ${loaded} bytes.`,
       'Check the connection, then try again.',
@@ -124,7 +124,7 @@ function lookUp(
  * Get files, from the store where it has them, and verify them against the manifest.
  * @param base address that the files' paths are relative to
  * @returns the files' bytes, in order
- * @throws {ModelError} `model-missing`, `download-failed`, or `model-corrupt` when bytes differ from the manifest
+ * @throws {AppError} `model-missing`, `download-failed`, or `model-corrupt` when bytes differ from the manifest
  */
 export async function download(
   base: string,
@@ -149,7 +149,7 @@ export async function download(
     const bytes = await readBody(await fetchFile(url, get), url, tell);
     const wrong = await mismatch(bytes, file);
     if (wrong !== undefined) {
-      throw new ModelError(
+      throw new AppError(
         'model-corrupt',
         `The model file ${file.path} is not the one its manifest lists: ${wrong}.`,
         'Load the page again; if it stays so, copy the whole model folder to the server anew.',

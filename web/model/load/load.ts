@@ -1,6 +1,6 @@
 import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
 import { conditionClip } from '../sample/chunks';
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';
 import { fetchLatest } from './network-first';
@@ -47,7 +47,7 @@ async function fetchManifest(url: string, get: typeof fetch, store?: AnswerStore
   try {
     json = JSON.parse(new TextDecoder().decode(bytes));
   } catch (error) {
-    throw new ModelError(
+    throw new AppError(
       'manifest-invalid',
       `The model's manifest ${url} is not JSON.`,
       'Export the model again and take its whole folder.',
@@ -98,7 +98,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
 /**
  * Fetch, verify, open and try a model.
  * @param scope the worker's global scope
- * @throws {ModelError}
+ * @throws {AppError}
  */
 export async function loadModel(
   { manifestUrl, folder, backend: preference, threads }: LoadOptions,
@@ -145,7 +145,7 @@ export async function loadModel(
         doubt = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
       }
     } catch (error) {
-      if (error instanceof ModelError) throw error;
+      if (error instanceof AppError) throw error;
       doubt = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
     }
     if (doubt !== undefined) {

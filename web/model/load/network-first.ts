@@ -1,5 +1,5 @@
 import { fetchFile } from './download';
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import type { AnswerStore } from './cache';
 
 /** A server that has not begun to answer by then is out of reach, milliseconds; counts only where a copy is kept. */
@@ -9,7 +9,7 @@ const PATIENCE = 4000;
  * A file whose newest version counts, as a manifest does, since it names the files that belong together: the server
  * is asked each time, and the copy that was kept last serves only while the server is out of reach.
  * @param patience milliseconds to wait for the server where a copy is kept
- * @throws {ModelError} `model-missing` when the server says so; `download-failed` when there is no copy either
+ * @throws {AppError} `model-missing` when the server says so; `download-failed` when there is no copy either
  */
 export async function fetchLatest(
   url: string,
@@ -25,7 +25,7 @@ export async function fetchLatest(
   try {
     bytes = await body(await fetchFile(url, limited), url);
   } catch (error) {
-    if (kept !== undefined && error instanceof ModelError && error.code === 'download-failed') return kept;
+    if (kept !== undefined && error instanceof AppError && error.code === 'download-failed') return kept;
     throw error;
   }
   // Full storage is told by the large files, which come next.
@@ -37,7 +37,7 @@ async function body(response: Response, url: string): Promise<Uint8Array<ArrayBu
   try {
     return new Uint8Array(await response.arrayBuffer());
   } catch (error) {
-    throw new ModelError(
+    throw new AppError(
       'download-failed',
       `The download of the model file ${url} broke off.`,
       'Check the connection, then try again.',

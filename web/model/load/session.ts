@@ -1,7 +1,7 @@
 /** The only module that speaks to onnxruntime: three graphs, one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
 import type { ConditionInput, ConditionRunner, DecodeInput, DecodeRunner } from '../sample/chunks';
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
 import type { StepInput, StepRunner } from '../sample/sampler';
 
@@ -77,7 +77,7 @@ async function open(
   ];
   if (missing.length === 0) return session;
   await session.release();
-  throw new ModelError(
+  throw new AppError(
     'model-mismatch',
     `The graph "${name}" has no input or output named ${missing.map((m) => `"${m}"`).join(', ')}.`,
     'Export the model again with this version of the project, or use the model it ships with.',
@@ -106,7 +106,7 @@ function output(arrays: Arrays, name: string): Float32Array {
  * @param graphs the ONNX files
  * @param threads of the wasm runtime; the first session of a worker decides for all
  * @param wasm the runtime's WebAssembly; without it onnxruntime fetches its own
- * @throws {ModelError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
+ * @throws {AppError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
  */
 export async function openSession(
   manifest: Manifest,

@@ -1,7 +1,7 @@
 import type { MotionClip } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './chunks';
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import type { Manifest } from '../manifest';
 
 /** What a person asks for. */
@@ -44,10 +44,10 @@ export interface ModelInput {
 }
 
 function refuse(message: string, hint: string): never {
-  throw new ModelError('bad-request', message, hint);
+  throw new AppError('bad-request', message, hint);
 }
 
-/** @throws {ModelError} `bad-request`, a sentence about the first thing that the model cannot take */
+/** @throws {AppError} `bad-request`, a sentence about the first thing that the model cannot take */
 export function checkRequest(
   { leader, music, guidance, musicGuidance, steps, seed }: GenerateRequest,
   manifest: Manifest,
@@ -92,7 +92,7 @@ export function checkRequest(
   if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
 }
 
-/** @throws {ModelError} `bad-request` when the latents are not those of a dance as long as the leader's */
+/** @throws {AppError} `bad-request` when the latents are not those of a dance as long as the leader's */
 export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Manifest): void {
   const wanted = Math.ceil(leader.frames / latent.stride) * latent.layers.length * latent.channels;
   if (latents.length === wanted) return;

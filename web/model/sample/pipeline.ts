@@ -4,7 +4,7 @@ import { keepApart } from '../../motion/contact/collision-avoidance';
 import { solve } from '../../motion/fit/ik';
 import type { Block } from './blocks';
 import { type ConditionInput, conditionClip } from './chunks';
-import { ModelError } from '../error';
+import { AppError } from '../../common/error';
 import { checkCoarse, checkRequest, type CoarseRequest, type GenerateRequest, prepareInput } from './inputs';
 import type { Manifest } from '../manifest';
 import { noise } from './noise';
@@ -80,7 +80,7 @@ export class Pipeline {
   ) {}
 
   /**
-   * @throws {ModelError} `bad-request` or `not-finite`
+   * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
   async generate(request: GenerateRequest, options: GenerateOptions = {}): Promise<GenerateResult> {
@@ -133,7 +133,7 @@ export class Pipeline {
 
   /**
    * The partner that the coarse layer alone says, solved as the whole partner is.
-   * @throws {ModelError} `bad-request` or `not-finite`
+   * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
   async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
@@ -237,7 +237,7 @@ export class Pipeline {
     const decoded = await this.session.decode({ latents, leader, layers: Float32Array.from(layers) });
     const positions = decoded.slice(0, frames * skeleton.joints.length * 3).map((value) => value / scale);
     if (!positions.every(Number.isFinite)) {
-      throw new ModelError(
+      throw new AppError(
         'not-finite',
         'The model answered with positions that are not numbers.',
         'Lower the guidance, or choose the processor instead of WebGPU.',

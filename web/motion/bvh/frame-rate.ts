@@ -1,4 +1,4 @@
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 
 /** Frame rates that recordings have; a frame time is written with few decimals and rarely hits one exactly. */
 const USUAL = [
@@ -13,12 +13,12 @@ const CLOSE = 0.02;
  * Frames per second from a frame time in seconds as written. When a usual rate lies within the last written decimal
  * it is meant: 0.0333 is 30, 0.008333 is 120, but 0.0333667 stays 29.97.
  *
- * @throws MotionError `bad-frame-time`
+ * @throws {AppError} `bad-frame-time`
  */
 export function frameRate(frameTime: string): number {
   const seconds = Number(frameTime);
   if (frameTime === '' || !(seconds > 0) || 1 / seconds > FASTEST || 1 / seconds < SLOWEST) {
-    throw new MotionError(
+    throw new AppError(
       'bad-frame-time',
       `The file states a frame time of "${frameTime.slice(0, 24)}" seconds, which no dance is recorded with.`,
       `Set the frame rate by hand, or correct the line "Frame Time:" in the file (30 frames per second: 0.033333).`,
@@ -34,11 +34,11 @@ export function frameRate(frameTime: string): number {
 /**
  * Checks a rate that a person has set.
  *
- * @throws MotionError `bad-frame-time`
+ * @throws {AppError} `bad-frame-time`
  */
 export function givenRate(fps: number): number {
   if (fps >= SLOWEST && fps <= FASTEST) return fps;
-  throw new MotionError(
+  throw new AppError(
     'bad-frame-time',
     `${fps} frames per second is no frame rate of a dance.`,
     `Choose a rate between ${SLOWEST} and ${FASTEST}; most recordings have 30, 60 or 120.`,

@@ -1,6 +1,6 @@
 import type { BvhNode } from './hierarchy';
 import { AGAIN, complaint, numberHint } from './number';
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 
 /** The frames of a file, looked at. */
 export interface ReadFrames {
@@ -12,8 +12,8 @@ export interface ReadFrames {
 }
 
 /** A file that ends before its last frame, as a download that broke off does. */
-export function cutOff(message: string): MotionError {
-  return new MotionError('truncated', message, 'The file is incomplete: download, copy or export it again.');
+export function cutOff(message: string): AppError {
+  return new AppError('truncated', message, 'The file is incomplete: download, copy or export it again.');
 }
 
 /** The last line in which something is written. */
@@ -27,7 +27,7 @@ function lastLine(lines: readonly string[]): number {
  * Checks the lines of numbers from lines[first] on: as many columns as channels, all finite numbers. Where the file ends
  * too early, its whole frames are used.
  *
- * @throws MotionError `bad-number`, `wrong-columns` or `truncated`
+ * @throws {AppError} `bad-number`, `wrong-columns` or `truncated`
  */
 export function readFrames(
   lines: readonly string[],
@@ -63,11 +63,11 @@ export function readFrames(
 }
 
 /** What is wrong with a line of numbers; null when nothing is. */
-function problemOf(tokens: readonly string[], columns: readonly string[], where: string): MotionError | null {
+function problemOf(tokens: readonly string[], columns: readonly string[], where: string): AppError | null {
   for (let column = 0; column < Math.min(tokens.length, columns.length); column++) {
     const wrong = complaint(tokens[column]);
     if (wrong === null) continue;
-    return new MotionError(
+    return new AppError(
       'bad-number',
       `${where}: ${wrong} (${columns[column]!}).`,
       numberHint(tokens[column]),
@@ -75,7 +75,7 @@ function problemOf(tokens: readonly string[], columns: readonly string[], where:
   }
   if (tokens.length === columns.length) return null;
   const counts = `${tokens.length} values, but the skeleton has ${columns.length} channels`;
-  return new MotionError('wrong-columns', `${where}: ${counts}.`, AGAIN);
+  return new AppError('wrong-columns', `${where}: ${counts}.`, AGAIN);
 }
 
 /** Frames that make a motion. */
@@ -85,7 +85,7 @@ function endedIn(
   frame: number,
   stated: number,
   frameLines: readonly string[],
-  wrong: MotionError | null,
+  wrong: AppError | null,
 ): ReadFrames {
   const where = `The file ends in the middle of frame ${frame} of ${stated}`;
   if (frameLines.length >= FEWEST) return used(where, frameLines);

@@ -1,5 +1,5 @@
 import { AGAIN, complaint, numberHint } from './number';
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 
 /** One joint or end site of the hierarchy, in the order of the file. */
 export interface BvhNode {
@@ -53,8 +53,8 @@ class Words {
   }
 }
 
-function cutOff(words: Words): MotionError {
-  return new MotionError(
+function cutOff(words: Words): AppError {
+  return new AppError(
     'truncated',
     `The file ends at line ${words.line}, in the middle of the skeleton.`,
     'The file is incomplete: copy or export it again.',
@@ -64,17 +64,17 @@ function cutOff(words: Words): MotionError {
 /**
  * Reads the skeleton in lines[0] to lines[end - 1], which begin with HIERARCHY.
  *
- * @throws MotionError `truncated`, `bad-hierarchy`, `bad-number` or `several-roots`
+ * @throws {AppError} `truncated`, `bad-hierarchy`, `bad-number` or `several-roots`
  */
 export function readHierarchy(lines: readonly string[], end: number): BvhNode[] {
   const words = new Words(lines, end);
   words.next();
   const nodes: BvhNode[] = [];
   const roots: { name: string; line: number }[] = [];
-  const bad = (what: string): MotionError =>
+  const bad = (what: string): AppError =>
     words.peek() === undefined && end === lines.length
       ? cutOff(words)
-      : new MotionError('bad-hierarchy', `Line ${words.line}: ${what}.`, AGAIN);
+      : new AppError('bad-hierarchy', `Line ${words.line}: ${what}.`, AGAIN);
 
   const numbers = (count: number, what: string): number[] =>
     Array.from({ length: count }, () => {
@@ -82,7 +82,7 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
       if (token === undefined) throw bad(`${what} is incomplete`);
       const wrong = complaint(token);
       if (wrong !== null) {
-        throw new MotionError('bad-number', `Line ${words.line}: in ${what}, ${wrong}.`, numberHint(token));
+        throw new AppError('bad-number', `Line ${words.line}: in ${what}, ${wrong}.`, numberHint(token));
       }
       words.next();
       return Number(token);
@@ -131,7 +131,7 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
   if (roots.length === 0) throw bad('there is no ROOT');
   if (roots.length > 1) {
     const where = roots.map(({ name, line }) => `${name} at line ${line}`).join(', ');
-    throw new MotionError(
+    throw new AppError(
       'several-roots',
       `The file holds ${roots.length} skeletons: ${where}.`,
       'Export one dancer per file: the one who leads.',

@@ -1,7 +1,7 @@
 import { BVH_NAMES } from './joint-names';
 import type { BvhNode } from './hierarchy';
 import { type Dialect, DIALECTS, isOwn, LIMB_JOINTS, type LimbJoint, OWN_DIALECT } from './conventions';
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 import { type JointName, SMPL22 } from '../skeleton/skeleton';
 
 /** Which node of a file is which joint. */
@@ -95,7 +95,7 @@ function ancestors(nodes: readonly BvhNode[], node: number): number[] {
 }
 
 /** Says what a body lacks, whole limbs before single joints. */
-function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, number>): MotionError | null {
+function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, number>): AppError | null {
   const lacks = (limb: readonly LimbJoint[]): string[] =>
     ['left', 'right'].flatMap((side) =>
       limb
@@ -115,7 +115,7 @@ function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, 
       : 'The body in this file is incomplete';
   const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
   const seen = names.slice(0, 8).join(', ') + (names.length > 8 ? ` and ${names.length - 8} more` : '');
-  return new MotionError(
+  return new AppError(
     'missing-joints',
     `${whole}: no joint was found for ${missing.join(', ')}.`,
     `Its joints are called ${seen}. Use a whole body with the names of Mixamo, Character Creator, DAZ or MotionBuilder.`,
@@ -125,7 +125,7 @@ function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, 
 /**
  * Finds our joints among the nodes of a file by the names of the dialect that fits best.
  *
- * @throws MotionError `missing-joints` when a limb's joint or both neck and head cannot be found
+ * @throws {AppError} `missing-joints` when a limb's joint or both neck and head cannot be found
  */
 export function mapJoints(nodes: readonly BvhNode[]): JointMap {
   const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);

@@ -5,7 +5,7 @@ import { sampleNodes } from './sample';
 import { type BvhFile, parseBvhText } from './text';
 import type { MotionClip } from '../skeleton/clip';
 import { OWN_DIALECT } from './conventions';
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 import { frameRate, givenRate } from './frame-rate';
 import { type JointMap, mapJoints, TRUNK_JOINTS } from './joint-map';
 import { restFrames } from './t-pose';
@@ -112,7 +112,7 @@ function restWords(frames: number): string {
  * come from the body, the motion is resampled to 30 fps and its floor put at 0.
  *
  * @param options.fps frame rate to use instead of the file's own
- * @throws MotionError a sentence and a hint for everything that can be wrong with the file
+ * @throws {AppError} a sentence and a hint for everything that can be wrong with the file
  */
 export function readBvh(text: string, options: { readonly fps?: number } = {}): LeaderFile {
   const whole = parseBvhText(text);
@@ -125,7 +125,7 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
     const count = file.frameLines.length;
     if (file.cutOff)
       throw cutOff(`The file breaks off: only ${count} whole frames are there, too few for a dance.`);
-    throw new MotionError(
+    throw new AppError(
       'too-few-frames',
       `At ${sourceFps} frames per second the ${count} frames last less than two frames at ${FPS}.`,
       'Choose a longer dance, or correct the frame rate.',
@@ -136,7 +136,7 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
   const body: Body = { ...lying, up: up.turn };
   const size = overTime(body, (measured) => measured.size);
   if (!(size > 0)) {
-    throw new MotionError(
+    throw new AppError(
       'not-a-body',
       'The joints of this file all lie in one place: its skeleton has no size.',
       'Export the file again with the offsets of the skeleton.',

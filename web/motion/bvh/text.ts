@@ -1,7 +1,7 @@
 import { readFrames } from './frames';
 import { type BvhNode, readHierarchy } from './hierarchy';
 import { AGAIN } from './number';
-import { MotionError } from '../error';
+import { AppError } from '../../common/error';
 
 /** A BVH file whose every number has been looked at. */
 export interface BvhFile {
@@ -29,17 +29,17 @@ function header(lines: readonly string[], from: number, key: RegExp): { line: nu
 /**
  * Takes a BVH file apart and looks at every number of it. Of a file that ends too early the whole frames are used.
  *
- * @throws MotionError `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
+ * @throws {AppError} `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
  *   `too-few-frames` or `several-roots`, naming the line, and the joint where there is one
  */
 export function parseBvhText(text: string): BvhFile {
   const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);
   const start = lines.findIndex((line) => line.trim() !== '');
   if (start < 0) {
-    throw new MotionError('empty-file', 'The motion file is empty.', 'Choose a BVH file with a dance in it.');
+    throw new AppError('empty-file', 'The motion file is empty.', 'Choose a BVH file with a dance in it.');
   }
   if (lines[start]!.trim().split(/\s/)[0]!.toUpperCase() !== 'HIERARCHY') {
-    throw new MotionError(
+    throw new AppError(
       'not-bvh',
       'This is not a BVH file: it does not begin with HIERARCHY.',
       'Export the motion as BVH, for example from Blender (File, Export, Motion Capture).',
@@ -48,7 +48,7 @@ export function parseBvhText(text: string): BvhFile {
   const motion = lines.findIndex((line) => /^\s*MOTION\s*$/i.test(line));
   const nodes = readHierarchy(lines, motion < 0 ? lines.length : motion);
   if (motion < 0) {
-    throw new MotionError(
+    throw new AppError(
       'truncated',
       `The file ends at line ${lines.length}, after the skeleton: its motion is missing.`,
       'The file is incomplete, or holds only a rest pose: export it again with its animation.',
@@ -58,20 +58,16 @@ export function parseBvhText(text: string): BvhFile {
   const time = frames && header(lines, frames.line + 1, /^Frame\s+Time\s*:(.*)$/i);
   if (!frames || !time) {
     const missing = frames ? '"Frame Time:"' : '"Frames:"';
-    throw new MotionError(
-      'bad-hierarchy',
-      `After MOTION in line ${motion + 1}, ${missing} is missing.`,
-      AGAIN,
-    );
+    throw new AppError('bad-hierarchy', `After MOTION in line ${motion + 1}, ${missing} is missing.`, AGAIN);
   }
   const stated = Number(frames.value);
   if (frames.value === '' || !Number.isInteger(stated) || stated < 0) {
     const where = `Line ${frames.line + 1}: "${frames.value}" is no number of frames.`;
-    throw new MotionError('bad-number', where, AGAIN);
+    throw new AppError('bad-number', where, AGAIN);
   }
   const { frameLines, warnings, cutOff } = readFrames(lines, time.line + 1, stated, nodes);
   if (stated < 2) {
-    throw new MotionError(
+    throw new AppError(
       'too-few-frames',
       stated === 1 ? 'The file holds one frame, a pose and not a motion.' : 'The file holds no frames.',
       'Export the whole animation, not only its current frame.',

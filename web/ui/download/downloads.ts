@@ -1,5 +1,5 @@
+import { AppError } from '../../common/error';
 import {
-  ExportError,
   planVideo,
   secondsLeft,
   type VideoPlan,
@@ -166,8 +166,8 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
   };
 }
 
-function unsupported(): ExportError {
-  return new ExportError(
+function unsupported(): AppError {
+  return new AppError(
     'video-unsupported',
     'This browser cannot write videos.',
     'Open the page in a current Chrome, Edge, Firefox or Safari. Motions can be saved here all the same.',

@@ -14,7 +14,7 @@ import {
   startedAfresh,
   takesBroughtBack,
 } from '../store/actions/project';
-import { ProjectError } from './error';
+import { AppError } from '../../common/error';
 import { type Kept, keep, knownAs, worthKeeping } from './schema';
 import { readProject, writeProject } from './project-file';
 import { type Rereaders, reviving } from './restore';
@@ -190,7 +190,7 @@ export function createKeeping(store: Store, files: Files, readers: Readers, stor
       try {
         return { name: projectName(state), bytes: await writeProject(keep(state)) };
       } catch {
-        const error = new ProjectError(
+        const error = new AppError(
           'too-large',
           'The project could not be written.',
           'Delete some takes, or close other tabs, and save again.',

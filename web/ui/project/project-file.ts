@@ -1,7 +1,7 @@
 import { strFromU8, strToU8, type Unzipped, unzipSync, type Zippable, zipSync } from 'fflate';
 import * as v from 'valibot';
 import { slug } from '../store/format';
-import { ProjectError } from './error';
+import { AppError } from '../../common/error';
 import type { Kept, KeptInputs } from './schema';
 import { MOTION_BYTES, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 
@@ -110,7 +110,7 @@ export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>>
 
 /**
  * Reads a project.
- * @throws {ProjectError} what is wrong with the file, and which part of it
+ * @throws {AppError} what is wrong with the file, and which part of it
  */
 export function readProject(bytes: Uint8Array): Kept {
   const files = unzip(bytes);
@@ -118,12 +118,12 @@ export function readProject(bytes: Uint8Array): Kept {
   const part = (file: string): Uint8Array<ArrayBuffer> => {
     const content = files[file];
     if (content) return content;
-    throw new ProjectError('missing-part', `The project lacks its part ${file}.`, HINT_AGAIN);
+    throw new AppError('missing-part', `The project lacks its part ${file}.`, HINT_AGAIN);
   };
   const partOf = (file: string, bytes: number, what: string): Uint8Array<ArrayBuffer> => {
     const content = part(file);
     if (content.byteLength === bytes) return content;
-    throw new ProjectError(
+    throw new AppError(
       'damaged-project',
       `${file} in the project has ${content.byteLength} bytes where ${what} have ${bytes}.`,
       HINT_AGAIN,
@@ -162,31 +162,27 @@ const HINT_SAVED = 'Open a file that was saved here with “Save project”. Wha
 
 function unzip(bytes: Uint8Array): Unzipped {
   const isZip = bytes[0] === 0x50 && bytes[1] === 0x4b;
-  if (!isZip) throw new ProjectError('not-a-project', 'The file is not a ReactDance project.', HINT_SAVED);
+  if (!isZip) throw new AppError('not-a-project', 'The file is not a ReactDance project.', HINT_SAVED);
   try {
     return unzipSync(bytes);
   } catch {
-    throw new ProjectError('damaged-project', 'The project is cut off or damaged.', HINT_AGAIN);
+    throw new AppError('damaged-project', 'The project is cut off or damaged.', HINT_AGAIN);
   }
 }
 
 function readManifest(files: Unzipped): Manifest {
   const content = files[MANIFEST];
   if (!content)
-    throw new ProjectError(
-      'not-a-project',
-      `The archive holds no ${MANIFEST}, so it is no project.`,
-      HINT_SAVED,
-    );
+    throw new AppError('not-a-project', `The archive holds no ${MANIFEST}, so it is no project.`, HINT_SAVED);
   let json: unknown;
   try {
     json = JSON.parse(strFromU8(content));
   } catch {
-    throw new ProjectError('damaged-project', `${MANIFEST} in the project is no JSON.`, HINT_AGAIN);
+    throw new AppError('damaged-project', `${MANIFEST} in the project is no JSON.`, HINT_AGAIN);
   }
   const told = v.safeParse(v.object({ format: v.literal(FORMAT), version: v.number() }), json);
   if (told.success && told.output.version > VERSION)
-    throw new ProjectError(
+    throw new AppError(
       'newer-project',
       'The project was saved by a newer version of this page.',
       'Reload the page to get the newest version, then open it again.',
@@ -195,7 +191,7 @@ function readManifest(files: Unzipped): Manifest {
   if (result.success) return result.output;
   const [issue] = result.issues;
   const where = v.getDotPath(issue) ?? 'its top';
-  throw new ProjectError(
+  throw new AppError(
     'damaged-project',
     `${MANIFEST} in the project is not as it was written (${where}: ${issue.message}).`,
     HINT_AGAIN,

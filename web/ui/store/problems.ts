@@ -1,31 +1,25 @@
+import { AppError } from '../../common/error';
 import type { Problem, Side } from './state';
-
-/** What our own errors have in common: a sentence, and what to do about it. */
-interface Told {
-  readonly code: string;
-  readonly message: string;
-  readonly hint: string;
-}
-
-function isTold(error: unknown): error is Told {
-  return (
-    error instanceof Error &&
-    'code' in error &&
-    'hint' in error &&
-    typeof error.hint === 'string' &&
-    error.hint !== ''
-  );
-}
 
 /** True for the error that an abort signal leaves behind, which is nobody's problem. */
 export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
+/** The words of a foreseen error, or those given for any other. */
+function described(
+  error: unknown,
+  unforeseen: Pick<Problem, 'code' | 'title' | 'hint'>,
+): Pick<Problem, 'code' | 'title' | 'hint'> {
+  return error instanceof AppError
+    ? { code: error.code, title: error.message, hint: error.hint }
+    : unforeseen;
+}
+
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, side: Side, name: string): Problem {
   const refused = { side, name };
-  if (isTold(error))
+  if (error instanceof AppError)
     return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: side, refused };
   return {
     code: 'unreadable-file',
@@ -43,7 +37,7 @@ function named(name: string, sentence: string): string {
 
 /** A project file that could not be opened, or written. */
 export function projectProblem(error: unknown, name: string, remedy: Problem['remedy']): Problem {
-  const told = isTold(error);
+  const told = error instanceof AppError;
   return {
     code: told ? error.code : 'unreadable-file',
     title: told ? named(name, error.message) : `${name} could not be read.`,
@@ -68,11 +62,12 @@ export function fullProblem(): Problem {
 
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'model-failed',
-    title: told ? error.message : 'The model could not be started.',
-    hint: told ? error.hint : 'Reload the page; if it happens again, try another browser.',
+    ...described(error, {
+      code: 'model-failed',
+      title: 'The model could not be started.',
+      hint: 'Reload the page; if it happens again, try another browser.',
+    }),
     remedy: 'model',
     refused: null,
   };
@@ -80,11 +75,12 @@ export function modelProblem(error: unknown): Problem {
 
 /** A failure while a reaction was made. */
 export function generationProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'generation-failed',
-    title: told ? error.message : 'The reactor could not be made.',
-    hint: told ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+    ...described(error, {
+      code: 'generation-failed',
+      title: 'The reactor could not be made.',
+      hint: 'Try again; fewer steps or a shorter leader need less memory.',
+    }),
     remedy: 'generate',
     refused: null,
   };
@@ -92,11 +88,12 @@ export function generationProblem(error: unknown): Problem {
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'coarse-failed',
-    title: told ? error.message : 'The coarse layer of this reaction could not be decoded.',
-    hint: told ? error.hint : 'Show it again, or generate the reaction again.',
+    ...described(error, {
+      code: 'coarse-failed',
+      title: 'The coarse layer of this reaction could not be decoded.',
+      hint: 'Show it again, or generate the reaction again.',
+    }),
     remedy: 'generate',
     refused: null,
   };
@@ -104,11 +101,12 @@ export function coarseProblem(error: unknown): Problem {
 
 /** A failure to play. */
 export function playbackProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'playback-failed',
-    title: told ? error.message : 'The song could not be played.',
-    hint: told ? error.hint : 'Press play again.',
+    ...described(error, {
+      code: 'playback-failed',
+      title: 'The song could not be played.',
+      hint: 'Press play again.',
+    }),
     remedy: 'none',
     refused: null,
   };
@@ -116,11 +114,12 @@ export function playbackProblem(error: unknown): Problem {
 
 /** A failure to write a file to take home. */
 export function savingProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'saving-failed',
-    title: told ? error.message : 'The file could not be written.',
-    hint: told ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
+    ...described(error, {
+      code: 'saving-failed',
+      title: 'The file could not be written.',
+      hint: 'Try again, or another format. The dance and your settings are unchanged.',
+    }),
     remedy: 'none',
     refused: null,
   };
@@ -128,13 +127,12 @@ export function savingProblem(error: unknown): Problem {
 
 /** A failure of the picture; all else goes on working. */
 export function stageProblem(error: unknown): Problem {
-  const told = isTold(error);
   return {
-    code: told ? error.code : 'stage-failed',
-    title: told ? error.message : 'The 3D picture could not be started.',
-    hint: told
-      ? error.hint
-      : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
+    ...described(error, {
+      code: 'stage-failed',
+      title: 'The 3D picture could not be started.',
+      hint: 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
+    }),
     remedy: 'none',
     refused: null,
   };

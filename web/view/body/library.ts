@@ -1,7 +1,7 @@
-import { wrap, type Remote } from 'comlink';
+import { WorkerConnection } from '../../common/run-in-worker';
 import type { Build } from './part';
 import type { Body } from './simplify';
-import type { Mesher } from './worker';
+import type { BodyTasks } from './worker';
 
 /** Bodies already meshed, by skeleton and build; meshes the others in a worker. */
 export interface BodyLibrary {
@@ -24,8 +24,7 @@ interface Kept {
 }
 
 export function createBodyLibrary(): BodyLibrary {
-  let worker: Worker | null = null;
-  let mesher: Remote<Mesher> | null = null;
+  let connection: WorkerConnection<BodyTasks> | null = null;
   let bodies: Kept[] = [];
 
   async function mesh(offsets: Float32Array, build: Build): Promise<Body> {
@@ -40,13 +39,11 @@ export function createBodyLibrary(): BodyLibrary {
   }
 
   function inWorker(offsets: Float32Array, build: Build): Promise<Body> {
-    worker ??= new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bodies' });
-    mesher ??= wrap<Mesher>(worker);
-    const started = worker;
-    const broken = new Promise<never>((_, reject) => {
-      started.addEventListener('error', (event) => reject(new Error(event.message)), { once: true });
-    });
-    return Promise.race([mesher.build(offsets, build), broken]);
+    if (!connection || connection.ended)
+      connection = new WorkerConnection(
+        new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bodies' }),
+      );
+    return connection.call('build', { offsets, build });
   }
 
   return {
@@ -62,9 +59,8 @@ export function createBodyLibrary(): BodyLibrary {
       return body;
     },
     dispose() {
-      worker?.terminate();
-      worker = null;
-      mesher = null;
+      connection?.dispose();
+      connection = null;
       bodies = [];
     },
   };

@@ -1,19 +1,12 @@
-import { expose, transfer } from 'comlink';
+import { serve } from '../../common/run-in-worker';
 import { makeBody, type Body } from './simplify';
 import type { Build } from './part';
 
 /** Meshing off the main thread: a third of a second of arithmetic that must not be felt. */
-const mesher = {
-  async build(offsets: Float32Array, build: Build): Promise<Body> {
-    const body = await makeBody(offsets, build);
-    const { positions, normals, indices, light, skinJoints, skinWeights, shade } = body;
-    const arrays = [positions, normals, indices, light, skinJoints, skinWeights, shade];
-    return transfer(
-      body,
-      arrays.map((array) => array.buffer),
-    );
-  },
+const tasks = {
+  build: ({ offsets, build }: { offsets: Float32Array; build: Build }): Promise<Body> =>
+    makeBody(offsets, build),
 };
-export type Mesher = typeof mesher;
+export type BodyTasks = typeof tasks;
 
-expose(mesher);
+serve(tasks);

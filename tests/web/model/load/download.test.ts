@@ -1,7 +1,7 @@
 import { createHash } from 'node:crypto';
 import { describe, expect, it } from 'vitest';
 import { download, type FileStore } from '../../../../web/model/load/download';
-import { ModelError } from '../../../../web/model/error';
+import { AppError } from '../../../../web/common/error';
 
 const BASE = 'https://dance.example/models/salsa/manifest.json';
 const bytesOf = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode(text);
@@ -48,10 +48,10 @@ const both = () =>
     'https://dance.example/models/salsa/b.onnx': () => new Response('graph bb'),
   });
 
-async function failure(response: () => Response): Promise<ModelError> {
+async function failure(response: () => Response): Promise<AppError> {
   const { get } = server({ 'https://dance.example/models/salsa/a.onnx': response });
   const error: unknown = await download(BASE, [a], { fetch: get }).catch((reason: unknown) => reason);
-  if (error instanceof ModelError) return error;
+  if (error instanceof AppError) return error;
   throw new Error('the download was accepted');
 }
 

@@ -226,7 +226,7 @@ describe('Pipeline', () => {
   ])('refuses %s in a sentence', async (_, changes, message) => {
     const result = pipeline.generate(request(120, changes()));
     await expect(result).rejects.toMatchObject({
-      name: 'ModelError',
+      name: 'AppError',
       code: 'bad-request',
       message: expect.stringMatching(message) as string,
     });

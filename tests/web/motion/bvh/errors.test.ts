@@ -1,6 +1,6 @@
 import { describe, expect, test, vi } from 'vitest';
 import { readBvh } from '../../../../web/motion/bvh/read';
-import { MotionError, type MotionErrorCode } from '../../../../web/motion/error';
+import { AppError, type ErrorCode } from '../../../../web/common/error';
 import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
 
 const good = madeBvh({ joints: madeBody(MIXAMO), frames: 12 }).text;
@@ -14,21 +14,21 @@ function withLine(number: number, change: (line: string) => string): string {
   return lines.map((line, i) => (i === number - 1 ? change(line) : line)).join('\n');
 }
 
-function failure(text: string, fps?: number): MotionError {
+function failure(text: string, fps?: number): AppError {
   const noise = vi.spyOn(console, 'error').mockImplementation(() => undefined);
   try {
     readBvh(text, fps === undefined ? {} : { fps });
   } catch (error) {
-    expect(error).toBeInstanceOf(MotionError);
+    expect(error).toBeInstanceOf(AppError);
     expect(noise).not.toHaveBeenCalled();
-    return error as MotionError;
+    return error as AppError;
   } finally {
     noise.mockRestore();
   }
   throw new Error('the file was read');
 }
 
-function expectFailure(text: string, code: MotionErrorCode, message: RegExp | string): void {
+function expectFailure(text: string, code: ErrorCode, message: RegExp | string): void {
   const error = failure(text);
   expect(error.code).toBe(code);
   expect(error.message).toMatch(message);

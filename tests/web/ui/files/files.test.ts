@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { MotionError } from '../../../../web/motion/error';
+import { AppError } from '../../../../web/common/error';
 import { createFiles } from '../../../../web/ui/files/files';
 import type { Files, Readers } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
@@ -49,7 +49,7 @@ describe('files', () => {
     await files.open([file('good.bvh', BVH)]);
     const before = store.getState().leader;
     readers.readLeader = () =>
-      Promise.reject(new MotionError('missing-joints', 'The legs are missing.', 'Export the whole body.'));
+      Promise.reject(new AppError('missing-joints', 'The legs are missing.', 'Export the whole body.'));
     await files.open([file('arms.bvh', BVH)]);
     expect(store.getState().problem).toEqual({
       code: 'missing-joints',

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { ModelError, type Generator, type ModelFolder, type Status } from '../../../../web/model/client';
+import { AppError } from '../../../../web/common/error';
+import type { Generator, ModelFolder, Status } from '../../../../web/model/client';
 import { createModelLink } from '../../../../web/ui/files/model-link';
 import type { LoadedSong } from '../../../../web/ui/store/state';
 import { createAppStore } from '../../../../web/ui/store/store';
@@ -59,7 +60,7 @@ describe('loading the model', () => {
     const { store, link, attempts } = loading();
     attempts[0]?.tell({ kind: 'manifest', manifest: small });
     const { settings } = store.getState();
-    attempts[0]?.fail(new ModelError('model-missing', 'The server answered 404.', 'Copy the model folder.'));
+    attempts[0]?.fail(new AppError('model-missing', 'The server answered 404.', 'Copy the model folder.'));
     await expect(link.generator()).rejects.toThrow('404');
     expect(store.getState().problem).toMatchObject({ code: 'model-missing', remedy: 'model' });
     attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, kept: 0 }] });
@@ -124,7 +125,7 @@ describe('opening a model of the visitor', () => {
     const before = store.getState();
     const opened = link.open(folder);
     attempts[1]?.tell({ kind: 'download', parts: [{ name: 'model', loaded: 1, total: 2, kept: 0 }] });
-    attempts[1]?.fail(new ModelError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
+    attempts[1]?.fail(new AppError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
     expect(await opened).toBe(false);
     const { problem, ...after } = store.getState();
     expect(problem).toMatchObject({ code: 'model-missing' });

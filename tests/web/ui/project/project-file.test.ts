@@ -2,7 +2,7 @@ import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { projectOpened, startedAfresh } from '../../../../web/ui/store/actions/project';
-import { ProjectError } from '../../../../web/ui/project/error';
+import { AppError } from '../../../../web/common/error';
 import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/project/schema';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type Rereaders, reviving } from '../../../../web/ui/project/restore';
@@ -304,7 +304,7 @@ describe('a broken project', () => {
     } catch (error) {
       caught = error;
     }
-    expect(caught).toBeInstanceOf(ProjectError);
+    expect(caught).toBeInstanceOf(AppError);
     expect(caught).toMatchObject({ code, message: words, hint: expect.stringMatching(/\w/) as string });
   });
 });

@@ -1,0 +1,162 @@
+import { afterEach, describe, expect, it, vi } from 'vitest';
+import { AppError } from '../../../web/common/error';
+import { runInWorker, serve, type TaskContext, WorkerConnection } from '../../../web/common/run-in-worker';
+
+const seen: { signal?: AbortSignal; buffers: ArrayBuffer[] } = { buffers: [] };
+
+const tasks = {
+  double(
+    { values }: { values: Float32Array },
+    { report }: TaskContext<{ half: Float32Array }>,
+  ): Float32Array {
+    report({ half: values.map((value) => value / 2) });
+    const doubled = values.map((value) => 2 * value);
+    seen.buffers.push(doubled.buffer);
+    return doubled;
+  },
+  refuse: (_: object): never => {
+    throw new AppError('bad-request', 'It has no frames.', 'Give it some.');
+  },
+  crash: (_: object): never => {
+    throw new RangeError('out of memory');
+  },
+  wait: (_: object, { signal }: TaskContext<never>): Promise<void> => {
+    seen.signal = signal;
+    return new Promise((_resolve, reject) =>
+      signal.addEventListener('abort', () => reject(signal.reason as Error)),
+    );
+  },
+};
+type Tested = typeof tasks;
+
+/** A worker on this thread. */
+class LocalWorker extends EventTarget {
+  readonly #channel = new MessageChannel();
+  terminated = false;
+
+  constructor() {
+    super();
+    serve(tasks, this.#channel.port2);
+    this.#channel.port1.addEventListener('message', ({ data }: MessageEvent<unknown>) =>
+      this.dispatchEvent(new MessageEvent('message', { data })),
+    );
+    this.#channel.port1.start();
+    opened.push(this);
+  }
+
+  postMessage(message: unknown, transfers: Transferable[] = []): void {
+    this.#channel.port1.postMessage(message, transfers);
+  }
+
+  terminate(): void {
+    this.terminated = true;
+    this.#channel.port1.close();
+  }
+}
+
+const opened: LocalWorker[] = [];
+const open = (): Worker => new LocalWorker() as unknown as Worker;
+const fail = (worker: Worker, message: string): void => {
+  worker.dispatchEvent(Object.assign(new Event('error', { cancelable: true }), { message }));
+};
+
+afterEach(() => {
+  for (const worker of opened.splice(0)) worker.terminate();
+});
+
+describe('a connection to a worker', () => {
+  it('answers several calls at once, with reports, and transfers what is given away', async () => {
+    const connection = new WorkerConnection<Tested>(open());
+    const values = Float32Array.of(1, 2);
+    const reports: { half: Float32Array }[] = [];
+    const answers = await Promise.all([
+      connection.call('double', { values }, { onReport: (report) => reports.push(report) }),
+      connection.call('double', { values: Float32Array.of(5) }),
+    ]);
+    expect(answers).toEqual([Float32Array.of(2, 4), Float32Array.of(10)]);
+    expect(reports).toEqual([{ half: Float32Array.of(0.5, 1) }]);
+    // The input was copied, the output left the worker.
+    expect(values).toHaveLength(2);
+    expect(seen.buffers.splice(0).map((buffer) => buffer.byteLength)).toEqual([0, 0]);
+    await connection.call('double', { values }, { transfers: [values.buffer] });
+    expect(values).toHaveLength(0);
+  });
+
+  it('rejects with the error of the task and goes on', async () => {
+    const connection = new WorkerConnection<Tested>(open());
+    const error = await connection.call('refuse', {}).catch((reason: unknown) => reason);
+    expect(error).toBeInstanceOf(AppError);
+    expect(error).toMatchObject({ code: 'bad-request', message: 'It has no frames.', hint: 'Give it some.' });
+    expect(connection.ended).toBe(false);
+    expect(await connection.call('double', { values: Float32Array.of(1) })).toEqual(Float32Array.of(2));
+  });
+
+  it('rejects at once when it is cancelled, tells the task, and goes on', async () => {
+    const connection = new WorkerConnection<Tested>(open());
+    const controller = new AbortController();
+    const waiting = connection.call('wait', {}, { signal: controller.signal });
+    await vi.waitFor(() => expect(seen.signal?.aborted).toBe(false));
+    controller.abort();
+    await expect(waiting).rejects.toBe(controller.signal.reason);
+    await vi.waitFor(() => expect(seen.signal?.aborted).toBe(true));
+    await expect(connection.call('wait', {}, { signal: controller.signal })).rejects.toBe(
+      controller.signal.reason,
+    );
+    expect(await connection.call('double', { values: Float32Array.of(1) })).toEqual(Float32Array.of(2));
+  });
+
+  it('ends with anything unforeseen, in the words that were asked for', async () => {
+    const worker = open();
+    const connection = new WorkerConnection<Tested>(worker, (reason) => new Error(`Stopped: ${reason}`));
+    const waiting = connection.call('wait', {});
+    const both = Promise.allSettled([waiting, connection.call('crash', {})]);
+    expect(await both).toMatchObject([
+      { status: 'rejected', reason: { message: 'Stopped: out of memory' } },
+      { status: 'rejected', reason: { message: 'Stopped: out of memory' } },
+    ]);
+    expect(connection.ended).toBe(true);
+    expect(worker).toHaveProperty('terminated', true);
+    await expect(connection.call('double', { values: Float32Array.of(1) })).rejects.toThrow('out of memory');
+  });
+
+  it.each([
+    ['an error of its script', 'the roof fell in', 'the roof fell in'],
+    ['a script that is not there', '', 'its script could not be loaded'],
+  ])('ends with %s', async (_, message, reason) => {
+    const worker = open();
+    const connection = new WorkerConnection<Tested>(worker);
+    const waiting = connection.call('wait', {});
+    fail(worker, message);
+    await expect(waiting).rejects.toThrow(reason);
+    expect(connection.ended).toBe(true);
+  });
+
+  it('rejects what is under way when it is disposed of', async () => {
+    const connection = new WorkerConnection<Tested>(open());
+    const waiting = connection.call('wait', {});
+    connection.dispose();
+    await expect(waiting).rejects.toMatchObject({ name: 'AbortError' });
+  });
+});
+
+describe('a task in a worker of its own', () => {
+  it.each([
+    ['done', 'double', true],
+    ['refused', 'refuse', false],
+  ] as const)('ends the worker when it is %s', async (_, name, succeeds) => {
+    const worker = open();
+    const values = Float32Array.of(1);
+    const result = runInWorker<Tested, typeof name>(worker, name, { values });
+    await (succeeds ? result : expect(result).rejects.toThrow(AppError));
+    expect(worker).toHaveProperty('terminated', true);
+  });
+
+  it('ends the worker at once when it is cancelled', async () => {
+    const worker = open();
+    const controller = new AbortController();
+    const result = runInWorker<Tested, 'wait'>(worker, 'wait', {}, { signal: controller.signal });
+    controller.abort();
+    await expect(result).rejects.toBe(controller.signal.reason);
+    expect(worker).toHaveProperty('terminated', true);
+  });
+});

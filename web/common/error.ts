@@ -1,0 +1,65 @@
+/** What can go wrong: the same name in tests, in the page's `data-code` and in logs. */
+export type ErrorCode =
+  // A file, of a motion or a song.
+  | 'empty-file'
+  | 'unreadable-file'
+  | 'too-long'
+  // A motion.
+  | 'not-bvh'
+  | 'truncated'
+  | 'bad-hierarchy'
+  | 'bad-number'
+  | 'wrong-columns'
+  | 'bad-frame-time'
+  | 'too-few-frames'
+  | 'several-roots'
+  | 'missing-joints'
+  | 'not-a-body'
+  // A song.
+  | 'not-audio'
+  | 'no-sound'
+  | 'bad-recipe'
+  | 'playback-refused'
+  // The model, and what is asked of it.
+  | 'model-missing'
+  | 'manifest-invalid'
+  | 'model-unsupported'
+  | 'model-corrupt'
+  | 'model-mismatch'
+  | 'download-failed'
+  | 'bad-request'
+  | 'not-finite'
+  // A worker.
+  | 'worker-crashed'
+  // The stage.
+  | 'webgl-missing'
+  | 'webgl-lost'
+  // A file to save.
+  | 'nothing-to-write'
+  | 'video-unsupported'
+  | 'video-failed'
+  | 'sound-failed'
+  // A project file.
+  | 'not-a-project'
+  | 'damaged-project'
+  | 'newer-project'
+  | 'missing-part'
+  | 'too-large';
+
+/** A failure that was foreseen: what is wrong, and what the visitor can do about it. */
+export class AppError extends Error {
+  override readonly name = 'AppError';
+
+  /**
+   * @param message one sentence that says what is wrong and where (line, joint, file, field)
+   * @param hint what the visitor can do about it, in one or two sentences
+   */
+  constructor(
+    readonly code: ErrorCode,
+    message: string,
+    readonly hint: string,
+    options?: ErrorOptions,
+  ) {
+    super(message, options);
+  }
+}

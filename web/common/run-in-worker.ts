@@ -1,0 +1,198 @@
+/**
+ * Calls between the page and its workers, over comlink. A worker offers tasks by name with `serve`; the page calls them
+ * through a `WorkerConnection`, or with `runInWorker` where each call gets a worker of its own.
+ */
+import { type Endpoint, expose, proxy, type Remote, transfer, wrap } from 'comlink';
+import { AppError } from './error';
+
+export interface TaskContext<Report> {
+  /** Aborted when the page cancels this call. */
+  readonly signal: AbortSignal;
+  /** Sends something to the page before the task ends; its buffers are transferred. */
+  report(this: void, report: Report): void;
+}
+
+/** What a worker does on a call. It gives its output away: all buffers in it are transferred to the page. */
+export type Task<Input, Output, Report = never> = (
+  input: Input,
+  context: TaskContext<Report>,
+) => Output | Promise<Output>;
+
+export type Tasks = Readonly<Record<string, Task<never, unknown, never>>>;
+
+type InputOf<T extends Tasks[string]> = Parameters<T>[0];
+type OutputOf<T extends Tasks[string]> = Awaited<ReturnType<T>>;
+type ReportOf<T extends Tasks[string]> = Parameters<T>[1] extends TaskContext<infer R> ? R : never;
+
+export interface CallOptions<Report = never> {
+  /** Cancels the call. */
+  readonly signal?: AbortSignal | undefined;
+  readonly onReport?: ((report: Report) => void) | undefined;
+  /** Buffers of the input that are handed to the worker instead of copied. */
+  readonly transfers?: readonly ArrayBufferLike[] | undefined;
+}
+
+/** Errors cross as data: a structured clone would lose code and hint. */
+type Outcome =
+  | { readonly kind: 'done'; readonly output: unknown }
+  | { readonly kind: 'refused'; readonly error: Pick<AppError, 'code' | 'message' | 'hint'> }
+  | { readonly kind: 'cancelled' }
+  /** Anything unforeseen, out of memory or a lost GPU for example; the worker is not to be used again. */
+  | { readonly kind: 'crashed'; readonly reason: string };
+
+interface TaskRunner {
+  call(id: number, name: string, input: unknown, report: (report: unknown) => void): Promise<Outcome>;
+  cancel(id: number): void;
+}
+
+/** In a worker: answers the page's calls, which come through `port`, with these tasks. */
+export function serve(tasks: Tasks, port?: Endpoint): void {
+  const running = new Map<number, AbortController>();
+  const runner: TaskRunner = {
+    async call(id, name, input, report) {
+      const controller = new AbortController();
+      running.set(id, controller);
+      const { signal } = controller;
+      try {
+        const task = tasks[name] as Task<unknown, unknown, unknown>;
+        const output = await task(input, { signal, report: (value) => report(handOver(value)) });
+        return handOver({ kind: 'done', output });
+      } catch (error) {
+        return failure(error, signal);
+      } finally {
+        running.delete(id);
+      }
+    },
+    cancel(id) {
+      running.get(id)?.abort();
+    },
+  };
+  expose(runner, port);
+}
+
+function failure(error: unknown, signal: AbortSignal): Outcome {
+  if (signal.aborted) return { kind: 'cancelled' };
+  if (error instanceof AppError) {
+    const { code, message, hint } = error;
+    return { kind: 'refused', error: { code, message, hint } };
+  }
+  return { kind: 'crashed', reason: error instanceof Error ? error.message : String(error) };
+}
+
+/** Marks all buffers of a value of plain objects, arrays and typed arrays to be transferred with it. */
+function handOver<T>(value: T): T {
+  const buffers = new Set<ArrayBuffer>();
+  const collect = (part: unknown): void => {
+    if (ArrayBuffer.isView(part)) {
+      if (part.buffer instanceof ArrayBuffer) buffers.add(part.buffer);
+    } else if (typeof part === 'object' && part !== null) Object.values(part).forEach(collect);
+  };
+  collect(value);
+  return buffers.size > 0 ? transfer(value, [...buffers]) : value;
+}
+
+/** A worker that answers many calls, until it crashes or is disposed of. */
+export class WorkerConnection<T extends Tasks> {
+  readonly #worker: Worker;
+  readonly #remote: Remote<TaskRunner>;
+  readonly #toError: (reason: string) => Error;
+  /** Rejected when the worker ends, so that no call waits for its answer for ever. */
+  readonly #end: Promise<never>;
+  #reject: (error: Error) => void = () => undefined;
+  #ended = false;
+  #calls = 0;
+
+  /** @param toError makes the error of a crash, given its reason in the browser's words */
+  constructor(worker: Worker, toError: (reason: string) => Error = (reason) => new Error(reason)) {
+    this.#worker = worker;
+    this.#remote = wrap<TaskRunner>(worker);
+    this.#toError = toError;
+    this.#end = new Promise((_, reject) => (this.#reject = reject));
+    // Nobody may be waiting when it ends.
+    this.#end.catch(() => undefined);
+    worker.addEventListener('error', (event) => {
+      event.preventDefault();
+      this.dispose(toError(event.message || 'its script could not be loaded'));
+    });
+    worker.addEventListener('messageerror', () => this.dispose(toError('a message could not be read')));
+  }
+
+  /** True after a crash or `dispose`: calls fail. */
+  get ended(): boolean {
+    return this.#ended;
+  }
+
+  /**
+   * Has the worker do a task.
+   * @throws the task's {AppError}; the error of a crash; the signal's reason, at once, while the worker hears of it when
+   * its task next lets messages in
+   */
+  async call<K extends keyof T & string>(
+    name: K,
+    input: InputOf<T[K]>,
+    { signal, onReport, transfers = [] }: CallOptions<ReportOf<T[K]>> = {},
+  ): Promise<OutputOf<T[K]>> {
+    signal?.throwIfAborted();
+    const id = ++this.#calls;
+    let over = false;
+    const report = proxy((value: unknown): void => {
+      if (!over) onReport?.(value as ReportOf<T[K]>);
+    });
+    let cancel: () => void = () => undefined;
+    const cancelled = new Promise<never>((_, reject) => {
+      cancel = () => {
+        void this.#remote.cancel(id);
+        reject(signal?.reason as Error);
+      };
+    });
+    signal?.addEventListener('abort', cancel);
+    try {
+      const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
+      const outcome = await Promise.race([call, this.#end, cancelled]);
+      if (outcome.kind === 'done') return outcome.output as OutputOf<T[K]>;
+      throw this.#errorOf(outcome);
+    } finally {
+      over = true;
+      signal?.removeEventListener('abort', cancel);
+    }
+  }
+
+  #errorOf(outcome: Exclude<Outcome, { kind: 'done' }>): Error {
+    switch (outcome.kind) {
+      case 'refused':
+        return new AppError(outcome.error.code, outcome.error.message, outcome.error.hint);
+      case 'cancelled':
+        return new DOMException('Cancelled.', 'AbortError');
+      case 'crashed': {
+        const error = this.#toError(outcome.reason);
+        this.dispose(error);
+        return error;
+      }
+    }
+  }
+
+  /** Ends the worker; calls under way are rejected with `reason`. */
+  dispose(reason: Error = new DOMException('The worker was ended.', 'AbortError')): void {
+    this.#ended = true;
+    this.#worker.terminate();
+    this.#reject(reason);
+  }
+}
+
+/**
+ * Does one task in a worker of its own, which is ended with it: at once when the signal is aborted.
+ * @throws as `WorkerConnection.call`
+ */
+export async function runInWorker<T extends Tasks, K extends keyof T & string>(
+  worker: Worker,
+  name: K,
+  input: InputOf<T[K]>,
+  options: CallOptions<ReportOf<T[K]>> & { readonly toError?: (reason: string) => Error } = {},
+): Promise<OutputOf<T[K]>> {
+  const connection = new WorkerConnection<T>(worker, options.toError);
+  try {
+    return await connection.call(name, input, options);
+  } finally {
+    connection.dispose();
+  }
+}
