@@ -6,6 +6,7 @@ import type { Camera } from './ui/download/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
+import { createOffscreenStage } from './view/offscreen-stage';
 import type { PictureSize, Stage } from './view/stage';
 
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
@@ -31,7 +32,10 @@ export function showOn(shown: Stage, store: Store): () => void {
         // which of two takes side by side is on the stage, each of which goes on in its half.
         const half = besideStage(state) && state.letter;
         const now = `${madeRole(state)} ${state.footLock} ${half}`;
-        shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
+        shown.setDancers(couple(state), {
+          made: madeRole(state),
+          crossfade: now === shownAs && !calm.matches,
+        });
         shownAs = now;
       },
     ),
@@ -71,7 +75,7 @@ export function showOn(shown: Stage, store: Store): () => void {
 
 /** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
-  const film = from.film(size);
+  const film = createOffscreenStage(from, size);
   try {
     showOn(film, store)();
     const framing = from.framing();

@@ -1,6 +1,6 @@
 import { beforeAll, expect, it, vi } from 'vitest';
 import type { Role } from '../../web/view/theme';
-import type { Entrance, Stage } from '../../web/view/stage';
+import type { DancerOptions, Stage } from '../../web/view/stage';
 import type { AppState, Inputs, Take } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
 import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
@@ -35,7 +35,7 @@ it('passes softly from one take to the next, but not where each goes on in a hal
   const entrances: (boolean | undefined)[] = [];
   const nothing = (): void => undefined;
   const stage = new Proxy(
-    { setDancers: (_: unknown, how?: Entrance) => entrances.push(how?.softly) },
+    { setDancers: (_: unknown, how?: DancerOptions) => entrances.push(how?.crossfade) },
     { get: (known, name) => (name in known ? known.setDancers : nothing) },
   ) as unknown as Stage;
   const stop = showOn(stage, store);

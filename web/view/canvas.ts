@@ -4,7 +4,7 @@ import { ViewError } from './error';
 import { copySheet, plainSheet } from './frame-presenter';
 
 /** A picture of the couple over the whole canvas, or one of its two halves. */
-export type Picture = 'whole' | 'left' | 'right';
+export type Viewport = 'whole' | 'left' | 'right';
 
 /** The canvas in the page and the renderer that draws on it. */
 export interface Canvas {
@@ -22,7 +22,7 @@ export interface Canvas {
   /** Takes so much of the pixels along each side, 0 to 1; true when that is another share, and what was drawn is lost. */
   sharpen(factor: number): boolean;
   /** Says where the next picture goes, and returns that place in CSS pixels. */
-  aim(picture: Picture): Area;
+  aim(viewport: Viewport): Area;
   /** What smooths the edges of a picture where they are not drawn smooth, for want of a graphics card. */
   readonly edges: Edges | null;
   /** All of a picture has been drawn. */
@@ -134,11 +134,11 @@ export function createCanvas(
       renderer.setPixelRatio(ratio() * sharpness);
       return true;
     },
-    aim(picture) {
+    aim(viewport) {
       const { width, height } = size;
-      const left = picture === 'right' ? width / 2 : 0;
-      const wide = picture === 'whole' ? width : width / 2;
-      renderer.setScissorTest(picture !== 'whole');
+      const left = viewport === 'right' ? width / 2 : 0;
+      const wide = viewport === 'whole' ? width : width / 2;
+      renderer.setScissorTest(viewport !== 'whole');
       renderer.setViewport(left, 0, wide, height);
       renderer.setScissor(left, 0, wide, height);
       return { left, bottom: 0, width: wide, height };

@@ -1,7 +1,7 @@
 import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { BodyLibrary } from '../body/library';
-import type { Picture } from '../canvas';
+import type { Viewport } from '../canvas';
 import { createDancer, type Dancer } from './dancer';
 import { measureCouple, type Couple } from '../camera/framing';
 import type { Paint } from './body-material';
@@ -39,7 +39,7 @@ export interface Cast {
    * Lets those be seen who are in a picture, as they were posed: in one half the couple, in the other half the loaded
    * dancer with the other take, turned to it. Each half has the coarse layer of its own take.
    */
-  arrange(picture: Picture): readonly Figure[];
+  arrange(viewport: Viewport): readonly Figure[];
   /** Joints of everybody to be seen in the picture that was arranged last, 22 x 3 world positions each. */
   seen(): readonly Float32Array[];
   joints(part: Part): Float32Array;
@@ -133,14 +133,14 @@ export function createCast(library: BodyLibrary, paint: () => Paint, onBody: () 
       const joints = (part: Part): Float32Array => dancers[part].jointPositions();
       return measureCouple(ROLES.filter(there).map(joints), there('other') ? [joints('other')] : []);
     },
-    arrange(picture) {
-      const others = picture === mode;
+    arrange(viewport) {
+      const others = viewport === mode;
       const partner = others ? 'other' : made;
       attend(partner);
       dancers[loaded()].show(true);
       dancers[made].show(!others);
       dancers.coarse.show(!others && shown.ghost);
-      dancers.other.show(others || (picture === 'whole' && mode === 'ghost'));
+      dancers.other.show(others || (viewport === 'whole' && mode === 'ghost'));
       dancers.otherCoarse.show(others && shown.ghost);
       return [...figure(loaded(), loaded()), ...figure(made, partner)];
     },
