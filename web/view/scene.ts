@@ -2,7 +2,7 @@ import { Color, Scene } from 'three';
 import type { Couple } from './camera/framing';
 import type { Viewport } from './canvas';
 import { createContacts } from './contact-shadows';
-import type { Cast } from './dancer/dancers';
+import type { Dancers } from './dancer/dancers';
 import { createFloor } from './floor';
 import { createLights } from './lights';
 import { createShows } from './overlays/overlays';
@@ -17,7 +17,7 @@ export class StageScene {
   private readonly contactShadows = createContacts();
   private readonly lights = createLights();
 
-  constructor(readonly dancers: Cast) {
+  constructor(readonly dancers: Dancers) {
     this.scene.background = this.background;
     const { floor, contactShadows, lights, overlays } = this;
     for (const { object } of [floor, contactShadows, lights, dancers, overlays]) this.scene.add(object);

@@ -1,9 +1,9 @@
 import type { BodyLibrary } from './body/library';
-import { createCameraRig, type CameraRig } from './camera/camera-rig';
+import { CameraRig } from './camera/camera-rig';
 import { easing, isFar, measureCouple, nearestTurn, type Couple } from './camera/framing';
-import { createCanvas, type Canvas, type PictureSize, type Viewport } from './canvas';
+import { Canvas, type PictureSize, type Viewport } from './canvas';
 import { cornerPaint, pixelPaint } from './dancer/body-material';
-import { createCast } from './dancer/dancers';
+import { Dancers } from './dancer/dancers';
 import { areaOf } from './edge-smoothing';
 import { StageScene } from './scene';
 
@@ -47,16 +47,14 @@ export class StageRenderer {
     host: HTMLElement,
     { library, byProcessor, fixedSize, invalidate, onPresented }: RendererOptions,
   ) {
-    this.canvas = createCanvas(host, byProcessor, fixedSize, {
-      onRestored: () => {
-        this.shadowsStale = true;
-        invalidate();
-      },
-      onShown: onPresented,
-    });
-    this.contents = new StageScene(createCast(library, byProcessor ? cornerPaint : pixelPaint, invalidate));
+    const onRestored = (): void => {
+      this.shadowsStale = true;
+      invalidate();
+    };
+    this.canvas = new Canvas(host, byProcessor, fixedSize, onRestored, onPresented);
+    this.contents = new StageScene(new Dancers(library, byProcessor ? cornerPaint : pixelPaint, invalidate));
     const reducedMotion = fixedSize ? null : matchMedia('(prefers-reduced-motion: reduce)');
-    this.rig = createCameraRig(this.canvas.element, invalidate, reducedMotion);
+    this.rig = new CameraRig(this.canvas.element, invalidate, reducedMotion);
     this.lightHeading = this.rig.heading;
   }
 
@@ -120,10 +118,10 @@ export class StageRenderer {
     const cameraMoves = rig.update(dt, couple, danced);
     const lightsTurn = this.turnLights(dt, danced);
     contents.centreOn(couple, this.lightHeading);
-    dancers.setFar(isFar(rig.camera.position, couple, canvas.renderer.domElement.height));
+    dancers.setLowDetail(isFar(rig.camera.position, couple, canvas.renderer.domElement.height));
     canvas.renderer.info.reset();
     for (const viewport of dancers.split ? HALVES : WHOLE) this.drawViewport(viewport);
-    canvas.drawn();
+    canvas.frameDone();
     this.drawnFrames++;
     return cameraMoves || crossfading || lightsTurn;
   }
@@ -147,14 +145,14 @@ export class StageRenderer {
 
   private drawViewport(viewport: Viewport): void {
     const { renderer, edges } = this.canvas;
-    const place = this.canvas.aim(viewport);
+    const place = this.canvas.setViewport(viewport);
     const occupied = this.contents.arrange(viewport, this.seconds) > 0;
     // Without a graphics card an empty floor's shadows cost as much as a couple's.
     renderer.shadowMap.autoUpdate = this.shadowsStale || occupied;
     this.shadowsStale = occupied;
     renderer.render(this.contents.scene, this.rig.camera);
     if (!edges) return;
-    const area = areaOf(this.contents.dancers.seen(), this.rig.camera, place, BODY_MARGIN);
+    const area = areaOf(this.contents.dancers.visibleJoints(), this.rig.camera, place, BODY_MARGIN);
     if (area) edges.smooth(area);
   }
 }

@@ -2,7 +2,7 @@ import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
 import type { Framing, View } from './camera/framing';
 import type { PictureSize } from './canvas';
-import type { OtherMode, Part } from './dancer/dancers';
+import type { DancerName, OtherMode } from './dancer/dancers';
 import { createSharpness } from './dynamic-resolution';
 import { createLoop, idleLoop, type Loop } from './frame-loop';
 import { drawnByProcessor } from './frame-presenter';
@@ -163,7 +163,7 @@ export class Stage {
    * is drawn, at about a quarter fewer frames a second.
    */
   setPatient(busy: boolean): void {
-    if (this.view.canvas.setPatient(busy)) this.loop.flush();
+    if (this.view.canvas.setBusy(busy)) this.loop.flush();
   }
 
   /** Brings both dancers into the picture. */
@@ -199,14 +199,14 @@ export class Stage {
 
   /** Resolves when the bodies of all dancers on the stage have been made and drawn. */
   async ready(): Promise<void> {
-    await this.view.contents.dancers.dressed();
+    await this.view.contents.dancers.bodiesReady();
     this.loop.flush();
   }
 
   /** World positions of the 22 joints as drawn right now (22 x 3, metres); zeros without a motion. */
-  jointPositions(part: Part): Float32Array {
+  jointPositions(name: DancerName): Float32Array {
     this.view.pose();
-    return this.view.contents.dancers.joints(part);
+    return this.view.contents.dancers.joints(name);
   }
 
   dispose(): void {
@@ -232,13 +232,13 @@ export class Stage {
     const sharpness = createSharpness();
     return createLoop({
       draw: (dt) => this.drawFrame(dt),
-      shown: () => canvas.shown(),
+      shown: () => canvas.presented,
       due(waited) {
         sharpness.waited(waited);
-        canvas.sharpen(sharpness.factor);
+        canvas.setResolution(sharpness.factor);
       },
       rest: () => {
-        if (canvas.sharpen(1)) this.loop.flush();
+        if (canvas.setResolution(1)) this.loop.flush();
       },
     });
   }
