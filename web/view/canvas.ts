@@ -1,7 +1,7 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
-import { createEdges, type Area, type Edges } from './edge-smoothing';
+import { createEdgeSmoothing, type Rect, type EdgeSmoothing } from './edge-smoothing';
 import { ViewError } from './error';
-import { copySheet, plainSheet, type Sheet } from './frame-presenter';
+import { createCopyPresenter, createDirectPresenter, type FramePresenter } from './frame-presenter';
 
 /** The whole canvas, or one half of a split view. */
 export type Viewport = 'whole' | 'left' | 'right';
@@ -39,14 +39,14 @@ function createRenderer(preserved: boolean, antialias: boolean): WebGLRenderer {
 export class Canvas {
   readonly renderer: WebGLRenderer;
   /** Smooths the edges of what has been drawn, for renderers without a graphics card; null where they are drawn smooth. */
-  readonly edges: Edges | null;
-  private readonly presenter: Sheet;
+  readonly edgeSmoothing: EdgeSmoothing | null;
+  private readonly presenter: FramePresenter;
   private cssSize = { width: 1, height: 1 };
   private resolution = 1;
   private contextLost = false;
 
   /**
-   * @param byProcessor whether the processor draws, for want of a graphics card
+   * @param softwareRendered whether WebGL is drawn by software, without a graphics card
    * @param fixedSize of pictures that leave the page one by one; null follows the host
    * @param onRestored called when a lost graphics card is there again
    * @param onPresented called when a frame that was not `presented` at once is on the page
@@ -54,15 +54,17 @@ export class Canvas {
    */
   constructor(
     host: HTMLElement,
-    byProcessor: boolean,
+    softwareRendered: boolean,
     private readonly fixedSize: PictureSize | null,
     private readonly onRestored: () => void,
     onPresented: () => void,
   ) {
-    const copied = byProcessor && fixedSize === null;
-    this.renderer = createRenderer(copied, !byProcessor);
-    this.edges = byProcessor ? createEdges(this.renderer) : null;
-    this.presenter = copied ? copySheet(this.renderer, onPresented) : plainSheet(this.renderer);
+    const copied = softwareRendered && fixedSize === null;
+    this.renderer = createRenderer(copied, !softwareRendered);
+    this.edgeSmoothing = softwareRendered ? createEdgeSmoothing(this.renderer) : null;
+    this.presenter = copied
+      ? createCopyPresenter(this.renderer, onPresented)
+      : createDirectPresenter(this.renderer);
     const { domElement, shadowMap, info } = this.renderer;
     domElement.style.display = 'block';
     domElement.addEventListener('webglcontextlost', this.loseContext);
@@ -113,7 +115,7 @@ export class Canvas {
   }
 
   /** Limits drawing to a viewport, and returns its place in CSS pixels. */
-  setViewport(viewport: Viewport): Area {
+  setViewport(viewport: Viewport): Rect {
     const { width, height } = this.cssSize;
     const left = viewport === 'right' ? width / 2 : 0;
     const wide = viewport === 'whole' ? width : width / 2;
@@ -125,22 +127,22 @@ export class Canvas {
 
   /** Says that all of a frame has been asked of the renderer. */
   frameDone(): void {
-    this.presenter.drawn();
+    this.presenter.frameDone();
   }
 
   /** Whether the last frame is on the page or comes there by itself. */
   get presented(): boolean {
-    return this.presenter.shown();
+    return this.presenter.presented;
   }
 
   /** Says whether the page has much else to do; true when a frame has to be drawn at once, see `FramePresenter`. */
   setBusy(busy: boolean): boolean {
-    return this.presenter.setPatient(busy);
+    return this.presenter.setBusy(busy);
   }
 
   dispose(): void {
     this.presenter.dispose();
-    this.edges?.dispose();
+    this.edgeSmoothing?.dispose();
     const { domElement } = this.renderer;
     domElement.removeEventListener('webglcontextlost', this.loseContext);
     domElement.removeEventListener('webglcontextrestored', this.restoreContext);

@@ -8,7 +8,7 @@ import { Stage } from './stage';
  * @throws {ViewError} `webgl-missing` when the browser gives no second context.
  */
 export function createOffscreenStage(stage: Stage, size: PictureSize): OffscreenStage {
-  return new OffscreenStage(document.createElement('div'), stage.library, stage.byProcessor, size);
+  return new OffscreenStage(document.createElement('div'), stage.library, stage.softwareRendered, size);
 }
 
 /** A stage that is never on the page and draws only when told to, for the pictures of a video. */
@@ -22,7 +22,7 @@ export class OffscreenStage extends Stage {
    *
    * @throws {ViewError} `webgl-lost` when the graphics card has taken the context away.
    */
-  shoot(seconds: number, dt: number): void {
+  drawAt(seconds: number, dt: number): void {
     if (this.view.canvas.lost) {
       throw new ViewError(
         'webgl-lost',

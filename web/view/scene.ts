@@ -1,20 +1,20 @@
 import { Color, Scene } from 'three';
 import type { Couple } from './camera/framing';
 import type { Viewport } from './canvas';
-import { createContacts } from './contact-shadows';
+import { createContactShadows } from './contact-shadows';
 import type { Dancers } from './dancer/dancers';
 import { createFloor } from './floor';
 import { createLights } from './lights';
-import { createShows } from './overlays/overlays';
+import { createOverlays } from './overlays/overlays';
 import type { Look } from './theme';
 
 /** Everything that the stage draws: background, floor, contact shadows, lights, dancers and overlays. */
 export class StageScene {
   readonly scene = new Scene();
-  readonly overlays = createShows();
+  readonly overlays = createOverlays();
   private readonly background = new Color();
   private readonly floor = createFloor();
-  private readonly contactShadows = createContacts();
+  private readonly contactShadows = createContactShadows();
   private readonly lights = createLights();
 
   constructor(readonly dancers: Dancers) {
@@ -34,7 +34,7 @@ export class StageScene {
    * @param heading direction from which the lights shine as for a camera there, radians about y
    */
   centreOn({ x, z }: Couple, heading: number): void {
-    this.lights.aim(x, z, heading);
+    this.lights.place(x, z, heading);
     this.floor.setCentre(x, z);
   }
 

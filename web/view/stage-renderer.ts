@@ -1,17 +1,17 @@
 import type { BodyLibrary } from './body/library';
 import { CameraRig } from './camera/camera-rig';
-import { easing, isFar, measureCouple, nearestTurn, type Couple } from './camera/framing';
+import { easing, isFar, measureCouple, nearestAngle, type Couple } from './camera/framing';
 import { Canvas, type PictureSize, type Viewport } from './canvas';
-import { cornerPaint, pixelPaint } from './dancer/body-material';
+import { perVertexMaterial, perPixelMaterial } from './dancer/body-material';
 import { Dancers } from './dancer/dancers';
-import { areaOf } from './edge-smoothing';
+import { screenBounds } from './edge-smoothing';
 import { StageScene } from './scene';
 
 /** What a renderer is made for. */
 export interface RendererOptions {
   readonly library: BodyLibrary;
-  /** Whether the processor draws, for want of a graphics card. */
-  readonly byProcessor: boolean;
+  /** Whether WebGL is drawn by software, without a graphics card. */
+  readonly softwareRendered: boolean;
   /** Size of pictures that are drawn one by one off the page, pixels; null follows the host element. */
   readonly fixedSize: PictureSize | null;
   /** Called when something has changed and a frame has to be drawn. */
@@ -45,14 +45,16 @@ export class StageRenderer {
 
   constructor(
     host: HTMLElement,
-    { library, byProcessor, fixedSize, invalidate, onPresented }: RendererOptions,
+    { library, softwareRendered, fixedSize, invalidate, onPresented }: RendererOptions,
   ) {
     const onRestored = (): void => {
       this.shadowsStale = true;
       invalidate();
     };
-    this.canvas = new Canvas(host, byProcessor, fixedSize, onRestored, onPresented);
-    this.contents = new StageScene(new Dancers(library, byProcessor ? cornerPaint : pixelPaint, invalidate));
+    this.canvas = new Canvas(host, softwareRendered, fixedSize, onRestored, onPresented);
+    this.contents = new StageScene(
+      new Dancers(library, softwareRendered ? perVertexMaterial : perPixelMaterial, invalidate),
+    );
     const reducedMotion = fixedSize ? null : matchMedia('(prefers-reduced-motion: reduce)');
     this.rig = new CameraRig(this.canvas.element, invalidate, reducedMotion);
     this.lightHeading = this.rig.heading;
@@ -134,7 +136,7 @@ export class StageRenderer {
 
   /** Lets the lights follow the camera's heading; true while they visibly do. */
   private turnLights(dt: number, danced: boolean): boolean {
-    const turn = nearestTurn(this.rig.heading, this.lightHeading) - this.lightHeading;
+    const turn = nearestAngle(this.rig.heading, this.lightHeading) - this.lightHeading;
     if (this.rig.jumps) {
       this.lightHeading += turn;
       return false;
@@ -144,15 +146,15 @@ export class StageRenderer {
   }
 
   private drawViewport(viewport: Viewport): void {
-    const { renderer, edges } = this.canvas;
+    const { renderer, edgeSmoothing } = this.canvas;
     const place = this.canvas.setViewport(viewport);
     const occupied = this.contents.arrange(viewport, this.seconds) > 0;
     // Without a graphics card an empty floor's shadows cost as much as a couple's.
     renderer.shadowMap.autoUpdate = this.shadowsStale || occupied;
     this.shadowsStale = occupied;
     renderer.render(this.contents.scene, this.rig.camera);
-    if (!edges) return;
-    const area = areaOf(this.contents.dancers.visibleJoints(), this.rig.camera, place, BODY_MARGIN);
-    if (area) edges.smooth(area);
+    if (!edgeSmoothing) return;
+    const rect = screenBounds(this.contents.dancers.visibleJoints(), this.rig.camera, place, BODY_MARGIN);
+    if (rect) edgeSmoothing.smooth(rect);
   }
 }

@@ -3,11 +3,11 @@ import { createBodyLibrary, type BodyLibrary } from './body/library';
 import type { Framing, View } from './camera/framing';
 import type { PictureSize } from './canvas';
 import type { DancerName, OtherMode } from './dancer/dancers';
-import { createSharpness } from './dynamic-resolution';
-import { createLoop, idleLoop, type Loop } from './frame-loop';
-import { drawnByProcessor } from './frame-presenter';
-import type { Shown } from './overlays/overlays';
-import { createHalves, type Labels } from './split-labels';
+import { createDynamicResolution } from './dynamic-resolution';
+import { createFrameLoop, idleLoop, type FrameLoop } from './frame-loop';
+import { isSoftwareRendered } from './frame-presenter';
+import type { VisibleOverlays } from './overlays/overlays';
+import { createSplitLabels, type Labels, type SplitLabels } from './split-labels';
 import { StageRenderer } from './stage-renderer';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';
 
@@ -47,37 +47,37 @@ export interface OtherTake {
  * @throws {ViewError} `webgl-missing` when the browser has no WebGL 2.
  */
 export function createStage(host: HTMLElement): Stage {
-  return new Stage(host, createBodyLibrary(), drawnByProcessor(), null);
+  return new Stage(host, createBodyLibrary(), isSoftwareRendered(), null);
 }
 
 /** The 3D view of the couple. */
 export class Stage {
   protected readonly view: StageRenderer;
-  private readonly loop: Loop;
-  private readonly splitLabels: ReturnType<typeof createHalves>;
+  private readonly loop: FrameLoop;
+  private readonly splitLabels: SplitLabels;
   private readonly resizeObserver: ResizeObserver;
   private readonly frameListeners = new Set<(stats: StageStats) => void>();
 
   /**
-   * @param library of bodies; the stage that follows its host disposes of it
-   * @param byProcessor whether the processor draws, for want of a graphics card
+   * @param library of bodies; shared with offscreen stages, disposed of by the stage that follows its host
+   * @param softwareRendered whether WebGL is drawn by software, without a graphics card
    * @param fixedSize of pictures that are drawn one by one; null follows the host and draws by itself
    */
   constructor(
     private readonly host: HTMLElement,
     readonly library: BodyLibrary,
-    readonly byProcessor: boolean,
+    readonly softwareRendered: boolean,
     private readonly fixedSize: PictureSize | null,
   ) {
     this.view = new StageRenderer(host, {
       library,
-      byProcessor,
+      softwareRendered,
       fixedSize,
       invalidate: () => this.loop.invalidate(),
       onPresented: () => this.loop.resume(),
     });
-    this.splitLabels = createHalves(host);
-    this.loop = fixedSize ? idleLoop : this.createLoop();
+    this.splitLabels = createSplitLabels(host);
+    this.loop = fixedSize ? idleLoop : this.createFrameLoop();
     this.resizeObserver = new ResizeObserver(() => this.resize());
     this.resizeObserver.observe(host);
     this.setTheme('dark');
@@ -99,12 +99,12 @@ export class Stage {
     this.view.invalidatePose();
     const couple = this.view.pose();
     if (dancers.present > before) {
-      this.view.rig.introduce(couple, before === 0);
+      this.view.rig.frameNewcomers(couple, before === 0);
       if (before === 0) this.view.alignLights();
     }
     this.loop.invalidate();
     // The rest of the page shows a new dance at the same moment; without a graphics card both at once take too long.
-    this.loop.pass();
+    this.loop.delay();
   }
 
   /**
@@ -133,9 +133,9 @@ export class Stage {
     this.view.rig.refit(this.view.pose());
   }
 
-  setShown(shown: Shown): void {
-    this.view.contents.dancers.setShown(shown);
-    this.view.contents.overlays.setShown(shown);
+  setOverlays(overlays: VisibleOverlays): void {
+    this.view.contents.dancers.setOverlays(overlays);
+    this.view.contents.overlays.setVisible(overlays);
     this.loop.invalidate();
   }
 
@@ -154,7 +154,7 @@ export class Stage {
   }
 
   /** Moves the couple to the right by CSS pixels, beside what lies over the picture. */
-  standAside(pixels: number): void {
+  shiftRight(pixels: number): void {
     this.view.rig.shift(pixels);
   }
 
@@ -162,7 +162,7 @@ export class Stage {
    * Says whether the page has much else to do. Where there is no graphics card it then stays responsive while a frame
    * is drawn, at about a quarter fewer frames a second.
    */
-  setPatient(busy: boolean): void {
+  setBusy(busy: boolean): void {
     if (this.view.canvas.setBusy(busy)) this.loop.flush();
   }
 
@@ -227,17 +227,17 @@ export class Stage {
     return moving;
   }
 
-  private createLoop(): Loop {
+  private createFrameLoop(): FrameLoop {
     const { canvas } = this.view;
-    const sharpness = createSharpness();
-    return createLoop({
+    const resolution = createDynamicResolution();
+    return createFrameLoop({
       draw: (dt) => this.drawFrame(dt),
-      shown: () => canvas.presented,
-      due(waited) {
-        sharpness.waited(waited);
-        canvas.setResolution(sharpness.factor);
+      presented: () => canvas.presented,
+      beforeFrame(waitedMs) {
+        resolution.frameWaited(waitedMs);
+        canvas.setResolution(resolution.share);
       },
-      rest: () => {
+      atRest: () => {
         if (canvas.setResolution(1)) this.loop.flush();
       },
     });

@@ -1,9 +1,9 @@
 import { Vector3, type PerspectiveCamera } from 'three';
-import { cutAlong, glideAlong, type Seen } from './following';
+import { followByJumps, followSmoothly, type FollowInput } from './following';
 import {
   fitDistance,
   measureCouple,
-  nearestTurn,
+  nearestAngle,
   reframed,
   shotOf,
   type Couple,
@@ -27,7 +27,7 @@ export class CameraRig {
   private view: View = 'orbit';
   private move: { readonly from: Shot; readonly to: Shot; done: number } | null = null;
   /** Whether the person has moved the camera. */
-  private touched = false;
+  private userMoved = false;
   /** Whether the person has chosen a distance, which is then kept. */
   private ownDistance = false;
   /** Shot when the gesture that is going on began. */
@@ -82,7 +82,7 @@ export class CameraRig {
   /** Moves to a view's first shot. */
   setView(view: View, couple: Couple): void {
     this.view = view;
-    const heading = view === 'top' ? couple.square : this.heading;
+    const heading = view === 'top' ? couple.sideHeading : this.heading;
     this.moveTo(shotOf(view, couple, this.orbit.aspect, heading));
   }
 
@@ -103,9 +103,9 @@ export class CameraRig {
   }
 
   /** Frames dancers who are new on the stage: the first at once, a partner with a move, unless the person moved it. */
-  introduce(couple: Couple, atOnce: boolean): void {
-    if (this.touched) return;
-    const shot = shotOf(this.view, couple, this.orbit.aspect, couple.square);
+  frameNewcomers(couple: Couple, atOnce: boolean): void {
+    if (this.userMoved) return;
+    const shot = shotOf(this.view, couple, this.orbit.aspect, couple.sideHeading);
     this.moveTo(shot);
     if (atOnce) this.placeAt(shot);
   }
@@ -127,7 +127,7 @@ export class CameraRig {
   frameAs(framing: Framing, couple: Couple): void {
     this.view = framing.view;
     this.ownDistance = framing.ownDistance;
-    this.touched = true;
+    this.userMoved = true;
     this.placeAt(reframed(framing, couple, this.orbit.aspect));
     this.tracked.set(couple.x + framing.tracked[0], 0, couple.z + framing.tracked[1]);
     this.onChange();
@@ -157,7 +157,7 @@ export class CameraRig {
     this.ownDistance = false;
     this.tracked.set(...shot.target);
     const from = this.orbit.shot;
-    const to = { ...shot, heading: nearestTurn(shot.heading, from.heading) };
+    const to = { ...shot, heading: nearestAngle(shot.heading, from.heading) };
     if (this.jumps) this.placeAt(to);
     else this.move = { from, to, done: 0 };
     this.onChange();
@@ -173,7 +173,7 @@ export class CameraRig {
 
   private beginGesture(): void {
     this.move = null;
-    this.touched = true;
+    this.userMoved = true;
     // When one of two fingers is lifted, the other starts anew: it is all one gesture.
     this.gestureStart ??= this.orbit.shot;
   }
@@ -185,7 +185,7 @@ export class CameraRig {
     this.gestureStart = null;
   }
 
-  /** Goes on with a move; true, for even the last step may not be seen yet. */
+  /** Goes on with a move; always true, so that the frame after the last step is drawn too. */
   private glide(move: NonNullable<CameraRig['move']>, dt: number): true {
     move.done = Math.min(1, move.done + dt / MOVE_SECONDS);
     const t = easeInOut(move.done);
@@ -207,16 +207,16 @@ export class CameraRig {
 
   /** Follows the couple; true while the camera moves. */
   private follow(dt: number, couple: Couple, danced: boolean): boolean {
-    const seen: Seen = {
+    const input: FollowInput = {
       view: this.view,
       aspect: this.orbit.aspect,
-      away: [couple.x - this.tracked.x, couple.z - this.tracked.z],
+      offset: [couple.x - this.tracked.x, couple.z - this.tracked.z],
       distance: this.orbit.shot.distance,
-      goal: fitDistance(couple, this.orbit.aspect),
-      free: !this.ownDistance && this.gestureStart === null && this.view !== 'top',
+      fitDistance: fitDistance(couple, this.orbit.aspect),
+      mayZoom: !this.ownDistance && this.gestureStart === null && this.view !== 'top',
     };
-    const { by, distance, moving } = this.jumps ? cutAlong(seen) : glideAlong(seen, dt, danced);
-    const [x, z] = by;
+    const { shift, distance, moving } = this.jumps ? followByJumps(input) : followSmoothly(input, dt, danced);
+    const [x, z] = shift;
     this.tracked.set(this.tracked.x + x, this.tracked.y, this.tracked.z + z);
     this.orbit.translate(x, z);
     if (distance !== null) this.orbit.shot = { ...this.orbit.shot, distance };

@@ -2,8 +2,8 @@ import { BufferGeometry, Group, SkinnedMesh } from 'three';
 import { toGeometry, type BodyGeometry } from '../body/geometry';
 import type { Body } from '../body/simplify';
 import type { Look, Role } from '../theme';
-import { createGlass, type Clarity } from './ghost-material';
-import type { Paint } from './body-material';
+import { createGhost, type Ghost, type GhostOpacity } from './ghost-material';
+import type { BodyMaterial } from './body-material';
 import type { Rig } from './rig';
 
 /**
@@ -12,7 +12,7 @@ import type { Rig } from './rig';
  */
 export type BodyStyle = 'solid' | 'translucent' | 'coarse' | 'other';
 
-const OPACITY: Readonly<Record<Exclude<BodyStyle, 'solid'>, Clarity>> = {
+const OPACITY: Readonly<Record<Exclude<BodyStyle, 'solid'>, GhostOpacity>> = {
   translucent: { facing: 0.14, grazing: 0.75 },
   coarse: { facing: 0.13, grazing: 0.85 },
   other: { facing: 0.24, grazing: 0.95 },
@@ -22,38 +22,38 @@ const OPACITY: Readonly<Record<Exclude<BodyStyle, 'solid'>, Clarity>> = {
 export class DancerBody {
   readonly object = new Group();
   private readonly mesh: SkinnedMesh;
-  private readonly ghost: ReturnType<typeof createGlass>;
+  private readonly ghost: Ghost;
   private geometry: BodyGeometry | null = null;
   private style: BodyStyle = 'solid';
   private look: Look | null = null;
   private lowDetail = false;
 
   /**
-   * @param paint of the solid body, which disposes of it
+   * @param solid material of the solid body, disposed of with it
    * @param colours role whose colours the body has
    */
   constructor(
     private readonly rig: Rig,
-    private readonly paint: Paint,
+    private readonly solid: BodyMaterial,
     private colours: Role,
   ) {
-    this.mesh = new SkinnedMesh(new BufferGeometry(), paint.material);
+    this.mesh = new SkinnedMesh(new BufferGeometry(), solid.material);
     this.mesh.name = colours;
     this.mesh.castShadow = true;
     this.mesh.receiveShadow = true;
     // The bones carry the body across the floor, beyond the bounds of the bind pose.
     this.mesh.frustumCulled = false;
     this.mesh.bind(rig.skeleton);
-    this.mesh.onBeforeShadow = () => this.geometry?.lighten(true);
-    this.mesh.onAfterShadow = () => this.geometry?.lighten(this.lowDetail);
-    this.ghost = createGlass(rig.skeleton);
+    this.mesh.onBeforeShadow = () => this.geometry?.setLowDetail(true);
+    this.mesh.onAfterShadow = () => this.geometry?.setLowDetail(this.lowDetail);
+    this.ghost = createGhost(rig.skeleton);
   }
 
   /** Puts the mesh of a body on the bones. */
   setBody(body: Body): void {
     this.geometry?.dispose();
     this.geometry = toGeometry(body);
-    this.geometry.lighten(this.lowDetail);
+    this.geometry.setLowDetail(this.lowDetail);
     this.mesh.geometry = this.geometry.near;
     this.ghost.setGeometry(this.geometry.light);
     this.rig.bind(body.offsets);
@@ -81,12 +81,12 @@ export class DancerBody {
   setLowDetail(on: boolean): void {
     if (on === this.lowDetail) return;
     this.lowDetail = on;
-    this.geometry?.lighten(on);
+    this.geometry?.setLowDetail(on);
   }
 
   dispose(): void {
     this.geometry?.dispose();
-    this.paint.material.dispose();
+    this.solid.material.dispose();
     this.ghost.dispose();
   }
 
@@ -94,7 +94,7 @@ export class DancerBody {
   private update(): void {
     const { style, colours, look } = this;
     if (look !== null) {
-      this.paint.setTint(look[colours]);
+      this.solid.setTint(look[colours]);
       // Coarse layer and other take have ghost colours of their own when they are the reactor's.
       const own = style === 'coarse' || style === 'other' ? style : null;
       if (style !== 'solid')

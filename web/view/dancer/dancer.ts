@@ -5,7 +5,7 @@ import type { BodyLibrary } from '../body/library';
 import { BUILDS } from '../body/part';
 import type { Body } from '../body/simplify';
 import type { Role } from '../theme';
-import type { Paint } from './body-material';
+import type { BodyMaterial } from './body-material';
 import { DancerBody } from './dancer-body';
 import { gesture } from './gesture';
 import { blendPose, createPose, samplePose } from './pose';
@@ -30,16 +30,16 @@ export class Dancer {
   private shownBody: Body | null = null;
 
   /**
-   * @param paint of the solid body; the dancer's own, who disposes of it
+   * @param material of the solid body, disposed of with the dancer
    * @param onBody called when a body has been meshed and the picture changes.
    */
   constructor(
     private readonly role: Role,
     private readonly library: BodyLibrary,
-    paint: Paint,
+    material: BodyMaterial,
     private readonly onBody: () => void,
   ) {
-    this.body = new DancerBody(this.rig, paint, role);
+    this.body = new DancerBody(this.rig, material, role);
     this.object.add(this.rig.root, this.body.object);
     this.object.visible = false;
   }

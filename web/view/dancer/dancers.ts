@@ -4,9 +4,9 @@ import type { BodyLibrary } from '../body/library';
 import { measureCouple, type Couple } from '../camera/framing';
 import type { Viewport } from '../canvas';
 import type { Figure } from '../overlays/overlay';
-import { NOTHING_SHOWN, type Shown } from '../overlays/overlays';
+import { NO_OVERLAYS, type VisibleOverlays } from '../overlays/overlays';
 import { ROLES, type Look, type Role } from '../theme';
-import type { Paint } from './body-material';
+import type { BodyMaterial } from './body-material';
 import { Dancer } from './dancer';
 
 /** Leader and reactor, the coarse layer of the first take, the other take, and its coarse layer. */
@@ -26,7 +26,7 @@ export type OtherMode = 'ghost' | 'left' | 'right';
 export class Dancers {
   readonly object = new Group();
   private readonly dancers: Readonly<Record<DancerName, Dancer>>;
-  private shown = NOTHING_SHOWN;
+  private overlays = NO_OVERLAYS;
   private mode: OtherMode = 'ghost';
   private made: Role = 'reactor';
   private posedAt = 0;
@@ -34,11 +34,11 @@ export class Dancers {
   private turnedTo: DancerName | null = null;
 
   /**
-   * @param paint makes the material of a solid body
+   * @param createMaterial makes the material of a solid body
    * @param onBody called when a dancer has got a body
    */
-  constructor(library: BodyLibrary, paint: () => Paint, onBody: () => void) {
-    const dancer = (role: Role): Dancer => new Dancer(role, library, paint(), onBody);
+  constructor(library: BodyLibrary, createMaterial: () => BodyMaterial, onBody: () => void) {
+    const dancer = (role: Role): Dancer => new Dancer(role, library, createMaterial(), onBody);
     this.dancers = {
       leader: dancer('leader'),
       reactor: dancer('reactor'),
@@ -78,8 +78,8 @@ export class Dancers {
     this.updateStyles();
   }
 
-  setShown(shown: Shown): void {
-    this.shown = shown;
+  setOverlays(overlays: VisibleOverlays): void {
+    this.overlays = overlays;
     this.updateStyles();
   }
 
@@ -122,15 +122,15 @@ export class Dancers {
    * @returns the couple in it, for contact shadows and overlays
    */
   arrange(viewport: Viewport): readonly Figure[] {
-    const { dancers, loaded, made, shown } = this;
+    const { dancers, loaded, made, overlays } = this;
     const showsOther = viewport === this.mode;
     const partner = showsOther ? 'other' : made;
     this.turnLoadedTo(partner);
     dancers[loaded].show(true);
     dancers[made].show(!showsOther);
-    dancers.coarse.show(!showsOther && shown.ghost);
+    dancers.coarse.show(!showsOther && overlays.ghost);
     dancers.other.show(showsOther || (viewport === 'whole' && this.mode === 'ghost'));
-    dancers.otherCoarse.show(showsOther && shown.ghost);
+    dancers.otherCoarse.show(showsOther && overlays.ghost);
     return [...this.figure(loaded, loaded), ...this.figure(made, partner)];
   }
 
@@ -162,7 +162,7 @@ export class Dancers {
   }
 
   private updateStyles(): void {
-    const style = this.shown.skeleton ? 'translucent' : 'solid';
+    const style = this.overlays.skeleton ? 'translucent' : 'solid';
     this.dancers.leader.body.setStyle(style);
     this.dancers.reactor.body.setStyle(style);
     this.dancers.other.body.setStyle(this.mode === 'ghost' ? 'other' : style);

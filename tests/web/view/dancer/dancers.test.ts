@@ -3,8 +3,8 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { J } from '../../../../web/motion/skeleton/skeleton';
 import { createBodyLibrary } from '../../../../web/view/body/library';
 import { Dancers } from '../../../../web/view/dancer/dancers';
-import { pixelPaint } from '../../../../web/view/dancer/body-material';
-import { NOTHING_SHOWN } from '../../../../web/view/overlays/overlays';
+import { perPixelMaterial } from '../../../../web/view/dancer/body-material';
+import { NO_OVERLAYS } from '../../../../web/view/overlays/overlays';
 import { LOOKS } from '../../../../web/view/theme';
 import { randomMotion } from '../../support/skeletons';
 
@@ -15,18 +15,18 @@ const motions = {
   other: randomMotion(30, 4),
   otherCoarse: randomMotion(30, 5),
 };
-const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
+const NAMES = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
 
 describe('the dancers on the stage', () => {
   let dancers: Dancers;
-  /** Who is to be seen, in the order of `PARTS`. */
-  const seen = (): boolean[] => dancers.object.children.map(({ visible }) => visible);
+  /** Which dancers are visible, in the order of `NAMES`. */
+  const visible = (): boolean[] => dancers.object.children.map(({ visible }) => visible);
 
   beforeEach(() => {
-    // Node has no Worker: bodies are made here, in their own time, and none is waited for.
+    // Node has no Worker: bodies are made on this thread, and most tests do not wait for them.
     vi.spyOn(console, 'warn').mockImplementation(() => undefined);
-    dancers = new Dancers(createBodyLibrary(), pixelPaint, () => undefined);
-    for (const part of PARTS) dancers.setMotion(part, motions[part]);
+    dancers = new Dancers(createBodyLibrary(), perPixelMaterial, () => undefined);
+    for (const name of NAMES) dancers.setMotion(name, motions[name]);
     dancers.pose(0.4);
   });
   afterEach(() => {
@@ -34,40 +34,40 @@ describe('the dancers on the stage', () => {
     vi.restoreAllMocks();
   });
 
-  it('shows another take as a ghost beside both, and the coarse layer when it is asked for', () => {
+  it('shows another take as a ghost beside both, and the coarse layer when its overlay is on', () => {
     dancers.arrange('whole');
-    expect(seen()).toEqual([true, true, false, true, false]);
-    dancers.setShown({ ...NOTHING_SHOWN, ghost: true });
+    expect(visible()).toEqual([true, true, false, true, false]);
+    dancers.setOverlays({ ...NO_OVERLAYS, ghost: true });
     dancers.arrange('whole');
-    expect(seen()).toEqual([true, true, true, true, false]);
+    expect(visible()).toEqual([true, true, true, true, false]);
     expect(dancers.split).toBe(false);
   });
 
   it('shows the leader in both halves, the reactor in the left, the other take in the right, each with its coarse layer', () => {
     dancers.setOtherMode('right');
-    dancers.setShown({ ...NOTHING_SHOWN, ghost: true });
+    dancers.setOverlays({ ...NO_OVERLAYS, ghost: true });
     expect(dancers.split).toBe(true);
     const left = dancers.arrange('left');
-    expect(seen()).toEqual([true, true, true, false, false]);
+    expect(visible()).toEqual([true, true, true, false, false]);
     expect(left.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.reactor],
     ]);
     const right = dancers.arrange('right');
-    expect(seen()).toEqual([true, false, false, true, true]);
+    expect(visible()).toEqual([true, false, false, true, true]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.other],
     ]);
-    dancers.setShown(NOTHING_SHOWN);
+    dancers.setOverlays(NO_OVERLAYS);
     dancers.arrange('right');
-    expect(seen()).toEqual([true, false, false, true, false]);
+    expect(visible()).toEqual([true, false, false, true, false]);
     // The other take may have the left half as well; the reactor has the right one then.
     dancers.setOtherMode('left');
     dancers.arrange('left');
-    expect(seen()).toEqual([true, false, false, true, false]);
+    expect(visible()).toEqual([true, false, false, true, false]);
     dancers.arrange('right');
-    expect(seen()).toEqual([true, true, false, false, false]);
+    expect(visible()).toEqual([true, true, false, false, false]);
     expect(dancers.visibleJoints()).toEqual([dancers.joints('leader'), dancers.joints('reactor')]);
     dancers.arrange('left');
     expect(dancers.visibleJoints()).toEqual([dancers.joints('leader'), dancers.joints('other')]);
@@ -75,13 +75,13 @@ describe('the dancers on the stage', () => {
     expect(dancers.split).toBe(false);
   });
 
-  it('shows another leader beside the loaded reactor when the leader is who was made, in the colour of a leader', async () => {
+  it('shows another leader beside the loaded reactor when the leader was made, in the colour of a leader', async () => {
     dancers.setOtherMode('right');
     dancers.setLook(LOOKS.dark);
     dancers.setMade('leader');
     await dancers.bodiesReady();
     const right = dancers.arrange('right');
-    expect(seen()).toEqual([false, true, false, true, false]);
+    expect(visible()).toEqual([false, true, false, true, false]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['reactor', motions.reactor],
       ['leader', motions.other],
@@ -98,7 +98,7 @@ describe('the dancers on the stage', () => {
     expect(colour(3)).not.toBe(colour(1));
   });
 
-  it('has light bodies from afar, bodies that come later too, and full ones again', async () => {
+  it('draws low detail when told to, bodies that come later too, and full detail again', async () => {
     const triangles = (): number => {
       let count = 0;
       dancers.object.children[0]!.traverse((object) => {
@@ -115,7 +115,7 @@ describe('the dancers on the stage', () => {
     expect(triangles()).toBe(light);
   });
 
-  it('lets the leader look at the partner of each half, whichever was drawn before', () => {
+  it('turns the leader to the partner of each half, whichever was drawn before', () => {
     dancers.setOtherMode('right');
     const gaze = (picture: 'left' | 'right'): number[] => {
       dancers.arrange(picture);
@@ -134,16 +134,16 @@ describe('the dancers on the stage', () => {
       expect(joints[i * 3]!).toBeCloseTo(motions.leader.positions[(12 * 22 + i) * 3]!, 4);
   });
 
-  it('has everybody in the picture that is measured', () => {
-    const { reach } = dancers.pose(0.4);
+  it('measures all dancers', () => {
+    const { radius } = dancers.pose(0.4);
     dancers.setMotion('other', null);
     const alone = dancers.pose(0.4);
     const far = { ...motions.other, root: motions.other.root.map((value) => value * 4) };
     dancers.setMotion('other', far);
     const wide = dancers.pose(0.4);
-    expect(reach).toBeGreaterThanOrEqual(alone.reach);
-    expect(wide.reach).toBeGreaterThan(alone.reach + 0.5);
+    expect(radius).toBeGreaterThanOrEqual(alone.radius);
+    expect(wide.radius).toBeGreaterThan(alone.radius + 0.5);
     // The couple itself stays where it was.
-    expect([wide.x, wide.z, wide.square]).toEqual([alone.x, alone.z, alone.square]);
+    expect([wide.x, wide.z, wide.sideHeading]).toEqual([alone.x, alone.z, alone.sideHeading]);
   });
 });
