@@ -2,7 +2,7 @@ import { createPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
 import { clearKept, measureKept } from './offline/storage-usage';
 import { keepPage } from './offline/register';
-import { openCamera, showOn } from './stage-binding';
+import { bindStage, openCamera } from './stage-binding';
 import { measureDance } from './quality/client';
 import { mountBar } from './ui/shell/bar';
 import { createChoices } from './ui/generation/variations';
@@ -97,7 +97,7 @@ function openStage(): Stage | null {
 }
 const stage = openStage();
 // A minute and a half for half a minute of film is not what anybody expects: there, large pictures are to be asked for.
-if (stage?.byProcessor) apply(store, downloadChosen({ size: 'stage' }));
+if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
 // ---- the theme, before panels draw with its colours ----
 
@@ -198,7 +198,7 @@ mountUndoKeys(store);
 
 // ---- state to stage and page ----
 
-if (stage) showOn(stage, store);
+if (stage) bindStage(stage, store);
 
 /** The couple stands beside the words of the first visit, where there is room beside them. */
 const roomBeside = matchMedia('(min-width: 761px)');
@@ -206,7 +206,7 @@ const ASIDE = 200;
 watch(
   store,
   (state) => state.visiting,
-  (visiting) => stage?.standAside(visiting && roomBeside.matches ? ASIDE : 0),
+  (visiting) => stage?.shiftRight(visiting && roomBeside.matches ? ASIDE : 0),
 );
 
 // ---- what is there from the start ----

@@ -1,4 +1,4 @@
-/** From the state to a stage: what is danced, seen and filmed. */
+/** Binds a stage to the state: which dancers and overlays it shows, and when. Opens stages for videos. */
 import { couple, madeRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { together } from './ui/widgets/dom';
@@ -6,89 +6,104 @@ import type { Camera } from './ui/download/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
+import { createOffscreenStage } from './view/offscreen-stage';
 import type { PictureSize, Stage } from './view/stage';
 
-const calm = matchMedia('(prefers-reduced-motion: reduce)');
+const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
-/** Milliseconds after a dance was made in which it is put on the page and measured. */
-const AFTERMATH = 1000;
+/** Time after a generation in which the page still shows and measures the result, milliseconds. */
+const BUSY_AFTER_MS = 1000;
 
-/** Shows on a stage what the state says; returns how to let go of it. */
-export function showOn(shown: Stage, store: Store): () => void {
-  let shownAs = '';
-  let calming: ReturnType<typeof setTimeout> | undefined;
+/** Keeps a stage in step with the state; returns how to stop that. */
+export function bindStage(stage: Stage, store: Store): () => void {
   return together(
     watch(
       store,
       (state) => state.theme,
-      (theme) => shown.setTheme(theme),
+      (theme) => stage.setTheme(theme),
     ),
-    watchAll(
-      store,
-      (state) => Object.values(couple(state)),
-      (state) => {
-        // One reaction passes over into the next; what is switched is there at once: the parts, the foot lock, and
-        // which of two takes side by side is on the stage, each of which goes on in its half.
-        const half = besideStage(state) && state.letter;
-        const now = `${madeRole(state)} ${state.footLock} ${half}`;
-        shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
-        shownAs = now;
-      },
-    ),
+    bindDancers(stage, store),
     watchAll(
       store,
       (state) => [coarseMotion(state), otherCoarseMotion(state)],
-      (state) => shown.setCoarse(coarseMotion(state), otherCoarseMotion(state)),
+      (state) => stage.setCoarse(coarseMotion(state), otherCoarseMotion(state)),
     ),
     watch(
       store,
       (state) => state.shown,
-      (what) => shown.setShown(what),
+      (overlays) => stage.setOverlays(overlays),
     ),
-    showOther(store, shown),
-    watch(
-      store,
-      (state) => state.job !== null,
-      (busy) => {
-        clearTimeout(calming);
-        if (busy) shown.setPatient(true);
-        else calming = setTimeout(() => shown.setPatient(false), AFTERMATH);
-      },
-    ),
-    () => clearTimeout(calming),
+    showOther(store, stage),
+    bindBusy(stage, store),
     watch(
       store,
       (state) => state.playback.time,
-      (time) => shown.setTime(time),
+      (time) => stage.setTime(time),
     ),
     watch(
       store,
       (state) => state.camera,
-      (camera) => shown.setCamera(camera),
+      (camera) => stage.setCamera(camera),
     ),
   );
 }
 
-/** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
+/**
+ * Shows the couple. One reaction crossfades to the next; switching the made role, the foot lock or the takes of a split
+ * view is shown at once.
+ */
+function bindDancers(stage: Stage, store: Store): () => void {
+  let before = '';
+  return watchAll(
+    store,
+    (state) => Object.values(couple(state)),
+    (state) => {
+      const half = besideStage(state) && state.letter;
+      const now = `${madeRole(state)} ${state.footLock} ${half}`;
+      const crossfade = now === before && !reducedMotion.matches;
+      stage.setDancers(couple(state), { made: madeRole(state), crossfade });
+      before = now;
+    },
+  );
+}
+
+/** Lets the stage leave the page time while a reaction is generated, and shortly afterwards. */
+function bindBusy(stage: Stage, store: Store): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  return together(
+    watch(
+      store,
+      (state) => state.job !== null,
+      (busy) => {
+        clearTimeout(timer);
+        if (busy) stage.setBusy(true);
+        else timer = setTimeout(() => stage.setBusy(false), BUSY_AFTER_MS);
+      },
+    ),
+    () => clearTimeout(timer),
+  );
+}
+
+/** Opens an offscreen stage for a video: it shows what `from` shows now, from the start of the dance, and stays so. */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
-  const film = from.film(size);
+  const stage = createOffscreenStage(from, size);
   try {
-    showOn(film, store)();
+    bindStage(stage, store)();
     const framing = from.framing();
-    await film.ready();
-    film.setTime(0);
-    film.frameAs(framing);
+    await stage.ready();
+    stage.setTime(0);
+    stage.frameAs(framing);
   } catch (error) {
-    film.dispose();
+    stage.dispose();
     throw error;
   }
   let before = 0;
   return {
-    canvas: film.canvas,
+    canvas: stage.canvas,
     shoot: (seconds) => {
-      film.shoot(seconds, seconds - before);
+      stage.drawAt(seconds, seconds - before);
       before = seconds;
     },
-    dispose: () => film.dispose(),
+    dispose: () => stage.dispose(),
   };
 }

@@ -1,17 +1,17 @@
 import { beforeAll, expect, it, vi } from 'vitest';
 import type { Role } from '../../web/view/theme';
-import type { Entrance, Stage } from '../../web/view/stage';
+import type { DancerOptions, Stage } from '../../web/view/stage';
 import type { AppState, Inputs, Take } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
 import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
 import * as change from './support/actions';
 import { alike, leader, still } from './support/made-state';
 
-let showOn: (shown: Stage, store: change.Store) => () => void;
+let bindStage: (stage: Stage, store: change.Store) => () => void;
 beforeAll(async () => {
   // Node has no screen to ask.
   vi.stubGlobal('matchMedia', () => ({ matches: false }));
-  ({ showOn } = await import('../../web/stage-binding'));
+  ({ bindStage } = await import('../../web/stage-binding'));
 });
 
 const dancer = leader(30);
@@ -22,7 +22,7 @@ const take = (id: string): Take => {
   return { id, number: 1, name: null, starred: false, createdAt: 0, reaction };
 };
 
-it('passes softly from one take to the next, but not where each goes on in a half of its own', () => {
+it('crossfades from one take to the next, but not in a split view', () => {
   const takes = [take('a'), take('b'), take('c')];
   const store = change.createAppStore('dark');
   const state: Partial<AppState> = {
@@ -32,21 +32,21 @@ it('passes softly from one take to the next, but not where each goes on in a hal
     other: 'b',
   };
   store.setState({ ...initialState('dark'), ...state });
-  const entrances: (boolean | undefined)[] = [];
+  const crossfades: (boolean | undefined)[] = [];
   const nothing = (): void => undefined;
   const stage = new Proxy(
-    { setDancers: (_: unknown, how?: Entrance) => entrances.push(how?.softly) },
+    { setDancers: (_: unknown, how?: DancerOptions) => crossfades.push(how?.crossfade) },
     { get: (known, name) => (name in known ? known.setDancers : nothing) },
   ) as unknown as Stage;
-  const stop = showOn(stage, store);
-  const softly = (...changes: change.Change[]): boolean | undefined => {
+  const stop = bindStage(stage, store);
+  const crossfadeAfter = (...changes: change.Change[]): boolean | undefined => {
     for (const one of changes) change.apply(store, one);
-    return entrances.at(-1);
+    return crossfades.at(-1);
   };
-  expect(softly(flipped())).toBe(true);
-  expect(softly(compareSet('side'), flipped())).toBe(false);
-  expect(softly(flipped())).toBe(false);
-  expect(softly(takeChosen('c'))).toBe(true);
-  expect(softly(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
+  expect(crossfadeAfter(flipped())).toBe(true);
+  expect(crossfadeAfter(compareSet('side'), flipped())).toBe(false);
+  expect(crossfadeAfter(flipped())).toBe(false);
+  expect(crossfadeAfter(takeChosen('c'))).toBe(true);
+  expect(crossfadeAfter(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
   stop();
 });

@@ -3,15 +3,16 @@ import { writeBvh } from '../motion/bvh/write';
 import type { Role } from '../view/theme';
 import type { Dance } from './dance';
 
-/** BVH holds one skeleton: one dancer is a BVH file, two are an archive of one for each. */
-export function bvhEnding(dancers: number): '.bvh' | '-bvh.zip' {
+/** End of the file name. BVH holds one skeleton: one dancer is a BVH file, two are a ZIP archive with one each. */
+export function bvhExtension(dancers: number): '.bvh' | '-bvh.zip' {
   return dancers > 1 ? '-bvh.zip' : '.bvh';
 }
 
 /**
- * The dance as BVH. Every file in an archive bears the date `now`.
+ * The dance as BVH.
  *
- * @param nameOf what the file of one dancer is called
+ * @param now date of the files in an archive
+ * @param nameOf file name of one dancer in an archive
  */
 export function writeBvhFile(
   dance: Dance,

@@ -1,10 +1,10 @@
 import { createBodyLibrary } from '../view/body/library';
 import type { Role, Theme } from '../view/theme';
-import { bvhEnding, writeBvhFile } from './bvh';
+import { bvhExtension, writeBvhFile } from './bvh';
 import type { Dance, MotionFormat } from './dance';
 import { writeJson } from './json';
 import { writeNpz } from './npz';
-import type { Footage, VideoOptions } from './video/footage';
+import type { VideoSource, VideoOptions } from './video/source';
 import type { VideoPlan } from './video/plan';
 
 export type { About, Dance, MotionFormat } from './dance';
@@ -19,16 +19,16 @@ const TYPES: Readonly<Record<MotionFormat, string>> = {
   json: 'application/json',
 };
 
-/** How the name of a file in this format ends. */
-export function motionEnding(format: MotionFormat, dancers: number): string {
-  return format === 'bvh' ? bvhEnding(dancers) : `.${format}`;
+/** End of the name of a file in this format, with the number of dancers in it. */
+export function motionExtension(format: MotionFormat, dancers: number): string {
+  return format === 'bvh' ? bvhExtension(dancers) : `.${format}`;
 }
 
 /**
  * A dance as a file.
  *
- * @param theme whose colours the mannequins of a GLB wear
- * @param nameOf what the file of one dancer is called in an archive of two
+ * @param theme whose colours the mannequins of a GLB have
+ * @param nameOf file name of one dancer in an archive of two
  */
 export async function writeMotion(
   format: MotionFormat,
@@ -53,7 +53,7 @@ async function content(
     case 'json':
       return writeJson(dance);
     case 'glb': {
-      // Few visitors need the exporter: it comes when it is asked for.
+      // Few visitors need the exporter: it is loaded on demand.
       const { writeGlb } = await import('./glb');
       const bodies = createBodyLibrary();
       try {
@@ -65,7 +65,7 @@ async function content(
   }
 }
 
-/** What videos this browser can write; with or without sound makes a difference. Null when it can write none. */
+/** How this browser can write a video of this size in pixels, with or without sound; null when it cannot. */
 export async function planVideo(
   size: { readonly width: number; readonly height: number },
   withSound: boolean,
@@ -75,20 +75,20 @@ export async function planVideo(
 }
 
 /**
- * Films the footage with its song.
+ * Writes the video of a source with its song.
  *
  * @throws {AppError} `video-failed`, `sound-failed`; the signal's reason when it is aborted
  */
-export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
+export async function writeVideo(source: VideoSource, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
   const video = await import('./video/write');
-  return video.writeVideo(footage, plan, options);
+  return video.writeVideo(source, plan, options);
 }
 
-/** Work this short says nothing about the rest yet, seconds. */
-const SOON = 0.8;
+/** Time from which on the pace of the work is known well enough to extrapolate, seconds. */
+const MIN_ELAPSED = 0.8;
 
-/** Whole seconds that the rest will take if it goes on as so far; null while that is a guess. */
+/** Remaining time in whole seconds at the pace so far; null while too little has been done to know it. */
 export function secondsLeft(elapsed: number, done: number, total: number): number | null {
-  if (elapsed < SOON || done < 1) return null;
+  if (elapsed < MIN_ELAPSED || done < 1) return null;
   return Math.ceil((elapsed / done) * (total - done));
 }

@@ -25,7 +25,7 @@ const NAMES: Readonly<Record<Role, string>> = { leader: 'Leader', reactor: 'Reac
 /**
  * The dance as binary glTF: for each dancer a skinned mannequin in the theme's colour of its role, bones named as in
  * our BVH, and one animation of both with a key on every frame where something moves. Metres, y up, seconds. What the
- * stage adds to the motion (glances, hands that reach) is left out: bones turn as the model made them.
+ * stage adds to the motion (turns of head and hands) is left out.
  *
  * @param bodies makes the mannequins; the caller disposes of it.
  */
@@ -54,18 +54,19 @@ export async function writeGlb(
     const armature = new Group();
     armature.name = NAMES[role];
     armature.add(rig.root);
-    // Viewers ignore what a skinned mesh hangs on, so it stands beside its bones.
+    // Viewers ignore the parent of a skinned mesh, so it is a sibling of its bones.
     scene.add(armature, mesh);
     tracks.push(...keys(motion, rig));
   }
   const clip = new AnimationClip('Dance', -1, tracks).optimize();
   const exporter = new GLTFExporter();
   const glb = await exporter.parseAsync(scene, { binary: true, animations: [clip] });
-  if (!(glb instanceof ArrayBuffer)) throw new TypeError('Binary glTF was asked for and text came.');
+  if (!(glb instanceof ArrayBuffer))
+    throw new TypeError('The glTF exporter returned text instead of binary glTF.');
   return glb;
 }
 
-/** A dancer's bones in the T-pose, on the floor where the dance begins, bound to the skeleton of a body. */
+/** A dancer's bones in the T-pose, on the floor where the dance begins, bound to the skin for these offsets. */
 function rigAtRest(motion: SolvedMotion, bound: Float32Array): Rig {
   const rig = createRig();
   rig.fit(motion.offsets);
@@ -78,11 +79,11 @@ function rigAtRest(motion: SolvedMotion, bound: Float32Array): Rig {
   return rig;
 }
 
-/** Bones are found by identity: those of two dancers share their names. */
+/** Keyframe tracks of a motion. They refer to bones by UUID: the bones of two dancers have the same names. */
 function keys(motion: SolvedMotion, rig: Rig): KeyframeTrack[] {
   const { frames, fps } = motion;
   const times = Array.from({ length: frames }, (_, frame) => frame / fps);
-  const turns = rig.bones.map((bone, joint) => {
+  const rotations = rig.bones.map((bone, joint) => {
     const values = new Float32Array(frames * 4);
     for (let frame = 0; frame < frames; frame++) {
       const from = (frame * JOINT_COUNT + joint) * 4;
@@ -90,5 +91,5 @@ function keys(motion: SolvedMotion, rig: Rig): KeyframeTrack[] {
     }
     return new QuaternionKeyframeTrack(`${bone.uuid}.quaternion`, times, values);
   });
-  return [new VectorKeyframeTrack(`${rig.root.uuid}.position`, times, motion.root), ...turns];
+  return [new VectorKeyframeTrack(`${rig.root.uuid}.position`, times, motion.root), ...rotations];
 }

@@ -1,13 +1,13 @@
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import type { SolvedMotion } from '../motion/skeleton/clip';
-import type { Dance } from './dance';
-import { described } from './metadata';
+import { metadataOf, type Dance } from './dance';
 
-/** A tenth of a millimetre. */
-const DECIMALS = 1e4;
+/** Positions are rounded to a tenth of a millimetre. */
+const STEPS_PER_METRE = 1e4;
 
 function point(values: Float32Array, joint: number): string {
-  const at = (axis: number): number => Math.round((values[joint * 3 + axis] ?? 0) * DECIMALS) / DECIMALS || 0;
+  const at = (axis: number): number =>
+    Math.round((values[joint * 3 + axis] ?? 0) * STEPS_PER_METRE) / STEPS_PER_METRE || 0;
   return `[${at(0)},${at(1)},${at(2)}]`;
 }
 
@@ -21,11 +21,11 @@ function frameLines({ positions, frames }: SolvedMotion): string {
 }
 
 /**
- * Joint positions as JSON that explains itself: what it is, units, joint names and all settings first, then
+ * Joint positions as JSON: format, units, joint names and all settings first, then
  * `positions` with, by dancer, one line for every frame of 22 points [x, y, z] in metres.
  */
 export function writeJson(dance: Dance): string {
-  const head = JSON.stringify(described(dance), null, 1).replace(/\n}$/, '');
+  const head = JSON.stringify(metadataOf(dance), null, 1).replace(/\n}$/, '');
   const dancers = dance.dancers.map(({ role, motion }) => `  "${role}": [\n${frameLines(motion)}\n  ]`);
   return `${head},\n "positions": {\n${dancers.join(',\n')}\n }\n}\n`;
 }

@@ -1,12 +1,12 @@
-/** An array as NumPy keeps it in a .npy file, rows first. */
+/** An array of a .npy file, row-major. */
 export type NpyArray =
   | { readonly shape: readonly number[]; readonly data: Float32Array | Float64Array }
   | { readonly shape: readonly number[]; readonly data: readonly string[] };
 
-/** The file's own head: magic, version 1.0 and the length of the header. */
-const PREFIX = 10;
-/** NumPy aligns the data to this. */
-const ALIGNMENT = 64;
+/** Length of magic string, version and header length, bytes. */
+const PREFIX_BYTES = 10;
+/** NumPy aligns the data to this many bytes. */
+const ALIGNMENT_BYTES = 64;
 
 /**
  * Writes one .npy file, little-endian, version 1.0. Text becomes NumPy's fixed-width Unicode (`<U`), which is read
@@ -16,22 +16,22 @@ export function npyBytes({ shape, data }: NpyArray): Uint8Array<ArrayBuffer> {
   const { type, content } = encoded(data);
   const sizes = shape.length === 1 ? `${shape[0]},` : shape.join(', ');
   const header = `{'descr': '${type}', 'fortran_order': False, 'shape': (${sizes}), }`;
-  const start = Math.ceil((PREFIX + header.length + 1) / ALIGNMENT) * ALIGNMENT;
+  const start = Math.ceil((PREFIX_BYTES + header.length + 1) / ALIGNMENT_BYTES) * ALIGNMENT_BYTES;
   const out = new Uint8Array(start + content.byteLength);
   out.set([0x93, 0x4e, 0x55, 0x4d, 0x50, 0x59, 1, 0]);
-  new DataView(out.buffer).setUint16(8, start - PREFIX, true);
-  out.set(new TextEncoder().encode(header.padEnd(start - PREFIX - 1) + '\n'), PREFIX);
+  new DataView(out.buffer).setUint16(8, start - PREFIX_BYTES, true);
+  out.set(new TextEncoder().encode(header.padEnd(start - PREFIX_BYTES - 1) + '\n'), PREFIX_BYTES);
   out.set(content, start);
   return out;
 }
 
 function encoded(data: NpyArray['data']): { type: string; content: Uint8Array } {
-  if (data instanceof Float32Array) return { type: '<f4', content: numbers(data) };
-  if (data instanceof Float64Array) return { type: '<f8', content: numbers(data) };
-  const letters = data.map((text) => Array.from(text, (letter) => letter.codePointAt(0) ?? 0));
-  const width = Math.max(1, ...letters.map(({ length }) => length));
+  if (data instanceof Float32Array) return { type: '<f4', content: littleEndian(data) };
+  if (data instanceof Float64Array) return { type: '<f8', content: littleEndian(data) };
+  const strings = data.map((text) => Array.from(text, (character) => character.codePointAt(0) ?? 0));
+  const width = Math.max(1, ...strings.map(({ length }) => length));
   const content = new DataView(new ArrayBuffer(4 * width * data.length));
-  letters.forEach((points, row) => {
+  strings.forEach((points, row) => {
     points.forEach((point, column) => {
       content.setUint32(4 * (row * width + column), point, true);
     });
@@ -39,8 +39,8 @@ function encoded(data: NpyArray['data']): { type: string; content: Uint8Array } 
   return { type: `<U${width}`, content: new Uint8Array(content.buffer) };
 }
 
-/** Little-endian whatever the machine is. */
-function numbers(data: Float32Array | Float64Array): Uint8Array {
+/** Numbers as little-endian bytes on every machine. */
+function littleEndian(data: Float32Array | Float64Array): Uint8Array {
   const size = data.BYTES_PER_ELEMENT;
   const out = new DataView(new ArrayBuffer(data.byteLength));
   data.forEach((value, i) => {

@@ -1,44 +1,44 @@
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { writeBvh } from '../motion/bvh/write';
-import { type Dance, firstMotion, type MotionFormat, sampled } from './dance';
+import { type Dance, firstMotion, type MotionFormat, subsampled } from './dance';
 import { writeJson } from './json';
 import { writeNpz } from './npz';
 
-/** Frames that are written out to learn how long a frame is as text. */
-const SAMPLE = 40;
-/** What is left of BVH text in an archive, measured on generated dances. */
-const ZIPPED = 0.37;
+/** Number of frames that are written to measure the length of a frame as text. */
+const SAMPLE_FRAMES = 40;
+/** Compressed size of BVH text as a share of its size, measured on generated dances. */
+const ZIP_RATIO = 0.37;
 /** Bytes of a mannequin in a GLB: about 7,300 vertices and 14,500 triangles. */
-const BODY = 590_000;
-/** Joints that never turn by themselves, so that their tracks shrink to nothing: head, wrists, balls of the feet. */
-const RESTING = 5;
+const BODY_BYTES = 590_000;
+/** Number of joints without rotations of their own, which have no tracks: head, wrists, balls of the feet. */
+const STATIC_JOINTS = 5;
 
-/** About how many bytes a file will have, known before it is written. */
+/** Estimated size of a file before it is written, bytes. */
 export function estimateBytes(format: MotionFormat, dance: Dance): number {
   const { frames } = firstMotion(dance);
   switch (format) {
     case 'npz':
       return writeNpz(dance).length;
     case 'json':
-      return grown((part) => writeJson(part).length, dance);
+      return extrapolated((part) => writeJson(part).length, dance);
     case 'bvh': {
       const text = dance.dancers.map((dancer) =>
-        grown((part) => writeBvh(firstMotion(part)).length, { ...dance, dancers: [dancer] }),
+        extrapolated((part) => writeBvh(firstMotion(part)).length, { ...dance, dancers: [dancer] }),
       );
       const sum = text.reduce((total, bytes) => total + bytes, 0);
-      return dance.dancers.length > 1 ? sum * ZIPPED : sum;
+      return dance.dancers.length > 1 ? sum * ZIP_RATIO : sum;
     }
     case 'glb':
-      // A turn for each joint and a place for the root, each with its time.
-      return dance.dancers.length * (BODY + frames * 4 * (5 * (JOINT_COUNT - RESTING) + 4));
+      // A rotation of each joint and a position of the root, each with its time.
+      return dance.dancers.length * (BODY_BYTES + frames * 4 * (5 * (JOINT_COUNT - STATIC_JOINTS) + 4));
   }
 }
 
-/** Size of a text that grows by the same with every frame, from two short ones. */
-function grown(size: (dance: Dance) => number, dance: Dance): number {
+/** Size of a text that grows linearly with the number of frames, extrapolated from two short ones. */
+function extrapolated(size: (dance: Dance) => number, dance: Dance): number {
   const { frames } = firstMotion(dance);
-  if (frames <= SAMPLE) return size(dance);
-  const short = size(sampled(dance, 1));
-  const perFrame = (size(sampled(dance, SAMPLE)) - short) / (SAMPLE - 1);
+  if (frames <= SAMPLE_FRAMES) return size(dance);
+  const short = size(subsampled(dance, 1));
+  const perFrame = (size(subsampled(dance, SAMPLE_FRAMES)) - short) / (SAMPLE_FRAMES - 1);
   return short + perFrame * (frames - 1);
 }

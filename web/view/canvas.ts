@@ -1,38 +1,10 @@
 import { VSMShadowMap, WebGLRenderer } from 'three';
-import { createEdges, type Area, type Edges } from './edge-smoothing';
+import { createEdgeSmoothing, type Rect, type EdgeSmoothing } from './edge-smoothing';
+import { createCopyPresenter, createDirectPresenter, type FramePresenter } from './frame-presenter';
 import { AppError } from '../common/error';
-import { copySheet, plainSheet } from './frame-presenter';
 
-/** A picture of the couple over the whole canvas, or one of its two halves. */
-export type Picture = 'whole' | 'left' | 'right';
-
-/** The canvas in the page and the renderer that draws on it. */
-export interface Canvas {
-  readonly renderer: WebGLRenderer;
-  /** What is on the page and takes the pointer. */
-  readonly element: HTMLElement;
-  /** In CSS pixels. */
-  readonly size: { readonly width: number; readonly height: number };
-  /** Whether the browser has taken the graphics card away for now. */
-  readonly lost: boolean;
-  /** The most pixels that a picture has at this size. */
-  readonly pixels: PictureSize;
-  /** Takes another size; false when there is nothing to draw on. */
-  resize(width: number, height: number): boolean;
-  /** Takes so much of the pixels along each side, 0 to 1; true when that is another share, and what was drawn is lost. */
-  sharpen(factor: number): boolean;
-  /** Says where the next picture goes, and returns that place in CSS pixels. */
-  aim(picture: Picture): Area;
-  /** What smooths the edges of a picture where they are not drawn smooth, for want of a graphics card. */
-  readonly edges: Edges | null;
-  /** All of a picture has been drawn. */
-  drawn(): void;
-  /** Whether what was drawn is on the page or comes there by itself. */
-  shown(): boolean;
-  /** Whether the page stays free while a picture is drawn; true when one has to be drawn at once, see `Sheet`. */
-  setPatient(patient: boolean): boolean;
-  dispose(): void;
-}
+/** The whole canvas, or one half of a split view. */
+export type Viewport = 'whole' | 'left' | 'right';
 
 /** Pixels. */
 export interface PictureSize {
@@ -40,19 +12,19 @@ export interface PictureSize {
   readonly height: number;
 }
 
-/** Sharper than this costs more than it shows. */
-const MOST_PIXELS = 2;
+/** More pixels than this along a CSS pixel cost more than they show. */
+const MAX_PIXEL_RATIO = 2;
 
 /**
- * @param kept whether pictures stay on the canvas until the next one
- * @param smooth whether edges are smooth as drawn
+ * @param preserved whether a frame stays in the drawing buffer until the next one
+ * @param antialias whether edges are drawn smooth
  */
-function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
+function createRenderer(preserved: boolean, antialias: boolean): WebGLRenderer {
   try {
     return new WebGLRenderer({
-      antialias: smooth,
+      antialias,
       powerPreference: 'high-performance',
-      preserveDrawingBuffer: kept,
+      preserveDrawingBuffer: preserved,
     });
   } catch {
     throw new AppError(
@@ -63,95 +35,135 @@ function createRenderer(kept: boolean, smooth: boolean): WebGLRenderer {
   }
 }
 
-/**
- * @param byProcessor whether the processor draws, for want of a graphics card
- * @param filmed the size of pictures that leave the page one by one; null follows the host
- * @param onRestored called when a lost graphics card is there again
- * @param onShown called when a picture that was not `shown` at once is on the page
- * @throws {AppError} `webgl-missing` when the browser has no WebGL 2.
- */
-export function createCanvas(
-  host: HTMLElement,
-  byProcessor: boolean,
-  filmed: PictureSize | null,
-  { onRestored, onShown }: { readonly onRestored: () => void; readonly onShown: () => void },
-): Canvas {
-  const copied = byProcessor && filmed === null;
-  const renderer = createRenderer(copied, !byProcessor);
-  const edges = byProcessor ? createEdges(renderer) : null;
-  const sheet = copied ? copySheet(renderer, onShown) : plainSheet(renderer);
-  const { element } = sheet;
-  renderer.domElement.style.display = 'block';
-  host.append(element);
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = VSMShadowMap;
-  // A frame may be two pictures, whose calls and triangles are counted together.
-  renderer.info.autoReset = false;
+/** The canvas in the page and the renderer that draws on it. */
+export class Canvas {
+  readonly renderer: WebGLRenderer;
+  /** Smooths the edges of what has been drawn, for renderers without a graphics card; null where they are drawn smooth. */
+  readonly edgeSmoothing: EdgeSmoothing | null;
+  private readonly presenter: FramePresenter;
+  private cssSize = { width: 1, height: 1 };
+  private resolution = 1;
+  private contextLost = false;
 
-  let size = { width: 1, height: 1 };
-  let sharpness = 1;
-  let lost = false;
-  const ratio = (): number => (filmed ? 1 : Math.min(window.devicePixelRatio, MOST_PIXELS));
-  const lose = (event: Event): void => {
+  /**
+   * @param softwareRendered whether WebGL is drawn by software, without a graphics card
+   * @param fixedSize of pictures that leave the page one by one; null follows the host
+   * @param onRestored called when a lost graphics card is there again
+   * @param onPresented called when a frame that was not `presented` at once is on the page
+   * @throws {AppError} `webgl-missing` when the browser has no WebGL 2.
+   */
+  constructor(
+    host: HTMLElement,
+    softwareRendered: boolean,
+    private readonly fixedSize: PictureSize | null,
+    private readonly onRestored: () => void,
+    onPresented: () => void,
+  ) {
+    const copied = softwareRendered && fixedSize === null;
+    this.renderer = createRenderer(copied, !softwareRendered);
+    this.edgeSmoothing = softwareRendered ? createEdgeSmoothing(this.renderer) : null;
+    this.presenter = copied
+      ? createCopyPresenter(this.renderer, onPresented)
+      : createDirectPresenter(this.renderer);
+    const { domElement, shadowMap, info } = this.renderer;
+    domElement.style.display = 'block';
+    domElement.addEventListener('webglcontextlost', this.loseContext);
+    domElement.addEventListener('webglcontextrestored', this.restoreContext);
+    shadowMap.enabled = true;
+    shadowMap.type = VSMShadowMap;
+    // A frame may have two viewports, whose draw calls and triangles are counted together.
+    info.autoReset = false;
+    host.append(this.element);
+  }
+
+  /** What is on the page and takes the pointer. */
+  get element(): HTMLElement {
+    return this.presenter.element;
+  }
+
+  /** In CSS pixels. */
+  get size(): PictureSize {
+    return this.cssSize;
+  }
+
+  /** Whether the browser has taken the graphics card away for now. */
+  get lost(): boolean {
+    return this.contextLost;
+  }
+
+  /** Size of the picture at full resolution, pixels. */
+  get pixels(): PictureSize {
+    const { width, height } = this.cssSize;
+    return { width: Math.floor(width * this.pixelRatio), height: Math.floor(height * this.pixelRatio) };
+  }
+
+  /** Takes another size in CSS pixels; false when there is nothing to draw on. */
+  resize(width: number, height: number): boolean {
+    if (width === 0 || height === 0) return false;
+    this.cssSize = { width, height };
+    this.renderer.setPixelRatio(this.pixelRatio * this.resolution);
+    this.renderer.setSize(width, height);
+    return true;
+  }
+
+  /** Sets the share of the pixels along each side, 0 to 1; true when it is another one, and what was drawn is lost. */
+  setResolution(share: number): boolean {
+    if (share === this.resolution) return false;
+    this.resolution = share;
+    this.renderer.setPixelRatio(this.pixelRatio * this.resolution);
+    return true;
+  }
+
+  /** Limits drawing to a viewport, and returns its place in CSS pixels. */
+  setViewport(viewport: Viewport): Rect {
+    const { width, height } = this.cssSize;
+    const left = viewport === 'right' ? width / 2 : 0;
+    const wide = viewport === 'whole' ? width : width / 2;
+    this.renderer.setScissorTest(viewport !== 'whole');
+    this.renderer.setViewport(left, 0, wide, height);
+    this.renderer.setScissor(left, 0, wide, height);
+    return { left, bottom: 0, width: wide, height };
+  }
+
+  /** Says that all of a frame has been asked of the renderer. */
+  frameDone(): void {
+    this.presenter.frameDone();
+  }
+
+  /** Whether the last frame is on the page or comes there by itself. */
+  get presented(): boolean {
+    return this.presenter.presented;
+  }
+
+  /** Says whether the page has much else to do; true when a frame has to be drawn at once, see `FramePresenter`. */
+  setBusy(busy: boolean): boolean {
+    return this.presenter.setBusy(busy);
+  }
+
+  dispose(): void {
+    this.presenter.dispose();
+    this.edgeSmoothing?.dispose();
+    const { domElement } = this.renderer;
+    domElement.removeEventListener('webglcontextlost', this.loseContext);
+    domElement.removeEventListener('webglcontextrestored', this.restoreContext);
+    this.renderer.dispose();
+    // Browsers allow few contexts; one that is not given back waits for the garbage collector.
+    if (this.fixedSize) this.renderer.forceContextLoss();
+    this.element.remove();
+  }
+
+  /** Device pixels along a CSS pixel. */
+  private get pixelRatio(): number {
+    return this.fixedSize ? 1 : Math.min(window.devicePixelRatio, MAX_PIXEL_RATIO);
+  }
+
+  private readonly loseContext = (event: Event): void => {
     event.preventDefault();
-    lost = true;
+    this.contextLost = true;
   };
-  const restore = (): void => {
-    lost = false;
-    onRestored();
-  };
-  renderer.domElement.addEventListener('webglcontextlost', lose);
-  renderer.domElement.addEventListener('webglcontextrestored', restore);
 
-  return {
-    renderer,
-    element,
-    edges,
-    drawn: () => {
-      sheet.drawn();
-    },
-    shown: () => sheet.shown(),
-    setPatient: (patient) => sheet.setPatient(patient),
-    get size() {
-      return size;
-    },
-    get lost() {
-      return lost;
-    },
-    resize(width, height) {
-      if (width === 0 || height === 0) return false;
-      size = { width, height };
-      renderer.setPixelRatio(ratio() * sharpness);
-      renderer.setSize(width, height);
-      return true;
-    },
-    get pixels() {
-      return { width: Math.floor(size.width * ratio()), height: Math.floor(size.height * ratio()) };
-    },
-    sharpen(factor) {
-      if (factor === sharpness) return false;
-      sharpness = factor;
-      renderer.setPixelRatio(ratio() * sharpness);
-      return true;
-    },
-    aim(picture) {
-      const { width, height } = size;
-      const left = picture === 'right' ? width / 2 : 0;
-      const wide = picture === 'whole' ? width : width / 2;
-      renderer.setScissorTest(picture !== 'whole');
-      renderer.setViewport(left, 0, wide, height);
-      renderer.setScissor(left, 0, wide, height);
-      return { left, bottom: 0, width: wide, height };
-    },
-    dispose() {
-      sheet.dispose();
-      edges?.dispose();
-      renderer.domElement.removeEventListener('webglcontextlost', lose);
-      renderer.domElement.removeEventListener('webglcontextrestored', restore);
-      renderer.dispose();
-      // Browsers allow few contexts; one that is not given back waits for the garbage collector.
-      if (filmed) renderer.forceContextLoss();
-      element.remove();
-    },
+  private readonly restoreContext = (): void => {
+    this.contextLost = false;
+    this.onRestored();
   };
 }

@@ -6,25 +6,25 @@ import {
   PlaneGeometry,
   ShaderMaterial,
 } from 'three';
-import { ramp } from './body/field';
-import { FEET, standAt } from './dancer/foot-placement';
+import { smoothstep } from './body/field';
+import { FEET, footMatrix } from './dancer/foot-placement';
 import type { Look } from './theme';
 
-/** Dark spots under feet that are close to the floor: what makes them stand instead of hover. */
-export interface Contacts {
+/** Dark spots under feet that are close to the floor, which make them look as if they stood on it. */
+export interface ContactShadows {
   readonly object: InstancedMesh;
-  /** @param dancers joint positions (22 x 3, metres) of whoever is on the stage, at most two. */
+  /** @param dancers joint positions (22 x 3, metres), at most two dancers. */
   update(dancers: readonly Float32Array[]): void;
   setLook(look: Look): void;
   dispose(): void;
 }
 
-const MOST_FEET = 4;
-/** Size of a spot, metres. */
-const LONG = 0.4;
-const WIDE = 0.24;
-/** A foot this high has no spot left, metres above where it stands. */
-const LIFTED = 0.16;
+const MAX_FEET = 4;
+/** Size of a shadow, metres. */
+const LENGTH = 0.4;
+const WIDTH = 0.24;
+/** Height of a foot from which on it has no shadow, metres. */
+const MAX_HEIGHT = 0.16;
 
 const VERTEX = /* glsl */ `
 attribute float strength;
@@ -44,9 +44,9 @@ void main() {
   gl_FragColor = vec4(0.0, 0.0, 0.0, fade * fade * vStrength * opacity);
 }`;
 
-export function createContacts(): Contacts {
-  const plane = new PlaneGeometry(WIDE, LONG).rotateX(-Math.PI / 2);
-  const strength = new InstancedBufferAttribute(new Float32Array(MOST_FEET), 1).setUsage(DynamicDrawUsage);
+export function createContactShadows(): ContactShadows {
+  const plane = new PlaneGeometry(WIDTH, LENGTH).rotateX(-Math.PI / 2);
+  const strength = new InstancedBufferAttribute(new Float32Array(MAX_FEET), 1).setUsage(DynamicDrawUsage);
   plane.setAttribute('strength', strength);
   const material = new ShaderMaterial({
     vertexShader: VERTEX,
@@ -55,7 +55,7 @@ export function createContacts(): Contacts {
     transparent: true,
     depthWrite: false,
   });
-  const object = new InstancedMesh(plane, material, MOST_FEET);
+  const object = new InstancedMesh(plane, material, MAX_FEET);
   object.instanceMatrix.setUsage(DynamicDrawUsage);
   object.frustumCulled = false;
   object.count = 0;
@@ -67,9 +67,12 @@ export function createContacts(): Contacts {
       let count = 0;
       for (const joints of dancers)
         for (const foot of FEET) {
-          object.setMatrixAt(count, standAt(joints, foot, 0.003, place));
+          object.setMatrixAt(count, footMatrix(joints, foot, 0.003, place));
           const height = (joint: number): number => joints[joint * 3 + 1]!;
-          strength.setX(count, 1 - ramp(0, LIFTED, Math.min(height(foot.toe), height(foot.ankle) - 0.05)));
+          strength.setX(
+            count,
+            1 - smoothstep(0, MAX_HEIGHT, Math.min(height(foot.toe), height(foot.ankle) - 0.05)),
+          );
           count++;
         }
       object.count = count;

@@ -12,18 +12,18 @@ import {
   type WebGLRenderer,
 } from 'three';
 
-/** A part of a picture from its lower left corner, in the unit of the picture's size. */
-export interface Area {
+/** A rectangle in a picture from its lower left corner, in the unit of the picture's size. */
+export interface Rect {
   readonly left: number;
   readonly bottom: number;
   readonly width: number;
   readonly height: number;
 }
 
-/** Smooths the edges in part of a picture that has been drawn without. */
-export interface Edges {
-  /** `area` in CSS pixels; leaves the scissors there. */
-  smooth(area: Area): void;
+/** Smooths the edges in part of a picture that has been drawn without antialiasing. */
+export interface EdgeSmoothing {
+  /** @param rect in CSS pixels; the scissor rectangle stays there afterwards. */
+  smooth(rect: Rect): void;
   dispose(): void;
 }
 
@@ -32,14 +32,14 @@ void main() {
   gl_Position = vec4(position.xy, 0.0, 1.0);
 }`;
 
-// Pixels of one brightness with their neighbours, which is most of them, are left as they are by the first five looks.
+// FXAA (Lottes 2009): most pixels are as bright as their neighbours and left as they are after five samples.
 const FRAGMENT = /* glsl */ `
 uniform sampler2D picture;
 uniform vec2 pixel;
 
-const float LEAST = 0.03;
-const float LEAST_SHARE = 0.1;
-const float FURTHEST = 6.0;
+const float MIN_CONTRAST = 0.03;
+const float MIN_RELATIVE_CONTRAST = 0.1;
+const float MAX_SPAN = 6.0;
 
 float brightness(vec3 colour) {
   return dot(colour, vec3(0.299, 0.587, 0.114));
@@ -58,11 +58,11 @@ void main() {
   float darkest = min(middle, min(min(nw, ne), min(sw, se)));
   float lightest = max(middle, max(max(nw, ne), max(sw, se)));
   gl_FragColor = vec4(here, 1.0);
-  if (lightest - darkest < max(LEAST, lightest * LEAST_SHARE)) return;
+  if (lightest - darkest < max(MIN_CONTRAST, lightest * MIN_RELATIVE_CONTRAST)) return;
 
   vec2 along = vec2(nw + ne - sw - se, nw + sw - ne - se);
   float least = max((nw + ne + sw + se) / 32.0, 1.0 / 128.0);
-  along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -FURTHEST, FURTHEST);
+  along = clamp(along / (min(abs(along.x), abs(along.y)) + least), -MAX_SPAN, MAX_SPAN);
   vec3 near = 0.5 * (at(along / -6.0) + at(along / 6.0));
   vec3 far = 0.5 * near + 0.25 * (at(along * -0.5) + at(along * 0.5));
   float mean = brightness(far);
@@ -70,40 +70,40 @@ void main() {
 }`;
 
 /**
- * Smooths edges by looking at the finished picture (FXAA, Lottes 2009). Where the processor draws, four samples a pixel
- * take a third of the time of all, and this, where the dancers are, a third of that.
+ * Fast approximate antialiasing of the finished picture (FXAA, Lottes 2009). With a software renderer, four samples a
+ * pixel take a third of all the time, and FXAA around the dancers a third of that.
  */
-export function createEdges(renderer: WebGLRenderer): Edges {
-  const own = { picture: { value: null as FramebufferTexture | null }, pixel: { value: new Vector2() } };
+export function createEdgeSmoothing(renderer: WebGLRenderer): EdgeSmoothing {
+  const uniforms = { picture: { value: null as FramebufferTexture | null }, pixel: { value: new Vector2() } };
   const material = new ShaderMaterial({
-    uniforms: own,
+    uniforms,
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     depthTest: false,
     depthWrite: false,
   });
-  const sheet = new Mesh(new PlaneGeometry(2, 2), material);
-  const scene = new Scene().add(sheet);
+  const quad = new Mesh(new PlaneGeometry(2, 2), material);
+  const scene = new Scene().add(quad);
   const camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   const size = new Vector2();
-  const nowhere = new Vector2();
+  const origin = new Vector2();
   let picture: FramebufferTexture | null = null;
 
-  function fit(width: number, height: number): FramebufferTexture {
+  function textureOf(width: number, height: number): FramebufferTexture {
     if (picture?.image.width === width && picture.image.height === height) return picture;
     picture?.dispose();
     picture = new FramebufferTexture(width, height);
     picture.magFilter = LinearFilter;
     picture.minFilter = LinearFilter;
-    own.picture.value = picture;
-    own.pixel.value.set(1 / width, 1 / height);
+    uniforms.picture.value = picture;
+    uniforms.pixel.value.set(1 / width, 1 / height);
     return picture;
   }
 
   return {
     smooth({ left, bottom, width, height }) {
       renderer.getDrawingBufferSize(size);
-      renderer.copyFramebufferToTexture(fit(size.x, size.y), nowhere);
+      renderer.copyFramebufferToTexture(textureOf(size.x, size.y), origin);
       renderer.getSize(size);
       renderer.setViewport(0, 0, size.x, size.y);
       renderer.setScissorTest(true);
@@ -115,7 +115,7 @@ export function createEdges(renderer: WebGLRenderer): Edges {
     },
     dispose() {
       picture?.dispose();
-      sheet.geometry.dispose();
+      quad.geometry.dispose();
       material.dispose();
     },
   };
@@ -124,30 +124,33 @@ export function createEdges(renderer: WebGLRenderer): Edges {
 const point = new Vector3();
 
 /**
- * Where dancers are in a picture.
+ * Bounding rectangle of the dancers in a picture.
  *
  * @param joints world positions (x 3, metres), a list for each dancer
- * @param picture its own place
- * @param around room on every side of a joint, metres
- * @returns null when nobody is to be seen
+ * @param picture rectangle of the whole picture
+ * @param margin around every joint, metres
+ * @returns null when no dancer is in the picture
  */
-export function areaOf(
+export function screenBounds(
   joints: readonly Float32Array[],
   camera: Camera,
-  picture: Area,
-  around: number,
-): Area | null {
+  picture: Rect,
+  margin: number,
+): Rect | null {
   const { elements } = camera.projectionMatrix;
   let [left, right, bottom, top] = [1, 0, 1, 0];
   for (const list of joints) {
     for (let at = 0; at < list.length; at += 3) {
       const { x, y, z } = point.fromArray(list, at).applyMatrix4(camera.matrixWorldInverse);
-      const away = Math.max(-z, around);
-      const across = 0.5 + (elements[0] * x + elements[8] * z) / away / 2;
-      const up = 0.5 + (elements[5] * y + elements[9] * z) / away / 2;
-      const [wide, high] = [(elements[0] * around) / away / 2, (elements[5] * around) / away / 2];
-      [left, right] = [Math.min(left, across - wide), Math.max(right, across + wide)];
-      [bottom, top] = [Math.min(bottom, up - high), Math.max(top, up + high)];
+      const depth = Math.max(-z, margin);
+      const across = 0.5 + (elements[0] * x + elements[8] * z) / depth / 2;
+      const up = 0.5 + (elements[5] * y + elements[9] * z) / depth / 2;
+      const [halfWidth, halfHeight] = [
+        (elements[0] * margin) / depth / 2,
+        (elements[5] * margin) / depth / 2,
+      ];
+      [left, right] = [Math.min(left, across - halfWidth), Math.max(right, across + halfWidth)];
+      [bottom, top] = [Math.min(bottom, up - halfHeight), Math.max(top, up + halfHeight)];
     }
   }
   [left, bottom] = [Math.max(left, 0), Math.max(bottom, 0)];

@@ -11,21 +11,21 @@ import {
 import { SOLE } from './body/leg';
 import type { Look } from './theme';
 
-/** The studio floor: a pool of light with a fading grid, and the shadows that fall on it, in one pass. */
+/** The floor: lit in the middle, with a grid that fades out and the shadows that fall on it, in one pass. */
 export interface Floor {
   readonly object: Mesh;
-  /** Keeps the pool of light under the couple (x, z in metres); the grid stays where it is. */
+  /** Keeps the lit part under the couple (x, z in metres); the grid stays where it is. */
   setCentre(x: number, z: number): void;
   setLook(look: Look): void;
   dispose(): void;
 }
 
 /**
- * Radius of the floor that is drawn at all, metres. Where the grid ends it has faded into the background's colour, and
- * the shadow map reaches less far.
+ * Radius of the floor, metres. Where the grid ends it has faded into the background's colour, and the shadow map is
+ * smaller.
  */
-const REACH = 5.4;
-const CORNERS = 64;
+const RADIUS = 5.4;
+const SEGMENTS = 64;
 
 const VERTEX = /* glsl */ `
 #include <common>
@@ -59,29 +59,29 @@ float lines(float spacing, float width) {
   vec2 at = vPlace / spacing;
   vec2 pixel = fwidth(at);
   vec2 wide = max(vec2(width / spacing), pixel);
-  vec2 away = abs(fract(at - 0.5) - 0.5);
+  vec2 toLine = abs(fract(at - 0.5) - 0.5);
   // A line thinner than a pixel is drawn a pixel wide and as much fainter.
-  vec2 cover = (1.0 - smoothstep(wide - pixel, wide + pixel, away * 2.0)) * min(width / spacing / pixel, 1.0);
+  vec2 cover = (1.0 - smoothstep(wide - pixel, wide + pixel, toLine * 2.0)) * min(width / spacing / pixel, 1.0);
   return max(cover.x, cover.y);
 }
 
-// A half step of noise hides the steps of an 8 bit gradient.
+// Dithering: noise of half a step hides the steps of an 8 bit gradient (interleaved gradient noise, Jimenez 2014).
 float noise(vec2 p) {
   return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))) - 0.5;
 }
 
 void main() {
-  float away = distance(vPlace, centre);
-  float light = 1.0 - smoothstep(0.0, 5.0, away);
+  float fromCentre = distance(vPlace, centre);
+  float light = 1.0 - smoothstep(0.0, 5.0, fromCentre);
   vec3 colour = mix(background, pool, light);
   float strength = max(lines(1.0, 0.009), 0.5 * lines(0.5, 0.007)) * lineOpacity;
-  colour = mix(colour, line, strength * (1.0 - smoothstep(1.6, ${REACH.toFixed(1)}, away)));
+  colour = mix(colour, line, strength * (1.0 - smoothstep(1.6, ${RADIUS.toFixed(1)}, fromCentre)));
   colour *= 1.0 - shadow * (1.0 - getShadowMask());
   gl_FragColor = vec4(colour + noise(gl_FragCoord.xy) / 255.0, 1.0);
 }`;
 
 export function createFloor(): Floor {
-  const circle = new CircleGeometry(REACH, CORNERS).rotateX(-Math.PI / 2);
+  const circle = new CircleGeometry(RADIUS, SEGMENTS).rotateX(-Math.PI / 2);
   const own = {
     background: { value: new Color() },
     pool: { value: new Color() },
@@ -93,7 +93,7 @@ export function createFloor(): Floor {
   const material = new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    // three.js fills in the lights' part, of which only the shadow is looked at.
+    // three.js fills in the uniforms of the lights, of which only the shadow is used.
     uniforms: { ...UniformsUtils.clone(UniformsLib.lights), ...own },
     lights: true,
   });

@@ -1,10 +1,10 @@
 /** Frames on demand: nothing is drawn while nothing moves. */
-export interface Loop {
+export interface FrameLoop {
   /** Asks for a frame. */
   invalidate(): void;
-  /** Leaves the next picture out, for when the page has much else to show at that moment. */
-  pass(): void;
-  /** Draws what waited for the last picture to be shown. */
+  /** Delays the frame that was asked for by one, for when the page has much else to show at that moment. */
+  delay(): void;
+  /** Draws the frame that waited for the last one to be presented. */
   resume(): void;
   /** Draws now, for when waiting would show an empty canvas. */
   flush(): void;
@@ -13,17 +13,17 @@ export interface Loop {
   dispose(): void;
 }
 
-const KEPT = 60;
-/** Longest step that easing may take, seconds: after a pause the camera goes on instead of jumping. */
-const LONGEST = 0.25;
-
-/** Milliseconds without a picture after which the stage counts as standing still. */
-const REST = 200;
+/** Number of frames whose times are kept. */
+const TIMED_FRAMES = 60;
+/** Longest step between two frames, seconds: after a pause the camera goes on instead of jumping. */
+const MAX_STEP = 0.25;
+/** Time without a frame after which the stage is at rest, milliseconds. */
+const REST_MS = 200;
 
 /** A loop that never draws: for pictures that are drawn one by one. */
-export const idleLoop: Loop = {
+export const idleLoop: FrameLoop = {
   invalidate: () => undefined,
-  pass: () => undefined,
+  delay: () => undefined,
   resume: () => undefined,
   flush: () => undefined,
   frameMs: 0,
@@ -31,71 +31,71 @@ export const idleLoop: Loop = {
 };
 
 /** What a loop calls. */
-export interface Drawing {
+export interface FrameCallbacks {
   /** Draws a frame, `dt` seconds after the last one; true asks for another. */
   readonly draw: (dt: number) => boolean;
   /** Whether the last frame is on the page; until then no other is drawn. */
-  readonly shown: () => boolean;
-  /** A frame that was asked for can be drawn, after so many milliseconds; called before it is. */
-  readonly due: (waited: number) => void;
-  /** Nothing has moved for a while. */
-  readonly rest: () => void;
+  readonly presented: () => boolean;
+  /** Called before a frame that was asked for `waitedMs` milliseconds ago is drawn. */
+  readonly beforeFrame: (waitedMs: number) => void;
+  /** Called when no frame has been drawn for a while. */
+  readonly atRest: () => void;
 }
 
-export function createLoop({ draw, shown, due, rest }: Drawing): Loop {
+export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameCallbacks): FrameLoop {
   let request = 0;
-  let asked = 0;
-  let passes = false;
-  /** A frame was due before the last one was shown. */
-  let waits = false;
-  let resting: ReturnType<typeof setTimeout> | undefined;
-  let before = 0;
+  let askedAt = 0;
+  let delayed = false;
+  /** Whether a frame could have been drawn before the last one was presented. */
+  let waiting = false;
+  let restTimer: ReturnType<typeof setTimeout> | undefined;
+  let lastFrameAt = 0;
   let running = false;
   let disposed = false;
   const times: number[] = [];
 
   function frame(now: number): void {
     request = 0;
-    const dt = running ? Math.min(LONGEST, Math.max(0, (now - before) / 1000)) : 1 / 60;
-    before = now;
+    const dt = running ? Math.min(MAX_STEP, Math.max(0, (now - lastFrameAt) / 1000)) : 1 / 60;
+    lastFrameAt = now;
     const start = performance.now();
-    clearTimeout(resting);
+    clearTimeout(restTimer);
     running = draw(dt);
     times.push(performance.now() - start);
-    if (times.length > KEPT) times.shift();
+    if (times.length > TIMED_FRAMES) times.shift();
     if (running) invalidate();
-    else resting = setTimeout(rest, REST);
+    else restTimer = setTimeout(atRest, REST_MS);
   }
   function invalidate(): void {
-    if (request !== 0 || waits || disposed) return;
-    asked = performance.now();
+    if (request !== 0 || waiting || disposed) return;
+    askedAt = performance.now();
     request = requestAnimationFrame((now) => {
       request = 0;
-      if (passes) {
-        passes = false;
+      if (delayed) {
+        delayed = false;
         return invalidate();
       }
-      if (shown()) drawDue(now);
-      else waits = true;
+      if (presented()) drawAsked(now);
+      else waiting = true;
     });
   }
-  function drawDue(now: number): void {
-    due(performance.now() - asked);
+  function drawAsked(now: number): void {
+    beforeFrame(performance.now() - askedAt);
     frame(now);
   }
   return {
     invalidate,
-    pass() {
-      passes = request !== 0;
+    delay() {
+      delayed = request !== 0;
     },
     resume() {
-      if (!waits || disposed) return;
-      waits = false;
-      drawDue(performance.now());
+      if (!waiting || disposed) return;
+      waiting = false;
+      drawAsked(performance.now());
     },
     flush() {
       if (disposed) return;
-      waits = false;
+      waiting = false;
       if (request !== 0) cancelAnimationFrame(request);
       frame(performance.now());
     },
@@ -105,7 +105,7 @@ export function createLoop({ draw, shown, due, rest }: Drawing): Loop {
     },
     dispose() {
       disposed = true;
-      clearTimeout(resting);
+      clearTimeout(restTimer);
       if (request !== 0) cancelAnimationFrame(request);
       request = 0;
     },

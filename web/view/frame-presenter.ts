@@ -1,55 +1,56 @@
 import type { WebGLRenderer } from 'three';
 
-/** Where a renderer's pictures come on the page. */
-export interface Sheet {
+/** Presents rendered frames on the page, directly or through a 2D copy. */
+export interface FramePresenter {
   /** What is on the page and takes the pointer. */
   readonly element: HTMLElement;
-  /** Says that all of a picture has been asked of the renderer. */
-  drawn(): void;
-  /** Whether the last picture is on the page or comes by itself. */
-  shown(): boolean;
+  /** Says that all of a frame has been asked of the renderer. */
+  frameDone(): void;
+  /** Whether the last frame is on the page or comes there by itself. */
+  readonly presented: boolean;
   /**
-   * Whether the page stays free while a picture is drawn; it comes a little later then. True when the next picture has
-   * to be drawn at once: what is on the page may be empty.
+   * Says whether the page has much else to do. It then stays responsive while a frame is drawn, which comes a little
+   * later. True when the next frame has to be drawn at once, because what is on the page may be empty.
    */
-  setPatient(patient: boolean): boolean;
+  setBusy(busy: boolean): boolean;
   dispose(): void;
 }
 
-/** Names of drawing without a graphics card: Chromium's, Mesa's, Windows' and macOS'. */
-const BY_PROCESSOR = /swiftshader|llvmpipe|softpipe|basic render|software/i;
+/** Names of software renderers: Chromium's, Mesa's, Windows' and macOS'. */
+const SOFTWARE_RENDERERS = /swiftshader|llvmpipe|softpipe|basic render|software/i;
 
-/** Whether the processor draws in place of a graphics card. */
-export function drawnByProcessor(): boolean {
+/** Whether WebGL is drawn by software, without a graphics card. */
+export function isSoftwareRendered(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2');
   const names = gl?.getExtension('WEBGL_debug_renderer_info');
   const name = names ? String(gl?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   // Browsers allow few contexts; one that is not given back waits for the garbage collector.
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return BY_PROCESSOR.test(name);
+  return SOFTWARE_RENDERERS.test(name);
 }
 
-/** The canvas itself: the browser brings its pictures on the screen, which with a graphics card holds nothing up. */
-export const plainSheet = ({ domElement }: WebGLRenderer): Sheet => ({
+/** Presents the canvas itself: the browser brings its frames on the screen, which blocks nothing with a graphics card. */
+export const createDirectPresenter = ({ domElement }: WebGLRenderer): FramePresenter => ({
   element: domElement,
-  drawn: () => undefined,
-  shown: () => true,
-  setPatient: () => false,
+  frameDone: () => undefined,
+  presented: true,
+  setBusy: () => false,
   dispose: () => undefined,
 });
 
-/** From one look whether a picture is done to the next, milliseconds. */
-const LOOK = 4;
+/** Time between two looks whether a frame is finished, milliseconds. */
+const POLL_MS = 4;
 
 /**
- * The canvas, or, while patient, copies of its pictures, each made when it is done. Where the processor draws, the
- * browser fetches a picture from a canvas in the middle of a task of the page, and the page stands still until it is
- * drawn: next to other work that may be long. A copy costs a quarter of the pictures, so it is not made all the time.
+ * Presents the canvas itself or, while the page is busy, 2D copies of its frames, each made when the frame is finished.
+ * With a software renderer the browser fetches a frame from a canvas in the middle of a task of the page, which is
+ * blocked until the frame is drawn: beside other work that may take long. A copy costs a quarter of the frame rate, so
+ * it is not made all the time.
  *
- * @param renderer one whose canvas keeps its picture
- * @param onShown called when a copy is on the page
+ * @param renderer one that preserves its drawing buffer
+ * @param onPresented called when a copy is on the page
  */
-export function copySheet(renderer: WebGLRenderer, onShown: () => void): Sheet {
+export function createCopyPresenter(renderer: WebGLRenderer, onPresented: () => void): FramePresenter {
   const gl = renderer.getContext() as WebGL2RenderingContext;
   const canvas = renderer.domElement;
   const copy = document.createElement('canvas');
@@ -57,55 +58,60 @@ export function copySheet(renderer: WebGLRenderer, onShown: () => void): Sheet {
   const context = copy.getContext('2d', { alpha: false, willReadFrequently: true });
   const element = document.createElement('div');
   element.append(canvas);
-  let patient = false;
-  let pending: WebGLSync | null = null;
+  let busyPage = false;
+  let fence: WebGLSync | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
 
-  function forget(): void {
+  function cancel(): void {
     clearTimeout(timer);
-    gl.deleteSync(pending);
-    pending = null;
+    gl.deleteSync(fence);
+    fence = null;
   }
-  function look(): void {
-    if (pending === null) return;
-    if (gl.getSyncParameter(pending, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) {
-      timer = setTimeout(look, LOOK);
+  function poll(): void {
+    if (fence === null) return;
+    if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) {
+      timer = setTimeout(poll, POLL_MS);
       return;
     }
-    forget();
+    cancel();
+    drawCopy();
+    // A canvas that is not on the page is not fetched for it.
+    if (canvas.isConnected) canvas.replaceWith(copy);
+    onPresented();
+  }
+  function drawCopy(): void {
     if (copy.width !== canvas.width) copy.width = canvas.width;
     if (copy.height !== canvas.height) copy.height = canvas.height;
     copy.style.width = canvas.style.width;
     copy.style.height = canvas.style.height;
     context?.drawImage(canvas, 0, 0);
-    // What is not on the page is not fetched for it.
-    if (canvas.isConnected) canvas.replaceWith(copy);
-    onShown();
   }
-  function copyWhenDone(): void {
-    forget();
-    pending = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  function copyWhenFinished(): void {
+    cancel();
+    fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
-    timer = setTimeout(look, LOOK);
+    timer = setTimeout(poll, POLL_MS);
   }
   return {
     element,
-    drawn() {
-      if (patient) copyWhenDone();
+    frameDone() {
+      if (busyPage) copyWhenFinished();
     },
-    shown: () => pending === null,
-    setPatient(next) {
-      if (next === patient) return false;
-      patient = next;
-      if (patient) {
-        // The picture that is there: the next one is not to be drawn on a canvas that is on the page.
-        copyWhenDone();
+    get presented() {
+      return fence === null;
+    },
+    setBusy(busy) {
+      if (busy === busyPage) return false;
+      busyPage = busy;
+      if (busy) {
+        // Copies the frame that is there: the next one must not be drawn on a canvas that is on the page.
+        copyWhenFinished();
         return false;
       }
-      forget();
+      cancel();
       copy.replaceWith(canvas);
       return true;
     },
-    dispose: forget,
+    dispose: cancel,
   };
 }

@@ -1,34 +1,35 @@
-/** What the two halves are called. */
+/** Names of the two halves of a split view. */
 export interface Labels {
   readonly left: string;
   readonly right: string;
 }
 
-/** The seam between the halves of the picture and the words at its foot. */
-export interface Halves {
+/** The line between the halves of a split view, with the name of each half at its foot. */
+export interface SplitLabels {
+  /** Shows the names, or hides line and names. */
   show(labels: Labels | null): void;
   dispose(): void;
 }
 
-export function createHalves(host: HTMLElement): Halves {
+export function createSplitLabels(host: HTMLElement): SplitLabels {
   const make = (className: string): HTMLElement => {
     const element = document.createElement('div');
     element.className = className;
     return element;
   };
   const [left, right] = [make('half a'), make('half b')];
-  const seam = make('halves');
-  seam.append(left, right);
-  seam.hidden = true;
-  host.append(seam);
+  const line = make('halves');
+  line.append(left, right);
+  line.hidden = true;
+  host.append(line);
   return {
     show(labels) {
-      seam.hidden = labels === null;
+      line.hidden = labels === null;
       left.textContent = labels?.left ?? '';
       right.textContent = labels?.right ?? '';
     },
     dispose() {
-      seam.remove();
+      line.remove();
     },
   };
 }

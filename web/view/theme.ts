@@ -2,14 +2,14 @@ export type Theme = 'dark' | 'light';
 export type Role = 'leader' | 'reactor';
 export const ROLES = ['leader', 'reactor'] as const satisfies readonly Role[];
 
-/** Everything on the stage that differs between the dark and the light studio. */
+/** Everything on the stage that differs between the dark and the light theme. */
 export interface Look {
   readonly leader: number;
   readonly reactor: number;
   /** The reactor's coarse layer alone, and another take of the reactor. */
   readonly coarse: number;
   readonly other: number;
-  /** What stands out from the background: the middle of a line between hands, and bones. */
+  /** Stands out from the background: the middle of a hand link, and bones. */
   readonly contrast: number;
   readonly background: number;
   /** Colour of the lit floor in the middle. */
@@ -23,7 +23,7 @@ export interface Look {
   readonly key: number;
   readonly rim: number;
   readonly shadow: number;
-  /** Opacity of the dark spot under a planted foot. */
+  /** Opacity of the contact shadow under a foot on the floor. */
   readonly contact: number;
 }
 

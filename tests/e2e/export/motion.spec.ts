@@ -8,7 +8,7 @@ import { demoSettings as settings, serveDemo } from '../support/made-demo';
 
 const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
 
-test('leader, reactor or both are saved in four formats that say what they hold', async ({ page }) => {
+test('leader, reactor or both are saved in four formats with their metadata', async ({ page }) => {
   await serveDemo(page, settings, 60);
   const app = new App(page);
   await app.openWithoutPicture();
@@ -26,7 +26,7 @@ test('leader, reactor or both are saved in four formats that say what they hold'
   const bytes = async (download: Download): Promise<Uint8Array> =>
     new Uint8Array(await readFile(await download.path()));
 
-  await test.step('whom is chosen by arrow keys and remembered; the name follows', async () => {
+  await test.step('the dancer is chosen by arrow keys and remembered; the file name follows', async () => {
     await page.keyboard.press('e');
     await expect(menu.getByRole('button', { name: /BVH/ })).toBeFocused();
     await expect(menu).toContainText(`${PREFIX}_reactor.bvh`);
@@ -40,7 +40,7 @@ test('leader, reactor or both are saved in four formats that say what they hold'
     await expect(menu).toContainText('A video needs the 3D picture');
   });
 
-  await test.step('GLB: without a fault, two dancers in one animation', async () => {
+  await test.step('GLB: valid, two dancers in one animation', async () => {
     const download = await save('GLB');
     expect(download.suggestedFilename()).toBe(`${PREFIX}_both.glb`);
     const { issues, info } = await validateBytes(await bytes(download));

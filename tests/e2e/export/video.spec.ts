@@ -8,7 +8,7 @@ import { demoSettings as settings, serveDemo } from '../support/made-demo';
 const FRAMES = 24;
 const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
 
-// A small stage: what draws here is the processor.
+// A small stage, for a software renderer.
 test.use({ viewport: { width: 480, height: 580 } });
 
 async function openMenu(page: Page, frames = FRAMES): Promise<App> {
@@ -20,24 +20,24 @@ async function openMenu(page: Page, frames = FRAMES): Promise<App> {
   return app;
 }
 
-async function film(page: Page): Promise<Download> {
+async function saveVideo(page: Page): Promise<Download> {
   await page.getByRole('radio', { name: /As on stage/ }).click();
   const coming = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save video' }).click();
   return coming;
 }
 
-/** What a person sees and hears of a film. */
-interface Watched {
-  /** Shares of warm and cool pixels in its middle. */
+/** Picture and sound of a video. */
+interface VideoContent {
+  /** Shares of warm and cool pixels in the middle frame. */
   readonly warm: number;
   readonly cool: number;
   readonly loudest: number;
-  /** Second of the first sound. */
-  readonly begins: number;
+  /** Start of the sound, seconds. */
+  readonly soundStart: number;
 }
 
-async function watched(page: Page, file: string): Promise<Watched> {
+async function contentOf(page: Page, file: string): Promise<VideoContent> {
   return page.evaluate(
     async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
@@ -47,7 +47,7 @@ async function watched(page: Page, file: string): Promise<Watched> {
       video.currentTime = video.duration / 2;
       await new Promise((resolve) => (video.onseeked = resolve));
       const context = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d');
-      if (!context) throw new Error('No canvas to look at the film with.');
+      if (!context) throw new Error('There is no 2D context to read the video with.');
       context.drawImage(video, 0, 0);
       const { data } = context.getImageData(0, 0, video.videoWidth, video.videoHeight);
       let [warm, cool] = [0, 0];
@@ -57,19 +57,24 @@ async function watched(page: Page, file: string): Promise<Watched> {
         if (blue >= 90 && blue >= 1.3 * red) cool += 4 / data.length;
       }
       const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
-      const heard = sound.getChannelData(0).map(Math.abs);
-      const loudest = Math.max(...heard);
-      return { warm, cool, loudest, begins: heard.findIndex((sample) => sample > 0.2 * loudest) / 48000 };
+      const samples = sound.getChannelData(0).map(Math.abs);
+      const loudest = Math.max(...samples);
+      return {
+        warm,
+        cool,
+        loudest,
+        soundStart: samples.findIndex((sample) => sample > 0.2 * loudest) / 48000,
+      };
     },
     (await readFile(file)).toString('base64'),
   );
 }
 
-test('the stage is filmed with its song, every frame of it, and has not noticed', async ({ page }) => {
-  // As in Safari 18, where pages may encode pictures but no sound: the page brings its own encoder along.
+test('a video has every frame and the song, and leaves the stage as it was', async ({ page }) => {
+  // As in Safari 18, which can encode video but no audio: the page has an encoder of its own.
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'AudioEncoder');
-    // And as on a phone, where the system passes films on; a desktop's Chromium does not.
+    // And as on a phone, where the system can share videos; Chromium on a desktop cannot.
     Object.assign(navigator, {
       canShare: ({ files }: { files: File[] }) => files.every(({ type }) => type.startsWith('video/')),
       share: ({ files }: { files: File[] }) => {
@@ -79,11 +84,11 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
     });
   });
   const app = await openMenu(page);
-  // Here the processor draws: full HD would take minutes, and is there for who asks for it.
+  // With a software renderer full HD would take minutes, so it is not the default.
   await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
   const size = await page.evaluate('window.reactdance.stage.pictureSize()');
   const before = await app.onScreen();
-  const download = await film(page);
+  const download = await saveVideo(page);
   expect(download.suggestedFilename()).toBe(`${PREFIX}_stage.mp4`);
   const { format, streams } = await probe(await download.path());
   expect(format.format_name).toContain('mp4');
@@ -94,12 +99,12 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
   const { width, height } = size as { width: number; height: number };
   expect([video?.width, video?.height]).toEqual([even(width), even(height)]);
   expect(audio).toMatchObject({ codec_type: 'audio', codec_name: 'aac', channels: 1 });
-  const { warm, cool, loudest, begins } = await watched(page, await download.path());
+  const { warm, cool, loudest, soundStart } = await contentOf(page, await download.path());
   expect(warm).toBeGreaterThan(0.001);
   expect(cool).toBeGreaterThan(0.001);
   expect(loudest).toBeGreaterThan(0.2);
-  // The song begins with a kick; a twentieth of a second is less than anyone sees or hears.
-  expect(begins).toBeLessThan(0.05);
+  // The song begins with a kick; a twentieth of a second is not noticed.
+  expect(soundStart).toBeLessThan(0.05);
   const region = page.getByRole('region', { name: 'Video' });
   await expect(region).toContainText(/Saved, \d+ KB/);
   await region.getByRole('button', { name: 'Share the video' }).click();
@@ -110,7 +115,9 @@ test('the stage is filmed with its song, every frame of it, and has not noticed'
   expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
 });
 
-test('where nothing encodes H.264, the video is WebM; no video waits for the clock', async ({ page }) => {
+test('without an H.264 encoder the video is WebM; writing a video does not wait for timers', async ({
+  page,
+}) => {
   await page.addInitScript(() => {
     const supports = VideoEncoder.isConfigSupported.bind(VideoEncoder);
     VideoEncoder.isConfigSupported = async (config) =>
@@ -119,21 +126,21 @@ test('where nothing encodes H.264, the video is WebM; no video waits for the clo
   await page.clock.install();
   await openMenu(page);
   await expect(page.getByRole('region', { name: 'Video' })).toContainText('WebM');
-  // From here on the page's clock and timers run a hundred times too slow, and so would what waits for them.
+  // From here on the page's clock and timers run a hundred times too slow, and so would all that waits for them.
   await page.clock.pauseAt(new Date(Date.now() + 60_000));
   const pageClock = () => page.evaluate<number>('performance.now()');
   const [begun, begunThere] = [Date.now(), await pageClock()];
   let download: Download | null = null;
-  void film(page).then((done) => (download = done));
+  void saveVideo(page).then((done) => (download = done));
   while (!download) {
-    // This is no wait for something: it sets the pace of the page's clock, 5 ms for each half second of ours.
+    // This sets the pace of the page's clock: 5 ms for each half second of the test's.
     await page.waitForTimeout(500);
     await page.clock.runFor(5);
   }
   const [took, tookThere] = [(Date.now() - begun) / 1000, ((await pageClock()) - begunThere) / 1000];
   test.info().annotations.push({
     type: 'measured',
-    description: `${FRAMES / 30} s of dance filmed in ${took.toFixed(1)} s, in ${tookThere.toFixed(2)} s of its own`,
+    description: `${FRAMES / 30} s of dance encoded in ${took.toFixed(1)} s, in ${tookThere.toFixed(2)} s of its own`,
   });
   expect(tookThere).toBeLessThan(FRAMES / 30 / 2);
   const done = download as Download;
@@ -143,7 +150,7 @@ test('where nothing encodes H.264, the video is WebM; no video waits for the clo
   expect(streams[0]?.nb_read_frames).toBe(String(FRAMES));
 });
 
-test('a video tells how far it is, with the menu closed too, and is cancelled at once', async ({ page }) => {
+test('a video shows its progress, with the menu closed too, and is cancelled at once', async ({ page }) => {
   const app = await openMenu(page, 1800);
   const button = page.getByRole('button', { name: 'Download', exact: true });
   await page.getByRole('radio', { name: /As on stage/ }).click();
@@ -162,31 +169,33 @@ test('a video tells how far it is, with the menu closed too, and is cancelled at
   await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
 });
 
-/** What the page has done beside filming since it began to be counted. */
-interface Beside {
+/** What the page has done since counting began. */
+interface PageWork {
   readonly milliseconds: number;
-  /** Pictures that went to the encoder. */
-  readonly filmed: number;
-  /** Pictures that the stage on the page has drawn. */
+  /** Frames passed to the encoder. */
+  readonly encoded: number;
+  /** Frames that the stage on the page has drawn. */
   readonly drawn: number;
-  /** Times that the progress on the page changed. */
-  readonly told: number;
+  /** Number of changes of the progress on the page. */
+  readonly reported: number;
 }
 
-test('while it films, the page stands still and tells how far it is only now and then', async ({ page }) => {
+test('while a video is written, the stage on the page rests and progress is shown only now and then', async ({
+  page,
+}) => {
   await page.addInitScript(() => {
-    const counts = { filmed: 0, told: 0, drawn: 0, since: performance.now() };
+    const counts = { encoded: 0, reported: 0, drawn: 0, since: performance.now() };
     Object.assign(window, { counts });
     globalThis.VideoEncoder = class extends VideoEncoder {
       override encode(...picture: Parameters<VideoEncoder['encode']>): void {
-        counts.filmed++;
+        counts.encoded++;
         super.encode(...picture);
       }
     };
   });
   const app = await openMenu(page, 300);
   await page.keyboard.press('Escape');
-  // Without an end: on a busy machine the dance may be over before the film has begun.
+  // In a loop: on a busy machine the dance may be over before the video has begun.
   await page.keyboard.press('l');
   await page.getByRole('button', { name: 'Play', exact: true }).click();
   await app.until(({ playback }) => playback.playing && playback.loop && playback.time > 0.1);
@@ -196,32 +205,32 @@ test('while it films, the page stands still and tells how far it is only now and
   await app.until(({ filming }) => filming && filming.frame >= 2);
   await page.evaluate(`
     const { counts } = window;
-    Object.assign(counts, { filmed: 0, since: performance.now() });
+    Object.assign(counts, { encoded: 0, since: performance.now() });
     window.reactdance.stage.onFrame(() => counts.drawn++);
     const meter = document.querySelector('[role=progressbar][aria-label=Video]');
-    const told = new MutationObserver(() => counts.told++);
-    told.observe(meter.parentElement, { subtree: true, childList: true, characterData: true });
+    const reported = new MutationObserver(() => counts.reported++);
+    reported.observe(meter.parentElement, { subtree: true, childList: true, characterData: true });
   `);
-  await expect.poll(() => page.evaluate('window.counts.filmed'), { timeout: 60_000 }).toBeGreaterThan(20);
-  const beside = await page.evaluate<Beside>(
+  await expect.poll(() => page.evaluate('window.counts.encoded'), { timeout: 60_000 }).toBeGreaterThan(20);
+  const work = await page.evaluate<PageWork>(
     '({ ...window.counts, milliseconds: performance.now() - window.counts.since })',
   );
-  const each = (beside.milliseconds / beside.filmed).toFixed(0);
-  const description = `${each} ms a picture; ${beside.told} times told, ${beside.drawn} drawn on the page`;
+  const each = (work.milliseconds / work.encoded).toFixed(0);
+  const description = `${each} ms a picture; ${work.reported} times reported, ${work.drawn} drawn on the page`;
   test.info().annotations.push({ type: 'measured', description });
-  expect(beside.told).toBeGreaterThan(0);
-  expect.soft(beside.told).toBeLessThanOrEqual(1 + beside.milliseconds / 400);
+  expect(work.reported).toBeGreaterThan(0);
+  expect.soft(work.reported).toBeLessThanOrEqual(1 + work.milliseconds / 400);
   // The camera may still come to rest.
-  expect.soft(beside.drawn).toBeLessThan(beside.filmed / 4);
+  expect.soft(work.drawn).toBeLessThan(work.encoded / 4);
 });
 
-test('where pages may not encode, the video is recorded in real time', async ({ page }) => {
+test('without WebCodecs the video is recorded in real time', async ({ page }) => {
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'VideoEncoder');
   });
   await openMenu(page, 120);
   await expect(page.getByRole('region', { name: 'Video' })).toContainText('takes 0:04');
-  const download = await film(page);
+  const download = await saveVideo(page);
   const { streams } = await probe(await download.path());
   expect(streams.map(({ codec_type }) => codec_type).sort()).toEqual(['audio', 'video']);
   expect(Number(streams.find((stream) => stream.codec_type === 'video')?.nb_read_frames)).toBeGreaterThan(3);

@@ -5,8 +5,8 @@ import { App, farthest } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { rested } from '../support/stage-rest';
 
-/** The switches of the stage: what they are called, and the key of each. */
-const SHOWS = [
+/** The overlays: name and key of each. */
+const OVERLAYS = [
   ['Coarse ghost', 'g'],
   ['Skeleton', 'k'],
   ['Trails', 'p'],
@@ -15,11 +15,11 @@ const SHOWS = [
   ['Hand links', 'h'],
 ] as const;
 
-/** Runs in the page with its stage; `use` sees nothing of the test. */
+/** Runs `use` in the page with its stage; it cannot refer to variables of the test. */
 const onStage = <T>(page: Page, use: (stage: Stage) => T): Promise<T> =>
   page.evaluate<T>(`(${use.toString()})(window.reactdance.stage)`);
 
-/** Another reactor, made of the one that is there: the coarse layer, with the whole reactor for its ghost. */
+/** Shows the coarse layer of the reactor as another take, with the whole reactor as its coarse layer. */
 const compare = (page: Page, mode: 'ghost' | 'right' | null): Promise<void> =>
   page.evaluate(`
     const { stage, store } = window.reactdance;
@@ -37,13 +37,13 @@ async function differing(page: Page, [a, b]: readonly [Buffer, Buffer], rightOf 
           const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
           const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
           const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-          if (!context) throw new Error('No canvas to look at the picture with.');
+          if (!context) throw new Error('There is no 2D context to read the picture with.');
           context.drawImage(image, 0, 0);
           const left = Math.round(rightOf * image.width);
           return context.getImageData(left, 0, image.width - left, image.height).data;
         }),
       );
-      if (!one || !two) throw new Error('Two pictures are compared.');
+      if (!one || !two) throw new Error('Two pictures are needed.');
       let count = 0;
       for (let i = 0; i < one.length; i += 4)
         if ([0, 1, 2].some((channel) => Math.abs(one[i + channel]! - two[i + channel]!) > 12)) count++;
@@ -68,12 +68,12 @@ async function dancing(page: Page): Promise<App> {
   return app;
 }
 
-test('every switch changes the picture and back, by key and by hand', async ({ page }) => {
+test('every overlay changes the picture and back, by key and by button', async ({ page }) => {
   await page.setViewportSize({ width: 900, height: 640 });
   const app = await dancing(page);
   await rested(page);
   const plain = await picture(page);
-  for (const [name, key] of SHOWS) {
+  for (const [name, key] of OVERLAYS) {
     await page.keyboard.press(key);
     if (key === 'g') {
       await app.until(({ coarse }) => coarse.motion);
@@ -85,7 +85,7 @@ test('every switch changes the picture and back, by key and by hand', async ({ p
     }
     await rested(page);
     const changed = await differing(page, [plain, await picture(page)]);
-    // Beyond the figure on the button. Hands of a made leader need not be within reach of the reactor's.
+    // More than the number on the button. Hands of a made leader need not be near the reactor's.
     if (key !== 'h') expect(changed, name).toBeGreaterThan(300);
     await page.keyboard.press(key);
   }
@@ -94,19 +94,19 @@ test('every switch changes the picture and back, by key and by hand', async ({ p
 
   await page.getByRole('button', { name: 'Show', exact: true }).click();
   const menu = page.getByRole('dialog', { name: 'Show on the stage' });
-  for (const [name] of SHOWS) {
+  for (const [name] of OVERLAYS) {
     const toggle = menu.getByRole('button', { name });
     await expect(toggle).toHaveAttribute('aria-pressed', 'false');
     await toggle.click();
     await expect(toggle).toHaveAttribute('aria-pressed', 'true');
   }
-  expect(Object.values(await app.read(({ shown }) => shown))).toEqual(SHOWS.map(() => true));
+  expect(Object.values(await app.read(({ shown }) => shown))).toEqual(OVERLAYS.map(() => true));
   await page.keyboard.press('Escape');
   await expect(menu).toBeHidden();
   await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeFocused();
 });
 
-test('the camera has a key for every view, and one that brings both back into the picture', async ({
+test('the camera has a key for every view, and one that brings both dancers into the picture', async ({
   page,
 }) => {
   await dancing(page);
@@ -132,7 +132,7 @@ test('the camera has a key for every view, and one that brings both back into th
   await expect.poll(distance).toBeLessThan(1.05 * framed);
 });
 
-test('two reactors stand side by side in one light, or one as the ghost of the other', async ({ page }) => {
+test('two reactors are shown side by side, or one as the ghost of the other', async ({ page }) => {
   await page.setViewportSize({ width: 900, height: 640 });
   const app = await dancing(page);
   await page.keyboard.press('g');
@@ -172,9 +172,9 @@ test('two reactors stand side by side in one light, or one as the ghost of the o
 });
 
 /**
- * Processor time of the page's main thread for one frame of the stage, median over batches, milliseconds. It is what
- * posing, three.js and its calls of WebGL cost; while the thread waits, for pixels that the processor fills or for a
- * processor that is busy elsewhere, it does not run.
+ * Processor time of the page's main thread for one frame of the stage, median over batches, milliseconds: the time of
+ * posing, of three.js and of its calls of WebGL. Time in which the thread waits for the software renderer or for a
+ * free processor does not count.
  */
 async function frameTime(page: Page): Promise<number> {
   const [batches, frames] = [5, 3];
@@ -200,17 +200,15 @@ async function frameTime(page: Page): Promise<number> {
   return times.toSorted((a, b) => a - b)[Math.floor(batches / 2)]!;
 }
 
-test('everything at once, twice over, is within the budget, and nothing is drawn at rest', async ({
-  page,
-}) => {
+test('all overlays on two takes are within the budget, and nothing is drawn at rest', async ({ page }) => {
   await page.setViewportSize({ width: 400, height: 600 });
   const app = await dancing(page);
-  for (const [, key] of SHOWS) await page.keyboard.press(key);
+  for (const [, key] of OVERLAYS) await page.keyboard.press(key);
   await app.until(({ coarse }) => coarse.motion);
   await compare(page, 'right');
   await onStage(page, (stage) => stage.ready());
-  for (const bodies of ['of glass', 'solid']) {
-    // The first frames pay for compiling, and neighbours on a shared machine only ever add: the quietest moment counts.
+  for (const bodies of ['see-through', 'solid']) {
+    // The first frames compile shaders, and other work on a shared machine only adds time: the least time counts.
     const measured: string[] = [];
     const measure = async (): Promise<number> => {
       const milliseconds = await frameTime(page);

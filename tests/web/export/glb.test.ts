@@ -10,11 +10,11 @@ import { makeBody } from '../../../web/view/body/simplify';
 import { LOOKS } from '../../../web/view/theme';
 import { madeDance } from '../support/made-dance';
 
-/** The page's own meshing, without its worker. */
+/** Meshes bodies on this thread. */
 const bodies = { request: makeBody };
 
 beforeAll(() => {
-  // three reads its own blobs with what only browsers have.
+  // three.js reads its blobs with a FileReader, which Node does not have.
   class Reader {
     result: ArrayBuffer | null = null;
     onloadend: (() => void) | null = null;
@@ -30,7 +30,7 @@ beforeAll(() => {
 
 const dance = madeDance(60, 'leader', 'reactor');
 
-test('the Khronos validator has nothing to say against it', async () => {
+test('the Khronos validator finds no error and no warning', async () => {
   for (const one of [dance, madeDance(1, 'reactor')]) {
     const glb = await writeGlb(one, 'dark', bodies);
     const { issues, info } = await validateBytes(new Uint8Array(glb));
@@ -40,13 +40,13 @@ test('the Khronos validator has nothing to say against it', async () => {
   }
 });
 
-test.each([60, 930])('the size of %i frames is known before they are written', async (frames) => {
+test.each([60, 930])('the size of %i frames is estimated before they are written', async (frames) => {
   const long = madeDance(frames, 'leader', 'reactor');
   const { byteLength } = await writeGlb(long, 'dark', bodies);
   expect(Math.abs(estimateBytes('glb', long) / byteLength - 1)).toBeLessThan(0.05);
 });
 
-test('played back, the bones go where the motion has the joints, in the colours of the roles', async () => {
+test('played back, the bones are where the motion has the joints, in the colours of the roles', async () => {
   const glb = await writeGlb(dance, 'light', bodies);
   const { scene, animations } = await new GLTFLoader().parseAsync(glb, '');
   const [clip] = animations as [AnimationClip];
@@ -58,7 +58,7 @@ test('played back, the bones go where the motion has the joints, in the colours 
     const name = role === 'leader' ? 'Leader' : 'Reactor';
     const bones: Object3D[] = [];
     scene.getObjectByName(name)!.traverse((bone) => bones.push(bone));
-    // A second dancer's bones get a number from this reader, which wants names once; the file has them plain.
+    // This loader makes names unique by adding a number to those of the second dancer; the file has them without.
     const bone = (joint: number): Object3D =>
       bones.find((each) => each.name.replace(/_\d+$/, '') === BVH_NAMES[SMPL22[joint]!])!;
     for (const frame of [0, 17, 59]) {

@@ -1,6 +1,6 @@
 import { unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
-import { estimateBytes, type MotionFormat, motionEnding, writeMotion } from '../../../web/export/client';
+import { estimateBytes, type MotionFormat, motionExtension, writeMotion } from '../../../web/export/client';
 import { writeNpz } from '../../../web/export/npz';
 import { readBvh } from '../../../web/motion/bvh/read';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
@@ -9,9 +9,9 @@ import { madeDance } from '../support/made-dance';
 const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>
   new Uint8Array(await (await file).arrayBuffer());
 
-test('one dancer is a BVH, two are an archive with one each', async () => {
+test('one dancer is a BVH file, two are an archive with one each', async () => {
   const dance = madeDance(40, 'leader', 'reactor');
-  expect(motionEnding('bvh', 2)).toBe('-bvh.zip');
+  expect(motionExtension('bvh', 2)).toBe('-bvh.zip');
   const nameOf = (role: string): string => `salsa_${role}.bvh`;
   const archive = unzipSync(await bytes(writeMotion('bvh', dance, 'dark', nameOf)));
   expect(Object.keys(archive)).toEqual(['salsa_leader.bvh', 'salsa_reactor.bvh']);
@@ -23,7 +23,7 @@ test('one dancer is a BVH, two are an archive with one each', async () => {
   expect(new TextDecoder().decode(one)).toBe(new TextDecoder().decode(archive[nameOf('reactor')]));
 });
 
-test('JSON says what it is and holds every joint to a tenth of a millimetre', async () => {
+test('JSON has its metadata and every joint to a tenth of a millimetre', async () => {
   const dance = madeDance(33, 'reactor');
   const read = JSON.parse(await (await writeMotion('json', dance, 'dark')).text()) as Record<string, unknown>;
   expect(read).toMatchObject({
@@ -41,7 +41,7 @@ test('JSON says what it is and holds every joint to a tenth of a millimetre', as
   dance.dancers[0]!.motion.positions.forEach((value, i) => expect(flat[i]).toBeCloseTo(value, 4));
 });
 
-test('the same dance is the same NPZ on every day', () => {
+test('the same dance gives the same NPZ file on every day', () => {
   expect(writeNpz(madeDance(20, 'reactor'))).toEqual(writeNpz(madeDance(20, 'reactor')));
 });
 
@@ -49,11 +49,11 @@ test.each<[MotionFormat, number]>([
   ['bvh', 0.03],
   ['npz', 0],
   ['json', 0.03],
-])('the size of %s is known before it is written', async (format, tolerance) => {
+])('the size of %s is estimated before it is written', async (format, tolerance) => {
   for (const roles of [['reactor'], ['leader', 'reactor']] as const) {
     const dance = madeDance(400, ...roles);
     const { size } = await writeMotion(format, dance, 'dark');
-    // How far text shrinks in an archive can only be guessed.
+    // The compression of text in an archive is only known roughly.
     const within = format === 'bvh' && roles.length > 1 ? 0.1 : tolerance;
     expect(Math.abs(estimateBytes(format, dance) / size - 1)).toBeLessThanOrEqual(within);
   }

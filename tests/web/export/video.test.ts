@@ -1,36 +1,36 @@
 import { describe, expect, test } from 'vitest';
 import { planVideo, secondsLeft } from '../../../web/export/client';
 import { videoPixels } from '../../../web/export/video/size';
-import { songStretch } from '../../../web/export/video/song';
+import { songSamples } from '../../../web/export/video/song';
 
 describe('the song of a video', () => {
   const sound = { rate: 10, channels: [Float32Array.of(1, 2, 3, 4), Float32Array.of(5, 6, 7, 8)] };
 
   test('is followed by silence when it is shorter than the dance', () => {
-    expect([...songStretch(sound, 0, 2, 4)]).toEqual([3, 4, 0, 0, 7, 8, 0, 0]);
-    expect([...songStretch(sound, 0, 9, 2)]).toEqual([0, 0, 0, 0]);
+    expect([...songSamples(sound, 0, 2, 4)]).toEqual([3, 4, 0, 0, 7, 8, 0, 0]);
+    expect([...songSamples(sound, 0, 9, 2)]).toEqual([0, 0, 0, 0]);
   });
 
-  test('begins later or has begun before when it is shifted', () => {
-    expect([...songStretch(sound, 0.3, 0, 5)]).toEqual([0, 0, 0, 1, 2, 0, 0, 0, 5, 6]);
-    expect([...songStretch(sound, -0.2, 0, 3)]).toEqual([3, 4, 0, 7, 8, 0]);
+  test('begins later or is cut off at its start when it is shifted', () => {
+    expect([...songSamples(sound, 0.3, 0, 5)]).toEqual([0, 0, 0, 1, 2, 0, 0, 0, 5, 6]);
+    expect([...songSamples(sound, -0.2, 0, 3)]).toEqual([3, 4, 0, 7, 8, 0]);
   });
 
   test('is the same in one piece and in many', () => {
-    const whole = songStretch(sound, 0.1, 0, 6).subarray(0, 6);
-    const pieces = [0, 2, 4].flatMap((from) => [...songStretch(sound, 0.1, from, 2).subarray(0, 2)]);
+    const whole = songSamples(sound, 0.1, 0, 6).subarray(0, 6);
+    const pieces = [0, 2, 4].flatMap((from) => [...songSamples(sound, 0.1, from, 2).subarray(0, 2)]);
     expect(pieces).toEqual([...whole]);
   });
 });
 
-test('the time left follows the pace so far, and is not guessed from nothing', () => {
+test('the remaining time follows the pace so far, once enough has been done', () => {
   expect(secondsLeft(0.1, 5, 100)).toBeNull();
   expect(secondsLeft(2, 0, 100)).toBeNull();
   expect(secondsLeft(2, 25, 100)).toBe(6);
   expect(secondsLeft(8, 100, 100)).toBe(0);
 });
 
-test('pictures are as wide and high as encoders take them', () => {
+test('width and height are even, as encoders need them', () => {
   const stage = { width: 951, height: 449 };
   expect(videoPixels('stage', stage)).toEqual({ width: 952, height: 450 });
   expect(videoPixels('720p', stage)).toEqual({ width: 1280, height: 720 });

@@ -1,14 +1,14 @@
 import { PerspectiveCamera, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { areaOf } from '../../../web/view/edge-smoothing';
+import { screenBounds } from '../../../web/view/edge-smoothing';
 
 const PICTURE = { left: 100, bottom: 20, width: 400, height: 300 };
 
-function camera(aside = 0): PerspectiveCamera {
+function camera(shift = 0): PerspectiveCamera {
   const eye = new PerspectiveCamera(40, PICTURE.width / PICTURE.height, 0.1, 50);
   eye.position.set(1, 1.5, 6);
   eye.lookAt(0, 0.9, 0);
-  if (aside) eye.setViewOffset(PICTURE.width, PICTURE.height, -aside, 0, PICTURE.width, PICTURE.height);
+  if (shift) eye.setViewOffset(PICTURE.width, PICTURE.height, -shift, 0, PICTURE.width, PICTURE.height);
   eye.updateMatrixWorld();
   return eye;
 }
@@ -19,13 +19,13 @@ function seen(eye: PerspectiveCamera, point: readonly [number, number, number]):
   return [PICTURE.left + ((x + 1) / 2) * PICTURE.width, PICTURE.bottom + ((y + 1) / 2) * PICTURE.height];
 }
 
-describe('areaOf', () => {
+describe('screenBounds', () => {
   it.each([0, 60])(
-    'holds what is around every joint, and little more (moved aside by %i pixels)',
-    (aside) => {
-      const eye = camera(aside);
+    'holds what is around every joint, and little more (picture shifted by %i pixels)',
+    (shift) => {
+      const eye = camera(shift);
       const joints = [Float32Array.of(-0.4, 0.1, 0, 0.3, 1.6, 0.4), Float32Array.of(0.9, 1, -0.5)];
-      const area = areaOf(joints, eye, PICTURE, 0.2)!;
+      const rect = screenBounds(joints, eye, PICTURE, 0.2)!;
       const right = eye.matrixWorld.elements.slice(0, 3);
       for (const list of joints) {
         for (let at = 0; at < list.length; at += 3) {
@@ -35,31 +35,31 @@ describe('areaOf', () => {
               list[at + 1]! + side * right[1]!,
               list[at + 2]! + side * right[2]!,
             ]);
-            expect(x).toBeGreaterThanOrEqual(area.left - 1e-3);
-            expect(x).toBeLessThanOrEqual(area.left + area.width + 1e-3);
-            expect(y).toBeGreaterThanOrEqual(area.bottom);
-            expect(y).toBeLessThanOrEqual(area.bottom + area.height);
+            expect(x).toBeGreaterThanOrEqual(rect.left - 1e-3);
+            expect(x).toBeLessThanOrEqual(rect.left + rect.width + 1e-3);
+            expect(y).toBeGreaterThanOrEqual(rect.bottom);
+            expect(y).toBeLessThanOrEqual(rect.bottom + rect.height);
           }
         }
       }
-      expect(area.width).toBeLessThan(0.6 * PICTURE.width);
+      expect(rect.width).toBeLessThan(0.6 * PICTURE.width);
     },
   );
 
-  it('ends at the picture', () => {
-    const area = areaOf([Float32Array.of(-30, 1, 0, 30, 1, 0)], camera(), PICTURE, 0.2)!;
-    expect(area.left).toBe(PICTURE.left);
-    expect(area.width).toBe(PICTURE.width);
-    expect(area.height).toBeLessThan(PICTURE.height);
+  it('is clipped to the picture', () => {
+    const rect = screenBounds([Float32Array.of(-30, 1, 0, 30, 1, 0)], camera(), PICTURE, 0.2)!;
+    expect(rect.left).toBe(PICTURE.left);
+    expect(rect.width).toBe(PICTURE.width);
+    expect(rect.height).toBeLessThan(PICTURE.height);
   });
 
-  it('is nowhere without dancers, or with none in the picture', () => {
-    expect(areaOf([], camera(), PICTURE, 0.2)).toBeNull();
-    expect(areaOf([Float32Array.of(30, 1, 0)], camera(), PICTURE, 0.2)).toBeNull();
+  it('is null without dancers, or with none in the picture', () => {
+    expect(screenBounds([], camera(), PICTURE, 0.2)).toBeNull();
+    expect(screenBounds([Float32Array.of(30, 1, 0)], camera(), PICTURE, 0.2)).toBeNull();
   });
 
-  it('has room for who stands at the camera', () => {
-    const area = areaOf([Float32Array.of(1, 1.5, 6.1)], camera(), PICTURE, 0.2);
-    expect(area?.width).toBe(PICTURE.width);
+  it('covers the picture for a dancer at the camera', () => {
+    const rect = screenBounds([Float32Array.of(1, 1.5, 6.1)], camera(), PICTURE, 0.2);
+    expect(rect?.width).toBe(PICTURE.width);
   });
 });

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createLoop, type Drawing, type Loop } from '../../../web/view/frame-loop';
+import { createFrameLoop, type FrameCallbacks, type FrameLoop } from '../../../web/view/frame-loop';
 
 let waiting: FrameRequestCallback | null = null;
 const tick = (now: number): void => {
@@ -8,14 +8,14 @@ const tick = (now: number): void => {
   callback?.(now);
 };
 
-/** A loop of which only some calls matter. */
-const looping = (drawing: Partial<Drawing>): Loop =>
-  createLoop({
+/** A loop of which only some callbacks matter. */
+const makeLoop = (callbacks: Partial<FrameCallbacks>): FrameLoop =>
+  createFrameLoop({
     draw: () => false,
-    shown: () => true,
-    due: () => undefined,
-    rest: () => undefined,
-    ...drawing,
+    presented: () => true,
+    beforeFrame: () => undefined,
+    atRest: () => undefined,
+    ...callbacks,
   });
 
 beforeEach(() => {
@@ -34,10 +34,10 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-describe('the loop', () => {
+describe('the frame loop', () => {
   it('draws once for many requests and then rests', () => {
     const draw = vi.fn(() => false);
-    const loop = looping({ draw });
+    const loop = makeLoop({ draw });
     expect(waiting).toBeNull();
     loop.invalidate();
     loop.invalidate();
@@ -46,9 +46,9 @@ describe('the loop', () => {
     expect(waiting).toBeNull();
   });
 
-  it('goes on while something moves, in steps of real time that never jump', () => {
+  it('goes on while something moves, in steps of real time that are never long', () => {
     const steps: number[] = [];
-    const loop = looping({ draw: (dt) => steps.push(dt) < 4 });
+    const loop = makeLoop({ draw: (dt) => steps.push(dt) < 4 });
     loop.invalidate();
     for (const now of [1000, 1016, 1050, 9000, 9016]) tick(now);
     expect(steps).toHaveLength(4);
@@ -58,11 +58,11 @@ describe('the loop', () => {
     expect(waiting).toBeNull();
   });
 
-  it('says how long a picture was waited for, before it is drawn', () => {
+  it('says how long a frame waited, before it is drawn', () => {
     const calls: (string | number)[] = [];
-    const loop = looping({
+    const loop = makeLoop({
       draw: () => calls.push('draw') < 0,
-      due: (waited) => calls.push(waited),
+      beforeFrame: (waited) => calls.push(waited),
     });
     loop.invalidate();
     vi.advanceTimersByTime(40);
@@ -70,16 +70,16 @@ describe('the loop', () => {
     vi.advanceTimersByTime(30);
     tick(1000);
     expect(calls).toEqual([70, 'draw']);
-    // What is drawn at once was not waited for.
+    // A frame that is drawn at once has not waited.
     loop.flush();
     expect(calls).toEqual([70, 'draw', 'draw']);
   });
 
-  it('draws no picture before the last one is shown, and then at once', () => {
-    let shown = false;
+  it('draws no frame before the last one is presented, and then at once', () => {
+    let presented = false;
     const waited: number[] = [];
     const draw = vi.fn(() => false);
-    const loop = looping({ draw, shown: () => shown, due: (ms) => waited.push(ms) });
+    const loop = makeLoop({ draw, presented: () => presented, beforeFrame: (ms) => waited.push(ms) });
     loop.resume();
     loop.invalidate();
     vi.advanceTimersByTime(10);
@@ -88,7 +88,7 @@ describe('the loop', () => {
     expect(waiting).toBeNull();
     expect(draw).not.toHaveBeenCalled();
     vi.advanceTimersByTime(20);
-    shown = true;
+    presented = true;
     loop.resume();
     expect(draw).toHaveBeenCalledTimes(1);
     expect(waited).toEqual([30]);
@@ -96,42 +96,42 @@ describe('the loop', () => {
     expect(draw).toHaveBeenCalledTimes(1);
   });
 
-  it('leaves one picture out when told to, and only one that is on its way', () => {
+  it('delays one frame when told to, and only one that was asked for', () => {
     const draw = vi.fn(() => false);
-    const loop = looping({ draw });
-    loop.pass();
+    const loop = makeLoop({ draw });
+    loop.delay();
     loop.invalidate();
-    loop.pass();
+    loop.delay();
     tick(1000);
     expect(draw).not.toHaveBeenCalled();
     tick(1016);
     expect(draw).toHaveBeenCalledTimes(1);
-    loop.pass();
+    loop.delay();
     loop.invalidate();
     tick(1032);
     expect(draw).toHaveBeenCalledTimes(2);
   });
 
-  it('rests once, a while after the last picture', () => {
-    const rest = vi.fn();
-    const loop = looping({ rest });
+  it('reports once that it is at rest, a while after the last frame', () => {
+    const atRest = vi.fn();
+    const loop = makeLoop({ atRest });
     loop.invalidate();
     tick(1000);
     vi.advanceTimersByTime(150);
     loop.flush();
     vi.advanceTimersByTime(150);
-    expect(rest).not.toHaveBeenCalled();
+    expect(atRest).not.toHaveBeenCalled();
     vi.advanceTimersByTime(1000);
-    expect(rest).toHaveBeenCalledTimes(1);
+    expect(atRest).toHaveBeenCalledTimes(1);
     loop.flush();
     loop.dispose();
     vi.advanceTimersByTime(1000);
-    expect(rest).toHaveBeenCalledTimes(1);
+    expect(atRest).toHaveBeenCalledTimes(1);
   });
 
   it('draws at once when told to, and never after it is disposed', () => {
     const draw = vi.fn(() => false);
-    const loop = looping({ draw });
+    const loop = makeLoop({ draw });
     loop.invalidate();
     loop.flush();
     expect(draw).toHaveBeenCalledTimes(1);

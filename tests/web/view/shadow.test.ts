@@ -3,20 +3,20 @@ import { expect, it } from 'vitest';
 import { createFloor } from '../../../web/view/floor';
 import { createLights } from '../../../web/view/lights';
 
-/** The one light that throws shadows, aimed at the middle of the floor. */
+/** The one light that casts shadows, aimed at the middle of the floor. */
 function keyLight(heading: number): DirectionalLight {
   const lights = createLights();
-  lights.aim(0, 0, heading);
+  lights.place(0, 0, heading);
   lights.object.updateMatrixWorld(true);
-  const throwing = lights.object.children.filter((light) => light.castShadow);
-  expect(throwing).toHaveLength(1);
-  const key = throwing[0];
-  if (!(key instanceof DirectionalLight)) throw new Error('The key light comes from afar.');
+  const casting = lights.object.children.filter((light) => light.castShadow);
+  expect(casting).toHaveLength(1);
+  const key = casting[0];
+  if (!(key instanceof DirectionalLight)) throw new Error('The key light is not directional.');
   key.shadow.updateMatrices(key);
   return key;
 }
 
-it('blurs its shadows with reads that a processor can do between two pictures', () => {
+it('blurs its shadows with as few texture reads as a software renderer can do between two frames', () => {
   const { mapSize, blurSamples, radius } = keyLight(0).shadow;
   expect(2 * mapSize.x * mapSize.y * blurSamples).toBeLessThan(1_000_000);
   // A step of a whole texel from sample to sample: neither gaps nor a choice between two texels.

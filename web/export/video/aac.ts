@@ -1,21 +1,21 @@
 import { canEncodeAudio } from 'mediabunny';
 
-let brought: Promise<boolean> | null = null;
+let encoderLoaded: Promise<boolean> | null = null;
 
 /**
- * Whether AAC can be written, the one sound that every player of MP4 knows. Browsers without an encoder of their own
- * (Firefox, Chromium on Linux, Safari before 26) get one that comes with the page, when it is first asked for.
+ * Whether AAC can be encoded, the one audio codec that every player of MP4 supports. For browsers without an encoder
+ * (Firefox, Chromium on Linux, Safari before 26) one of the page is loaded at the first call.
  */
 export async function canEncodeAac(): Promise<boolean> {
   if (await canEncodeAudio('aac')) return true;
-  brought ??= bring();
-  const came = await brought;
-  // What could not come, because the page has gone offline, may come next time.
-  if (!came) brought = null;
-  return came;
+  encoderLoaded ??= loadEncoder();
+  const loaded = await encoderLoaded;
+  // An encoder that could not be loaded, because the page is offline, is tried again next time.
+  if (!loaded) encoderLoaded = null;
+  return loaded;
 }
 
-async function bring(): Promise<boolean> {
+async function loadEncoder(): Promise<boolean> {
   try {
     const { registerAacEncoder } = await import('@mediabunny/aac-encoder');
     registerAacEncoder();

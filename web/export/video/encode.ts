@@ -8,65 +8,50 @@ import {
   QUALITY_HIGH,
   WebMOutputFormat,
 } from 'mediabunny';
-import { breath } from './yield-to-page';
-import type { Footage, VideoOptions } from './footage';
 import type { VideoPlan } from './plan';
-import { decodeSound, songStretch } from './song';
+import { decodeSound, songSamples, type Sound } from './song';
+import type { VideoOptions, VideoSource } from './source';
 
-/** Pictures from one that stands for itself to the next: seeking in the video steps from those. */
-const KEY_SECONDS = 2;
-const SOUND_BITS = 160_000;
+type EncodePlan = Extract<VideoPlan, { way: 'encode' }>;
+
+/** Time between key frames, from which seeking in the video starts, seconds. */
+const KEY_FRAME_INTERVAL = 2;
+/** Bits per second. */
+const AUDIO_BITRATE = 160_000;
 
 /**
- * Writes a video picture by picture with the browser's own encoders, as fast as they and the drawing go. The page
- * stays alive: others have their turn after every picture.
+ * Writes a video frame by frame with the browser's own encoders, as fast as encoding and drawing allow. The page stays
+ * responsive: it gets a turn after every frame.
  */
 export async function encodeVideo(
-  footage: Footage,
-  plan: Extract<VideoPlan, { way: 'encode' }>,
+  source: VideoSource,
+  plan: EncodePlan,
   { signal, onProgress }: VideoOptions,
 ): Promise<Blob> {
-  const { fps, frames } = footage;
-  const heard = footage.sound && plan.audio && (await decodeSound(footage.sound.file));
+  const { fps, frames } = source;
+  const sound = source.sound && plan.audio && (await decodeSound(source.sound.file));
   signal.throwIfAborted();
   const target = new BufferTarget();
   const format = plan.container === 'mp4' ? new Mp4OutputFormat() : new WebMOutputFormat();
   const output = new Output({ format, target });
   try {
-    const pictures = new CanvasSource(footage.canvas, {
+    const pictures = new CanvasSource(source.canvas, {
       codec: plan.video,
       bitrate: QUALITY_HIGH,
-      keyFrameInterval: KEY_SECONDS,
+      keyFrameInterval: KEY_FRAME_INTERVAL,
     });
     output.addVideoTrack(pictures, { frameRate: fps });
-    const song =
-      heard && plan.audio ? new AudioSampleSource({ codec: plan.audio, bitrate: SOUND_BITS }) : null;
-    if (song) output.addAudioTrack(song);
+    const audio = sound && source.sound ? addAudio(output, plan, sound, source.sound.start) : null;
     await output.start();
-    let written = 0;
     for (let frame = 0; frame < frames; frame++) {
       signal.throwIfAborted();
-      footage.draw(frame);
+      source.draw(frame);
       await pictures.add(frame / fps, 1 / fps);
-      // The song goes along second by second, so that neither track waits long for the other in the file.
-      if (song && heard && footage.sound && (frame % fps === 0 || frame === frames - 1)) {
-        const until = Math.round((Math.min(frames, frame + fps) / fps) * heard.rate);
-        if (until > written) {
-          const data = songStretch(heard, footage.sound.start, written, until - written);
-          const sample = new AudioSample({
-            data,
-            format: 'f32-planar',
-            numberOfChannels: heard.channels.length,
-            sampleRate: heard.rate,
-            timestamp: written / heard.rate,
-          });
-          await song.add(sample);
-          sample.close();
-          written = until;
-        }
-      }
+      // Sound is added second by second, so that neither track is far behind the other in the file.
+      if (audio && (frame % fps === 0 || frame === frames - 1))
+        await audio.writeUntil(Math.min(frames, frame + fps) / fps);
       onProgress({ frame: frame + 1, frames });
-      await breath();
+      await yieldToPage();
     }
     signal.throwIfAborted();
     await output.finalize();
@@ -74,6 +59,46 @@ export async function encodeVideo(
     if (output.state !== 'finalized') await output.cancel().catch(() => undefined);
     throw error;
   }
-  if (!target.buffer) throw new Error('The video came out empty.');
+  if (!target.buffer) throw new Error('The encoded video is empty.');
   return new Blob([target.buffer], { type: `video/${plan.container}` });
+}
+
+/** Adds an audio track with the song, which begins at the moment `start` of the dance, in seconds. */
+function addAudio(output: Output, plan: EncodePlan, sound: Sound, start: number) {
+  if (!plan.audio) return null;
+  const track = new AudioSampleSource({ codec: plan.audio, bitrate: AUDIO_BITRATE });
+  output.addAudioTrack(track);
+  let written = 0;
+  return {
+    /** Writes the samples up to a moment of the dance, seconds. */
+    async writeUntil(seconds: number): Promise<void> {
+      const until = Math.round(seconds * sound.rate);
+      if (until <= written) return;
+      const sample = new AudioSample({
+        data: songSamples(sound, start, written, until - written),
+        format: 'f32-planar',
+        numberOfChannels: sound.channels.length,
+        sampleRate: sound.rate,
+        timestamp: written / sound.rate,
+      });
+      await track.add(sample);
+      sample.close();
+      written = until;
+    },
+  };
+}
+
+/**
+ * Yields to the event loop, so that the page can draw and answer clicks. Unlike a timer this is not slowed down to once
+ * a second while the tab is in the background.
+ */
+function yieldToPage(): Promise<void> {
+  return new Promise((resolve) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port2.postMessage(null);
+  });
 }

@@ -7,20 +7,20 @@ export type Container = 'mp4' | 'webm';
 /** How a video will be written. */
 export type VideoPlan =
   | {
-      /** Picture by picture, as fast as the machine can. */
+      /** Frame by frame with WebCodecs, as fast as the machine can. */
       readonly way: 'encode';
       readonly container: Container;
       readonly video: VideoCodec;
       readonly audio: AudioCodec | null;
     }
   | {
-      /** In real time, where the browser has no encoders for pages. */
+      /** In real time with a MediaRecorder, in browsers without WebCodecs. */
       readonly way: 'record';
       readonly container: Container;
       readonly type: string;
     };
 
-/** MP4 only with the two codecs that every player of MP4 knows; else WebM with the best there is. */
+/** In order of preference: MP4 only with the two codecs that every player of MP4 supports, else WebM. */
 const ENCODED = [
   { container: 'mp4', video: 'avc', audio: 'aac' },
   { container: 'webm', video: 'vp9', audio: 'opus' },
@@ -36,20 +36,20 @@ const RECORDED = [
   { container: 'mp4', type: 'video/mp4' },
 ] as const;
 
-/** The first way that this browser can go; null when there is none. */
+/** The first way of writing a video that this browser supports; null when there is none. */
 export async function plan(
   { width, height }: { readonly width: number; readonly height: number },
   withSound: boolean,
 ): Promise<VideoPlan | null> {
   if ('VideoEncoder' in globalThis) {
     for (const { container, video, audio } of ENCODED) {
-      const seen = await canEncodeVideo(video, { width, height });
-      if (!seen) continue;
-      const heard = !withSound || (audio === 'aac' ? await canEncodeAac() : await canEncodeAudio(audio));
-      if (heard) return { way: 'encode', container, video, audio: withSound ? audio : null };
+      const canVideo = await canEncodeVideo(video, { width, height });
+      if (!canVideo) continue;
+      const canAudio = !withSound || (audio === 'aac' ? await canEncodeAac() : await canEncodeAudio(audio));
+      if (canAudio) return { way: 'encode', container, video, audio: withSound ? audio : null };
     }
   }
   if (!('MediaRecorder' in globalThis) || !('captureStream' in HTMLCanvasElement.prototype)) return null;
-  const known = RECORDED.find(({ type }) => MediaRecorder.isTypeSupported(type));
-  return known ? { way: 'record', ...known } : null;
+  const supported = RECORDED.find(({ type }) => MediaRecorder.isTypeSupported(type));
+  return supported ? { way: 'record', ...supported } : null;
 }

@@ -1,25 +1,29 @@
-import type { Footage, VideoOptions } from './footage';
+import type { VideoSource, VideoOptions } from './source';
 import type { VideoPlan } from './plan';
-import { decodeSound, type Sound, songStretch } from './song';
+import { decodeSound, type Sound, songSamples } from './song';
 
-const PICTURE_BITS = 8_000_000;
-const SOUND_BITS = 160_000;
+/** Bits per second. */
+const VIDEO_BITRATE = 8_000_000;
+const AUDIO_BITRATE = 160_000;
 
-/** Records a video in real time, for browsers whose pages may not encode: what is slow to draw is drawn less often. */
+/** Records a video in real time, for browsers without WebCodecs. Frames that are drawn too slowly are left out. */
 export async function recordVideo(
-  footage: Footage,
+  source: VideoSource,
   plan: Extract<VideoPlan, { way: 'record' }>,
   { signal, onProgress }: VideoOptions,
 ): Promise<Blob> {
-  const { fps, frames } = footage;
-  const heard = footage.sound && { sound: await decodeSound(footage.sound.file), start: footage.sound.start };
+  const { fps, frames } = source;
+  const soundtrack = source.sound && {
+    sound: await decodeSound(source.sound.file),
+    start: source.sound.start,
+  };
   signal.throwIfAborted();
-  const stream = footage.canvas.captureStream(fps);
-  const song = heard && playInto(stream, heard.sound, heard.start, frames / fps);
+  const stream = source.canvas.captureStream(fps);
+  const song = soundtrack && playInto(stream, soundtrack.sound, soundtrack.start, frames / fps);
   const recorder = new MediaRecorder(stream, {
     mimeType: plan.type,
-    videoBitsPerSecond: PICTURE_BITS,
-    audioBitsPerSecond: SOUND_BITS,
+    videoBitsPerSecond: VIDEO_BITRATE,
+    audioBitsPerSecond: AUDIO_BITRATE,
   });
   const parts: Blob[] = [];
   recorder.ondataavailable = ({ data }) => parts.push(data);
@@ -31,7 +35,7 @@ export async function recordVideo(
       reject(new Error('The recorder stopped.'));
     };
   });
-  // An error is told by the await below; nobody may be listening yet.
+  // The await below handles an error; until then it must not count as unhandled.
   stopped.catch(() => undefined);
   try {
     recorder.start(1000);
@@ -39,7 +43,7 @@ export async function recordVideo(
     const begin = performance.now();
     for (let frame = 0; frame < frames;) {
       signal.throwIfAborted();
-      footage.draw(frame);
+      source.draw(frame);
       onProgress({ frame: frame + 1, frames });
       const next = Math.max(frame + 1, Math.floor(((performance.now() - begin) / 1000) * fps));
       await pause((next / fps) * 1000 - (performance.now() - begin));
@@ -55,24 +59,24 @@ export async function recordVideo(
   return new Blob(parts, { type: `video/${plan.container}` });
 }
 
-/** Adds the song of the whole dance to a stream; nothing of it is heard on the page. */
+/** Adds the song of the whole dance to a stream, without playing it on the page. */
 function playInto(stream: MediaStream, sound: Sound, start: number, seconds: number) {
   const context = new AudioContext({ sampleRate: sound.rate });
   const length = Math.round(seconds * sound.rate);
-  const whole = songStretch(sound, start, 0, length);
+  const whole = songSamples(sound, start, 0, length);
   const buffer = context.createBuffer(sound.channels.length, length, sound.rate);
   sound.channels.forEach((_, i) => {
     buffer.copyToChannel(new Float32Array(whole.subarray(i * length, (i + 1) * length)), i);
   });
   const output = context.createMediaStreamDestination();
   for (const track of output.stream.getAudioTracks()) stream.addTrack(track);
-  const source = context.createBufferSource();
-  source.buffer = buffer;
-  source.connect(output);
+  const player = context.createBufferSource();
+  player.buffer = buffer;
+  player.connect(output);
   return {
     async start(): Promise<void> {
       await context.resume();
-      source.start();
+      player.start();
     },
     stop: () => context.close(),
   };

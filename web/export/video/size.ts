@@ -1,4 +1,4 @@
-/** Sizes that a video can have: two that every player knows, and that of the picture on the stage. */
+/** Sizes of a video: two common ones, and that of the picture on the stage. */
 export const VIDEO_SIZES = ['720p', '1080p', 'stage'] as const;
 export type VideoSize = (typeof VIDEO_SIZES)[number];
 
@@ -7,10 +7,14 @@ interface Pixels {
   readonly height: number;
 }
 
-/** Encoders share colour among two by two pixels. */
+/** Rounded to an even number: encoders subsample colour by two (4:2:0). */
 const even = (pixels: number): number => Math.max(2, 2 * Math.round(pixels / 2));
 
-/** @param stage size of the picture on the stage */
+/**
+ * Size of a video in pixels.
+ *
+ * @param stage size of the picture on the stage, pixels
+ */
 export function videoPixels(size: VideoSize, stage: Pixels): Pixels {
   switch (size) {
     case '720p':

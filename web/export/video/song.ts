@@ -1,9 +1,9 @@
 import { AppError } from '../../common/error';
 
-/** Hz at which songs are decoded: what Opus works at. */
-const RATE = 48_000;
+/** Sample rate at which songs are decoded, that of Opus, Hz. */
+const SAMPLE_RATE_HZ = 48_000;
 
-/** Decoded sound, one or two channels of one length. */
+/** Decoded sound: sample rate in Hz, one or two channels of the same length. */
 export interface Sound {
   readonly rate: number;
   readonly channels: readonly Float32Array[];
@@ -17,9 +17,9 @@ export interface Sound {
 export async function decodeSound(file: Blob): Promise<Sound> {
   try {
     const bytes = await file.arrayBuffer();
-    const buffer = await new OfflineAudioContext(1, 1, RATE).decodeAudioData(bytes);
+    const buffer = await new OfflineAudioContext(1, 1, SAMPLE_RATE_HZ).decodeAudioData(bytes);
     const channels = Array.from({ length: buffer.numberOfChannels }, (_, i) => buffer.getChannelData(i));
-    return { rate: buffer.sampleRate, channels: channels.length > 2 ? [mixed(channels)] : channels };
+    return { rate: buffer.sampleRate, channels: channels.length > 2 ? [mixedDown(channels)] : channels };
   } catch (cause) {
     throw new AppError(
       'sound-failed',
@@ -30,20 +30,20 @@ export async function decodeSound(file: Blob): Promise<Sound> {
   }
 }
 
-function mixed(channels: readonly Float32Array[]): Float32Array {
+function mixedDown(channels: readonly Float32Array[]): Float32Array {
   const out = new Float32Array(channels[0]?.length ?? 0);
   for (const channel of channels) channel.forEach((sample, i) => (out[i]! += sample / channels.length));
   return out;
 }
 
 /**
- * A stretch of what is heard during the dance, all channels one after the other, silence where there is no song.
+ * Samples of the sound during the dance, all channels one after the other, silence where there is no song.
  *
  * @param start moment of the dance at which the song begins, seconds; may be negative
- * @param from first sample of the stretch, counted from the beginning of the dance
- * @param length samples
+ * @param from first sample, counted from the start of the dance
+ * @param length number of samples of a channel
  */
-export function songStretch(sound: Sound, start: number, from: number, length: number): Float32Array {
+export function songSamples(sound: Sound, start: number, from: number, length: number): Float32Array {
   const out = new Float32Array(length * sound.channels.length);
   const first = from - Math.round(start * sound.rate);
   sound.channels.forEach((channel, row) => {

@@ -1,24 +1,24 @@
 import { AppError } from '../../common/error';
 import { encodeVideo } from './encode';
-import type { Footage, VideoOptions } from './footage';
+import type { VideoSource, VideoOptions } from './source';
 import type { VideoPlan } from './plan';
 import { recordVideo } from './record';
 
 /**
- * Films the footage as planned.
+ * Writes a video as planned.
  *
  * @throws {AppError} `video-failed`, `sound-failed`; errors of the drawing as they are; the signal's reason at once
  * when it is aborted
  */
-export async function writeVideo(footage: Footage, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
+export async function writeVideo(source: VideoSource, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
   const { signal } = options;
   signal.throwIfAborted();
   const aborted = new Promise<never>((_, reject) => {
     signal.addEventListener('abort', () => reject(signal.reason as Error), { once: true });
   });
   const work =
-    plan.way === 'encode' ? encodeVideo(footage, plan, options) : recordVideo(footage, plan, options);
-  // Whoever cancels does not wait for an encoder; what it says afterwards interests nobody.
+    plan.way === 'encode' ? encodeVideo(source, plan, options) : recordVideo(source, plan, options);
+  // Cancelling does not wait for the encoder, whose result is ignored then.
   work.catch(() => undefined);
   try {
     return await Promise.race([work, aborted]);

@@ -1,4 +1,4 @@
-import { motionEnding, type MotionFormat } from '../../export/client';
+import { motionExtension, type MotionFormat } from '../../export/client';
 import { otherRole } from '../store/roles';
 import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
@@ -22,7 +22,7 @@ export function motionFileName(named: Named, who: Who, format: MotionFormat): st
     who === otherRole(named.inputs.settings.role)
       ? sources(named.inputs)
       : [...sources(named.inputs), ...made(named)];
-  return `${[...parts, who].join('_')}${motionEnding(format, who === 'both' ? 2 : 1)}`;
+  return `${[...parts, who].join('_')}${motionExtension(format, who === 'both' ? 2 : 1)}`;
 }
 
 /** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm`. */

@@ -1,26 +1,26 @@
 import type { BindPose } from './bind-pose';
 import { forearm, hand, upperArm } from './arm';
 import { buttock, foot, shin, thigh } from './leg';
-import { pair, type Build, type Part, type Plan, type Shape, type Side } from './part';
+import { pair, type Build, type Part, type BodyPlan, type Shape, type Side } from './part';
 import { head, neck, shoulderSlope, torso } from './trunk';
 
 /** The body of a dancer in the bind pose. */
 export interface Anatomy {
-  /** What it is melted together from, in this order. */
+  /** Shapes whose smooth union it is, in this order. */
   readonly shapes: readonly Shape[];
-  /** The solids that know their joints. */
+  /** The solids among them with skin weights. */
   readonly parts: readonly Part[];
 }
 
-/** Parts of both sides, in the order in which they melt, and how far left and right melt into each other, metres. */
-const LIMBS: readonly (readonly [make: (plan: Plan, side: Side) => Part, between: number])[] = [
+/** Parts of both sides in the order of their union, and the blend width between left and right, metres. */
+const LIMBS: readonly (readonly [make: (plan: BodyPlan, side: Side) => Part, between: number])[] = [
   [buttock, 0.03],
   [thigh, 0.006],
   [shin, 0.002],
   [foot, 0.002],
   [shoulderSlope, 0.05],
 ];
-const ARMS: readonly ((plan: Plan, side: Side) => Part[])[] = [
+const ARMS: readonly ((plan: BodyPlan, side: Side) => Part[])[] = [
   (plan, side) => [upperArm(plan, side)],
   (plan, side) => [forearm(plan, side)],
   hand,

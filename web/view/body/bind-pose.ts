@@ -1,7 +1,7 @@
 import { J, JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
 import type { Vec3 } from './field';
 
-/** Where the joints are while the body is meshed and bound: a relaxed A instead of the skeleton's T. */
+/** Joints of the pose in which the body is meshed and bound: an A-pose instead of the skeleton's T-pose. */
 export interface BindPose {
   /** 22 joint positions in metres, pelvis at the origin. */
   readonly joints: readonly Vec3[];
@@ -9,11 +9,11 @@ export interface BindPose {
   readonly turns: readonly number[];
 }
 
-/** Arms hang and legs part in most dance poses: binding there halves how far the skin must stretch. */
+/** Rotations from the T-pose, radians. In most dance poses arms hang: this halves how far the skin must stretch. */
 const ARM_DOWN = 1;
 const LEG_OUT = 0.1;
 
-const OWN_TURN: Readonly<Record<number, number>> = {
+const JOINT_TURNS: Readonly<Record<number, number>> = {
   [J.left_shoulder]: -ARM_DOWN,
   [J.right_shoulder]: ARM_DOWN,
   [J.left_hip]: LEG_OUT,
@@ -43,7 +43,7 @@ export function bindPose(offsets: ArrayLike<number>): BindPose {
     const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
     const origin = joints[parent]!;
     joints.push([origin[0] + cos * x - sin * y, origin[1] + sin * x + cos * y, origin[2] + z]);
-    turns.push(turn + (OWN_TURN[joint] ?? 0));
+    turns.push(turn + (JOINT_TURNS[joint] ?? 0));
   }
   return { joints, turns };
 }

@@ -1,5 +1,5 @@
 /**
- * Signed distance fields: the few rounded solids a body is made of, and how they melt into one another.
+ * Signed distance fields: the rounded solids that a body is made of, and their smooth union.
  * Distances are in metres, negative inside. Solids with elliptic sections give a bound that is exact at the surface
  * and of the right order around it, which is what the mesher needs.
  */
@@ -35,24 +35,24 @@ export const cross = (a: Vec3, b: Vec3): Vec3 => [
 export const unit = (a: Vec3): Vec3 => scale(a, 1 / (length(a) || 1));
 
 export const clamp01 = (t: number): number => (t < 0 ? 0 : t > 1 ? 1 : t);
-/** 0 below `from`, 1 above `to`, smooth between. */
-export const ramp = (from: number, to: number, value: number): number => {
+/** 0 below `from`, 1 above `to`, between them the cubic 3t² - 2t³. */
+export const smoothstep = (from: number, to: number, value: number): number => {
   const t = clamp01((value - from) / (to - from));
   return t * t * (3 - 2 * t);
 };
 
-/** Union of two distances that melts over the width `k` (quadratic smooth minimum). */
-export function meltUnion(a: number, b: number, k: number): number {
+/** Smooth union of two distances over the width `k` (polynomial smooth minimum, Quilez 2013). */
+export function smoothUnion(a: number, b: number, k: number): number {
   const h = k - Math.abs(a - b);
   return h <= 0 ? Math.min(a, b) : Math.min(a, b) - (h * h) / (4 * k);
 }
 
-/** What is left of `a` when `b` is cut out of it, with an edge rounded over `k`. */
-export function meltCut(a: number, b: number, k: number): number {
-  return -meltUnion(-a, b, k);
+/** Smooth difference: `a` without `b`, with an edge rounded over `k`. */
+export function smoothCut(a: number, b: number, k: number): number {
+  return -smoothUnion(-a, b, k);
 }
 
-/** Distance bound of a stretched ball whose axes are the coordinate axes. */
+/** Distance bound of an ellipsoid whose axes are the coordinate axes. */
 export function ellipsoid(centre: Vec3, radii: Vec3): Field {
   const [cx, cy, cz] = centre;
   const [ix, iy, iz] = [1 / radii[0], 1 / radii[1], 1 / radii[2]];
@@ -67,9 +67,10 @@ export function ellipsoid(centre: Vec3, radii: Vec3): Field {
   };
 }
 
+/** Intervals of the table of a profile. */
 const SAMPLES = 64;
 
-/** Smooth profile through stations (monotone in between, so no station bulges), sampled to a table. */
+/** Monotone cubic interpolation of a value through stations (Fritsch and Butland 1984), sampled to a table. */
 function profile(stations: readonly Station[], value: (station: Station) => number): Float32Array {
   const table = new Float32Array(SAMPLES + 1);
   const n = stations.length;
@@ -108,11 +109,11 @@ export interface LimbShape {
   /** Direction of `wide`; the third axis is the limb's direction x across. */
   readonly across: Vec3;
   readonly stations: readonly Station[];
-  /** 2 gives elliptic sections, more gives squarer ones. */
+  /** Exponent of the superellipse of a section: 2 gives ellipses, more gives squarer sections. */
   readonly exponent?: number;
 }
 
-/** A limb along a straight bone with rounded ends and a section that changes along it. */
+/** A limb along a straight bone, with rounded ends and sections that change along it. */
 export function limb(shape: LimbShape): Field {
   const { from, to, stations, exponent = 2 } = shape;
   const span = length(sub(to, from));

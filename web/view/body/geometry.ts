@@ -1,17 +1,17 @@
 import { BufferAttribute, BufferGeometry } from 'three';
 import type { Body } from './simplify';
 
-/** A body as three.js draws it: the near triangles first in the index, the light ones behind them. */
+/** A body as three.js draws it in two levels of detail, `near` and `light`, on the same vertices. */
 export interface BodyGeometry {
   readonly near: BufferGeometry;
-  /** The same vertices and index, drawn from the light triangles. */
+  /** Draws the low level of detail. */
   readonly light: BufferGeometry;
-  /** Draws `near` from the light triangles until it is told otherwise; shadows need no more. */
-  lighten(on: boolean): void;
+  /** Draws `near` in the low level of detail too, or not any more. */
+  setLowDetail(on: boolean): void;
   dispose(): void;
 }
 
-/** The full triangles alone, as files take them. */
+/** All triangles of a body, for files. */
 export function toFullGeometry(body: Body): BufferGeometry {
   const { near } = toGeometry(body);
   near.setIndex(new BufferAttribute(body.indices, 1));
@@ -30,25 +30,25 @@ export function toGeometry(body: Body): BodyGeometry {
     skinWeight: new BufferAttribute(body.skinWeights, 4),
     color: new BufferAttribute(shade, 3),
   };
-  const most = body.near.length;
-  const indices = new Uint32Array(most + body.light.length);
+  const nearCount = body.near.length;
+  const indices = new Uint32Array(nearCount + body.light.length);
   indices.set(body.near);
-  indices.set(body.light, most);
+  indices.set(body.light, nearCount);
   const index = new BufferAttribute(indices, 1);
   for (const geometry of [near, light]) {
     for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
     geometry.setIndex(index);
   }
-  const lighten = (on: boolean): void => {
-    if (on) near.setDrawRange(most, body.light.length);
-    else near.setDrawRange(0, most);
+  const setLowDetail = (on: boolean): void => {
+    if (on) near.setDrawRange(nearCount, body.light.length);
+    else near.setDrawRange(0, nearCount);
   };
-  lighten(false);
-  light.setDrawRange(most, body.light.length);
+  setLowDetail(false);
+  light.setDrawRange(nearCount, body.light.length);
   return {
     near,
     light,
-    lighten,
+    setLowDetail,
     dispose() {
       near.dispose();
       light.dispose();

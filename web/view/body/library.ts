@@ -3,9 +3,9 @@ import type { Build } from './part';
 import type { Body } from './simplify';
 import type { BodyTasks } from './worker';
 
-/** Bodies already meshed, by skeleton and build; meshes the others in a worker. */
+/** A cache of bodies by skeleton and build; meshes the others in a worker. */
 export interface BodyLibrary {
-  /** The mesh for a skeleton, or for another that is nearly the same: `offsets` of the body tell which. */
+  /** The body for a skeleton (22 x 3 offsets, metres), or one for nearly the same: its `offsets` say for which. */
   request(offsets: ArrayLike<number>, build: Build): Promise<Body>;
   dispose(): void;
 }

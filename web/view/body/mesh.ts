@@ -1,8 +1,8 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { anatomy } from './anatomy';
 import { bindPose } from './bind-pose';
-import { meltCut, meltUnion, ramp } from './field';
-import { near, type Build, type Shape } from './part';
+import { smoothCut, smoothUnion, smoothstep } from './field';
+import { shapesNear, type Build, type Shape } from './part';
 import { skinTo, type Skin } from './skin';
 import { surfaceNets, triangulate, type Grid, type Net } from './surface-nets';
 
@@ -24,13 +24,13 @@ export const CELL = 0.018;
 const BLOCK = 4;
 const SHOE_SHADE = 0.38;
 
-/** Distance to the body made of `shapes`, melting in order. */
+/** Distance to the smooth union of `shapes`, in order. */
 function distance(shapes: readonly Shape[], x: number, y: number, z: number): number {
   let d = 1;
   for (const shape of shapes) {
-    const own = shape.field(x, y, z);
-    const k = shape.melt(x, y, z);
-    d = shape.cut ? meltCut(d, own, k) : k > 0 ? meltUnion(d, own, k) : Math.min(d, own);
+    const next = shape.field(x, y, z);
+    const k = shape.blend(x, y, z);
+    d = shape.cut ? smoothCut(d, next, k) : k > 0 ? smoothUnion(d, next, k) : Math.min(d, next);
   }
   return d;
 }
@@ -40,20 +40,20 @@ export function buildBody(offsets: ArrayLike<number>, build: Build): BodyMesh {
   const pose = bindPose(offsets);
   const { shapes, parts } = anatomy(pose, build);
   const net = surfaceNets(sample(shapes));
-  const normals = settle(net, shapes);
+  const normals = relax(net, shapes);
   const skin = skinTo(net, parts, CELL);
   const shade = new Float32Array(net.positions.length / 3);
   const ankle = (pose.joints[J.left_ankle]![1] + pose.joints[J.right_ankle]![1]) / 2;
   for (let v = 0; v < shade.length; v++)
-    shade[v] = SHOE_SHADE + (1 - SHOE_SHADE) * ramp(-0.008, 0.022, net.positions[v * 3 + 1]! - ankle);
+    shade[v] = SHOE_SHADE + (1 - SHOE_SHADE) * smoothstep(-0.008, 0.022, net.positions[v * 3 + 1]! - ankle);
   return { positions: net.positions, indices: triangulate(net), normals, ...skin, shade };
 }
 
 /** Distances on the grid, exact near the surface and only right in sign elsewhere. */
 function sample(shapes: readonly Shape[]): Grid {
   const balls = shapes.flatMap((shape) => shape.bounds);
-  const low = [0, 1, 2].map((axis) => Math.min(...balls.map((b) => b.centre[axis]! - b.reach)) - 2 * CELL);
-  const high = [0, 1, 2].map((axis) => Math.max(...balls.map((b) => b.centre[axis]! + b.reach)) + 2 * CELL);
+  const low = [0, 1, 2].map((axis) => Math.min(...balls.map((b) => b.centre[axis]! - b.radius)) - 2 * CELL);
+  const high = [0, 1, 2].map((axis) => Math.max(...balls.map((b) => b.centre[axis]! + b.radius)) + 2 * CELL);
   // Node planes mirror at x = 0, so that a symmetric skeleton gets a symmetric body.
   const half = Math.ceil(Math.max(high[0]!, -low[0]!) / CELL);
   const size = [
@@ -71,7 +71,7 @@ function sample(shapes: readonly Shape[]): Grid {
         const x = origin[0] + (bx + (BLOCK - 1) / 2) * CELL;
         const y = origin[1] + (by + (BLOCK - 1) / 2) * CELL;
         const z = origin[2] + (bz + (BLOCK - 1) / 2) * CELL;
-        const local = near(shapes, x, y, z, radius);
+        const local = shapesNear(shapes, x, y, z, radius);
         if (local.length === 0) continue;
         // Distances to stretched solids are bounds; the factor keeps blocks that they might misjudge.
         if (distance(local, x, y, z) > 1.6 * radius) continue;
@@ -88,17 +88,17 @@ function sample(shapes: readonly Shape[]): Grid {
   return { values, size, origin, cell: CELL };
 }
 
-/** Rounds of evening the vertices out before they are left on the surface. */
+/** Rounds of Laplacian smoothing and projection of the vertices. */
 const ROUNDS = 4;
-/** How far apart the field is sampled for its gradient: to find the surface, and for soft normals, metres. */
-const FINE = 0.002;
-const SOFT = 0.005;
+/** Distances at which the field is sampled for its gradient: for the projection, and for soft normals, metres. */
+const PROJECTION_STEP = 0.002;
+const NORMAL_STEP = 0.005;
 
 /**
- * Spreads the vertices evenly over the surface and pulls them onto it (in place); returns the normals of the field
- * there. Evening first is what keeps thin parts, such as hands, free of the steps of the grid.
+ * Spreads the vertices evenly over the surface and projects them onto it (in place); returns the normals of the field
+ * there. The smoothing keeps thin parts, such as hands, free of the steps of the grid.
  */
-function settle(net: Net, shapes: readonly Shape[]): Float32Array {
+function relax(net: Net, shapes: readonly Shape[]): Float32Array {
   const { positions, quads } = net;
   const count = positions.length / 3;
   const normals = new Float32Array(positions.length);
@@ -106,7 +106,7 @@ function settle(net: Net, shapes: readonly Shape[]): Float32Array {
   const mean = new Float32Array(positions.length);
   const links = new Float32Array(count);
   const close = Array.from({ length: count }, (_, v) =>
-    near(shapes, positions[v * 3]!, positions[v * 3 + 1]!, positions[v * 3 + 2]!, 2 * CELL),
+    shapesNear(shapes, positions[v * 3]!, positions[v * 3 + 1]!, positions[v * 3 + 2]!, 2 * CELL),
   );
   for (const from of quads) links[from]!++;
 
@@ -123,8 +123,8 @@ function settle(net: Net, shapes: readonly Shape[]): Float32Array {
         positions[i]! += 0.5 * (mean[i]! / links[Math.floor(i / 3)]! - positions[i]!);
     }
     for (let v = 0; v < positions.length; v += 3) {
-      const reach = last ? SOFT : FINE;
-      slope(close[v / 3]!, reach, positions[v]!, positions[v + 1]!, positions[v + 2]!, gradient);
+      const step = last ? NORMAL_STEP : PROJECTION_STEP;
+      gradientAt(close[v / 3]!, step, positions[v]!, positions[v + 1]!, positions[v + 2]!, gradient);
       const [gx, gy, gz, off] = [gradient[0]!, gradient[1]!, gradient[2]!, gradient[3]!];
       const steep = Math.max(gx * gx + gy * gy + gz * gz, 1e-6);
       if (last) {
@@ -134,17 +134,17 @@ function settle(net: Net, shapes: readonly Shape[]): Float32Array {
         normals[v + 2] = gz * norm;
         continue;
       }
-      const step = Math.max(-0.5 * CELL, Math.min(0.5 * CELL, off)) / steep;
-      positions[v]! -= gx * step;
-      positions[v + 1]! -= gy * step;
-      positions[v + 2]! -= gz * step;
+      const along = Math.max(-0.5 * CELL, Math.min(0.5 * CELL, off)) / steep;
+      positions[v]! -= gx * along;
+      positions[v + 1]! -= gy * along;
+      positions[v + 2]! -= gz * along;
     }
   }
   return normals;
 }
 
 /** Gradient of the field and its value, from the corners of a small tetrahedron: four samples instead of seven. */
-function slope(
+function gradientAt(
   shapes: readonly Shape[],
   e: number,
   x: number,

@@ -2,18 +2,18 @@ import {
   ellipsoid,
   limb,
   length,
-  meltUnion,
+  smoothUnion,
   mix,
   sub,
   unit,
-  ramp,
+  smoothstep,
   type Field,
   type LimbShape,
   type Station,
   type Vec3,
 } from './field';
 
-/** How a dancer is built: roles differ by breadth, never by sex. */
+/** Build of a dancer: roles differ in breadth, never in sex. */
 export interface Build {
   /** Factor on every radius. */
   readonly width: number;
@@ -26,8 +26,8 @@ export const BUILDS = {
   reactor: { width: 0.95, waist: 0.93 },
 } as const satisfies Record<string, Build>;
 
-/** What a body is drawn after: its joints in the bind pose (metres) and its build. */
-export interface Plan {
+/** What a body is made from: its joints in the bind pose (metres) and its build. */
+export interface BodyPlan {
   readonly at: readonly Vec3[];
   readonly build: Build;
 }
@@ -35,77 +35,85 @@ export interface Plan {
 /** 1 is the left half of the body (+x), -1 the right. */
 export type Side = 1 | -1;
 
-/** Share of a joint in moving a point. */
+/** Skin weights of a point: joints and their shares. */
 export type Weights = readonly (readonly [joint: number, share: number])[];
 
-/** Something that melts into the body or is cut out of it. */
+/** A solid that is added to the body or cut out of it. */
 export interface Shape {
   readonly field: Field;
-  /** Balls that hold it, for skipping it. */
-  readonly bounds: readonly { readonly centre: Vec3; readonly reach: number }[];
-  /** Width over which it melts into what came before, metres; may vary along it. */
-  readonly melt: Field;
-  /** Largest melt. */
-  readonly maxMelt: number;
+  /** Bounding spheres, for leaving it out far from it. */
+  readonly bounds: readonly { readonly centre: Vec3; readonly radius: number }[];
+  /** Width of the smooth union with the shapes before it, metres; may vary along it. */
+  readonly blend: Field;
+  /** Largest blend width. */
+  readonly maxBlend: number;
   /** Cut out of the body instead of added to it. */
   readonly cut: boolean;
 }
 
-/** One rounded solid and the joints that carry it. */
+/** One rounded solid with skin weights. */
 export interface Part extends Shape {
   readonly weights: (x: number, y: number, z: number) => Weights;
 }
 
-/** A melt that is the same everywhere, or one that varies up to `most`. */
-export type Melt = number | { readonly most: number; readonly at: Field };
+/** A blend width that is the same everywhere, or one that varies up to `max`, metres. */
+export type Blend = number | { readonly max: number; readonly at: Field };
 
-const meltOf = (melt: Melt): Pick<Shape, 'melt' | 'maxMelt'> =>
-  typeof melt === 'number' ? { melt: () => melt, maxMelt: melt } : { melt: melt.at, maxMelt: melt.most };
+const blendOf = (blend: Blend): Pick<Shape, 'blend' | 'maxBlend'> =>
+  typeof blend === 'number'
+    ? { blend: () => blend, maxBlend: blend }
+    : { blend: blend.at, maxBlend: blend.max };
 
-export const limbPart = (shape: LimbShape, melt: Melt, weights: Part['weights']): Part => ({
+export const limbPart = (shape: LimbShape, blend: Blend, weights: Part['weights']): Part => ({
   field: limb(shape),
   bounds: [
     {
       centre: mix(shape.from, shape.to, 0.5),
-      reach:
+      radius:
         length(sub(shape.to, shape.from)) / 2 +
         Math.max(...shape.stations.map((s) => Math.max(s.wide, s.deep ?? 0) + Math.abs(s.shift ?? 0))),
     },
   ],
-  ...meltOf(melt),
+  ...blendOf(blend),
   cut: false,
   weights,
 });
 
-export const ball = (centre: Vec3, radii: Vec3, melt: Melt, weights: Part['weights'], cut = false): Part => ({
+export const ball = (
+  centre: Vec3,
+  radii: Vec3,
+  blend: Blend,
+  weights: Part['weights'],
+  cut = false,
+): Part => ({
   field: ellipsoid(centre, radii),
-  bounds: [{ centre, reach: Math.max(...radii) }],
-  ...meltOf(melt),
+  bounds: [{ centre, radius: Math.max(...radii) }],
+  ...blendOf(blend),
   cut,
   weights,
 });
 
 /** Radii at the breadth of a build. */
-export const widened = (build: Build, stations: readonly Station[]): Station[] =>
-  resized(build.width, stations);
+export const scaledToBuild = (build: Build, stations: readonly Station[]): Station[] =>
+  scaledBy(build.width, stations);
 
-/** Heads and hands vary less than bodies: half of the build's breadth. */
-export const slightly = (build: Build): number => 1 + (build.width - 1) / 2;
+/** Factor for heads and hands, which vary half as much as bodies. */
+export const halfBuildScale = (build: Build): number => 1 + (build.width - 1) / 2;
 
-export const resized = (factor: number, stations: readonly Station[]): Station[] =>
+export const scaledBy = (factor: number, stations: readonly Station[]): Station[] =>
   stations.map((s) => ({ ...s, wide: s.wide * factor, deep: (s.deep ?? s.wide) * factor }));
 
-/** Length of a bone and how far along it a point lies, metres. */
-export function ruler(from: Vec3, to: Vec3): { span: number; down: Field } {
+/** Length of a bone, and a field of how far along it a point lies, metres. */
+export function alongBone(from: Vec3, to: Vec3): { span: number; down: Field } {
   const [ax, ay, az] = unit(sub(to, from));
   const start = from[0] * ax + from[1] * ay + from[2] * az;
   return { span: length(sub(to, from)), down: (x, y, z) => x * ax + y * ay + z * az - start };
 }
 
-export const carriedBy = (joint: number) => (): Weights => [[joint, 1]];
+export const movedBy = (joint: number) => (): Weights => [[joint, 1]];
 
-/** Shares that pass from joint `a` to joint `b` while `share` goes from 0 to 1. */
-export const pass = (a: number, b: number, share: number): Weights =>
+/** Skin weights that go from joint `a` to joint `b` while `share` goes from 0 to 1. */
+export const blendWeights = (a: number, b: number, share: number): Weights =>
   share <= 0
     ? [[a, 1]]
     : share >= 1
@@ -115,34 +123,34 @@ export const pass = (a: number, b: number, share: number): Weights =>
           [b, share],
         ];
 
-/** Share of the bone behind a hinge such as a knee, `past` metres beyond it: half right at the joint. */
-export const hinge = (past: number, width: number): number =>
-  0.5 * ramp(-width, 0, past) + 0.5 * ramp(0, width, past);
+/** Share of the bone behind a hinge such as a knee at a point `past` metres beyond it: half at the joint. */
+export const hingeShare = (past: number, width: number): number =>
+  0.5 * smoothstep(-width, 0, past) + 0.5 * smoothstep(0, width, past);
 
-/** Beyond this distance from the middle plane one half of a pair does not feel the other, metres. */
-const MIDDLE = 0.14;
+/** Distance from the middle plane from which on left and right of a pair do not blend, metres. */
+const PAIR_BLEND_WIDTH = 0.14;
 
 /**
- * Left and right as one shape: they melt into each other over `between` metres first and into the body together, so
- * that neither comes before the other and the body stays symmetric.
+ * Left and right as one shape: they blend with each other over `between` metres first and with the body together, so
+ * that the order makes no difference and the body stays symmetric.
  */
 export function pair(left: Shape, right: Shape, between: number): Shape {
   return {
     field: (x, y, z) =>
-      x > MIDDLE
+      x > PAIR_BLEND_WIDTH
         ? left.field(x, y, z)
-        : x < -MIDDLE
+        : x < -PAIR_BLEND_WIDTH
           ? right.field(x, y, z)
-          : meltUnion(left.field(x, y, z), right.field(x, y, z), between),
+          : smoothUnion(left.field(x, y, z), right.field(x, y, z), between),
     bounds: [...left.bounds, ...right.bounds],
-    melt: (x, y, z) => (x > 0 ? left : right).melt(x, y, z),
-    maxMelt: Math.max(left.maxMelt, right.maxMelt),
+    blend: (x, y, z) => (x > 0 ? left : right).blend(x, y, z),
+    maxBlend: Math.max(left.maxBlend, right.maxBlend),
     cut: left.cut,
   };
 }
 
-/** Shapes that can matter within `radius` of a point. */
-export function near<S extends Shape>(
+/** Shapes that can affect the surface within `radius` of a point. */
+export function shapesNear<S extends Shape>(
   shapes: readonly S[],
   x: number,
   y: number,
@@ -151,11 +159,11 @@ export function near<S extends Shape>(
 ): S[] {
   const found: S[] = [];
   for (const shape of shapes)
-    for (const { centre, reach } of shape.bounds) {
-      const dx = x - centre[0];
-      const dy = y - centre[1];
-      const dz = z - centre[2];
-      const within = reach + shape.maxMelt + radius;
+    for (const bound of shape.bounds) {
+      const dx = x - bound.centre[0];
+      const dy = y - bound.centre[1];
+      const dz = z - bound.centre[2];
+      const within = bound.radius + shape.maxBlend + radius;
       if (dx * dx + dy * dy + dz * dz >= within * within) continue;
       found.push(shape);
       break;

@@ -1,21 +1,22 @@
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
-import { near, type Part } from './part';
+import { shapesNear, type Part } from './part';
 import type { Net } from './surface-nets';
 
-/** Which joints move which vertex. */
+/** Skin weights of a mesh. */
 export interface Skin {
-  /** vertices x 4, joints that move the vertex. */
+  /** vertices x 4, joints. */
   readonly skinJoints: Uint8Array;
   /** vertices x 4, their shares; they sum to 1. */
   readonly skinWeights: Float32Array;
 }
 
-/** How fast the hold of a part fades with its distance beyond the nearest part, metres. */
-const HOLD = 0.014;
+/** Length over which the weight of a part falls off with its distance beyond the nearest part, metres. */
+const FALLOFF = 0.014;
+/** Rounds of smoothing the weights over the surface. */
 const SMOOTHING = 3;
 
 /**
- * Four joints and shares per vertex: those of the nearest parts, evened out over the surface.
+ * Four joints and shares per vertex: those of the nearest parts, smoothed over the surface.
  *
  * @param cell spacing of the mesh, metres.
  */
@@ -24,24 +25,24 @@ export function skinTo(net: Net, parts: readonly Part[], cell: number): Skin {
   let shares = new Float32Array(count * JOINT_COUNT);
   for (let v = 0; v < count; v++) {
     const [x, y, z] = [net.positions[v * 3]!, net.positions[v * 3 + 1]!, net.positions[v * 3 + 2]!];
-    const local = near(parts, x, y, z, cell);
+    const local = shapesNear(parts, x, y, z, cell);
     const distances = local.map((part) => part.field(x, y, z));
     const least = Math.min(...distances);
     let total = 0;
     local.forEach((part, i) => {
-      const hold = Math.exp(-(distances[i]! - least) / HOLD);
-      if (hold < 0.01) return;
-      total += hold;
-      for (const [joint, share] of part.weights(x, y, z)) shares[v * JOINT_COUNT + joint]! += hold * share;
+      const weight = Math.exp(-(distances[i]! - least) / FALLOFF);
+      if (weight < 0.01) return;
+      total += weight;
+      for (const [joint, share] of part.weights(x, y, z)) shares[v * JOINT_COUNT + joint]! += weight * share;
     });
     for (let j = 0; j < JOINT_COUNT; j++) shares[v * JOINT_COUNT + j]! /= total;
   }
-  for (let pass = 0; pass < SMOOTHING; pass++) shares = evened(shares, net.quads, count);
+  for (let pass = 0; pass < SMOOTHING; pass++) shares = smoothed(shares, net.quads, count);
   return strongest(shares, count);
 }
 
 /** One step of averaging with the neighbours. */
-function evened(shares: Float32Array, quads: Uint32Array, count: number): Float32Array<ArrayBuffer> {
+function smoothed(shares: Float32Array, quads: Uint32Array, count: number): Float32Array<ArrayBuffer> {
   const out = new Float32Array(shares.length);
   const links = new Float32Array(count);
   // Every side is met once in each direction, so one direction here links both ends.

@@ -1,8 +1,8 @@
-/** A closed surface of quads, before it is evened out and cut into triangles. */
+/** A closed surface of quads, before it is smoothed and cut into triangles. */
 export interface Net {
   /** vertices x 3, metres. */
   readonly positions: Float32Array;
-  /** quads x 4, counter-clockwise seen from outside; every side is met once in each direction. */
+  /** quads x 4, counter-clockwise seen from outside; every edge occurs once in each direction. */
   readonly quads: Uint32Array;
 }
 
@@ -17,7 +17,7 @@ export interface Grid {
   readonly cell: number;
 }
 
-/** Corners of a cell are numbered by bits: 1 = +x, 2 = +y, 4 = +z. Edges join corners that differ in one bit. */
+/** Corners of a cell are numbered by bits: 1 = +x, 2 = +y, 4 = +z. EdgeSmoothing join corners that differ in one bit. */
 const EDGES: readonly (readonly [number, number])[] = [
   [0, 1],
   [2, 3],
@@ -49,9 +49,9 @@ const EDGE_OF = Int8Array.from({ length: 64 }, (_, pair) =>
 const edgeOf = (a: number, b: number): number => EDGE_OF[a + 8 * b]!;
 
 /**
- * For each of the 256 ways the corners can lie: which sheet of the surface each edge belongs to (-1: not crossed).
+ * For each of the 256 configurations of the corners: which sheet of the surface each edge belongs to (-1: not crossed).
  * A cell crossed by two sheets gets two vertices, so that sheets which only touch stay apart and the mesh is a
- * manifold (dual marching cubes).
+ * manifold (dual marching cubes, Nielson 2004).
  */
 const SHEETS: readonly Int8Array[] = Array.from({ length: 256 }, (_, inside) => {
   const isIn = (corner: number): boolean => ((inside >> corner) & 1) === 1;
@@ -74,9 +74,9 @@ const SHEETS: readonly Int8Array[] = Array.from({ length: 256 }, (_, inside) => 
 });
 
 /**
- * Meshes the zero level of a grid of distances with surface nets: one vertex per sheet and cell, one quad per crossed
- * grid edge. The surface must not touch the rim of the grid. The result is always watertight; only where one sheet
- * passes twice through the same face of two cells do four triangles meet in an edge.
+ * Meshes the zero level of a grid of distances with surface nets (Gibson 1998): one vertex per sheet and cell, one quad
+ * per crossed grid edge. The surface must not touch the border of the grid. The result is always watertight; only where
+ * one sheet passes twice through the same face of two cells do four triangles meet in an edge.
  */
 export function surfaceNets(grid: Grid): Net {
   const { values, size, origin, cell } = grid;

@@ -1,76 +1,81 @@
 import { easing, type View } from './framing';
 
-/** How a camera goes along with a couple that travels: plain numbers, no camera. */
+/** How a camera follows a couple that travels: plain numbers, no camera. */
 
-export interface Seen {
+export interface FollowInput {
   readonly view: View;
   /** Width / height of the picture. */
   readonly aspect: number;
-  /** From where the camera last went along to the couple's middle, metres on the floor plan. */
-  readonly away: readonly [x: number, z: number];
+  /** From where the camera last followed to the couple's middle, metres on the floor plan. */
+  readonly offset: readonly [x: number, z: number];
   /** From the eye to its target, metres. */
   readonly distance: number;
   /** Distance at which the couple fills the picture as it should, metres. */
-  readonly goal: number;
-  /** Whether the distance is the camera's to choose. */
-  readonly free: boolean;
+  readonly fitDistance: number;
+  /** Whether the camera may change its distance. */
+  readonly mayZoom: boolean;
 }
 
-export interface Following {
+export interface FollowStep {
   /** By how much eye and target move, metres. */
-  readonly by: readonly [x: number, z: number];
+  readonly shift: readonly [x: number, z: number];
   /** The new distance, or null where it stays. */
   readonly distance: number | null;
-  /** Whether there is more to come. */
+  /** Whether the camera is not there yet. */
   readonly moving: boolean;
 }
 
-/** How far the couple may stray in the orbit view before the camera goes along, metres; less in a narrow picture. */
+/** How far the couple may leave the middle in the orbit view before the camera follows, metres; less in a narrow picture. */
 const SLACK = 0.4;
-const TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<View, number>;
+/** Time constants of following by view, of moving back and of coming closer, seconds. */
+const FOLLOW_TAU = { orbit: 0.9, follow: 0.35, top: 0.35, side: 0.35 } as const satisfies Record<
+  View,
+  number
+>;
 const BACK_TAU = 1;
-/** While they rest, whoever looks waits for the camera: it arrives sooner. */
-const RESTING_TAU = 0.4;
 const CLOSER_TAU = 4;
-/** What is left to go, in metres and as a share of the distance, is left while they dance and while they rest. */
-const STILL = { dancing: 5e-4, resting: 0.02 } as const;
-const FIT = { dancing: 0.002, resting: 0.01 } as const;
-/** How much too close or too far a camera that does not glide may stand before it stands anew. */
+/** Longest time constant while the couple rests, seconds: the viewer waits for the camera then. */
+const RESTING_TAU = 0.4;
+/** Offsets (metres) and errors of the distance (share of it) too small to correct, while the couple dances and rests. */
+const MIN_OFFSET = { dancing: 5e-4, resting: 0.02 } as const;
+const MIN_ZOOM = { dancing: 0.002, resting: 0.01 } as const;
+/** Errors of the distance, as a share of it, from which on a camera that does not glide jumps. */
 const TOO_CLOSE = 0.08;
 const TOO_FAR = -0.25;
 
 const slackOf = (aspect: number): number => SLACK * Math.min(1, aspect);
 
 /**
- * Eases along.
+ * Follows smoothly (exponential smoothing).
  *
- * @param dt seconds since the last picture
+ * @param dt seconds since the last frame
  * @param danced whether the couple moved since then
  */
-export function glideAlong(seen: Seen, dt: number, danced: boolean): Following {
-  const { view, aspect, distance, goal, free } = seen;
-  const far = Math.hypot(...seen.away);
+export function followSmoothly(input: FollowInput, dt: number, danced: boolean): FollowStep {
+  const { view, aspect, offset, distance, fitDistance, mayZoom } = input;
+  const far = Math.hypot(...offset);
   const beyond = view === 'orbit' ? (far > slackOf(aspect) ? 1 - slackOf(aspect) / far : 0) : 1;
   const now = danced ? 'dancing' : 'resting';
   const tau = (dancing: number): number => (danced ? dancing : Math.min(dancing, RESTING_TAU));
-  const going = far * beyond > STILL[now];
-  const share = going ? beyond * easing(dt, tau(TAU[view])) : 0;
-  // Stepping back is quick, nobody may be cut off; coming closer again takes its time, and waits while they rest.
-  const off = goal / distance - 1;
-  const wanted = free && (off > FIT[now] || (off < -0.03 && danced));
+  const moves = far * beyond > MIN_OFFSET[now];
+  const share = moves ? beyond * easing(dt, tau(FOLLOW_TAU[view])) : 0;
+  // Moving back is quick, so that nobody is cut off; coming closer is slow, and waits while they rest.
+  const error = fitDistance / distance - 1;
+  const zooms = mayZoom && (error > MIN_ZOOM[now] || (error < -0.03 && danced));
+  const step = easing(dt, tau(error > 0 ? BACK_TAU : CLOSER_TAU));
   return {
-    by: [seen.away[0] * share, seen.away[1] * share],
-    distance: wanted ? distance + (goal - distance) * easing(dt, tau(off > 0 ? BACK_TAU : CLOSER_TAU)) : null,
-    moving: going || (wanted && off > 0),
+    shift: [offset[0] * share, offset[1] * share],
+    distance: zooms ? distance + (fitDistance - distance) * step : null,
+    moving: moves || (zooms && error > 0),
   };
 }
 
-/** For who wants no movement but the dance: stands still until the couple has left its place, then stands anew. */
-export function cutAlong({ aspect, away, distance, goal, free }: Seen): Following {
-  const off = goal / distance - 1;
-  const left = Math.hypot(...away) > slackOf(aspect);
-  const misfit = free && (off > TOO_CLOSE || off < TOO_FAR);
+/** Follows with reduced motion: stands still until the couple has left its place or the picture, then jumps. */
+export function followByJumps({ aspect, offset, distance, fitDistance, mayZoom }: FollowInput): FollowStep {
+  const error = fitDistance / distance - 1;
+  const left = Math.hypot(...offset) > slackOf(aspect);
+  const misfit = mayZoom && (error > TOO_CLOSE || error < TOO_FAR);
   return left || misfit
-    ? { by: away, distance: free ? goal : null, moving: false }
-    : { by: [0, 0], distance: null, moving: false };
+    ? { shift: offset, distance: mayZoom ? fitDistance : null, moving: false }
+    : { shift: [0, 0], distance: null, moving: false };
 }

@@ -1,10 +1,10 @@
 import { headingOf } from '../../motion/skeleton/heading';
 
-/** Where the couple is and from where it is seen best: plain numbers, no camera. */
+/** Measures the couple and chooses shots of it: plain numbers, no camera. */
 
 export type View = 'orbit' | 'follow' | 'top' | 'side';
 
-/** Metres and radians. The eye stands at target + distance in direction (heading, elevation). */
+/** Placement of the camera, metres and radians. The eye is at target + distance in direction (heading, elevation). */
 export interface Shot {
   readonly target: readonly [x: number, y: number, z: number];
   readonly distance: number;
@@ -14,20 +14,20 @@ export interface Shot {
   readonly elevation: number;
 }
 
-/** What has to be in the picture. */
+/** Place and size of what has to be in the picture. */
 export interface Couple {
   /** Middle between the roots, metres. */
   readonly x: number;
   readonly z: number;
   /** Largest distance of a joint from the middle, on the floor plan, metres. */
-  readonly reach: number;
+  readonly radius: number;
   /** Highest joint, metres. */
   readonly height: number;
   /** Heading from which both are seen side by side, the leader on the right. */
-  readonly square: number;
+  readonly sideHeading: number;
 }
 
-/** How a couple is seen, apart from where it is: what another picture needs to be framed alike. */
+/** How a couple is framed, relative to where it is: all that another picture needs to be framed alike. */
 export interface Framing {
   readonly view: View;
   /** Target as metres from the couple's middle, on the floor plan. */
@@ -48,51 +48,51 @@ const BASE_DISTANCE = 5.05;
 /** Room beside the outermost and above the highest joint: half a hand and air, metres. */
 const MARGIN = 0.22;
 const HEADROOM = 0.12;
-/** A pixel that covers this much of a dancer shows no more than the light triangles do, metres. */
-const LIGHT_PIXEL = 0.004;
+/** Size of a pixel on a dancer from which on the low level of detail looks like the full one, metres. */
+const LOW_DETAIL_PIXEL = 0.004;
 
-/** How far to the side of straight ahead somebody alone is seen from: three-quarters from the front, radians. */
+/** Heading from which a dancer alone is seen, from their front: a three-quarter view, radians. */
 const THREE_QUARTERS = 0.5;
 
 /**
- * Measures whoever is on the stage.
+ * Measures the dancers on the stage.
  *
  * @param dancers joint positions (22 x 3, metres), the leader first.
- * @param beside joints of others who have to be in the picture too, without being the couple
+ * @param beside joints of other dancers that have to be in the picture too
  */
 export function measureCouple(
   dancers: readonly Float32Array[],
   beside: readonly Float32Array[] = [],
 ): Couple {
   const [first, second] = dancers;
-  if (first === undefined) return { x: 0, z: 0, reach: 0.5, height: 0, square: 0 };
-  let [x, z, reach, height] = [0, 0, 0, 0];
+  if (first === undefined) return { x: 0, z: 0, radius: 0.5, height: 0, sideHeading: 0 };
+  let [x, z, radius, height] = [0, 0, 0, 0];
   for (const joints of dancers) {
     x += joints[0]! / dancers.length;
     z += joints[2]! / dancers.length;
   }
   for (const joints of [...dancers, ...beside])
     for (let j = 0; j < joints.length; j += 3) {
-      reach = Math.max(reach, Math.hypot(joints[j]! - x, joints[j + 2]! - z));
+      radius = Math.max(radius, Math.hypot(joints[j]! - x, joints[j + 2]! - z));
       height = Math.max(height, joints[j + 1]!);
     }
-  const square =
+  const sideHeading =
     second === undefined
       ? headingOf(first) + THREE_QUARTERS
       : Math.atan2(second[2]! - first[2]!, first[0]! - second[0]!);
-  return { x, z, reach, height, square };
+  return { x, z, radius, height, sideHeading };
 }
 
-/** Distance at which a couple of this reach and height fills the picture as it should. */
-export function fitDistance(couple: Pick<Couple, 'reach' | 'height'>, aspect: number): number {
+/** Distance at which a couple of this radius and height fills the picture as it should. */
+export function fitDistance(couple: Pick<Couple, 'radius' | 'height'>, aspect: number): number {
   const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
   const tall = (couple.height + HEADROOM - TARGET_HEIGHT) / tangent;
-  const wide = (couple.reach + MARGIN) / (tangent * aspect);
+  const wide = (couple.radius + MARGIN) / (tangent * aspect);
   return Math.max(BASE_DISTANCE, tall, wide);
 }
 
 /**
- * Whether a dancer is so small in the picture that light bodies look like full ones, even the one nearer to the eye.
+ * Whether both dancers are so small in the picture that a low level of detail is enough.
  *
  * @param eye where the camera is, metres
  * @param height of the picture, in pixels of the screen
@@ -102,9 +102,9 @@ export function isFar(
   couple: Couple,
   height: number,
 ): boolean {
-  const away = Math.hypot(eye.x - couple.x, eye.y - TARGET_HEIGHT, eye.z - couple.z) - couple.reach;
+  const nearest = Math.hypot(eye.x - couple.x, eye.y - TARGET_HEIGHT, eye.z - couple.z) - couple.radius;
   const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-  return (2 * away * tangent) / height > LIGHT_PIXEL;
+  return (2 * nearest * tangent) / height > LOW_DETAIL_PIXEL;
 }
 
 /** The shot each view begins with. `heading` is where the eye stands now, for views that keep it. */
@@ -121,15 +121,15 @@ export function shotOf(view: View, couple: Couple, aspect: number, heading: numb
         elevation: Math.asin((EYE_HEIGHT - TARGET_HEIGHT) / BASE_DISTANCE),
       };
     case 'side':
-      return { target, distance, heading: couple.square, elevation: 0.02 };
+      return { target, distance, heading: couple.sideHeading, elevation: 0.02 };
     case 'top': {
       const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-      const above = (couple.reach + 2 * MARGIN) / (tangent * Math.min(1, aspect));
+      const above = (couple.radius + 2 * MARGIN) / (tangent * Math.min(1, aspect));
       return {
         target: [couple.x, 0, couple.z],
         distance: Math.max(above + couple.height, BASE_DISTANCE),
         heading,
-        // Straight down has no heading; a hair's breadth less keeps it.
+        // Straight down has no heading; slightly less keeps it.
         elevation: Math.PI / 2 - 0.001,
       };
     }
@@ -137,8 +137,8 @@ export function shotOf(view: View, couple: Couple, aspect: number, heading: numb
 }
 
 /**
- * The shot that frames this couple as `framing` does in a picture of another shape. A distance chosen by hand stays,
- * unless the picture is narrower: then as much is seen to the sides.
+ * The shot that frames this couple as `framing` does in a picture of another shape. A distance that the person
+ * chose stays, unless the picture is narrower: then as much is seen to the sides.
  */
 export function reframed(framing: Framing, couple: Couple, aspect: number): Shot {
   const { view, shot, ownDistance } = framing;
@@ -152,10 +152,10 @@ export function reframed(framing: Framing, couple: Couple, aspect: number): Shot
   return { ...shot, target, distance };
 }
 
-/** The same angle, within half a turn of `near`. */
-export function nearestTurn(angle: number, near: number): number {
+/** The same angle modulo a full turn, within half a turn of `near`. */
+export function nearestAngle(angle: number, near: number): number {
   return angle - 2 * Math.PI * Math.round((angle - near) / (2 * Math.PI));
 }
 
-/** Share of the way to a goal that an eased value covers in `dt` seconds with time constant `tau`. */
+/** Share of the way to its goal that an exponentially smoothed value goes in `dt` seconds with time constant `tau`. */
 export const easing = (dt: number, tau: number): number => 1 - Math.exp(-dt / tau);

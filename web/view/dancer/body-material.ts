@@ -7,22 +7,22 @@ import {
   UniformsUtils,
 } from 'three';
 
-/** What the skin of a solid body is painted with: matt, lit by the stage's lights, in one colour. */
-export interface Paint {
+/** The material of a solid body: matt, lit by the stage's lights, in one colour. */
+export interface BodyMaterial {
   readonly material: Material;
   setTint(tint: number): void;
 }
 
 const ROUGHNESS = 0.62;
 
-/** Lit at every pixel, as a graphics card does it in no time. */
-export function pixelPaint(): Paint {
+/** Lighting per pixel, which a graphics card does without effort. */
+export function perPixelMaterial(): BodyMaterial {
   const material = new MeshStandardMaterial({ roughness: ROUGHNESS, metalness: 0, vertexColors: true });
   return { material, setTint: (tint) => material.color.set(tint) };
 }
 
-// The same light on the same matt skin as `pixelPaint`'s (three.js: GGX over Lambert, 4 % facing), but for what bounces
-// more than once.
+// The same shading as `perPixelMaterial`'s (three.js: GGX specular over Lambert diffuse, reflectance 0.04), but without
+// the compensation for multiple scattering.
 const VERTEX = /* glsl */ `
 uniform vec3 tint;
 varying vec3 vLit;
@@ -41,14 +41,14 @@ vec3 lit(DirectionalLight light, vec3 normal, vec3 view, float facing, vec3 albe
   float towards = dot(normal, light.direction);
   if (towards <= 0.0) return vec3(0.0);
   vec3 halfway = normalize(light.direction + view);
-  float shiny = dot(normal, halfway);
-  float spread = shiny * shiny * (ALPHA2 - 1.0) + 1.0;
-  float past = 1.0 - saturate(dot(view, halfway));
-  float mirrored = 0.04 + 0.96 * past * past * past * past * past;
-  // Smith's shadowing as Hammon (2017) approximates it, without roots.
-  float seen = mix(2.0 * towards * facing, towards + facing, ALPHA);
-  float highlight = mirrored * ALPHA2 * RECIPROCAL_PI * 0.5 / max(spread * spread * seen, EPSILON);
-  return light.color * towards * (albedo * (1.0 - mirrored) * RECIPROCAL_PI + highlight);
+  float nDotH = dot(normal, halfway);
+  float lobe = nDotH * nDotH * (ALPHA2 - 1.0) + 1.0;
+  float grazing = 1.0 - saturate(dot(view, halfway));
+  float fresnel = 0.04 + 0.96 * grazing * grazing * grazing * grazing * grazing;
+  // Smith's masking and shadowing in the approximation of Hammon (2017), without square roots.
+  float visibility = mix(2.0 * towards * facing, towards + facing, ALPHA);
+  float highlight = fresnel * ALPHA2 * RECIPROCAL_PI * 0.5 / max(lobe * lobe * visibility, EPSILON);
+  return light.color * towards * (albedo * (1.0 - fresnel) * RECIPROCAL_PI + highlight);
 }
 
 void main() {
@@ -85,17 +85,17 @@ void main() {
 }`;
 
 /**
- * Lit at the corners of the triangles, its shadows at every pixel: where the processor draws this takes half the time,
- * and pictures are not so large that it shows. The light that casts shadows has to be the only one that does.
+ * Lighting per vertex, shadows per pixel: with a software renderer this takes half the time, and its pictures are too
+ * small for a visible difference. Only the first directional light may cast shadows.
  */
-export function cornerPaint(): Paint {
-  const tinted = { tint: { value: new Color() } };
+export function perVertexMaterial(): BodyMaterial {
+  const uniforms = { tint: { value: new Color() } };
   const material = new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    uniforms: { ...UniformsUtils.clone(UniformsLib.lights), ...tinted },
+    uniforms: { ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
     lights: true,
     vertexColors: true,
   });
-  return { material, setTint: (tint) => tinted.tint.value.set(tint) };
+  return { material, setTint: (tint) => uniforms.tint.value.set(tint) };
 }

@@ -1,191 +1,119 @@
-import { BufferGeometry, Group, SkinnedMesh } from 'three';
+import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
-import { toGeometry, type BodyGeometry } from '../body/geometry';
 import type { BodyLibrary } from '../body/library';
-import type { Body } from '../body/simplify';
 import { BUILDS } from '../body/part';
+import type { Body } from '../body/simplify';
+import type { Role } from '../theme';
+import type { BodyMaterial } from './body-material';
+import { DancerBody } from './dancer-body';
 import { gesture } from './gesture';
-import { createGlass, type Clarity } from './ghost-material';
-import type { Paint } from './body-material';
 import { blendPose, createPose, samplePose } from './pose';
-import { createRig, type Rig } from './rig';
-import type { Look, Role } from '../theme';
+import { createRig } from './rig';
 
-/** What a body is made of: solid; glass around bones; the coarse layer's ghost; the ghost of another take. */
-export type Matter = 'solid' | 'glass' | 'coarse' | 'other';
+/** Duration of the crossfade from one motion to the next, seconds. */
+const CROSSFADE = 0.25;
 
-/** One mannequin on the stage. */
-export interface Dancer {
-  readonly object: Group;
-  readonly rig: Rig;
-  readonly motion: SolvedMotion | null;
-  /** Gives it another dance, or none; with `softly`, it passes over to it. The body is made in the background. */
-  setMotion(motion: SolvedMotion | null, softly?: boolean): void;
-  /** Goes on passing over, by seconds; true while the pose changes by it. */
-  advance(dt: number): boolean;
-  setMatter(matter: Matter): void;
-  /** Takes the colours of a role; its own until then. */
-  colourAs(role: Role): void;
-  /** Says whether the body is so small in the picture that its light triangles show no less. */
-  setFar(far: boolean): void;
-  /** Hides a dancer who has a motion, or lets them be seen again. */
-  show(on: boolean): void;
-  /** Resolves when the body for the latest motion is on. */
-  dressed(): Promise<void>;
-  /** Takes the pose of its motion at a moment. */
-  pose(seconds: number): void;
-  /** Turns head and hands towards a partner who has been posed as well. */
-  attend(partner: Dancer): void;
-  /** 22 x 3 world positions in metres as drawn; all zero without a motion. */
-  jointPositions(): Float32Array;
-  setLook(look: Look): void;
-  dispose(): void;
-}
+/** One mannequin on the stage: bones that follow a motion, and a body on them. */
+export class Dancer {
+  readonly object = new Group();
+  readonly body: DancerBody;
+  private readonly rig = createRig();
+  private readonly currentPose = createPose();
+  private readonly nextPose = createPose();
+  private currentMotion: SolvedMotion | null = null;
+  /** Motion that is faded out, and how far that has come, 0 to 1. */
+  private fadingMotion: SolvedMotion | null = null;
+  private fade = 0;
+  private visible = true;
+  private bodyRequest = Promise.resolve();
+  private shownBody: Body | null = null;
 
-const CLARITY: Readonly<Record<Exclude<Matter, 'solid'>, Clarity>> = {
-  glass: { facing: 0.14, grazing: 0.75 },
-  coarse: { facing: 0.13, grazing: 0.85 },
-  other: { facing: 0.24, grazing: 0.95 },
-};
-
-/** Seconds that passing from one dance to another takes. */
-const PASSAGE = 0.25;
-
-/**
- * @param paint of the solid body; the dancer's own, who disposes of it
- * @param onBody called when the body has been meshed and the picture changes.
- */
-export function createDancer(role: Role, library: BodyLibrary, paint: Paint, onBody: () => void): Dancer {
-  const rig = createRig();
-  const mesh = new SkinnedMesh(new BufferGeometry(), paint.material);
-  mesh.name = role;
-  mesh.castShadow = true;
-  mesh.receiveShadow = true;
-  // The bones carry the body across the floor, beyond the bounds of the bind pose.
-  mesh.frustumCulled = false;
-  mesh.bind(rig.skeleton);
-  mesh.onBeforeShadow = () => geometry?.lighten(true);
-  mesh.onAfterShadow = () => geometry?.lighten(far);
-  const glass = createGlass(rig.skeleton);
-  const object = new Group();
-  object.add(rig.root);
-  object.visible = false;
-
-  const pose = createPose();
-  const coming = createPose();
-  const joints = new Float32Array(JOINT_COUNT * 3);
-  let motion: SolvedMotion | null = null;
-  /** The dance that it passes over from, and how far it has, 0 to 1. */
-  let former: SolvedMotion | null = null;
-  let passed = 0;
-  let matter: Matter = 'solid';
-  let colours = role;
-  let shown = true;
-  let far = false;
-  let look: Look | null = null;
-  let dressing = Promise.resolve();
-  let worn: Body | null = null;
-  let geometry: BodyGeometry | null = null;
-
-  function wear(body: Body): void {
-    worn = body;
-    geometry?.dispose();
-    geometry = toGeometry(body);
-    geometry.lighten(far);
-    mesh.geometry = geometry.near;
-    glass.setGeometry(geometry.light);
-    rig.bind(body.offsets);
-    dress();
-    onBody();
+  /**
+   * @param material of the solid body, disposed of with the dancer
+   * @param onBody called when a body has been meshed and the picture changes.
+   */
+  constructor(
+    private readonly role: Role,
+    private readonly library: BodyLibrary,
+    material: BodyMaterial,
+    private readonly onBody: () => void,
+  ) {
+    this.body = new DancerBody(this.rig, material, role);
+    this.object.add(this.rig.root, this.body.object);
+    this.object.visible = false;
   }
-  /** Puts on the body that the matter asks for, once there is one. */
-  function dress(): void {
-    object.visible = motion !== null && shown;
-    const solid = matter === 'solid';
-    if (look !== null) {
-      paint.setTint(look[colours]);
-      // Ghosts have tints of their own in the reactor's family.
-      const ghost = matter === 'coarse' || matter === 'other' ? matter : null;
-      const tint = look[ghost !== null && colours === 'reactor' ? ghost : colours];
-      if (!solid) glass.setTint(tint, CLARITY[matter as Exclude<Matter, 'solid'>]);
+
+  get motion(): SolvedMotion | null {
+    return this.currentMotion;
+  }
+
+  /** Takes another motion, or none, at once or with a crossfade. A body for its skeleton is made in the background. */
+  setMotion(motion: SolvedMotion | null, crossfade = false): void {
+    if (motion === this.currentMotion) return;
+    this.fadingMotion = crossfade && motion ? this.currentMotion : null;
+    this.fade = 0;
+    this.currentMotion = motion;
+    this.updateVisibility();
+    if (motion === null) return;
+    this.rig.fit(motion.offsets);
+    this.bodyRequest = this.library.request(motion.offsets, BUILDS[this.role]).then((body) => {
+      // Bodies may come in another order than they were asked for; only the latest motion's is taken.
+      if (this.currentMotion !== motion || body === this.shownBody) return;
+      this.shownBody = body;
+      this.body.setBody(body);
+      this.onBody();
+    });
+  }
+
+  /** Resolves when the body for the latest motion is shown. */
+  bodyReady(): Promise<void> {
+    return this.bodyRequest;
+  }
+
+  /** Hides a dancer who has a motion, or shows them again. */
+  show(on: boolean): void {
+    this.visible = on;
+    this.updateVisibility();
+  }
+
+  /** Goes on with a crossfade by `dt` seconds; true while the pose changes by it. */
+  advance(dt: number): boolean {
+    if (!this.fadingMotion) return false;
+    this.fade += dt / CROSSFADE;
+    if (this.fade >= 1) this.fadingMotion = null;
+    return true;
+  }
+
+  /** Takes the pose of the motion at a moment. */
+  pose(seconds: number): void {
+    if (this.currentMotion === null) return;
+    samplePose(this.fadingMotion ?? this.currentMotion, seconds, this.currentPose);
+    if (this.fadingMotion) {
+      samplePose(this.currentMotion, seconds, this.nextPose);
+      blendPose(this.currentPose, this.nextPose, this.fade * this.fade * (3 - 2 * this.fade));
     }
-    glass.setShadow(matter === 'glass');
-    if (geometry === null) return;
-    object.remove(mesh, glass.object);
-    object.add(solid ? mesh : glass.object);
+    this.rig.apply(this.currentPose);
   }
 
-  return {
-    object,
-    rig,
-    get motion() {
-      return motion;
-    },
-    setMotion(next, softly = false) {
-      if (next === motion) return;
-      former = softly && next ? motion : null;
-      passed = 0;
-      motion = next;
-      dress();
-      if (next === null) return;
-      rig.fit(next.offsets);
-      dressing = library.request(next.offsets, BUILDS[role]).then((body) => {
-        // Only the latest dance dresses the dancer; an earlier body may arrive later.
-        if (motion === next && body !== worn) wear(body);
-      });
-    },
-    advance(dt) {
-      if (!former) return false;
-      passed += dt / PASSAGE;
-      if (passed >= 1) former = null;
-      return true;
-    },
-    setMatter(next) {
-      if (next === matter) return;
-      matter = next;
-      dress();
-    },
-    colourAs(next) {
-      if (next === colours) return;
-      colours = next;
-      dress();
-    },
-    setFar(on) {
-      if (on === far) return;
-      far = on;
-      geometry?.lighten(far);
-    },
-    show(on) {
-      shown = on;
-      object.visible = motion !== null && shown;
-    },
-    dressed: () => dressing,
-    pose(seconds) {
-      if (motion === null) return;
-      samplePose(former ?? motion, seconds, pose);
-      if (former) {
-        samplePose(motion, seconds, coming);
-        blendPose(pose, coming, passed * passed * (3 - 2 * passed));
-      }
-      rig.apply(pose);
-    },
-    attend(partner) {
-      gesture(rig, partner.rig);
-    },
-    jointPositions() {
-      return motion === null ? joints.fill(0).slice() : rig.jointPositions(joints).slice();
-    },
-    setLook(next) {
-      look = next;
-      dress();
-    },
-    dispose() {
-      motion = null;
-      geometry?.dispose();
-      paint.material.dispose();
-      glass.dispose();
-      rig.skeleton.dispose();
-    },
-  };
+  /** Turns head and hands towards a partner who has been posed as well. */
+  turnTowards(partner: Dancer): void {
+    gesture(this.rig, partner.rig);
+  }
+
+  /** 22 x 3 world positions in metres as drawn; all zero without a motion. */
+  jointPositions(): Float32Array {
+    const positions = new Float32Array(JOINT_COUNT * 3);
+    return this.currentMotion === null ? positions : this.rig.jointPositions(positions);
+  }
+
+  dispose(): void {
+    this.currentMotion = null;
+    this.body.dispose();
+    this.rig.skeleton.dispose();
+  }
+
+  private updateVisibility(): void {
+    this.object.visible = this.currentMotion !== null && this.visible;
+  }
 }

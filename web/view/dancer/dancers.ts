@@ -1,160 +1,184 @@
 import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { BodyLibrary } from '../body/library';
-import type { Picture } from '../canvas';
-import { createDancer, type Dancer } from './dancer';
 import { measureCouple, type Couple } from '../camera/framing';
-import type { Paint } from './body-material';
+import type { Viewport } from '../canvas';
 import type { Figure } from '../overlays/overlay';
-import { NOTHING_SHOWN, type Shown } from '../overlays/overlays';
+import { NO_OVERLAYS, type VisibleOverlays } from '../overlays/overlays';
 import { ROLES, type Look, type Role } from '../theme';
+import type { BodyMaterial } from './body-material';
+import { Dancer } from './dancer';
 
-/** Leader and reactor; the reactor of the coarse layer alone; another take of the reactor, and its coarse layer. */
-export type Part = Role | 'coarse' | 'other' | 'otherCoarse';
-const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const satisfies readonly Part[];
+/** Leader and reactor, the coarse layer of the first take, the other take, and its coarse layer. */
+export type DancerName = Role | 'coarse' | 'other' | 'otherCoarse';
+const NAMES = [
+  'leader',
+  'reactor',
+  'coarse',
+  'other',
+  'otherCoarse',
+] as const satisfies readonly DancerName[];
 
-/** How another take is seen: through the reactor, or in this half of the picture, the reactor in the other half. */
+/** How the other take is seen: as a ghost, or in this half of a split view, with the first take in the other half. */
 export type OtherMode = 'ghost' | 'left' | 'right';
 
-/** Everybody who can be on the stage, and who of them is to be seen in which picture. */
-export interface Cast {
-  readonly object: Group;
-  /** With `softly`, who is there already passes over to the other dance. */
-  setMotion(part: Part, motion: SolvedMotion | null, softly?: boolean): void;
-  /** Goes on passing over, by seconds; true while a pose changes by it. */
-  advance(dt: number): boolean;
-  /** Whose part coarse layer and other take are of; the other dancer is the same with all of them. */
-  setMade(role: Role): void;
-  setOtherMode(mode: OtherMode): void;
-  setShown(shown: Shown): void;
-  /** Says whether everybody is so small in the picture that light bodies show no less. */
-  setFar(far: boolean): void;
-  /** Whether there is another take to be seen beside the reactor. */
-  readonly split: boolean;
-  /** How many of leader and reactor are on the stage. */
-  readonly present: number;
-  /** Poses everybody at a moment and measures where they are. */
-  pose(seconds: number): Couple;
+/** All dancers that can be on the stage, and which of them each viewport shows. */
+export class Dancers {
+  readonly object = new Group();
+  private readonly dancers: Readonly<Record<DancerName, Dancer>>;
+  private overlays = NO_OVERLAYS;
+  private mode: OtherMode = 'ghost';
+  private made: Role = 'reactor';
+  private posedAt = 0;
+  /** Whom the loaded dancer has turned to since the last pose. */
+  private turnedTo: DancerName | null = null;
+
   /**
-   * Lets those be seen who are in a picture, as they were posed: in one half the couple, in the other half the loaded
-   * dancer with the other take, turned to it. Each half has the coarse layer of its own take.
+   * @param createMaterial makes the material of a solid body
+   * @param onBody called when a dancer has got a body
    */
-  arrange(picture: Picture): readonly Figure[];
-  /** Joints of everybody to be seen in the picture that was arranged last, 22 x 3 world positions each. */
-  seen(): readonly Float32Array[];
-  joints(part: Part): Float32Array;
-  setLook(look: Look): void;
-  /** Resolves when everybody has a body. */
-  dressed(): Promise<void>;
-  dispose(): void;
-}
-
-/**
- * @param paint makes what a solid body is painted with
- * @param onBody called when somebody has got a body
- */
-export function createCast(library: BodyLibrary, paint: () => Paint, onBody: () => void): Cast {
-  const dancer = (role: Role): Dancer => createDancer(role, library, paint(), onBody);
-  const dancers: Readonly<Record<Part, Dancer>> = {
-    leader: dancer('leader'),
-    reactor: dancer('reactor'),
-    coarse: dancer('reactor'),
-    other: dancer('reactor'),
-    otherCoarse: dancer('reactor'),
-  };
-  dancers.coarse.setMatter('coarse');
-  dancers.otherCoarse.setMatter('coarse');
-  const object = new Group();
-  for (const part of PARTS) object.add(dancers[part].object);
-
-  let shown = NOTHING_SHOWN;
-  let mode: OtherMode = 'ghost';
-  let posedAt = 0;
-  let attended: Part | null = null;
-  let made: Role = 'reactor';
-  const loaded = (): Role => (made === 'reactor' ? 'leader' : 'reactor');
-
-  const there = (part: Part): boolean => dancers[part].motion !== null;
-  const split = (): boolean => mode !== 'ghost' && there('other');
-  function dress(): void {
-    const matter = shown.skeleton ? 'glass' : 'solid';
-    dancers.leader.setMatter(matter);
-    dancers.reactor.setMatter(matter);
-    dancers.other.setMatter(mode === 'ghost' ? 'other' : matter);
+  constructor(library: BodyLibrary, createMaterial: () => BodyMaterial, onBody: () => void) {
+    const dancer = (role: Role): Dancer => new Dancer(role, library, createMaterial(), onBody);
+    this.dancers = {
+      leader: dancer('leader'),
+      reactor: dancer('reactor'),
+      coarse: dancer('reactor'),
+      other: dancer('reactor'),
+      otherCoarse: dancer('reactor'),
+    };
+    this.dancers.coarse.body.setStyle('coarse');
+    this.dancers.otherCoarse.body.setStyle('coarse');
+    for (const { object } of this.all) this.object.add(object);
+    this.updateStyles();
   }
-  dress();
-  /** The loaded dancer looks at a partner, posed anew if it looked at another one before. */
-  function attend(partner: Part): void {
-    if (attended === partner || !there(loaded())) return;
-    if (attended !== null) dancers[loaded()].pose(posedAt);
-    attended = partner;
-    if (there(partner)) dancers[loaded()].attend(dancers[partner]);
-  }
-  const figure = (role: Role, part: Part): Figure[] => {
-    const { motion } = dancers[part];
-    return motion === null ? [] : [{ role, motion, joints: dancers[part].jointPositions() }];
-  };
 
-  return {
-    object,
-    setMotion(part, motion, softly) {
-      dancers[part].setMotion(motion, softly);
-    },
-    advance: (dt) => PARTS.filter((part) => dancers[part].advance(dt)).length > 0,
-    setMade(role) {
-      made = role;
-      for (const part of ['coarse', 'other', 'otherCoarse'] as const) dancers[part].colourAs(role);
-    },
-    setOtherMode(next) {
-      mode = next;
-      dress();
-    },
-    setShown(next) {
-      shown = next;
-      dress();
-    },
-    setFar(far) {
-      for (const part of PARTS) dancers[part].setFar(far);
-    },
-    get split() {
-      return split();
-    },
-    get present() {
-      return ROLES.filter(there).length;
-    },
-    pose(seconds) {
-      posedAt = seconds;
-      attended = null;
-      const present = PARTS.filter(there);
-      for (const part of present) dancers[part].pose(seconds);
-      const constant = loaded();
-      if (there(constant))
-        for (const part of present) if (part !== constant) dancers[part].attend(dancers[constant]);
-      const joints = (part: Part): Float32Array => dancers[part].jointPositions();
-      return measureCouple(ROLES.filter(there).map(joints), there('other') ? [joints('other')] : []);
-    },
-    arrange(picture) {
-      const others = picture === mode;
-      const partner = others ? 'other' : made;
-      attend(partner);
-      dancers[loaded()].show(true);
-      dancers[made].show(!others);
-      dancers.coarse.show(!others && shown.ghost);
-      dancers.other.show(others || (picture === 'whole' && mode === 'ghost'));
-      dancers.otherCoarse.show(others && shown.ghost);
-      return [...figure(loaded(), loaded()), ...figure(made, partner)];
-    },
-    seen: () =>
-      PARTS.filter((part) => dancers[part].object.visible).map((part) => dancers[part].jointPositions()),
-    joints: (part) => dancers[part].jointPositions(),
-    setLook(look) {
-      for (const part of PARTS) dancers[part].setLook(look);
-    },
-    async dressed() {
-      await Promise.all(PARTS.map((part) => dancers[part].dressed()));
-    },
-    dispose() {
-      for (const part of PARTS) dancers[part].dispose();
-    },
-  };
+  /** Whether the other take has a half of the picture of its own. */
+  get split(): boolean {
+    return this.mode !== 'ghost' && this.isPresent('other');
+  }
+
+  /** How many of leader and reactor are on the stage. */
+  get present(): number {
+    return ROLES.filter((role) => this.isPresent(role)).length;
+  }
+
+  /** Gives a dancer another motion, or none, at once or with a crossfade. */
+  setMotion(name: DancerName, motion: SolvedMotion | null, crossfade = false): void {
+    this.dancers[name].setMotion(motion, crossfade);
+  }
+
+  /** Sets the role that the model made: that of coarse layers and other take. All share the dancer of the other role. */
+  setMade(role: Role): void {
+    this.made = role;
+    for (const name of ['coarse', 'other', 'otherCoarse'] as const) this.dancers[name].body.setColours(role);
+  }
+
+  setOtherMode(mode: OtherMode): void {
+    this.mode = mode;
+    this.updateStyles();
+  }
+
+  setOverlays(overlays: VisibleOverlays): void {
+    this.overlays = overlays;
+    this.updateStyles();
+  }
+
+  setLook(look: Look): void {
+    for (const { body } of this.all) body.setLook(look);
+  }
+
+  /** Draws all bodies with fewer triangles, for when they are small in the picture. */
+  setLowDetail(on: boolean): void {
+    for (const { body } of this.all) body.setLowDetail(on);
+  }
+
+  /** Resolves when every dancer has a body. */
+  async bodiesReady(): Promise<void> {
+    await Promise.all(this.all.map((dancer) => dancer.bodyReady()));
+  }
+
+  /** Goes on with crossfades by `dt` seconds; true while a pose changes by it. */
+  advance(dt: number): boolean {
+    return this.all.filter((dancer) => dancer.advance(dt)).length > 0;
+  }
+
+  /** Poses all dancers at a moment and measures where the couple is. */
+  pose(seconds: number): Couple {
+    this.posedAt = seconds;
+    this.turnedTo = null;
+    const present = NAMES.filter((name) => this.isPresent(name));
+    for (const name of present) this.dancers[name].pose(seconds);
+    if (this.isPresent(this.loaded))
+      for (const name of present)
+        if (name !== this.loaded) this.dancers[name].turnTowards(this.dancers[this.loaded]);
+    const couple = ROLES.filter((role) => this.isPresent(role)).map((role) => this.joints(role));
+    return measureCouple(couple, this.isPresent('other') ? [this.joints('other')] : []);
+  }
+
+  /**
+   * Shows the dancers of one viewport: the loaded dancer, turned to the take that the viewport shows, that take, and
+   * its coarse layer where the `ghost` overlay is on.
+   *
+   * @returns the couple in it, for contact shadows and overlays
+   */
+  arrange(viewport: Viewport): readonly Figure[] {
+    const { dancers, loaded, made, overlays } = this;
+    const showsOther = viewport === this.mode;
+    const partner = showsOther ? 'other' : made;
+    this.turnLoadedTo(partner);
+    dancers[loaded].show(true);
+    dancers[made].show(!showsOther);
+    dancers.coarse.show(!showsOther && overlays.ghost);
+    dancers.other.show(showsOther || (viewport === 'whole' && this.mode === 'ghost'));
+    dancers.otherCoarse.show(showsOther && overlays.ghost);
+    return [...this.figure(loaded, loaded), ...this.figure(made, partner)];
+  }
+
+  /** Joints of all dancers in the viewport that was arranged last, 22 x 3 world positions each, metres. */
+  visibleJoints(): readonly Float32Array[] {
+    return this.all.filter(({ object }) => object.visible).map((dancer) => dancer.jointPositions());
+  }
+
+  /** 22 x 3 world positions in metres; all zero without a motion. */
+  joints(name: DancerName): Float32Array {
+    return this.dancers[name].jointPositions();
+  }
+
+  dispose(): void {
+    for (const dancer of this.all) dancer.dispose();
+  }
+
+  private get all(): Dancer[] {
+    return NAMES.map((name) => this.dancers[name]);
+  }
+
+  /** The role whose motion was loaded, not made. */
+  private get loaded(): Role {
+    return this.made === 'reactor' ? 'leader' : 'reactor';
+  }
+
+  private isPresent(name: DancerName): boolean {
+    return this.dancers[name].motion !== null;
+  }
+
+  private updateStyles(): void {
+    const style = this.overlays.skeleton ? 'translucent' : 'solid';
+    this.dancers.leader.body.setStyle(style);
+    this.dancers.reactor.body.setStyle(style);
+    this.dancers.other.body.setStyle(this.mode === 'ghost' ? 'other' : style);
+  }
+
+  /** Turns the loaded dancer to a partner, from the pose of the motion if it has turned to another one before. */
+  private turnLoadedTo(partner: DancerName): void {
+    if (this.turnedTo === partner || !this.isPresent(this.loaded)) return;
+    const loaded = this.dancers[this.loaded];
+    if (this.turnedTo !== null) loaded.pose(this.posedAt);
+    this.turnedTo = partner;
+    if (this.isPresent(partner)) loaded.turnTowards(this.dancers[partner]);
+  }
+
+  private figure(role: Role, name: DancerName): Figure[] {
+    const { motion } = this.dancers[name];
+    return motion === null ? [] : [{ role, motion, joints: this.joints(name) }];
+  }
 }

@@ -13,12 +13,12 @@ export const FEET: readonly Foot[] = [
 ];
 
 /**
- * Where something lies on the floor under a foot, along the foot.
+ * Placement of something that lies on the floor under a foot, in the direction of the foot, written to `out`.
  *
  * @param joints 22 x 3, metres
- * @param above height over the floor that keeps it clear of what lies there already, metres
+ * @param above height over the floor, so that it does not intersect what lies there already, metres
  */
-export function standAt(joints: Float32Array, { ankle, toe }: Foot, above: number, out: Matrix4): Matrix4 {
+export function footMatrix(joints: Float32Array, { ankle, toe }: Foot, above: number, out: Matrix4): Matrix4 {
   const at = (joint: number, axis: number): number => joints[joint * 3 + axis]!;
   const angle = Math.atan2(at(toe, 0) - at(ankle, 0), at(toe, 2) - at(ankle, 2));
   return out

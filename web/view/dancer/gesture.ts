@@ -1,20 +1,21 @@
 import { Quaternion, Vector3 } from 'three';
 import { J } from '../../motion/skeleton/skeleton';
-import { ramp } from '../body/field';
+import { smoothstep } from '../body/field';
 import type { Rig } from './rig';
 
 /**
- * What a captured pose does not say and a viewer misses: eyes and hands. A head looks a little at the partner, a hand
- * turns towards the hand it holds. Only the last bones of the chains are turned, so every joint stays where the motion
- * has it.
+ * Head and hands, which the 22 joints of a motion say little about: a head turns a little to the partner, a hand turns
+ * towards a hand near it. Only the last bones of the chains are turned, so every joint stays where the motion has it.
  */
 
-const GAZE = 0.55;
-const MOST_YAW = 1.1;
-const MOST_PITCH = 0.45;
-/** Wrists further apart than this do not hold hands, metres. */
-const HOLDING = 0.45;
-const MOST_BEND = 0.7;
+/** Share of the angle to the partner by which a head turns, and its greatest angles, radians. */
+const HEAD_SHARE = 0.55;
+const MAX_YAW = 1.1;
+const MAX_PITCH = 0.45;
+/** Distance of two wrists from which on hands do not turn to each other, metres. */
+const HOLD_DISTANCE = 0.45;
+/** Greatest angle by which a hand turns, radians. */
+const MAX_BEND = 0.7;
 
 const HANDS = [
   { wrist: J.left_wrist, outward: new Vector3(1, 0, 0) },
@@ -29,54 +30,54 @@ const direction = new Vector3();
 const frame = new Quaternion();
 const turn = new Quaternion();
 
-/** World rotation of a bone, undone; bones are never scaled. */
-const intoParent = (rig: Rig, joint: number): Quaternion => {
+/** Rotation from the world into the space of a joint's parent; bones are never scaled. */
+const worldToParent = (rig: Rig, joint: number): Quaternion => {
   const parent = rig.bones[joint]!.parent!;
   return parent.getWorldQuaternion(frame).invert();
 };
 
 /** Turns head and hands of `rig` towards `partner`; both have been posed before. */
 export function gesture(rig: Rig, partner: Rig): void {
-  look(rig, partner);
-  for (const hand of HANDS) reach(rig, partner, hand.wrist, hand.outward);
+  turnHead(rig, partner);
+  for (const hand of HANDS) turnHand(rig, partner, hand.wrist, hand.outward);
 }
 
-function look(rig: Rig, partner: Rig): void {
+function turnHead(rig: Rig, partner: Rig): void {
   const head = rig.bones[J.head]!;
   point.setFromMatrixPosition(head.matrixWorld);
   direction.setFromMatrixPosition(partner.bones[J.head]!.matrixWorld).sub(point);
   if (direction.lengthSq() < 0.01) return;
-  direction.applyQuaternion(intoParent(rig, J.head)).normalize();
+  direction.applyQuaternion(worldToParent(rig, J.head)).normalize();
   const yaw = Math.atan2(direction.x, direction.z);
   const pitch = -Math.asin(direction.y);
-  // Nobody looks over their back: the wish fades as the partner passes behind.
-  const wish = GAZE * (1 - ramp(1.5, 2.6, Math.abs(yaw)));
-  const within = (angle: number, most: number): number => most * Math.tanh((angle * wish) / most);
-  head.quaternion.multiply(turn.setFromAxisAngle(UP, within(yaw, MOST_YAW)));
-  head.quaternion.multiply(turn.setFromAxisAngle(SIDE, within(pitch, MOST_PITCH)));
+  // Nobody looks over their back: the share falls to zero as the partner passes behind.
+  const share = HEAD_SHARE * (1 - smoothstep(1.5, 2.6, Math.abs(yaw)));
+  const limited = (angle: number, max: number): number => max * Math.tanh((angle * share) / max);
+  head.quaternion.multiply(turn.setFromAxisAngle(UP, limited(yaw, MAX_YAW)));
+  head.quaternion.multiply(turn.setFromAxisAngle(SIDE, limited(pitch, MAX_PITCH)));
   head.updateMatrixWorld(true);
 }
 
-function reach(rig: Rig, partner: Rig, joint: number, outward: Vector3): void {
+function turnHand(rig: Rig, partner: Rig, joint: number, outward: Vector3): void {
   const wrist = rig.bones[joint]!;
   point.setFromMatrixPosition(wrist.matrixWorld);
   direction.set(0, 0, 0);
-  let strength = 0;
+  let nearness = 0;
   for (const { wrist: theirs } of HANDS) {
     other.setFromMatrixPosition(partner.bones[theirs]!.matrixWorld).sub(point);
-    const gap = other.length();
-    // Both hands are weighed, so that passing from one to the other is smooth; a direction needs some length.
-    const weight = (1 - ramp(0.15, HOLDING, gap)) * ramp(0.02, 0.1, gap);
-    direction.addScaledVector(other, weight / Math.max(gap, 1e-3));
-    strength = Math.max(strength, weight);
+    const distance = other.length();
+    // A weighted mean over both hands changes smoothly from one to the other; a direction needs some length.
+    const weight = (1 - smoothstep(0.15, HOLD_DISTANCE, distance)) * smoothstep(0.02, 0.1, distance);
+    direction.addScaledVector(other, weight / Math.max(distance, 1e-3));
+    nearness = Math.max(nearness, weight);
   }
-  if (strength < 1e-3 || direction.lengthSq() < 1e-6) return;
-  direction.applyQuaternion(intoParent(rig, joint)).normalize();
+  if (nearness < 1e-3 || direction.lengthSq() < 1e-6) return;
+  direction.applyQuaternion(worldToParent(rig, joint)).normalize();
   const bend = outward.angleTo(direction);
   if (bend < 1e-3) return;
   other.crossVectors(outward, direction);
   if (other.lengthSq() < 1e-8) return;
-  const angle = MOST_BEND * Math.tanh((bend * strength * (1 - ramp(1.6, 2.8, bend))) / MOST_BEND);
+  const angle = MAX_BEND * Math.tanh((bend * nearness * (1 - smoothstep(1.6, 2.8, bend))) / MAX_BEND);
   wrist.quaternion.premultiply(turn.setFromAxisAngle(other.normalize(), angle));
   wrist.updateMatrixWorld(true);
 }

@@ -10,18 +10,18 @@ import {
   type Skeleton,
 } from 'three';
 
-/** A body that is seen through: only its outline is clear, its front a breath of colour. */
-export interface Glass {
+/** A see-through body: its outline is clear, surfaces that face the eye are almost transparent. */
+export interface Ghost {
   readonly object: Group;
   setGeometry(geometry: BufferGeometry): void;
-  setTint(colour: ColorRepresentation, clarity: Clarity): void;
-  /** Whether the body still throws its shadow. */
+  setTint(colour: ColorRepresentation, opacity: GhostOpacity): void;
+  /** Whether the body casts a shadow. */
   setShadow(cast: boolean): void;
   dispose(): void;
 }
 
-/** How much of the colour shows where the surface faces the eye and where it turns away, 0 to 1. */
-export interface Clarity {
+/** Opacity where the surface faces the eye and where it is seen at a grazing angle, 0 to 1. */
+export interface GhostOpacity {
   readonly facing: number;
   readonly grazing: number;
 }
@@ -29,7 +29,7 @@ export interface Clarity {
 const VERTEX = /* glsl */ `
 #include <common>
 #include <skinning_pars_vertex>
-varying vec3 vAcross;
+varying vec3 vFacing;
 varying vec3 vToEye;
 void main() {
   #include <beginnormal_vertex>
@@ -39,30 +39,30 @@ void main() {
   #include <begin_vertex>
   #include <skinning_vertex>
   #include <project_vertex>
-  vAcross = transformedNormal;
+  vFacing = transformedNormal;
   vToEye = -mvPosition.xyz;
 }`;
 const FRAGMENT = /* glsl */ `
 uniform vec3 tint;
 uniform float facing;
 uniform float grazing;
-varying vec3 vAcross;
+varying vec3 vFacing;
 varying vec3 vToEye;
 void main() {
-  float away = 1.0 - abs(dot(normalize(vAcross), normalize(vToEye)));
-  gl_FragColor = vec4(tint, mix(facing, grazing, pow(away, 2.2)));
+  float turned = 1.0 - abs(dot(normalize(vFacing), normalize(vToEye)));
+  gl_FragColor = vec4(tint, mix(facing, grazing, pow(turned, 2.2)));
   #include <colorspace_fragment>
 }`;
 
-/** Bodies of glass come after everything solid: all of their depths first, so that only the nearest surface shows. */
+/** Ghosts are drawn after everything solid: their depths first, so that only the nearest surface is seen. */
 const DEPTH_ORDER = 10;
 const TINT_ORDER = 11;
 
-export function createGlass(skeleton: Skeleton): Glass {
+export function createGhost(skeleton: Skeleton): Ghost {
   const depth = new MeshBasicMaterial({
     colorWrite: false,
     transparent: true,
-    // A hair's breadth behind, so that the second pass passes the test against the first whatever it rounds.
+    // Slightly behind, so that the second pass passes the depth test against the first in spite of rounding.
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 2,

@@ -1,7 +1,7 @@
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 
-/** One pose of a dancer: what a motion says at one moment. */
+/** Pose of a dancer at one moment. */
 export interface Pose {
   /** x, y, z in metres. */
   readonly root: Float32Array;

@@ -10,23 +10,23 @@ export interface Rig {
   readonly skeleton: Skeleton;
   /** Takes over the bone lengths of a solved skeleton (22 x 3 offsets, metres). */
   fit(offsets: ArrayLike<number>): void;
-  /** Says for which skeleton the skin was made; it may differ from the bones by the rounding of the body library. */
+  /** Binds the skin that was made for these offsets, which may differ a little from the bones (see `BodyLibrary`). */
   bind(offsets: ArrayLike<number>): void;
   apply(pose: Pose): void;
   /** Writes 22 x 3 world positions in metres of the joints as they are posed. */
   jointPositions(out: Float32Array): Float32Array;
 }
 
-const UPWARD = new Vector3(0, 0, 1);
+const Z_AXIS = new Vector3(0, 0, 1);
 
-/** Where each bone was when the skin was bound to it, undone. */
+/** Inverses of the world matrices of the bones in the bind pose. */
 function inverseBind(offsets: ArrayLike<number>): Matrix4[] {
   const { joints, turns } = bindPose(offsets);
   return joints.map((joint, i) =>
     new Matrix4()
       .compose(
         new Vector3(...joint),
-        new Quaternion().setFromAxisAngle(UPWARD, turns[i]!),
+        new Quaternion().setFromAxisAngle(Z_AXIS, turns[i]!),
         new Vector3(1, 1, 1),
       )
       .invert(),

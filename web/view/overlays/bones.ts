@@ -11,12 +11,12 @@ import {
   Vector3,
 } from 'three';
 import { JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
-import { MOST_FIGURES, type Show } from './overlay';
+import { MAX_FIGURES, type Overlay } from './overlay';
 
-/** Radius of a joint and of a bone at its thickest, metres. */
-const JOINT = 0.019;
-const BONE = 0.02;
-/** Where along its length a bone is thickest. */
+/** Radii of a joint and of a bone at its thickest, metres. */
+const JOINT_RADIUS = 0.019;
+const BONE_RADIUS = 0.02;
+/** Where along its length a bone is thickest, 0 to 1. */
 const BULGE = 0.18;
 
 /** A spindle from the origin to (0, 1, 0), thickest near its beginning. */
@@ -27,20 +27,24 @@ function spindle(): OctahedronGeometry {
     const y = position!.getY(v);
     position!.setXYZ(
       v,
-      position!.getX(v) * BONE,
+      position!.getX(v) * BONE_RADIUS,
       y > 0.5 ? 1 : y < -0.5 ? 0 : BULGE,
-      position!.getZ(v) * BONE,
+      position!.getZ(v) * BONE_RADIUS,
     );
   }
   geometry.computeVertexNormals();
   return geometry;
 }
 
-/** The skeleton that moves a dancer: a ball in each joint, a spindle along each bone. */
-export function createBones(): Show {
+/** The skeleton of a dancer: a ball in each joint, a spindle along each bone. */
+export function createBones(): Overlay {
   const material = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 });
-  const balls = new InstancedMesh(new IcosahedronGeometry(JOINT, 1), material, MOST_FIGURES * JOINT_COUNT);
-  const spindles = new InstancedMesh(spindle(), material, MOST_FIGURES * (JOINT_COUNT - 1));
+  const balls = new InstancedMesh(
+    new IcosahedronGeometry(JOINT_RADIUS, 1),
+    material,
+    MAX_FIGURES * JOINT_COUNT,
+  );
+  const spindles = new InstancedMesh(spindle(), material, MAX_FIGURES * (JOINT_COUNT - 1));
   const object = new Group();
   for (const mesh of [balls, spindles]) {
     mesh.instanceMatrix.setUsage(DynamicDrawUsage);
@@ -48,7 +52,7 @@ export function createBones(): Show {
     object.add(mesh);
   }
   const colours = { leader: new Color(), reactor: new Color() };
-  const bare = new Color();
+  const contrast = new Color();
   const mixed = new Color();
   const matrix = new Matrix4();
   const turn = new Quaternion();
@@ -71,9 +75,9 @@ export function createBones(): Show {
           const length = along.length();
           turn.setFromUnitVectors(up, along.divideScalar(Math.max(length, 1e-6)));
           // A short bone is no thicker than it is long.
-          const thick = Math.min(1, length / (4 * BONE));
+          const thick = Math.min(1, length / (4 * BONE_RADIUS));
           spindles.setMatrixAt(bone, matrix.compose(from, turn, size.set(thick, length, thick)));
-          spindles.setColorAt(bone++, mixed.lerpColors(colours[role], bare, 0.55));
+          spindles.setColorAt(bone++, mixed.lerpColors(colours[role], contrast, 0.55));
         }
       }
       balls.count = ball;
@@ -86,7 +90,7 @@ export function createBones(): Show {
     setLook(look) {
       colours.leader.set(look.leader);
       colours.reactor.set(look.reactor);
-      bare.set(look.contrast);
+      contrast.set(look.contrast);
     },
     dispose() {
       for (const mesh of [balls, spindles]) {

@@ -2,26 +2,26 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { plantedStretches, type Stretch } from '../../motion/contact/foot-contacts';
 import { J } from '../../motion/skeleton/skeleton';
 
-/** Seconds in which a contact appears when a foot comes to stand and goes when it has left. */
-const COMES = 0.08;
-const GOES = 0.2;
+/** Seconds in which a contact fades in when it begins, and fades out after its end. */
+const FADE_IN = 0.08;
+const FADE_OUT = 0.2;
 
-/** When the left and when the right toes stand. */
-export type Steps = readonly [left: readonly Stretch[], right: readonly Stretch[]];
+/** Contacts of the left and of the right toes with the floor, in frames. */
+export type FootContacts = readonly [left: readonly Stretch[], right: readonly Stretch[]];
 
-export const stepsOf = (motion: SolvedMotion): Steps => [
+export const footContactsOf = (motion: SolvedMotion): FootContacts => [
   plantedStretches(motion, J.left_foot),
   plantedStretches(motion, J.right_foot),
 ];
 
-/** How much of a contact is to be seen at a moment, 0 to 1: it comes with the step and lingers after it. */
-export function contactAt(stretches: readonly Stretch[], fps: number, seconds: number): number {
-  let most = 0;
-  for (const { first, last } of stretches) {
-    const came = (seconds - first / fps) / COMES;
-    if (came < 0) break;
-    const gone = (seconds - last / fps) / GOES;
-    most = Math.max(most, Math.min(1, came, 1 - gone));
+/** Opacity of a foot's contact ring at a moment, 0 to 1. `contacts` are in frames at `fps`. */
+export function contactOpacity(contacts: readonly Stretch[], fps: number, seconds: number): number {
+  let opacity = 0;
+  for (const { first, last } of contacts) {
+    const fadedIn = (seconds - first / fps) / FADE_IN;
+    if (fadedIn < 0) break;
+    const fadedOut = (seconds - last / fps) / FADE_OUT;
+    opacity = Math.max(opacity, Math.min(1, fadedIn, 1 - fadedOut));
   }
-  return most;
+  return opacity;
 }

@@ -1,7 +1,7 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 
-/** How far beyond the wrist the middle of the hand lies, metres. */
+/** Distance from the wrist to the middle of the hand, metres. */
 const PALM = 0.09;
 const HANDS = [
   [J.left_elbow, J.left_wrist],
@@ -9,24 +9,27 @@ const HANDS = [
 ] as const;
 const FEET = [J.left_foot, J.right_foot] as const;
 
-/** Hands, then feet. */
-export const TIPS = HANDS.length + FEET.length;
+/** Number of end effectors: two hands, then two feet. */
+export const END_EFFECTORS = HANDS.length + FEET.length;
 
 /**
- * Where hands and feet are through a dance: frames x 4 x 3 metres, left hand, right hand, left foot, right foot. A hand
- * is its middle, in line with the forearm.
+ * Positions of the end effectors over a motion: frames x 4 x 3 metres, left hand, right hand, left foot, right foot. A
+ * hand is its middle, in line with the forearm.
  */
-export function tipTracks({ frames, positions }: Pick<SolvedMotion, 'frames' | 'positions'>): Float32Array {
-  const tracks = new Float32Array(frames * TIPS * 3);
+export function endEffectorTracks({
+  frames,
+  positions,
+}: Pick<SolvedMotion, 'frames' | 'positions'>): Float32Array {
+  const tracks = new Float32Array(frames * END_EFFECTORS * 3);
   for (let frame = 0; frame < frames; frame++) {
     const joint = (index: number, axis: number): number =>
       positions[(frame * JOINT_COUNT + index) * 3 + axis]!;
-    const at = frame * TIPS * 3;
-    HANDS.forEach(([elbow, wrist], tip) => {
-      const reach = [0, 1, 2].map((axis) => joint(wrist, axis) - joint(elbow, axis));
-      const share = PALM / Math.max(1e-6, Math.hypot(...reach));
+    const at = frame * END_EFFECTORS * 3;
+    HANDS.forEach(([elbow, wrist], hand) => {
+      const forearm = [0, 1, 2].map((axis) => joint(wrist, axis) - joint(elbow, axis));
+      const share = PALM / Math.max(1e-6, Math.hypot(...forearm));
       for (let axis = 0; axis < 3; axis++)
-        tracks[at + tip * 3 + axis] = joint(wrist, axis) + reach[axis]! * share;
+        tracks[at + hand * 3 + axis] = joint(wrist, axis) + forearm[axis]! * share;
     });
     FEET.forEach((foot, i) => {
       for (let axis = 0; axis < 3; axis++) tracks[at + (HANDS.length + i) * 3 + axis] = joint(foot, axis);
@@ -36,22 +39,22 @@ export function tipTracks({ frames, positions }: Pick<SolvedMotion, 'frames' | '
 }
 
 /**
- * A smooth curve through a track (Catmull-Rom), written to `out`.
+ * Position of an end effector between frames, on a Catmull-Rom spline through its track; written to `out` in metres.
  *
- * @param at moment in frames; held at both ends of the dance
+ * @param at moment in frames; clamped to the motion
  */
-export function tipAt(
+export function endEffectorAt(
   tracks: Float32Array,
-  tip: number,
+  effector: number,
   at: number,
   out: { x: number; y: number; z: number },
 ): void {
-  const last = tracks.length / (TIPS * 3) - 1;
-  const held = Math.min(Math.max(0, at), last);
-  const frame = Math.min(Math.floor(held), Math.max(0, last - 1));
-  const t = held - frame;
+  const last = tracks.length / (END_EFFECTORS * 3) - 1;
+  const clamped = Math.min(Math.max(0, at), last);
+  const frame = Math.min(Math.floor(clamped), Math.max(0, last - 1));
+  const t = clamped - frame;
   const value = (offset: number, axis: number): number =>
-    tracks[(Math.min(Math.max(0, frame + offset), last) * TIPS + tip) * 3 + axis]!;
+    tracks[(Math.min(Math.max(0, frame + offset), last) * END_EFFECTORS + effector) * 3 + axis]!;
   const along = (axis: number): number => {
     const [a, b, c, d] = [value(-1, axis), value(0, axis), value(1, axis), value(2, axis)];
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));

@@ -11,50 +11,50 @@ import {
 } from 'three';
 import { SOLE } from '../body/leg';
 import { headingOf } from '../../motion/skeleton/heading';
-import { MOST_FIGURES, type Show } from './overlay';
+import { MAX_FIGURES, type Overlay } from './overlay';
 
-/** The arrow begins this far in front of the root and ends there, metres. */
+/** Distances in front of the root at which the arrow begins and ends, metres. */
 const START = 0.2;
 const END = 0.58;
-const HEAD = 0.17;
+const HEAD_LENGTH = 0.17;
 /** Half widths of the shaft and of the head, metres. */
-const SHAFT = 0.024;
-const BARB = 0.09;
+const SHAFT_HALF_WIDTH = 0.024;
+const HEAD_HALF_WIDTH = 0.09;
 const OPACITY = 0.95;
 
-/** An arrow along +z that grows out of nothing. */
+/** An arrow along +z that fades in from its beginning. */
 function arrow(): ShapeGeometry {
-  const neck = END - HEAD;
+  const neck = END - HEAD_LENGTH;
   const shape = new Shape();
   // Drawn in the plane of x and -z, which laying it on the floor turns into x and z.
   const points: [number, number][] = [
-    [-SHAFT * 0.4, START],
-    [-SHAFT, neck],
-    [-BARB, neck - 0.02],
+    [-SHAFT_HALF_WIDTH * 0.4, START],
+    [-SHAFT_HALF_WIDTH, neck],
+    [-HEAD_HALF_WIDTH, neck - 0.02],
     [0, END],
-    [BARB, neck - 0.02],
-    [SHAFT, neck],
-    [SHAFT * 0.4, START],
+    [HEAD_HALF_WIDTH, neck - 0.02],
+    [SHAFT_HALF_WIDTH, neck],
+    [SHAFT_HALF_WIDTH * 0.4, START],
   ];
   points.forEach(([x, z], i) => (i === 0 ? shape.moveTo(x, -z) : shape.lineTo(x, -z)));
   const geometry = new ShapeGeometry(shape).rotateX(-Math.PI / 2);
   const { position } = geometry.attributes;
-  const paint = new Float32Array(position!.count * 4).fill(1);
+  const rgba = new Float32Array(position!.count * 4).fill(1);
   for (let v = 0; v < position!.count; v++)
-    paint[v * 4 + 3] = OPACITY * Math.min(1, 0.25 + (position!.getZ(v) - START) / (neck - START));
-  geometry.setAttribute('color', new BufferAttribute(paint, 4));
+    rgba[v * 4 + 3] = OPACITY * Math.min(1, 0.25 + (position!.getZ(v) - START) / (neck - START));
+  geometry.setAttribute('color', new BufferAttribute(rgba, 4));
   return geometry;
 }
 
-/** Arrows on the floor that show where each dancer faces. */
-export function createFacing(): Show {
+/** Arrows on the floor that show where each dancer is facing. */
+export function createFacing(): Overlay {
   const material = new MeshBasicMaterial({
     vertexColors: true,
     transparent: true,
     depthWrite: false,
     side: DoubleSide,
   });
-  const object = new InstancedMesh(arrow(), material, MOST_FIGURES);
+  const object = new InstancedMesh(arrow(), material, MAX_FIGURES);
   object.instanceMatrix.setUsage(DynamicDrawUsage);
   object.frustumCulled = false;
   object.renderOrder = 3;

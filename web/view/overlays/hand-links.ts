@@ -7,22 +7,23 @@ import {
   Matrix4,
   MeshBasicMaterial,
 } from 'three';
-import { holds, MOST_HOLDS, type Hold } from './hands-within-reach';
+import { nearHandPairs, MAX_HAND_PAIRS, type HandPair } from './hand-pairs';
 import { createRibbons } from './ribbons';
-import type { Show } from './overlay';
+import type { Overlay } from './overlay';
 
+/** Points along a line. */
 const POINTS = 17;
 /** Half width of the line, and radius of the bead on each wrist, metres. */
-const WIDE = 0.006;
-const BEAD = 0.021;
-/** How far the line bows upwards, as a share of its length. */
-const BOW = 0.14;
+const HALF_WIDTH = 0.006;
+const BEAD_RADIUS = 0.021;
+/** Height of the line's arc above a straight line, as a share of its length. */
+const ARC = 0.14;
 
-/** Lines between hands that hold or nearly hold each other, from the leader's colour to the reactor's. */
-export function createHandLinks(): Show {
-  const lines = createRibbons(MOST_HOLDS, POINTS, true);
+/** Lines between hands that are near each other, from the leader's colour to the reactor's. */
+export function createHandLinks(): Overlay {
+  const lines = createRibbons(MAX_HAND_PAIRS, POINTS, true);
   const material = new MeshBasicMaterial({ depthTest: false, depthWrite: false, transparent: true });
-  const beads = new InstancedMesh(new IcosahedronGeometry(BEAD, 2), material, MOST_HOLDS * 2);
+  const beads = new InstancedMesh(new IcosahedronGeometry(BEAD_RADIUS, 2), material, MAX_HAND_PAIRS * 2);
   beads.instanceMatrix.setUsage(DynamicDrawUsage);
   beads.frustumCulled = false;
   beads.renderOrder = 21;
@@ -35,12 +36,12 @@ export function createHandLinks(): Show {
       ? colours.mixed.lerpColors(colours.leader, colours.middle, t * 2)
       : colours.mixed.lerpColors(colours.middle, colours.reactor, t * 2 - 1);
 
-  function draw(a: Float32Array, b: Float32Array, { leader, reactor, gap, strength }: Hold): void {
+  function draw(a: Float32Array, b: Float32Array, { leader, reactor, distance, opacity }: HandPair): void {
     lines.begin();
     for (let i = 0; i < POINTS; i++) {
       const t = i / (POINTS - 1);
       const at = (axis: number): number => a[leader * 3 + axis]! * (1 - t) + b[reactor * 3 + axis]! * t;
-      lines.point(at(0), at(1) + BOW * gap * 4 * t * (1 - t), at(2), WIDE, between(t), strength);
+      lines.point(at(0), at(1) + ARC * distance * 4 * t * (1 - t), at(2), HALF_WIDTH, between(t), opacity);
     }
   }
   const place = new Matrix4();
@@ -60,10 +61,10 @@ export function createHandLinks(): Show {
       lines.clear();
       count = 0;
       if (leader && reactor)
-        for (const hold of holds(leader.joints, reactor.joints)) {
-          draw(leader.joints, reactor.joints, hold);
-          bead(leader.joints, hold.leader, hold.strength, colours.middle);
-          bead(reactor.joints, hold.reactor, hold.strength, colours.middle);
+        for (const pair of nearHandPairs(leader.joints, reactor.joints)) {
+          draw(leader.joints, reactor.joints, pair);
+          bead(leader.joints, pair.leader, pair.opacity, colours.middle);
+          bead(reactor.joints, pair.reactor, pair.opacity, colours.middle);
         }
       lines.commit();
       beads.count = count;

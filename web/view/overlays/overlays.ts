@@ -4,11 +4,11 @@ import { createBones } from './bones';
 import { createContactRings } from './contact-rings';
 import { createFacing } from './facing';
 import { createHandLinks } from './hand-links';
-import type { Figure, Show } from './overlay';
+import type { Figure, Overlay } from './overlay';
 import { createTrails } from './trails';
 
-/** What may be shown about the dancers. `skeleton` turns their bodies to glass, `ghost` is the coarse layer. */
-export interface Shown {
+/** Which overlays are on. `skeleton` makes the bodies see-through, `ghost` shows the coarse layer as a dancer of its own. */
+export interface VisibleOverlays {
   readonly skeleton: boolean;
   readonly trails: boolean;
   readonly contacts: boolean;
@@ -17,7 +17,7 @@ export interface Shown {
   readonly ghost: boolean;
 }
 
-export const NOTHING_SHOWN: Shown = {
+export const NO_OVERLAYS: VisibleOverlays = {
   skeleton: false,
   trails: false,
   contacts: false,
@@ -26,43 +26,43 @@ export const NOTHING_SHOWN: Shown = {
   ghost: false,
 };
 
-type Drawn = Exclude<keyof Shown, 'ghost'>;
+type DrawnOverlay = Exclude<keyof VisibleOverlays, 'ghost'>;
 
-/** All shows but the ghosts, which are dancers. A show that nobody asked for costs nothing. */
-export interface Shows {
+/** All overlays but the ghost, which is a dancer. An overlay that is off costs nothing. */
+export interface Overlays {
   readonly object: Group;
-  setShown(shown: Shown): void;
+  setVisible(visible: VisibleOverlays): void;
   update(figures: readonly Figure[], seconds: number): void;
   setLook(look: Look): void;
   dispose(): void;
 }
 
-export function createShows(): Shows {
-  const shows: Readonly<Record<Drawn, Show>> = {
+export function createOverlays(): Overlays {
+  const overlays: Readonly<Record<DrawnOverlay, Overlay>> = {
     skeleton: createBones(),
     trails: createTrails(),
     contacts: createContactRings(),
     facing: createFacing(),
     hands: createHandLinks(),
   };
-  const all = Object.entries(shows) as [Drawn, Show][];
+  const all = Object.entries(overlays) as [DrawnOverlay, Overlay][];
   const object = new Group();
-  let shown = NOTHING_SHOWN;
+  let visible = NO_OVERLAYS;
   return {
     object,
-    setShown(next) {
-      shown = next;
+    setVisible(next) {
+      visible = next;
       object.clear();
-      for (const [name, show] of all) if (shown[name]) object.add(show.object);
+      for (const [name, overlay] of all) if (visible[name]) object.add(overlay.object);
     },
     update(figures, seconds) {
-      for (const [name, show] of all) if (shown[name]) show.update(figures, seconds);
+      for (const [name, overlay] of all) if (visible[name]) overlay.update(figures, seconds);
     },
     setLook(look) {
-      for (const [, show] of all) show.setLook(look);
+      for (const [, overlay] of all) overlay.setLook(look);
     },
     dispose() {
-      for (const [, show] of all) show.dispose();
+      for (const [, overlay] of all) overlay.dispose();
     },
   };
 }

@@ -1,27 +1,27 @@
 import { Color } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { createRibbons } from './ribbons';
-import { MOST_FIGURES, type Show } from './overlay';
-import { tipAt, TIPS, tipTracks } from './end-effectors';
+import { MAX_FIGURES, type Overlay } from './overlay';
+import { endEffectorAt, END_EFFECTORS, endEffectorTracks } from './end-effectors';
 
-/** How long a hand or foot is remembered, seconds. */
+/** Duration of a trail, seconds. */
 export const TRAIL_SECONDS = 1.5;
-/** Points a second, on a fixed beat of the dance, so that a trail does not shimmer as it grows. */
+/** Points a second, at fixed moments of the motion, so that a trail does not flicker as it grows. */
 const POINTS_PER_SECOND = 60;
 const POINTS = Math.ceil(TRAIL_SECONDS * POINTS_PER_SECOND) + 2;
-/** Half widths at the limb and at the end, metres. */
-const WIDE = 0.015;
-const THIN = 0.002;
+/** Half widths at the hand or foot and at the end, metres. */
+const START_WIDTH = 0.015;
+const END_WIDTH = 0.002;
 
-/** Where hands and feet have just been: bands that grow thin and faint. */
-export function createTrails(): Show {
-  const ribbons = createRibbons(MOST_FIGURES * TIPS, POINTS, false);
+/** Where hands and feet have just been: ribbons that become thin and transparent. */
+export function createTrails(): Overlay {
+  const ribbons = createRibbons(MAX_FIGURES * END_EFFECTORS, POINTS, false);
   const colours = { leader: new Color(), reactor: new Color() };
   const tracks = new WeakMap<SolvedMotion, Float32Array>();
   const tracksOf = (motion: SolvedMotion): Float32Array => {
-    const known = tracks.get(motion) ?? tipTracks(motion);
-    tracks.set(motion, known);
-    return known;
+    const found = tracks.get(motion) ?? endEffectorTracks(motion);
+    tracks.set(motion, found);
+    return found;
   };
   const place = { x: 0, y: 0, z: 0 };
 
@@ -32,12 +32,12 @@ export function createTrails(): Show {
       for (const { role, motion } of figures) {
         const end = Math.min(seconds, (motion.frames - 1) / motion.fps);
         const start = Math.max(0, end - TRAIL_SECONDS);
-        for (let tip = 0; tip < TIPS; tip++) {
+        for (let effector = 0; effector < END_EFFECTORS; effector++) {
           ribbons.begin();
           const point = (moment: number): void => {
             const fresh = 1 - (end - moment) / TRAIL_SECONDS;
-            tipAt(tracksOf(motion), tip, moment * motion.fps, place);
-            const width = THIN + (WIDE - THIN) * fresh;
+            endEffectorAt(tracksOf(motion), effector, moment * motion.fps, place);
+            const width = END_WIDTH + (START_WIDTH - END_WIDTH) * fresh;
             ribbons.point(place.x, place.y, place.z, width, colours[role], 0.9 * fresh ** 1.3);
           };
           point(end);

@@ -1,4 +1,4 @@
-/** Single pictures of what the stage draws with, for browser tests to compare. */
+/** Pictures drawn with single parts of the stage, for browser tests to compare. */
 import {
   Mesh,
   MeshBasicMaterial,
@@ -12,9 +12,13 @@ import {
 import { toGeometry } from '../../../../web/view/body/geometry';
 import { makeBody } from '../../../../web/view/body/simplify';
 import { BUILDS } from '../../../../web/view/body/part';
-import { createEdges } from '../../../../web/view/edge-smoothing';
+import { createEdgeSmoothing } from '../../../../web/view/edge-smoothing';
 import { createLights } from '../../../../web/view/lights';
-import { cornerPaint, pixelPaint, type Paint } from '../../../../web/view/dancer/body-material';
+import {
+  perVertexMaterial,
+  perPixelMaterial,
+  type BodyMaterial,
+} from '../../../../web/view/dancer/body-material';
 import { createRig } from '../../../../web/view/dancer/rig';
 import { LOOKS, type Theme } from '../../../../web/view/theme';
 import { person } from '../../../web/support/skeletons';
@@ -38,8 +42,8 @@ function rendererOf(antialias: boolean): WebGLRenderer {
   return renderer;
 }
 
-/** One body in the stage's light, an arm raised so that it throws a shadow on the trunk. */
-async function bodyPainted(paint: Paint, theme: Theme): Promise<Picture> {
+/** One body in the stage's lights, with an arm raised so that it casts a shadow on the trunk. */
+async function drawBody(material: BodyMaterial, theme: Theme): Promise<Picture> {
   const renderer = rendererOf(true);
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = VSMShadowMap;
@@ -48,7 +52,7 @@ async function bodyPainted(paint: Paint, theme: Theme): Promise<Picture> {
   const rig = createRig();
   rig.fit(offsets);
   rig.bind(offsets);
-  const mesh = new SkinnedMesh(geometry.near, paint.material);
+  const mesh = new SkinnedMesh(geometry.near, material.material);
   mesh.castShadow = mesh.receiveShadow = true;
   mesh.frustumCulled = false;
   mesh.bind(rig.skeleton);
@@ -56,8 +60,8 @@ async function bodyPainted(paint: Paint, theme: Theme): Promise<Picture> {
   rig.root.position.y = 0.95;
   const lights = createLights();
   lights.setLook(LOOKS[theme]);
-  lights.aim(0, 0, 0);
-  paint.setTint(LOOKS[theme].leader);
+  lights.place(0, 0, 0);
+  material.setTint(LOOKS[theme].leader);
   const scene = new Scene().add(mesh, rig.root, lights.object);
   const camera = new PerspectiveCamera(30, 1, 0.1, 20);
   camera.position.set(0, 1, 3.6);
@@ -69,31 +73,35 @@ async function bodyPainted(paint: Paint, theme: Theme): Promise<Picture> {
   return picture;
 }
 
-/** How far two colours are apart in the channel in which they differ most. */
-const apart = (a: readonly number[], b: readonly number[]): number =>
+/** Greatest difference of two colours in a channel. */
+const difference = (a: readonly number[], b: readonly number[]): number =>
   Math.max(...a.map((value, i) => Math.abs(value - b[i]!)));
 const ascending = (values: number[]): number[] => values.sort((a, b) => a - b);
-const share = (sorted: readonly number[], part: number): number => sorted[Math.floor(part * sorted.length)]!;
+const quantile = (sorted: readonly number[], part: number): number =>
+  sorted[Math.floor(part * sorted.length)]!;
 
-// What is compared stays here: a picture is long on its way to a test.
+// Pictures are compared in the page: passing one to a test takes long.
 const page = {
-  /** How far the same body lit at the corners of its triangles is from one lit at every pixel, of 255. */
-  async paints(theme: Theme): Promise<{ pixels: number; mean: number; most: number; contrast: number }> {
-    const [pixel, corner] = [await bodyPainted(pixelPaint(), theme), await bodyPainted(cornerPaint(), theme)];
-    const body = pixel.flatMap((value, i) => (apart(value, [0, 0, 0]) > 8 ? [i] : []));
-    const differences = ascending(body.map((i) => apart(pixel[i]!, corner[i]!)));
+  /** Differences between a body with lighting per vertex and per pixel, of 255. */
+  async materials(theme: Theme): Promise<{ pixels: number; mean: number; most: number; contrast: number }> {
+    const [pixel, corner] = [
+      await drawBody(perPixelMaterial(), theme),
+      await drawBody(perVertexMaterial(), theme),
+    ];
+    const body = pixel.flatMap((value, i) => (difference(value, [0, 0, 0]) > 8 ? [i] : []));
+    const differences = ascending(body.map((i) => difference(pixel[i]!, corner[i]!)));
     const blues = ascending(body.map((i) => pixel[i]![2]));
     return {
       pixels: body.length,
       mean: differences.reduce((sum, value) => sum + value, 0) / differences.length,
-      most: share(differences, 0.95),
-      contrast: share(blues, 0.95) - share(blues, 0.05),
+      most: quantile(differences, 0.95),
+      contrast: quantile(blues, 0.95) - quantile(blues, 0.05),
     };
   },
 
   /**
-   * A white square on black, turned by `angle` radians, with its edges smoothed in the left half of the picture: what
-   * became of pixels, and how far the left half is from four samples a pixel, before and after.
+   * A white square on black, turned by `angle` radians, with its edges smoothed in the left half of the picture: counts
+   * of pixels, and the difference of the left half from four samples a pixel, before and after.
    */
   edges(angle: number): {
     drawnGrey: number;
@@ -116,7 +124,7 @@ const page = {
     const renderer = rendererOf(false);
     renderer.render(scene, camera);
     const drawn = read(renderer);
-    createEdges(renderer).smooth({ left: 0, bottom: 0, width: SIDE / 2, height: SIDE });
+    createEdgeSmoothing(renderer).smooth({ left: 0, bottom: 0, width: SIDE / 2, height: SIDE });
     const smoothed = read(renderer);
     renderer.forceContextLoss();
     const grey = (picture: Picture): number[] =>
@@ -124,16 +132,16 @@ const page = {
     const left = (i: number): boolean => i % SIDE < SIDE / 2;
     const around = [-1, 0, 1].flatMap((across) => [-SIDE, 0, SIDE].map((up) => across + up));
     const inside = drawn.flatMap((value, i) =>
-      around.every((step) => apart(drawn[i + step] ?? value, value) === 0) ? [i] : [],
+      around.every((step) => difference(drawn[i + step] ?? value, value) === 0) ? [i] : [],
     );
     const off = (picture: Picture): number =>
-      picture.reduce((sum, value, i) => sum + (left(i) ? apart(value, wanted[i]!) : 0), 0);
+      picture.reduce((sum, value, i) => sum + (left(i) ? difference(value, wanted[i]!) : 0), 0);
     return {
       drawnGrey: grey(drawn).length,
       leftGrey: grey(smoothed).filter(left).length,
       rightGrey: grey(smoothed).filter((i) => !left(i)).length,
       inside: inside.length / drawn.length,
-      insideChanged: inside.filter((i) => apart(smoothed[i]!, drawn[i]!) > 0).length,
+      insideChanged: inside.filter((i) => difference(smoothed[i]!, drawn[i]!) > 0).length,
       stepped: off(drawn),
       smooth: off(smoothed),
     };

@@ -73,7 +73,7 @@ describe.each(['leader', 'reactor', 'child'])('the body of a %s', (name) => {
     }
   });
 
-  it('is its own mirror image, skin included', () => {
+  it('is symmetric, skin weights included', () => {
     const { positions, skinJoints, skinWeights } = bodies.get(name)!;
     const cells = new Map<string, number[]>();
     const key = (x: number, y: number, z: number): string =>
@@ -109,7 +109,7 @@ describe.each(['leader', 'reactor', 'child'])('the body of a %s', (name) => {
       for (let joint = 0; joint < JOINT_COUNT; joint++)
         worstShare = Math.max(worstShare, Math.abs(share(v, joint) - share(best, MIRROR[joint]!)));
     }
-    // Thin hands keep a trace of how numbers are rounded on either side.
+    // In thin hands the rounding of numbers differs a little between the sides.
     expect(Math.max(...gaps)).toBeLessThan(CELL / 2);
     expect(gaps.filter((gap) => gap > 0.0005).length / count).toBeLessThan(0.04);
     expect(worstShare).toBeLessThan(0.1);
@@ -117,7 +117,7 @@ describe.each(['leader', 'reactor', 'child'])('the body of a %s', (name) => {
 });
 
 describe('a body', () => {
-  it('of ordinary size keeps to the triangles of the stage, four times drawn', () => {
+  it('of ordinary size has few enough triangles for four on the stage', () => {
     for (const name of ['leader', 'reactor']) {
       const triangles = bodies.get(name)!.indices.length / 3;
       expect(triangles).toBeGreaterThan(11_000);
@@ -143,7 +143,7 @@ describe('a body', () => {
     expect(onSole).toBeGreaterThan(60);
   });
 
-  it('wears shoes and nothing else dark', () => {
+  it('is dark at the shoes only', () => {
     const { positions, shade } = bodies.get('leader')!;
     const ankle = bindPose(person()).joints[J.left_ankle]![1];
     shade.forEach((value, v) => {
@@ -155,7 +155,7 @@ describe('a body', () => {
   it('is moved near a joint by that joint: wrists move hands, ankles feet, the head the head', () => {
     const body = bodies.get('leader')!;
     const { joints } = bindPose(person());
-    for (const [joint, reach] of [
+    for (const [joint, size] of [
       [J.left_wrist, 0.1],
       [J.right_wrist, 0.1],
       [J.head, 0.1],
@@ -164,15 +164,15 @@ describe('a body', () => {
       const parent =
         joints[joint === J.head ? J.neck : joint === J.left_wrist ? J.left_elbow : J.right_elbow]!;
       const along = new Vector3(...limb).sub(new Vector3(...parent)).normalize();
-      let held = 0;
+      let count = 0;
       for (let v = 0; v < body.positions.length / 3; v++) {
         const from = new Vector3().fromArray(body.positions, v * 3).sub(new Vector3(...limb));
-        if (from.dot(along) < reach * 0.5 || from.length() > reach * 1.6) continue;
-        held++;
+        if (from.dot(along) < size * 0.5 || from.length() > size * 1.6) continue;
+        count++;
         expect(body.skinJoints[v * 4]).toBe(joint);
         expect(body.skinWeights[v * 4]).toBeGreaterThan(0.9);
       }
-      expect(held).toBeGreaterThan(20);
+      expect(count).toBeGreaterThan(20);
     }
   });
 
@@ -189,14 +189,14 @@ describe('a body', () => {
       [J.right_knee, J.right_ankle],
     ] as const) {
       const bone = new Line3(rest[joint], rest[end]);
-      let held = 0;
+      let count = 0;
       for (let v = 0; v < skin.length / 3; v++) {
         if (body.skinJoints[v * 4] !== joint || body.skinWeights[v * 4]! < 0.98) continue;
-        held++;
+        count++;
         const at = new Vector3().fromArray(skin, v * 3);
         expect(bone.closestPointToPoint(at, true, new Vector3()).distanceTo(at)).toBeLessThan(0.12);
       }
-      expect(held).toBeGreaterThan(50);
+      expect(count).toBeGreaterThan(50);
     }
   });
 

@@ -4,7 +4,7 @@ import { BUILDS } from '../../../../web/view/body/part';
 import { person } from '../../support/skeletons';
 import { topology } from '../../support/topology';
 
-/** How many vertices are computed when the last 16 are remembered. */
+/** Number of vertices computed with a vertex cache of 16. */
 function computed(triangles: Uint32Array): number {
   const last: number[] = [];
   return triangles.filter((vertex) => {
@@ -19,7 +19,7 @@ afterEach(() => vi.restoreAllMocks());
 
 describe('the body library', () => {
   it('makes bodies without a worker too, once for skeletons that differ by millimetres', async () => {
-    // Node has no Worker: what a page does whose worker could not be started.
+    // Node has no Worker, as on a page whose worker could not be started.
     const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
     const library = createBodyLibrary();
     const first = library.request(person(), BUILDS.leader);
@@ -38,9 +38,9 @@ describe('the body library', () => {
     ] as const) {
       expect(triangles.length / indices.length).toBeCloseTo(share, 1);
       // Closed as the full surface, and of the same size.
-      const lighter = topology({ positions, indices: triangles });
-      expect(lighter).toMatchObject({ holes: 0, openEdges: 0 });
-      expect(lighter.volume / full.volume).toBeCloseTo(1, 1);
+      const simplified = topology({ positions, indices: triangles });
+      expect(simplified).toMatchObject({ holes: 0, openEdges: 0 });
+      expect(simplified.volume / full.volume).toBeCloseTo(1, 1);
       expect(computed(triangles)).toBeLessThan(0.75 * (triangles.length / 3));
     }
     expect(warn).toHaveBeenCalledTimes(1);

@@ -5,12 +5,12 @@ import {
   fitDistance,
   isFar,
   measureCouple,
-  nearestTurn,
+  nearestAngle,
   reframed,
   shotOf,
 } from '../../../../web/view/camera/framing';
 
-/** Somebody at (x, z) as a joint cloud: a pole with hips across x. */
+/** Joints of a dancer at (x, z): all on a vertical line, but for hips across x. */
 function figure(x: number, z: number): Float32Array {
   const joints = new Float32Array(JOINT_COUNT * 3);
   for (let j = 0; j < JOINT_COUNT; j++) joints.set([x, 0.05 * j, z], j * 3);
@@ -24,50 +24,50 @@ describe('framing', () => {
     for (const angle of [0, 0.7, 2, 3.1, -1.2]) {
       const leader = figure(3 + Math.cos(angle), 1 + Math.sin(angle));
       const reactor = figure(3, 1);
-      const { square } = measureCouple([leader, reactor]);
-      const eye = [Math.sin(square), Math.cos(square)] as const;
-      const right = [Math.cos(square), -Math.sin(square)] as const;
+      const { sideHeading } = measureCouple([leader, reactor]);
+      const eye = [Math.sin(sideHeading), Math.cos(sideHeading)] as const;
+      const right = [Math.cos(sideHeading), -Math.sin(sideHeading)] as const;
       expect(eye[0] * Math.cos(angle) + eye[1] * Math.sin(angle)).toBeCloseTo(0, 5);
       expect(right[0] * Math.cos(angle) + right[1] * Math.sin(angle)).toBeCloseTo(1, 5);
     }
   });
 
-  it('sees a dancer who is alone from the front', () => {
-    const { square } = measureCouple([figure(0, 0)]);
-    expect(Math.cos(square)).toBeGreaterThan(0.7);
+  it('sees a dancer alone from the front', () => {
+    const { sideHeading } = measureCouple([figure(0, 0)]);
+    expect(Math.cos(sideHeading)).toBeGreaterThan(0.7);
   });
 
-  it('measures the middle and the reach of the couple', () => {
+  it('measures the middle and the radius of the couple', () => {
     const couple = measureCouple([figure(1, 0), figure(-1, 2)]);
     expect(couple.x).toBeCloseTo(0, 6);
     expect(couple.z).toBeCloseTo(1, 6);
-    expect(couple.reach).toBeGreaterThan(Math.SQRT2 - 1e-6);
-    expect(couple.reach).toBeLessThan(1.6);
+    expect(couple.radius).toBeGreaterThan(Math.SQRT2 - 1e-6);
+    expect(couple.radius).toBeLessThan(1.6);
   });
 
-  it('keeps everybody inside the picture, wide or narrow', () => {
+  it('keeps both dancers inside the picture, wide or narrow', () => {
     const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     for (const aspect of [0.5, 1, 1.8])
-      for (const reach of [0.4, 1, 2.2]) {
-        const distance = fitDistance({ reach, height: 1.6 }, aspect);
-        expect(distance * tangent * aspect).toBeGreaterThan(reach);
+      for (const radius of [0.4, 1, 2.2]) {
+        const distance = fitDistance({ radius, height: 1.6 }, aspect);
+        expect(distance * tangent * aspect).toBeGreaterThan(radius);
         expect(2 * distance * tangent).toBeGreaterThan(1.6 / 0.75);
       }
-    expect(fitDistance({ reach: 0.5, height: 1.5 }, 1.6)).toBeCloseTo(5.05, 5);
+    expect(fitDistance({ radius: 0.5, height: 1.5 }, 1.6)).toBeCloseTo(5.05, 5);
   });
 
   it('looks straight down from the top and level from the side', () => {
     const couple = measureCouple([figure(0.4, 0), figure(-0.4, 0)]);
     expect(shotOf('top', couple, 1.6, 0).elevation).toBeGreaterThan(1.5);
     expect(shotOf('side', couple, 1.6, 2).elevation).toBeLessThan(0.1);
-    expect(shotOf('side', couple, 1.6, 2).heading).toBeCloseTo(couple.square, 6);
+    expect(shotOf('side', couple, 1.6, 2).heading).toBeCloseTo(couple.sideHeading, 6);
     expect(shotOf('follow', couple, 1.6, 2).heading).toBe(2);
   });
 
-  it('turns the short way', () => {
-    expect(nearestTurn(Math.PI * 1.9, 0)).toBeCloseTo(-Math.PI * 0.1, 6);
-    expect(nearestTurn(-3, 3)).toBeCloseTo(2 * Math.PI - 3, 6);
-    expect(nearestTurn(0.2, 0.1)).toBeCloseTo(0.2, 6);
+  it('takes the nearest of equal angles', () => {
+    expect(nearestAngle(Math.PI * 1.9, 0)).toBeCloseTo(-Math.PI * 0.1, 6);
+    expect(nearestAngle(-3, 3)).toBeCloseTo(2 * Math.PI - 3, 6);
+    expect(nearestAngle(0.2, 0.1)).toBeCloseTo(0.2, 6);
   });
 
   it('frames the couple alike elsewhere and in a picture of another shape', () => {
@@ -83,14 +83,14 @@ describe('framing', () => {
     expect(reframed({ ...wide, view: 'top' }, couple, 1.8).distance).toBeCloseTo(3, 6);
   });
 
-  it('has light bodies where they are small, and full ones near the eye or on many pixels', () => {
+  it('is far where bodies are small, and not near the eye or on many pixels', () => {
     const couple = measureCouple([figure(0.3, 0), figure(-0.3, 0)]);
     const eye = (z: number) => ({ x: 0, y: 0.84, z });
     expect(isFar(eye(5), couple, 360)).toBe(true);
     expect(isFar(eye(5), couple, 1080)).toBe(false);
     expect(isFar(eye(1.5), couple, 360)).toBe(false);
     expect(isFar(eye(20), couple, 1080)).toBe(true);
-    // The one who is nearer to the eye decides.
+    // The dancer nearer to the eye decides.
     const wide = measureCouple([figure(0, 2), figure(0, -2)]);
     expect(isFar(eye(5), wide, 400)).toBe(false);
     expect(isFar(eye(5), couple, 400)).toBe(true);

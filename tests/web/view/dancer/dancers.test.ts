@@ -2,9 +2,9 @@ import { type MeshStandardMaterial, SkinnedMesh } from 'three';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { J } from '../../../../web/motion/skeleton/skeleton';
 import { createBodyLibrary } from '../../../../web/view/body/library';
-import { createCast, type Cast } from '../../../../web/view/dancer/dancers';
-import { pixelPaint } from '../../../../web/view/dancer/body-material';
-import { NOTHING_SHOWN } from '../../../../web/view/overlays/overlays';
+import { Dancers } from '../../../../web/view/dancer/dancers';
+import { perPixelMaterial } from '../../../../web/view/dancer/body-material';
+import { NO_OVERLAYS } from '../../../../web/view/overlays/overlays';
 import { LOOKS } from '../../../../web/view/theme';
 import { randomMotion } from '../../support/skeletons';
 
@@ -15,80 +15,80 @@ const motions = {
   other: randomMotion(30, 4),
   otherCoarse: randomMotion(30, 5),
 };
-const PARTS = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
+const NAMES = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
 
-describe('the cast', () => {
-  let cast: Cast;
-  /** Who is to be seen, in the order of `PARTS`. */
-  const seen = (): boolean[] => cast.object.children.map(({ visible }) => visible);
+describe('the dancers on the stage', () => {
+  let dancers: Dancers;
+  /** Which dancers are visible, in the order of `NAMES`. */
+  const visible = (): boolean[] => dancers.object.children.map(({ visible }) => visible);
 
   beforeEach(() => {
-    // Node has no Worker: bodies are made here, in their own time, and none is waited for.
+    // Node has no Worker: bodies are made on this thread, and most tests do not wait for them.
     vi.spyOn(console, 'warn').mockImplementation(() => undefined);
-    cast = createCast(createBodyLibrary(), pixelPaint, () => undefined);
-    for (const part of PARTS) cast.setMotion(part, motions[part]);
-    cast.pose(0.4);
+    dancers = new Dancers(createBodyLibrary(), perPixelMaterial, () => undefined);
+    for (const name of NAMES) dancers.setMotion(name, motions[name]);
+    dancers.pose(0.4);
   });
   afterEach(() => {
-    cast.dispose();
+    dancers.dispose();
     vi.restoreAllMocks();
   });
 
-  it('shows another take as a ghost beside both, and the coarse layer when it is asked for', () => {
-    cast.arrange('whole');
-    expect(seen()).toEqual([true, true, false, true, false]);
-    cast.setShown({ ...NOTHING_SHOWN, ghost: true });
-    cast.arrange('whole');
-    expect(seen()).toEqual([true, true, true, true, false]);
-    expect(cast.split).toBe(false);
+  it('shows another take as a ghost beside both, and the coarse layer when its overlay is on', () => {
+    dancers.arrange('whole');
+    expect(visible()).toEqual([true, true, false, true, false]);
+    dancers.setOverlays({ ...NO_OVERLAYS, ghost: true });
+    dancers.arrange('whole');
+    expect(visible()).toEqual([true, true, true, true, false]);
+    expect(dancers.split).toBe(false);
   });
 
   it('shows the leader in both halves, the reactor in the left, the other take in the right, each with its coarse layer', () => {
-    cast.setOtherMode('right');
-    cast.setShown({ ...NOTHING_SHOWN, ghost: true });
-    expect(cast.split).toBe(true);
-    const left = cast.arrange('left');
-    expect(seen()).toEqual([true, true, true, false, false]);
+    dancers.setOtherMode('right');
+    dancers.setOverlays({ ...NO_OVERLAYS, ghost: true });
+    expect(dancers.split).toBe(true);
+    const left = dancers.arrange('left');
+    expect(visible()).toEqual([true, true, true, false, false]);
     expect(left.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.reactor],
     ]);
-    const right = cast.arrange('right');
-    expect(seen()).toEqual([true, false, false, true, true]);
+    const right = dancers.arrange('right');
+    expect(visible()).toEqual([true, false, false, true, true]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['leader', motions.leader],
       ['reactor', motions.other],
     ]);
-    cast.setShown(NOTHING_SHOWN);
-    cast.arrange('right');
-    expect(seen()).toEqual([true, false, false, true, false]);
+    dancers.setOverlays(NO_OVERLAYS);
+    dancers.arrange('right');
+    expect(visible()).toEqual([true, false, false, true, false]);
     // The other take may have the left half as well; the reactor has the right one then.
-    cast.setOtherMode('left');
-    cast.arrange('left');
-    expect(seen()).toEqual([true, false, false, true, false]);
-    cast.arrange('right');
-    expect(seen()).toEqual([true, true, false, false, false]);
-    expect(cast.seen()).toEqual([cast.joints('leader'), cast.joints('reactor')]);
-    cast.arrange('left');
-    expect(cast.seen()).toEqual([cast.joints('leader'), cast.joints('other')]);
-    cast.setMotion('other', null);
-    expect(cast.split).toBe(false);
+    dancers.setOtherMode('left');
+    dancers.arrange('left');
+    expect(visible()).toEqual([true, false, false, true, false]);
+    dancers.arrange('right');
+    expect(visible()).toEqual([true, true, false, false, false]);
+    expect(dancers.visibleJoints()).toEqual([dancers.joints('leader'), dancers.joints('reactor')]);
+    dancers.arrange('left');
+    expect(dancers.visibleJoints()).toEqual([dancers.joints('leader'), dancers.joints('other')]);
+    dancers.setMotion('other', null);
+    expect(dancers.split).toBe(false);
   });
 
-  it('shows another leader beside the loaded reactor when the leader is who was made, in the colour of a leader', async () => {
-    cast.setOtherMode('right');
-    cast.setLook(LOOKS.dark);
-    cast.setMade('leader');
-    await cast.dressed();
-    const right = cast.arrange('right');
-    expect(seen()).toEqual([false, true, false, true, false]);
+  it('shows another leader beside the loaded reactor when the leader was made, in the colour of a leader', async () => {
+    dancers.setOtherMode('right');
+    dancers.setLook(LOOKS.dark);
+    dancers.setMade('leader');
+    await dancers.bodiesReady();
+    const right = dancers.arrange('right');
+    expect(visible()).toEqual([false, true, false, true, false]);
     expect(right.map(({ role, motion }) => [role, motion])).toEqual([
       ['reactor', motions.reactor],
       ['leader', motions.other],
     ]);
     const colour = (part: number): string => {
       let found = '';
-      cast.object.children[part]!.traverse((object) => {
+      dancers.object.children[part]!.traverse((object) => {
         if (object instanceof SkinnedMesh)
           found = (object.material as MeshStandardMaterial).color.getHexString();
       });
@@ -98,52 +98,52 @@ describe('the cast', () => {
     expect(colour(3)).not.toBe(colour(1));
   });
 
-  it('has light bodies from afar, bodies that come later too, and full ones again', async () => {
+  it('draws low detail when told to, bodies that come later too, and full detail again', async () => {
     const triangles = (): number => {
       let count = 0;
-      cast.object.children[0]!.traverse((object) => {
+      dancers.object.children[0]!.traverse((object) => {
         if (object instanceof SkinnedMesh) count = (object as SkinnedMesh).geometry.drawRange.count / 3;
       });
       return count;
     };
-    cast.setFar(true);
-    await cast.dressed();
+    dancers.setLowDetail(true);
+    await dancers.bodiesReady();
     const light = triangles();
-    cast.setFar(false);
+    dancers.setLowDetail(false);
     expect(light).toBeLessThan(0.6 * triangles());
-    cast.setFar(true);
+    dancers.setLowDetail(true);
     expect(triangles()).toBe(light);
   });
 
-  it('lets the leader look at the partner of each half, whichever was drawn before', () => {
-    cast.setOtherMode('right');
+  it('turns the leader to the partner of each half, whichever was drawn before', () => {
+    dancers.setOtherMode('right');
     const gaze = (picture: 'left' | 'right'): number[] => {
-      cast.arrange(picture);
-      return cast.object.children[0]!.getObjectByName('head')!.quaternion.toArray();
+      dancers.arrange(picture);
+      return dancers.object.children[0]!.getObjectByName('head')!.quaternion.toArray();
     };
     let apart = 0;
     for (const seconds of [0, 0.1, 0.2, 0.3, 0.4]) {
-      cast.pose(seconds);
+      dancers.pose(seconds);
       const [left, right, again] = [gaze('left'), gaze('right'), gaze('left')];
       apart = Math.max(apart, ...left.map((value, i) => Math.abs(value - right[i]!)));
       for (const [i, value] of again.entries()) expect(value).toBeCloseTo(left[i]!, 6);
     }
     expect(apart).toBeGreaterThan(0.05);
-    const joints = cast.joints('leader');
+    const joints = dancers.joints('leader');
     for (const i of [J.head, J.left_wrist])
       expect(joints[i * 3]!).toBeCloseTo(motions.leader.positions[(12 * 22 + i) * 3]!, 4);
   });
 
-  it('has everybody in the picture that is measured', () => {
-    const { reach } = cast.pose(0.4);
-    cast.setMotion('other', null);
-    const alone = cast.pose(0.4);
+  it('measures all dancers', () => {
+    const { radius } = dancers.pose(0.4);
+    dancers.setMotion('other', null);
+    const alone = dancers.pose(0.4);
     const far = { ...motions.other, root: motions.other.root.map((value) => value * 4) };
-    cast.setMotion('other', far);
-    const wide = cast.pose(0.4);
-    expect(reach).toBeGreaterThanOrEqual(alone.reach);
-    expect(wide.reach).toBeGreaterThan(alone.reach + 0.5);
+    dancers.setMotion('other', far);
+    const wide = dancers.pose(0.4);
+    expect(radius).toBeGreaterThanOrEqual(alone.radius);
+    expect(wide.radius).toBeGreaterThan(alone.radius + 0.5);
     // The couple itself stays where it was.
-    expect([wide.x, wide.z, wide.square]).toEqual([alone.x, alone.z, alone.square]);
+    expect([wide.x, wide.z, wide.sideHeading]).toEqual([alone.x, alone.z, alone.sideHeading]);
   });
 });

@@ -6,7 +6,7 @@ import { createPose, samplePose } from '../../../../web/view/dancer/pose';
 import { createRig, type Rig } from '../../../../web/view/dancer/rig';
 import { person, randomMotion } from '../../support/skeletons';
 
-/** Somebody in the T-pose at (x, z). */
+/** A dancer in the T-pose at (x, z). */
 function standing(x: number, z: number): Rig {
   const rig = createRig();
   rig.fit(person());
@@ -51,7 +51,7 @@ describe('gestures', () => {
     expect(yaw).toBeLessThan(Math.PI / 4);
   });
 
-  it('do not turn the head to somebody behind', () => {
+  it('do not turn the head to a partner behind', () => {
     const rig = standing(0, 0);
     gesture(rig, standing(0.1, -1));
     expect(axisOf(rig, J.head, FORWARD).z).toBeGreaterThan(0.99);

@@ -33,7 +33,7 @@ describe('a sampled pose', () => {
     }
   });
 
-  it('does not care about the sign of a quaternion', () => {
+  it('does not depend on the sign of a quaternion', () => {
     const flipped = { ...motion, rotations: motion.rotations.slice() };
     for (let i = 2 * JOINT_COUNT * 4; i < 3 * JOINT_COUNT * 4; i++) flipped.rotations[i]! *= -1;
     const [a, b] = [createPose(), createPose()];
@@ -81,7 +81,7 @@ describe('the rig', () => {
   });
 });
 
-it('one pose passes into another the short way round, all the way and no further', () => {
+it('one pose blends into another along the shortest arc', () => {
   const about = (angle: number) => [0, Math.sin(angle / 2), 0, Math.cos(angle / 2)];
   const posed = (x: number, quaternion: readonly number[]) => {
     const pose = createPose();

@@ -2,17 +2,17 @@ import { describe, expect, it } from 'vitest';
 import type { Mesh } from 'three';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { headingOf } from '../../../../web/motion/skeleton/heading';
-import { holds } from '../../../../web/view/overlays/hands-within-reach';
+import { nearHandPairs } from '../../../../web/view/overlays/hand-pairs';
 import type { Figure } from '../../../../web/view/overlays/overlay';
-import { createShows, NOTHING_SHOWN } from '../../../../web/view/overlays/overlays';
-import { contactAt, stepsOf } from '../../../../web/view/overlays/contact-fade';
-import { tipAt, TIPS, tipTracks } from '../../../../web/view/overlays/end-effectors';
+import { createOverlays, NO_OVERLAYS } from '../../../../web/view/overlays/overlays';
+import { contactOpacity, footContactsOf } from '../../../../web/view/overlays/contact-fade';
+import { endEffectorAt, END_EFFECTORS, endEffectorTracks } from '../../../../web/view/overlays/end-effectors';
 import { createTrails, TRAIL_SECONDS } from '../../../../web/view/overlays/trails';
 import { LOOKS } from '../../../../web/view/theme';
 import { madeStander } from '../../support/made-stander';
 import { randomMotion } from '../../support/skeletons';
 
-/** Joints all at the origin but those that are given. */
+/** Joints at the origin except those given, metres. */
 function joints(given: Partial<Record<keyof typeof J, readonly [number, number, number]>>): Float32Array {
   const all = new Float32Array(JOINT_COUNT * 3);
   for (const [name, place] of Object.entries(given)) all.set(place, J[name as keyof typeof J] * 3);
@@ -32,37 +32,38 @@ describe('the heading of a dancer', () => {
   });
 });
 
-describe('hands that hold each other', () => {
+describe('pairs of near hands', () => {
   const leader = joints({ left_wrist: [0, 1, 0], right_wrist: [0, 1, 0.5] });
 
   it('are the nearest pair first, and no hand twice', () => {
     const reactor = joints({ left_wrist: [0.3, 1, 0.45], right_wrist: [0.1, 1, 0.05] });
-    const found = holds(leader, reactor);
+    const found = nearHandPairs(leader, reactor);
     expect(found.map((pair) => [pair.leader, pair.reactor])).toEqual([
       [J.left_wrist, J.right_wrist],
       [J.right_wrist, J.left_wrist],
     ]);
-    expect(found[0]?.gap).toBeCloseTo(Math.hypot(0.1, 0.05), 6);
-    expect(found.map(({ strength }) => strength)).toEqual([1, 1]);
+    expect(found[0]?.distance).toBeCloseTo(Math.hypot(0.1, 0.05), 6);
+    expect(found.map(({ opacity }) => opacity)).toEqual([1, 1]);
   });
 
-  it('fade as they part and are gone beyond reach', () => {
-    const at = (gap: number) => holds(leader, joints({ left_wrist: [gap, 1, 0], right_wrist: [9, 1, 0] }));
-    expect(at(0.49)[0]?.strength).toBe(1);
-    const fading = at(0.56)[0]?.strength ?? 0;
+  it('fade as they part and are gone beyond a distance', () => {
+    const at = (gap: number) =>
+      nearHandPairs(leader, joints({ left_wrist: [gap, 1, 0], right_wrist: [9, 1, 0] }));
+    expect(at(0.49)[0]?.opacity).toBe(1);
+    const fading = at(0.56)[0]?.opacity ?? 0;
     expect(fading).toBeGreaterThan(0.2);
     expect(fading).toBeLessThan(0.8);
     expect(at(0.63)).toEqual([]);
   });
 });
 
-describe('contacts', () => {
-  it('come with a step, stay while the foot stands and linger when it has left', () => {
+describe('contact rings', () => {
+  it('fade in at the start of a contact, stay during it and fade out after its end', () => {
     const stretches = [
       { first: 30, last: 60 },
       { first: 90, last: 120 },
     ];
-    const at = (seconds: number): number => contactAt(stretches, 30, seconds);
+    const at = (seconds: number): number => contactOpacity(stretches, 30, seconds);
     expect(at(0.99)).toBe(0);
     expect(at(1.04)).toBeCloseTo(0.5, 5);
     expect(at(1.5)).toBe(1);
@@ -72,37 +73,37 @@ describe('contacts', () => {
     expect(at(3.5)).toBe(1);
   });
 
-  it('are those of the feet that stand', () => {
+  it('are visible for feet that stand', () => {
     const motion = madeStander({ frames: 90, path: () => [0, 0] });
-    for (const foot of stepsOf(motion)) expect(contactAt(foot, 30, 1.5)).toBe(1);
+    for (const foot of footContactsOf(motion)) expect(contactOpacity(foot, 30, 1.5)).toBe(1);
   });
 });
 
 describe('trails', () => {
   const motion = randomMotion(60, 5);
 
-  it('follow the feet exactly and the hands a palm beyond the wrists', () => {
-    const tracks = tipTracks(motion);
+  it('follow the feet exactly and the hands 9 cm beyond the wrists', () => {
+    const tracks = endEffectorTracks(motion);
     const place = { x: 0, y: 0, z: 0 };
     const joint = (index: number, frame: number) =>
       [0, 1, 2].map((axis) => motion.positions[(frame * JOINT_COUNT + index) * 3 + axis]!);
-    tipAt(tracks, 3, 17, place);
+    endEffectorAt(tracks, 3, 17, place);
     expect([place.x, place.y, place.z]).toEqual(
       joint(J.right_foot, 17).map((v) => expect.closeTo(v, 5) as unknown),
     );
-    tipAt(tracks, 0, 17, place);
+    endEffectorAt(tracks, 0, 17, place);
     const [wrist, elbow] = [joint(J.left_wrist, 17), joint(J.left_elbow, 17)];
     expect(Math.hypot(place.x - wrist[0]!, place.y - wrist[1]!, place.z - wrist[2]!)).toBeCloseTo(0.09, 5);
     const beyond = Math.hypot(place.x - elbow[0]!, place.y - elbow[1]!, place.z - elbow[2]!);
     expect(beyond).toBeGreaterThan(Math.hypot(...wrist.map((v, axis) => v - elbow[axis]!)));
     // Held at the ends of the dance.
-    tipAt(tracks, 3, 900, place);
+    endEffectorAt(tracks, 3, 900, place);
     expect([place.x, place.y, place.z]).toEqual(
       joint(J.right_foot, 59).map((v) => expect.closeTo(v, 5) as unknown),
     );
   });
 
-  it('reach back to the start of the dance and no further than they are long', () => {
+  it('start at the start of the dance and are no longer than their duration', () => {
     const trails = createTrails();
     trails.setLook(LOOKS.dark);
     const figure: Figure = { role: 'reactor', motion, joints: motion.positions.slice(0, JOINT_COUNT * 3) };
@@ -119,10 +120,10 @@ describe('trails', () => {
     expect(start).toBeLessThan(early);
     expect(early).toBeLessThan(late);
     expect(later).toBeCloseTo(late, -1);
-    expect(late).toBeLessThanOrEqual(TIPS * 2 * (TRAIL_SECONDS * 60 + 2));
+    expect(late).toBeLessThanOrEqual(END_EFFECTORS * 2 * (TRAIL_SECONDS * 60 + 2));
   });
 
-  it('are the same for a moment however it was come to', () => {
+  it('are the same for a moment whatever was drawn before', () => {
     const trails = createTrails();
     trails.setLook(LOOKS.light);
     const figure: Figure = { role: 'leader', motion, joints: motion.positions.slice(0, JOINT_COUNT * 3) };
@@ -137,20 +138,27 @@ describe('trails', () => {
   });
 });
 
-describe('the shows', () => {
-  it('are in the scene only while they are asked for', () => {
-    const shows = createShows();
-    shows.setLook(LOOKS.dark);
+describe('the overlays', () => {
+  it('are in the scene only while they are on', () => {
+    const overlays = createOverlays();
+    overlays.setLook(LOOKS.dark);
     const motion = randomMotion(30, 9);
     const figure: Figure = { role: 'leader', motion, joints: motion.positions.slice(0, JOINT_COUNT * 3) };
-    expect(shows.object.children).toHaveLength(0);
-    shows.setShown({ skeleton: true, trails: true, contacts: true, facing: true, hands: true, ghost: true });
-    expect(shows.object.children).toHaveLength(5);
-    // One dancer, two, nobody: whatever the stage holds.
+    expect(overlays.object.children).toHaveLength(0);
+    overlays.setVisible({
+      skeleton: true,
+      trails: true,
+      contacts: true,
+      facing: true,
+      hands: true,
+      ghost: true,
+    });
+    expect(overlays.object.children).toHaveLength(5);
+    // One dancer, two, none.
     for (const figures of [[figure], [figure, { ...figure, role: 'reactor' as const }], []])
-      shows.update(figures, 0.5);
-    shows.setShown({ ...NOTHING_SHOWN, facing: true });
-    expect(shows.object.children).toHaveLength(1);
-    shows.dispose();
+      overlays.update(figures, 0.5);
+    overlays.setVisible({ ...NO_OVERLAYS, facing: true });
+    expect(overlays.object.children).toHaveLength(1);
+    overlays.dispose();
   });
 });

@@ -1,11 +1,11 @@
-/** What is filmed: pictures by number, and what is heard. */
-export interface Footage {
+/** Frames and sound of a video. */
+export interface VideoSource {
   readonly width: number;
   readonly height: number;
   readonly fps: number;
   readonly frames: number;
   readonly canvas: HTMLCanvasElement;
-  /** Draws a picture on the canvas, where it stays until the task ends. They ascend; some may be left out. */
+  /** Draws a frame on the canvas, where it stays until the task ends. Frame numbers ascend; some may be left out. */
   readonly draw: (frame: number) => void;
   readonly sound: Soundtrack | null;
 }
@@ -13,12 +13,12 @@ export interface Footage {
 export interface Soundtrack {
   /** A sound file that the browser can decode. */
   readonly file: Blob;
-  /** Moment of the dance at which the song begins, seconds; negative when its beginning is not heard. */
+  /** Moment of the dance at which the song begins, seconds; negative when its beginning is cut off. */
   readonly start: number;
 }
 
 export interface VideoProgress {
-  /** Pictures written. */
+  /** Number of frames written. */
   readonly frame: number;
   readonly frames: number;
 }

@@ -1,0 +1,74 @@
+import { PerspectiveCamera, Spherical, Vector3 } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { FIELD_OF_VIEW, type Shot } from './framing';
+
+const POLE = Math.PI / 2;
+
+/** A perspective camera with orbit controls that is read and placed as a `Shot`. */
+export class OrbitCamera {
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 80);
+  readonly controls: OrbitControls;
+  private size = { width: 1, height: 1 };
+  private offsetPixels = 0;
+  private readonly spherical = new Spherical();
+  private readonly vector = new Vector3();
+
+  /** @param surface element that takes the pointer */
+  constructor(surface: HTMLElement) {
+    this.controls = new OrbitControls(this.camera, surface);
+    this.controls.dampingFactor = 0.12;
+    this.controls.minDistance = 1.2;
+    // From farther away the lit part of the floor is too small to stand on.
+    this.controls.maxDistance = 10;
+    this.controls.maxPolarAngle = POLE + 0.06;
+    this.controls.zoomSpeed = 0.8;
+  }
+
+  /** Width / height of the picture. */
+  get aspect(): number {
+    return this.camera.aspect;
+  }
+
+  get shot(): Shot {
+    const { camera, controls, spherical } = this;
+    spherical.setFromVector3(this.vector.copy(camera.position).sub(controls.target));
+    return {
+      target: [controls.target.x, controls.target.y, controls.target.z],
+      distance: spherical.radius,
+      heading: spherical.theta,
+      elevation: POLE - spherical.phi,
+    };
+  }
+
+  set shot({ target, distance, heading, elevation }: Shot) {
+    const { camera, controls, spherical } = this;
+    controls.target.set(...target);
+    spherical.set(distance, POLE - elevation, heading);
+    camera.position.setFromSpherical(spherical).add(controls.target);
+    camera.lookAt(controls.target);
+  }
+
+  /** Moves eye and target along the floor, metres. */
+  translate(x: number, z: number): void {
+    this.vector.set(x, 0, z);
+    this.controls.target.add(this.vector);
+    this.camera.position.add(this.vector);
+  }
+
+  resize(width: number, height: number): void {
+    this.camera.aspect = width / height;
+    this.size = { width, height };
+    this.updateViewOffset();
+  }
+
+  /** Moves the middle of the picture to the right by `pixels`. */
+  shiftPicture(pixels: number): void {
+    this.offsetPixels = pixels;
+    this.updateViewOffset();
+  }
+
+  private updateViewOffset(): void {
+    const { width, height } = this.size;
+    this.camera.setViewOffset(width, height, -this.offsetPixels, 0, width, height);
+  }
+}
