@@ -5,7 +5,7 @@ import { keepPage } from './offline/register';
 import { openCamera, showOn } from './stage-binding';
 import { measureDance } from './quality/client';
 import { mountBar } from './ui/shell/bar';
-import { createChoices } from './ui/generation/variations';
+import { createVariations } from './ui/generation/variations';
 import { createChooser } from './ui/files/file-chooser';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { loadDemo } from './ui/files/demo';
@@ -73,7 +73,7 @@ const readers = { loadSong, readLeader, manifest: model.manifest };
 const files = createFiles(store, readers);
 const keeping = createKeeping(store, files, readers, openStorage());
 const generation = createGeneration(store, model.generator);
-const choices = createChoices(store, model.generator, generation.generate);
+const variations = createVariations(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
 const playback = createPlayback(store, createPlayer());
 createQuality(store, measureDance);
@@ -133,10 +133,10 @@ const services: Services = {
   generate: generation.generate,
   cancel: () => {
     generation.cancel();
-    choices.cancel();
+    variations.cancel();
   },
-  makeChoices: choices.make,
-  pickChoice: choices.pick,
+  makeVariations: variations.make,
+  pickVariation: variations.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,

@@ -1,5 +1,5 @@
-import { mountChoiceCards } from './variation-cards';
-import { complete } from '../store/actions/variations';
+import { mountVariationCards } from './variation-cards';
+import { allMade } from '../store/actions/variations';
 import { loadedRole, madeRole } from '../store/roles';
 import { el, setText, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
@@ -53,8 +53,8 @@ export const mountOptions: Mount = (root, store, services) => {
     attributes: { type: 'button' },
     on: {
       click: () => {
-        if (store.getState().choices?.making) services.cancel();
-        else services.makeChoices();
+        if (store.getState().variations?.making) services.cancel();
+        else services.makeVariations();
       },
     },
   });
@@ -70,7 +70,7 @@ export const mountOptions: Mount = (root, store, services) => {
   );
   root.append(section);
   const seed = mountSeedBox(head, store, services);
-  const cards = mountChoiceCards(section, store, services);
+  const cards = mountVariationCards(section, store, services);
   section.append(
     el('div', { class: 'make' }, make, three),
     el(
@@ -98,8 +98,8 @@ export const mountOptions: Mount = (root, store, services) => {
     make.disabled = !state.leader || !settings || state.job !== null || beingRead(state).some(Boolean);
     setText(make, state.reaction ? 'Generate again' : 'Generate');
     make.title = makeWords(state);
-    const making = state.choices?.making ?? false;
-    const kept = complete(state.choices) && state.seedLocked;
+    const making = state.variations?.making ?? false;
+    const kept = allMade(state.variations) && state.seedLocked;
     three.disabled = !making && (!state.leader || !settings || beingRead(state).some(Boolean) || kept);
     setText(three, making ? 'Cancel' : 'Three reactions');
     three.title = making
@@ -119,7 +119,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.leader,
         state.song,
         state.reaction,
-        state.choices,
+        state.variations,
         state.seedLocked,
         ...beingRead(state),
         state.job !== null,
