@@ -5,10 +5,10 @@ import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** Work shorter than this shows no progress at all, milliseconds. */
-const PATIENCE = 400;
+/** A job shorter than this shows no progress. */
+const SHOW_AFTER_MS = 400;
 
-/** The pill over the stage while a reaction is being made. It changes no layout and holds Cancel. */
+/** The progress of the reaction that is being made, over the stage, with a button to cancel it. */
 export const mountProgress: Mount = (root, store, services) => {
   const words = el('span', { class: 'soft' });
   const fill = el('i');
@@ -42,7 +42,7 @@ export const mountProgress: Mount = (root, store, services) => {
   const title = el('b');
   const pill = el('div', { class: 'float prog' }, el('span', {}, title, words), meter, cancel);
   pill.hidden = true;
-  // Read out at the start, half way and at the end, not at every step.
+  // Announced at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
   root.append(pill, spoken);
 
@@ -59,7 +59,7 @@ export const mountProgress: Mount = (root, store, services) => {
     timer ??= setTimeout(() => {
       pill.hidden = false;
       setText(spoken, `The ${madeRole(state)} is being made.`);
-    }, PATIENCE);
+    }, SHOW_AFTER_MS);
     if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
     setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
     setText(words, jobWords(job, state));

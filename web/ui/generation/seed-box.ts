@@ -1,3 +1,4 @@
+import { iconButton } from '../widgets/button';
 import { el, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import type { Mount } from '../store/services';
@@ -23,27 +24,11 @@ export const mountSeedBox: Mount = (root, store) => {
       },
     },
   });
-  const roll = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Roll a new seed' },
-      on: {
-        click: () => {
-          apply(store, seedRolled(rolledSeed()));
-        },
-      },
-    },
-    icon('dice'),
-  );
-  const lock = el('button', {
-    class: 'icon lock',
-    attributes: { type: 'button', 'aria-label': 'Lock the seed' },
-    on: {
-      click: () => {
-        apply(store, seedLockSet(!store.getState().seedLocked));
-      },
-    },
+  const roll = iconButton('icon', 'dice', { label: 'Roll a new seed' }, () => {
+    apply(store, seedRolled(rolledSeed()));
+  });
+  const lock = iconButton('icon lock', 'unlock', { label: 'Lock the seed' }, () => {
+    apply(store, seedLockSet(!store.getState().seedLocked));
   });
   const box = el('span', { class: 'num' }, input, roll, lock);
   const label = el('span', { class: 'lbl', text: 'Seed', attributes: { 'aria-hidden': true } });

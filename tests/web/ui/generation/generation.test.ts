@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createGeneration } from '../../../../web/ui/generation/generation';
+import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
@@ -10,14 +10,14 @@ describe('generation', () => {
   let store: change.Store;
   let hand: Hand;
   let stop: () => void;
-  let generation: ReturnType<typeof createGeneration>;
+  let generation: Generation;
 
   beforeEach(() => {
     vi.useFakeTimers();
     store = change.createAppStore('dark');
     change.apply(store, change.manifestArrived(small, 7));
     hand = new Hand();
-    generation = createGeneration(store, () => Promise.resolve(hand.generator));
+    generation = new Generation(store, () => Promise.resolve(hand.generator));
     stop = generation.dispose;
   });
   afterEach(() => {

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { type VariationMaker, createVariations } from '../../../../web/ui/generation/variations';
-import { createGeneration, type Generation } from '../../../../web/ui/generation/generation';
+import { VariationMaker } from '../../../../web/ui/generation/variations';
+import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { Hand, result } from '../../support/manual-generator';
@@ -27,8 +27,8 @@ describe('three reactions', () => {
     change.apply(store, change.manifestArrived(small, 7));
     hand = new Hand();
     const model = (): Promise<typeof hand.generator> => Promise.resolve(hand.generator);
-    generation = createGeneration(store, model);
-    variations = createVariations(store, model, generation.generate);
+    generation = new Generation(store, model);
+    variations = new VariationMaker(store, model, generation.generate);
     change.apply(store, change.leaderLoaded(leader(60)));
     await pass();
   });
