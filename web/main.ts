@@ -28,7 +28,7 @@ import { mountNews } from './ui/shell/toast';
 import { openDropped } from './ui/files/open-dropped';
 import { mountOptions } from './ui/generation/options';
 import { readParameters } from './ui/files/parameters';
-import { createPlayback } from './ui/timeline/playback';
+import { PlaybackControl } from './ui/timeline/playback';
 import { keepPreferences } from './ui/shell/preferences';
 import { mountProblemDialog } from './ui/shell/problem-dialog';
 import { stageProblem } from './ui/store/problems';
@@ -37,7 +37,7 @@ import { madeRole } from './ui/store/roles';
 import { createQuality } from './ui/quality/quality';
 import { mountQualityStrip } from './ui/quality/quality-strip';
 import { readReference } from './ui/quality/quality-reference';
-import { canShare, saveFile, shareFile } from './ui/download/save-and-share';
+import { saveFile } from './ui/download/save-and-share';
 import type { Services } from './ui/store/services';
 import { isProject } from './ui/files/file-type';
 import { mountStageControls } from './ui/shell/stage-controls';
@@ -75,7 +75,7 @@ const keeping = createKeeping(store, files, readers, openStorage());
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
-const playback = createPlayback(store, createPlayer());
+const playback = new PlaybackControl(store, createPlayer());
 createQuality(store, measureDance);
 
 // ---- the stage, which the rest can do without ----
@@ -142,10 +142,8 @@ const services: Services = {
   seek: playback.seek,
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
-    camera: stage && ((size) => openCamera(stage, store, size)),
+    openVideoStage: stage && ((size) => openCamera(stage, store, size)),
     stageSize: () => stage?.pictureSize() ?? null,
-    save: saveFile,
-    share: { can: canShare, pass: shareFile },
   }),
   saveProject: () => void saveProject(),
   startAfresh: () => {

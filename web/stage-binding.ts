@@ -2,7 +2,7 @@
 import { couple, madeRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { together } from './ui/widgets/dom';
-import type { Camera } from './ui/download/downloads';
+import type { VideoStage } from './ui/download/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
@@ -70,7 +70,7 @@ export function showOn(shown: Stage, store: Store): () => void {
 }
 
 /** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
-export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
+export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<VideoStage> {
   const film = from.film(size);
   try {
     showOn(film, store)();
@@ -85,7 +85,7 @@ export async function openCamera(from: Stage, store: Store, size: PictureSize): 
   let before = 0;
   return {
     canvas: film.canvas,
-    shoot: (seconds) => {
+    drawAt: (seconds) => {
       film.shoot(seconds, seconds - before);
       before = seconds;
     },

@@ -38,7 +38,7 @@ export const mountOptions: Mount = (root, store, services) => {
   const cards = mountVariationCards(section, store, services);
   section.append(
     el('div', { class: 'make' }, ...generate.elements, ...three.elements),
-    el('div', { class: 'opts' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
+    el('div', { class: 'option-row' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
   );
   return together(
     seed,
@@ -84,9 +84,9 @@ function createStepControl(store: Store): Controls {
     { label: 'More steps', title: 'More steps: slower, smoother' },
     changeBy(1),
   );
-  const label = el('span', { class: 'lbl', text: 'Steps' });
+  const label = el('span', { class: 'label', text: 'Steps' });
   return {
-    elements: [el('span', { class: 'num' }, label, fewer, count, more)],
+    elements: [el('span', { class: 'number' }, label, fewer, count, more)],
     show: ({ settings, manifest }) => {
       fewer.disabled = more.disabled = !settings;
       if (!settings || !manifest) return;
@@ -110,7 +110,7 @@ function createSwapButton(store: Store): Controls {
       swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
       swap.title =
         `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
-        'Press to have it the other way round.';
+        'Press to swap the roles.';
     },
   };
 }
@@ -149,7 +149,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
         ? 'Make no more'
         : locked
           ? 'Unlock the seed to make three others'
-          : 'Make three at once that differ by chance alone, and pick the best';
+          : 'Make three that differ only by chance, and pick the best';
     },
   };
 }
@@ -167,5 +167,5 @@ function generateTitle(state: AppState): string {
   if (!upToDate(state)) return state.reaction ? 'The settings have changed since.' : 'Ready.';
   return state.seedLocked
     ? 'Makes the same again: the seed is locked.'
-    : 'Another reaction, with a new seed. Changes of the settings are followed by themselves.';
+    : 'Another reaction, with a new seed. Changed settings take effect by themselves.';
 }

@@ -40,7 +40,7 @@ export const mountProgress: Mount = (root, store, services) => {
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
   );
   const title = el('b');
-  const pill = el('div', { class: 'float prog' }, el('span', {}, title, words), meter, cancel);
+  const pill = el('div', { class: 'float progress' }, el('span', {}, title, words), meter, cancel);
   pill.hidden = true;
   // Announced at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });

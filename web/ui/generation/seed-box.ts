@@ -15,7 +15,7 @@ export const mountSeedBox: Mount = (root, store) => {
       step: 1,
       'aria-label': 'Seed',
       inputmode: 'numeric',
-      title: 'The number behind the chance: the same seed and settings make the same reaction again',
+      title: 'The seed of the random numbers: the same seed and settings make the same reaction again',
     },
     on: {
       change: () => {
@@ -30,8 +30,8 @@ export const mountSeedBox: Mount = (root, store) => {
   const lock = iconButton('icon lock', 'unlock', { label: 'Lock the seed' }, () => {
     apply(store, seedLockSet(!store.getState().seedLocked));
   });
-  const box = el('span', { class: 'num' }, input, roll, lock);
-  const label = el('span', { class: 'lbl', text: 'Seed', attributes: { 'aria-hidden': true } });
+  const box = el('span', { class: 'number' }, input, roll, lock);
+  const label = el('span', { class: 'label', text: 'Seed', attributes: { 'aria-hidden': true } });
   root.append(label, box);
 
   const show = (): void => {

@@ -60,7 +60,7 @@ export const mountVariationCards: Mount = (root, store, services) => {
   );
   const group = el(
     'div',
-    { class: 'reacts', attributes: { role: 'radiogroup', 'aria-label': 'Reactions to pick from' } },
+    { class: 'variations', attributes: { role: 'radiogroup', 'aria-label': 'Reactions to pick from' } },
     ...cards.map(({ button }) => button),
   );
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
@@ -108,7 +108,7 @@ function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
   const button = el(
     'button',
     {
-      class: 'react',
+      class: 'variation',
       attributes: { type: 'button', role: 'radio', 'aria-checked': 'false' },
       on: {
         click: onPick,

@@ -8,20 +8,21 @@ import { clockTime } from '../store/format';
 import { drawCurve, drawDots, surface, token } from '../widgets/lane-canvas';
 import type { TimeScale } from '../store/time-scale';
 
-/** A motion beat that scores as much lies on a music beat: within two frames and a half. */
-const ON_MUSIC = 0.7;
-/** Opacity of motion that is about to be replaced. */
-const OLD = 0.35;
+/** Beat score from which a motion beat counts as on the music: within two and a half frames of a music beat. */
+const MIN_ON_MUSIC = 0.7;
+/** Opacity of a motion that is being replaced. */
+const STALE_OPACITY = 0.35;
 
-/** What is drawn of a motion. */
+/** What a lane draws of a motion. */
 export interface DrawnMotion {
+  /** m/s per frame. */
   readonly speed: Float32Array;
   readonly fps: number;
   /** Frames. */
   readonly beats: readonly number[];
 }
 
-/** Speed and beats of a motion; there are no beats before the manifest has told how they are found. */
+/** Speed and beats of a motion; without the manifest, which says how beats are found, there are no beats. */
 export function drawnMotion(motion: SolvedMotion, manifest: Manifest | null): DrawnMotion {
   const beats = manifest ? motionBeats(motion, manifest.quality.beats.smoothing) : [];
   return { speed: speedCurve(motion), fps: motion.fps, beats };
@@ -36,8 +37,9 @@ export interface MotionPicture {
   readonly tolerance: number;
   /** The speed that reaches the upper edge, m/s. */
   readonly top: number;
-  /** Whether a new motion is being made, and the seconds of it that are shown already. */
+  /** Whether a new motion is being made. */
   readonly stale: boolean;
+  /** The part of the new motion that is shown already, seconds. */
   readonly fresh: { readonly from: number; readonly to: number } | null;
 }
 
@@ -49,7 +51,7 @@ export interface MotionLane {
   readonly say: (word: string) => void;
 }
 
-/** An empty lane; `under` lies below the curve. */
+/** @param under lies below the curve */
 export function createMotionLane(
   who: 'leader' | 'reactor',
   className: string,
@@ -77,7 +79,7 @@ export function createMotionLane(
       );
       const beats = motion.beats.map((frame, index) => ({
         time: frame / motion.fps,
-        onMusic: (scores[index] ?? 0) >= ON_MUSIC,
+        onMusic: (scores[index] ?? 0) >= MIN_ON_MUSIC,
       }));
       root.setAttribute('aria-label', words(name, motion, beats.filter(({ onMusic }) => onMusic).length));
       if (!on) return;
@@ -89,7 +91,7 @@ export function createMotionLane(
         drawCurve(on, curve, scale, colours);
         drawDots(on, curve, beats, scale, colours);
       };
-      paint(stale ? OLD : 1);
+      paint(stale ? STALE_OPACITY : 1);
       if (!stale || !fresh) return;
       const [left, right] = [scale.x(fresh.from), scale.x(fresh.to)];
       on.context.save();

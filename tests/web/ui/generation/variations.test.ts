@@ -3,21 +3,21 @@ import { VariationMaker } from '../../../../web/ui/generation/variations';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
-import { Hand, result } from '../../support/manual-generator';
+import { ManualGenerator, result } from '../../support/manual-generator';
 import { leader } from '../../support/made-state';
 
-describe('three reactions', () => {
+describe('three variations', () => {
   let store: change.Store;
-  let hand: Hand;
+  let model: ManualGenerator;
   let generation: Generation;
   let variations: VariationMaker;
 
   const pass = (): Promise<void> => vi.advanceTimersByTimeAsync(60).then(() => undefined);
   const answer = async (index: number): Promise<void> => {
-    hand.calls[index]?.answer(result());
+    model.calls[index]?.answer(result());
     await pass();
   };
-  const seeds = (): number[] => hand.calls.map(({ request }) => request.seed);
+  const seeds = (): number[] => model.calls.map(({ request }) => request.seed);
   const there = (): boolean[] =>
     store.getState().variations?.list.map(({ reaction }) => reaction !== null) ?? [];
 
@@ -25,10 +25,10 @@ describe('three reactions', () => {
     vi.useFakeTimers();
     store = change.createAppStore('dark');
     change.apply(store, change.manifestArrived(small, 7));
-    hand = new Hand();
-    const model = (): Promise<typeof hand.generator> => Promise.resolve(hand.generator);
-    generation = new Generation(store, model);
-    variations = new VariationMaker(store, model, generation.generate);
+    model = new ManualGenerator();
+    const load = (): Promise<typeof model.generator> => Promise.resolve(model.generator);
+    generation = new Generation(store, load);
+    variations = new VariationMaker(store, load, generation.generate);
     change.apply(store, change.leaderLoaded(leader(60)));
     await pass();
   });
@@ -44,7 +44,7 @@ describe('three reactions', () => {
     await pass();
     expect(seeds()).toEqual([7, 8]);
     expect(there()).toEqual([true, false, false]);
-    hand.calls[1]?.options.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
+    model.calls[1]?.options.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
     expect(store.getState().variations?.list[1]?.fraction).toBe(0.5);
     await answer(1);
     expect(seeds()).toEqual([7, 8, 9]);
@@ -61,7 +61,7 @@ describe('three reactions', () => {
     expect(seeds()).toEqual([7, 8]);
   });
 
-  it('bring their settings with them when they are picked, and nothing is made anew', async () => {
+  it('set their settings when they are picked, and nothing is made again', async () => {
     await answer(0);
     variations.make();
     await pass();
@@ -72,10 +72,10 @@ describe('three reactions', () => {
     expect([reaction?.inputs.settings.seed, settings?.seed, job]).toEqual([8, 8, null]);
     // The third is still on its way.
     expect(seeds()).toEqual([7, 8, 9]);
-    expect(hand.calls[2]?.options.signal?.aborted).toBe(false);
+    expect(model.calls[2]?.options.signal?.aborted).toBe(false);
   });
 
-  it('stop when cancelled, keep what is made, and go on when asked again', async () => {
+  it('stop when cancelled, keep what is made, and go on when requested again', async () => {
     await answer(0);
     variations.make();
     await pass();
@@ -83,20 +83,20 @@ describe('three reactions', () => {
     variations.cancel();
     await pass();
     expect(there()).toEqual([true, true, false]);
-    expect(hand.calls[2]?.options.signal?.aborted).toBe(true);
+    expect(model.calls[2]?.options.signal?.aborted).toBe(true);
     variations.make();
     await pass();
     expect(seeds()).toEqual([7, 8, 9, 9]);
   });
 
-  it('go when something else is asked for', async () => {
+  it('are dropped when other settings are chosen', async () => {
     await answer(0);
     variations.make();
     await pass();
     change.apply(store, change.guidanceSet('coarse', 1));
     await pass();
     expect(store.getState().variations).toBeNull();
-    expect(hand.calls[1]?.options.signal?.aborted).toBe(true);
+    expect(model.calls[1]?.options.signal?.aborted).toBe(true);
     expect(seeds()).toEqual([7, 8, 7]);
   });
 
