@@ -26,11 +26,11 @@ type Layered = Reaction & { readonly latents: Float32Array };
  */
 export function createCoarseLayer(store: Store, model: () => Promise<Generator>): () => void {
   /** By latents; freed with the reaction that has them. */
-  const known = new WeakMap<Float32Array, SolvedMotion>();
+  const decodedMotions = new WeakMap<Float32Array, SolvedMotion>();
   let running: AbortController | null = null;
 
   const decoded = (reaction: Reaction | null): SolvedMotion | null =>
-    (reaction?.latents && known.get(reaction.latents)) ?? null;
+    (reaction?.latents && decodedMotions.get(reaction.latents)) ?? null;
 
   /** Puts what has been decoded so far into the state. */
   const show = (decoding: boolean): void => {
@@ -51,7 +51,7 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
       const generator = await model();
       for (const { inputs, latents } of missing) {
         const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
-        known.set(latents, motion);
+        decodedMotions.set(latents, motion);
         if (signal.aborted) return;
         show(latents !== missing.at(-1)?.latents);
       }

@@ -40,11 +40,11 @@ export const mountProgress: Mount = (root, store, services) => {
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
   );
   const title = el('b');
-  const pill = el('div', { class: 'float progress' }, el('span', {}, title, words), meter, cancel);
-  pill.hidden = true;
+  const box = el('div', { class: 'float progress' }, el('span', {}, title, words), meter, cancel);
+  box.hidden = true;
   // Announced at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
-  root.append(pill, spoken);
+  root.append(box, spoken);
 
   let timer: ReturnType<typeof setTimeout> | null = null;
   const show = (state: AppState): void => {
@@ -53,14 +53,14 @@ export const mountProgress: Mount = (root, store, services) => {
       if (timer !== null) clearTimeout(timer);
       timer = null;
       if (spoken.textContent) setText(spoken, state.reaction ? `The ${madeRole(state)} is ready.` : '');
-      pill.hidden = true;
+      box.hidden = true;
       return;
     }
     timer ??= setTimeout(() => {
-      pill.hidden = false;
+      box.hidden = false;
       setText(spoken, `The ${madeRole(state)} is being made.`);
     }, SHOW_AFTER_MS);
-    if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
+    if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
     setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
     setText(words, jobWords(job, state));
     setVariable(fill, '--part', job.fraction);
@@ -70,7 +70,7 @@ export const mountProgress: Mount = (root, store, services) => {
     watchAll(store, (state) => [state.job, state.model], show),
     () => {
       if (timer !== null) clearTimeout(timer);
-      pill.remove();
+      box.remove();
       spoken.remove();
     },
   );

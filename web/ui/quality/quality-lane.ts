@@ -112,26 +112,26 @@ function drawHeat(canvas: HTMLCanvasElement, { rows, fps, shown }: LanePicture):
   if (!on || shown.to <= shown.from) return;
   const { context, width, height } = on;
   const [neutral, attention] = [token(canvas, '--text-3'), token(canvas, '--attention')];
-  const tall = height / Math.max(1, rows.length);
+  const rowHeight = height / Math.max(1, rows.length);
   const frameAt = (x: number): number => (shown.from + (x / width) * (shown.to - shown.from)) * fps;
   rows.forEach((row, index) => {
     for (let x = 0; x < width; x += CELL_WIDTH) {
       const first = Math.max(0, Math.floor(frameAt(x)));
       const last = Math.max(first + 1, Math.floor(frameAt(x + CELL_WIDTH)));
-      let most = 0;
+      let max = 0;
       for (let frame = first; frame < Math.min(last, row.length); frame++) {
-        if (row[frame]! > most) most = row[frame]!;
+        if (row[frame]! > max) max = row[frame]!;
       }
-      if (most === 0) continue;
-      context.fillStyle = most > 1 ? attention : neutral;
+      if (max === 0) continue;
+      context.fillStyle = max > 1 ? attention : neutral;
       context.globalAlpha =
-        most > 1 ? ABOVE_LIMIT + (FULL - ABOVE_LIMIT) * Math.min(1, most - 1) : BELOW_LIMIT * most;
+        max > 1 ? ABOVE_LIMIT + (FULL - ABOVE_LIMIT) * Math.min(1, max - 1) : BELOW_LIMIT * max;
       // One pixel stays free between rows.
       context.fillRect(
         x,
-        index * tall,
+        index * rowHeight,
         Math.min(CELL_WIDTH, width - x),
-        tall - (index + 1 < rows.length ? 1 : 0),
+        rowHeight - (index + 1 < rows.length ? 1 : 0),
       );
     }
   });

@@ -39,12 +39,12 @@ export function aboveChance(
   recorded: number | null | undefined,
 ): Verdict | null {
   if (Number.isNaN(value) || Number.isNaN(chance)) return null;
-  const most = missing(recorded) ? chance : recorded;
-  if (most - chance < EQUAL_WITHIN) {
+  const best = missing(recorded) ? chance : recorded;
+  if (best - chance < EQUAL_WITHIN) {
     if (value - chance >= EQUAL_WITHIN) return 'good';
     return value > chance - EQUAL_WITHIN ? 'so-so' : 'poor';
   }
-  const gain = (value - chance) / (most - chance);
+  const gain = (value - chance) / (best - chance);
   if (gain >= GOOD_GAIN) return 'good';
   return gain >= FAIR_GAIN ? 'so-so' : 'poor';
 }

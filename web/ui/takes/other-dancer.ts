@@ -7,7 +7,7 @@ import { otherTake, takeOnStage, takeTitle } from '../store/take';
 /** The reactor of the other take, drawn at the same playhead. */
 export interface OtherDancer {
   readonly motion: SolvedMotion;
-  /** As a ghost beside the one on the stage, or in one half of the picture: A is always on the left. */
+  /** As a ghost in the same picture, or in one half of a split picture: A is always on the left. */
   readonly mode: 'ghost' | 'left' | 'right';
   /** Labels of the two halves: `A Softer hands`, `B Take 2`. */
   readonly labels: { readonly left: string; readonly right: string };

@@ -16,22 +16,22 @@ export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, colum
   for (let column = 0; column < columns; column++) {
     const first = sampleAt(column);
     const end = Math.min(pcm.length, Math.max(first + 1, sampleAt(column + 1)));
-    let least = 0;
-    let most = 0;
+    let min = 0;
+    let max = 0;
     for (let i = Math.max(0, first); i < end; i++) {
       const value = pcm[i] ?? 0;
-      if (value < least) least = value;
-      if (value > most) most = value;
+      if (value < min) min = value;
+      if (value > max) max = value;
     }
-    low[column] = least;
-    high[column] = most;
+    low[column] = min;
+    high[column] = max;
   }
   return { low, high };
 }
 
 /** The largest absolute sample of a song, at least 0.001 so that it can be divided by. */
 export function loudest(pcm: Float32Array): number {
-  return pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 1e-3);
+  return pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 1e-3);
 }
 
 /** Speed of a dancer in each frame: the mean over the joints, m/s, smoothed over about 0.2 s. */

@@ -6,6 +6,8 @@ import { speedCurve } from './curves';
 import { el, setText } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { drawCurve, drawDots, surface, token } from '../widgets/lane-canvas';
+import { roleName } from '../store/roles';
+import type { Role } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
 
 /** Beat score from which a motion beat counts as on the music: within two and a half frames of a music beat. */
@@ -52,15 +54,11 @@ export interface MotionLane {
 }
 
 /** @param under lies below the curve */
-export function createMotionLane(
-  who: 'leader' | 'reactor',
-  className: string,
-  under: HTMLElement,
-): MotionLane {
+export function createMotionLane(role: Role, className: string, under: HTMLElement): MotionLane {
   const canvas = el('canvas');
   const word = el('span', { class: 'word' });
   const root = el('div', { class: className, attributes: { role: 'img' } }, under, canvas, word);
-  const name = who === 'leader' ? 'Leader' : 'Reactor';
+  const name = roleName(role);
   return {
     root,
     say: (text) => {
@@ -69,7 +67,7 @@ export function createMotionLane(
     draw: (motion, { scale, musicBeats, tolerance, top, stale, fresh }) => {
       const on = surface(canvas);
       if (!motion) {
-        root.setAttribute('aria-label', who === 'leader' ? 'No leader' : 'No reactor yet');
+        root.setAttribute('aria-label', role === 'leader' ? 'No leader' : 'No reactor yet');
         return;
       }
       const scores = beatScores(
@@ -83,8 +81,8 @@ export function createMotionLane(
       }));
       root.setAttribute('aria-label', words(name, motion, beats.filter(({ onMusic }) => onMusic).length));
       if (!on) return;
-      const line = token(root, `--${who}`);
-      const colours = { line, fill: token(root, `--${who}-soft`), ground: token(root, '--raised') };
+      const line = token(root, `--${role}`);
+      const colours = { line, fill: token(root, `--${role}-soft`), ground: token(root, '--raised') };
       const curve = { ...motion, top };
       const paint = (opacity: number): void => {
         on.context.globalAlpha = opacity;
@@ -105,15 +103,16 @@ export function createMotionLane(
   };
 }
 
-function words(who: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
+/** The lane in words, for screen readers. */
+function words(name: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
   let sum = 0;
-  let most = 0;
-  let at = 0;
-  speed.forEach((value, index) => {
+  let max = 0;
+  let maxFrame = 0;
+  speed.forEach((value, frame) => {
     sum += value;
-    if (value > most) [most, at] = [value, index];
+    if (value > max) [max, maxFrame] = [value, frame];
   });
   const mean = (sum / Math.max(1, speed.length)).toFixed(2);
   const counted = `${beats.length} motion beats, ${onMusic} of them on the music`;
-  return `${who} speed, ${mean} metres per second on average, fastest at ${clockTime(at / fps)}; ${counted}`;
+  return `${name} speed, ${mean} metres per second on average, fastest at ${clockTime(maxFrame / fps)}; ${counted}`;
 }

@@ -83,8 +83,8 @@ function barAndCount(beat: number): string {
   return beat % 4 === 0 ? bar : `${bar}.${(beat % 4) + 1}`;
 }
 
-function timeMarks({ from, to, x, width }: TimeScale, most: number): RulerMarks['marks'] {
-  const every = nextOf([0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300], (to - from) / most);
+function timeMarks({ from, to, x, width }: TimeScale, maxMarks: number): RulerMarks['marks'] {
+  const every = nextOf([0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300], (to - from) / maxMarks);
   const first = Math.ceil(from / every - 1e-6);
   const last = Math.floor((to - 1e-6) / every);
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => {

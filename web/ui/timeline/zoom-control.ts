@@ -41,8 +41,8 @@ export function createZoomControl(store: Store): {
     },
     on: {
       input: () => {
-        const most = largest(danceDuration(store.getState()));
-        apply(store, magnified(most ** (Number(slider.value) / SLIDER_STEPS)));
+        const max = largest(danceDuration(store.getState()));
+        apply(store, magnified(max ** (Number(slider.value) / SLIDER_STEPS)));
       },
     },
   });
@@ -54,12 +54,12 @@ export function createZoomControl(store: Store): {
       (state) => [state.zoom, state.leader, state.song],
       (state) => {
         const whole = danceDuration(state);
-        const most = largest(whole);
+        const max = largest(whole);
         const times = magnification(shown(state), whole);
-        const part = most > 1 ? Math.log(times) / Math.log(most) : 0;
+        const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
         slider.value = String(Math.round(part * SLIDER_STEPS));
         slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
-        for (const each of [slider, into]) each.disabled = most <= 1 || whole === 0;
+        for (const each of [slider, into]) each.disabled = max <= 1 || whole === 0;
         into.disabled ||= part > 1 - 1e-6;
         out.disabled = fit.disabled = state.zoom === null;
       },

@@ -1,8 +1,14 @@
 import { expect, test } from 'vitest';
 import { motionFileName, videoFileName } from '../../../../web/ui/download/file-name';
-import { alike, leader, song } from '../../support/made-state';
+import { uniformGuidance, leader, song } from '../../support/made-state';
 
-const settings = { guidance: alike(1.2, 0.6), music: 3, steps: 10, seed: 1204, role: 'reactor' as const };
+const settings = {
+  guidance: uniformGuidance(1.2, 0.6),
+  music: 3,
+  steps: 10,
+  seed: 1204,
+  role: 'reactor' as const,
+};
 const inputs = { leader: leader(90), song: song(3), shift: 0, settings };
 
 test('a file name holds song, leader, take, seed, guidance, foot lock and role', () => {

@@ -7,7 +7,7 @@ import type { Reaction } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { compareSet, flipped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';
-import { alike, leader, still } from '../../support/made-state';
+import { uniformGuidance, leader, still } from '../../support/made-state';
 
 /** A model whose answers the test gives. */
 class ManualGenerator {
@@ -40,7 +40,13 @@ describe('the coarse layer', () => {
   const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
   const state = () => store.getState();
   const reaction = (latents: Float32Array | null): Reaction => {
-    const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+    const settings = {
+      guidance: uniformGuidance(0, 0),
+      music: 2,
+      steps: 10,
+      seed: 1,
+      role: 'reactor' as const,
+    };
     const inputs = { leader: leader(60), song: null, shift: 0, settings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
   };

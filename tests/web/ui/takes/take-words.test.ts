@@ -3,11 +3,11 @@ import type { AppState, Inputs, Take } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
 import { small } from '../../support/small-manifest';
-import { alike, leader, song, still } from '../../support/made-state';
+import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
 const music = small.guidance.music.default;
 const settings = {
-  guidance: alike(2, 1.5),
+  guidance: uniformGuidance(2, 1.5),
   music,
   steps: small.diffusion.steps.default,
   seed: 1204,
