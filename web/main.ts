@@ -5,7 +5,7 @@ import { keepPage } from './offline/register';
 import { bindStage, openCamera } from './stage-binding';
 import { measureDance } from './quality/client';
 import { mountBar } from './ui/shell/bar';
-import { createChoices } from './ui/generation/variations';
+import { VariationMaker } from './ui/generation/variations';
 import { createChooser } from './ui/files/file-chooser';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { loadDemo } from './ui/files/demo';
@@ -15,7 +15,7 @@ import { mountDropTarget } from './ui/files/drop-target';
 import { createFiles } from './ui/files/files';
 import { mountFirstVisit } from './ui/shell/first-visit';
 import { mountFootLock } from './ui/generation/foot-lock';
-import { createGeneration } from './ui/generation/generation';
+import { Generation } from './ui/generation/generation';
 import { mountGuidance } from './ui/guidance/guidance';
 import { createKeeping } from './ui/project/autosave';
 import { openStorage } from './ui/project/storage';
@@ -28,7 +28,7 @@ import { mountNews } from './ui/shell/toast';
 import { openDropped } from './ui/files/open-dropped';
 import { mountOptions } from './ui/generation/options';
 import { readParameters } from './ui/files/parameters';
-import { createPlayback } from './ui/timeline/playback';
+import { PlaybackControl } from './ui/timeline/playback';
 import { keepPreferences } from './ui/shell/preferences';
 import { mountProblemDialog } from './ui/shell/problem-dialog';
 import { stageProblem } from './ui/store/problems';
@@ -37,7 +37,7 @@ import { madeRole } from './ui/store/roles';
 import { createQuality } from './ui/quality/quality';
 import { mountQualityStrip } from './ui/quality/quality-strip';
 import { readReference } from './ui/quality/quality-reference';
-import { canShare, saveFile, shareFile } from './ui/download/save-and-share';
+import { saveFile } from './ui/download/save-and-share';
 import type { Services } from './ui/store/services';
 import { isProject } from './ui/files/file-type';
 import { mountStageControls } from './ui/shell/stage-controls';
@@ -72,10 +72,10 @@ const model = createModelLink(store, (onStatus, folder) =>
 const readers = { loadSong, readLeader, manifest: model.manifest };
 const files = createFiles(store, readers);
 const keeping = createKeeping(store, files, readers, openStorage());
-const generation = createGeneration(store, model.generator);
-const choices = createChoices(store, model.generator, generation.generate);
+const generation = new Generation(store, model.generator);
+const variations = new VariationMaker(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
-const playback = createPlayback(store, createPlayer());
+const playback = new PlaybackControl(store, createPlayer());
 createQuality(store, measureDance);
 
 // ---- the stage, which the rest can do without ----
@@ -133,19 +133,17 @@ const services: Services = {
   generate: generation.generate,
   cancel: () => {
     generation.cancel();
-    choices.cancel();
+    variations.cancel();
   },
-  makeChoices: choices.make,
-  pickChoice: choices.pick,
+  makeVariations: variations.make,
+  pickVariation: variations.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
-    camera: stage && ((size) => openCamera(stage, store, size)),
+    openVideoStage: stage && ((size) => openCamera(stage, store, size)),
     stageSize: () => stage?.pictureSize() ?? null,
-    save: saveFile,
-    share: { can: canShare, pass: shareFile },
   }),
   saveProject: () => void saveProject(),
   startAfresh: () => {

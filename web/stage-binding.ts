@@ -2,7 +2,7 @@
 import { couple, madeRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { together } from './ui/widgets/dom';
-import type { Camera } from './ui/download/downloads';
+import type { VideoStage } from './ui/download/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
@@ -85,7 +85,7 @@ function bindBusy(stage: Stage, store: Store): () => void {
 }
 
 /** Opens an offscreen stage for a video: it shows what `from` shows now, from the start of the dance, and stays so. */
-export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
+export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<VideoStage> {
   const stage = createOffscreenStage(from, size);
   try {
     bindStage(stage, store)();
@@ -100,7 +100,7 @@ export async function openCamera(from: Stage, store: Store, size: PictureSize): 
   let before = 0;
   return {
     canvas: stage.canvas,
-    shoot: (seconds) => {
+    drawAt: (seconds) => {
       stage.drawAt(seconds, seconds - before);
       before = seconds;
     },

@@ -5,7 +5,7 @@ import type { AppState, Inputs, Take } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
 import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
 import * as change from './support/actions';
-import { alike, leader, still } from './support/made-state';
+import { uniformGuidance, leader, still } from './support/made-state';
 
 let bindStage: (stage: Stage, store: change.Store) => () => void;
 beforeAll(async () => {
@@ -16,7 +16,7 @@ beforeAll(async () => {
 
 const dancer = leader(30);
 const take = (id: string): Take => {
-  const settings = { guidance: alike(1, 1), music: 1, steps: 5, seed: 1, role: 'reactor' as Role };
+  const settings = { guidance: uniformGuidance(1, 1), music: 1, steps: 5, seed: 1, role: 'reactor' as Role };
   const inputs: Inputs = { leader: dancer, song: null, shift: 0, settings };
   const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
   return { id, number: 1, name: null, starred: false, createdAt: 0, reaction };

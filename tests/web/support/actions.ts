@@ -1,4 +1,4 @@
-/** Everything that can happen to the state, for tests that make much of it happen. */
+/** The store and most of its actions, for tests that use many of them. */
 export * from '../../../web/ui/store/actions/files';
 export * from '../../../web/ui/store/actions/model';
 export * from '../../../web/ui/store/actions/reaction';

@@ -31,7 +31,7 @@ export interface MadeFile {
   readonly at: (name: string, frame: number) => Triple;
 }
 
-/** A BVH file with smooth made motion, and the truth about it computed by three's scene graph. */
+/** A BVH file with a smooth synthetic motion, and its joint positions computed by three's scene graph. */
 export function madeBvh(options: MadeOptions): MadeFile {
   const { joints, frames = 40, frameTime = '0.0333333', unitsPerMetre = 100, up = 'y' } = options;
   const { positions = 'none', swing = 15, newline = '\n' } = options;

@@ -1,7 +1,7 @@
 import type { Dance } from '../../../web/export/dance';
 import { madeDancer } from './made-dancer';
 
-/** A duet of made dancers, or the one of them; its song has a name that needs more than ASCII. */
+/** A duet of made dancers, or one of them; its song has a name with characters outside ASCII. */
 export function madeDance(frames: number, ...roles: ('leader' | 'reactor')[]): Dance {
   const seeds = { leader: 1, reactor: 2 };
   return {

@@ -15,7 +15,7 @@ export function random(seed: number): () => number {
   };
 }
 
-/** A symmetric body in the rest pose that the solver promises: T-pose facing +z. */
+/** Joint offsets (metres) of a symmetric body in the rest pose of the solver: T-pose facing +z. */
 export const BODY: Readonly<Record<number, Vec3>> = {
   [J.left_hip]: [0.085, -0.09, 0],
   [J.right_hip]: [-0.085, -0.09, 0],
@@ -83,7 +83,7 @@ function offsetsOf(size: number): Float32Array {
   return offsets;
 }
 
-/** A dancer that never existed: smooth sums of sines on every joint, a path over the floor, constant bones. */
+/** A synthetic dance: a sine on every joint angle, a path over the floor, constant bone lengths. */
 export function madeDancer(options: DancerOptions): SolvedMotion {
   const { frames, seed = 1, spin = 0, size = 1 } = options;
   const draw = random(seed);
@@ -123,7 +123,7 @@ export function madeDancer(options: DancerOptions): SolvedMotion {
   return { fps: 30, frames, offsets, root, rotations, positions, fitError: 0 };
 }
 
-/** Bell-shaped noise on every coordinate, metres. */
+/** Adds Gaussian noise to every coordinate; `deviation` in metres. */
 export function noisy(positions: Float32Array, deviation: number, seed = 7): Float32Array {
   const draw = random(seed);
   return positions.map(

@@ -6,7 +6,7 @@ import { madeDancer } from './made-dancer';
 
 export interface StanderOptions {
   readonly frames: number;
-  /** Where the body is over the floor, metres; its feet are carried along and so slide. */
+  /** Position over the floor, metres; the feet slide along with it. */
   readonly path?: (frame: number) => readonly [number, number];
   /** How far the left foot is lifted, 0 to 1 (29 cm). */
   readonly lift?: (frame: number) => number;
@@ -14,7 +14,7 @@ export interface StanderOptions {
   readonly bend?: number;
 }
 
-/** Somebody who stands on level feet with bent knees and is carried about. */
+/** A dancer who stands on level feet with bent knees and is moved along a path. */
 export function madeStander({ frames, path, lift, bend = 0.35 }: StanderOptions): SolvedMotion {
   const { offsets } = madeDancer({ frames: 1 });
   const root = new Float32Array(frames * 3);
@@ -38,7 +38,7 @@ export function madeStander({ frames, path, lift, bend = 0.35 }: StanderOptions)
   return { fps: 30, frames, offsets, root, rotations, positions, fitError: 0 };
 }
 
-/** Goes from 0 at frame `from` to 1 at frame `to` and stays there, without a jump in speed. */
+/** Smoothstep from 0 at frame `from` to 1 at frame `to`. */
 export function eased(frame: number, from: number, to: number): number {
   const t = Math.min(1, Math.max(0, (frame - from) / (to - from)));
   return t * t * (3 - 2 * t);

@@ -6,12 +6,12 @@ import { uniform } from '../../../web/ui/store/guidance-matrix';
 import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/state';
 import { small } from './small-manifest';
 
-/** Guidance of the small model with every body part alike. */
-export function alike(coarse: number, fine: number): Guidance {
+/** Guidance of the small model with the same weights for every body part. */
+export function uniformGuidance(coarse: number, fine: number): Guidance {
   return uniform(small.latent.streams, small.latent.layers, (layer) => (layer === 'coarse' ? coarse : fine));
 }
 
-/** A motion of the right shape in which nobody moves. */
+/** A motion of zeros. */
 export function still(frames: number): SolvedMotion {
   return {
     fps: 30,
@@ -60,7 +60,7 @@ export function leader(
 }
 
 /** A song with a beat each half second. */
-export function heard(seconds: number, more: Partial<Song> = {}): Song {
+export function songData(seconds: number, more: Partial<Song> = {}): Song {
   const frames = Math.round(seconds * 30);
   return {
     duration: seconds,
@@ -77,5 +77,5 @@ export function heard(seconds: number, more: Partial<Song> = {}): Song {
 }
 
 export function song(seconds: number, more: Partial<Song> = {}): LoadedSong {
-  return { name: 'Descarga.mp3', label: null, file: new Blob(['ID3']), data: heard(seconds, more) };
+  return { name: 'Descarga.mp3', label: null, file: new Blob(['ID3']), data: songData(seconds, more) };
 }

@@ -2,8 +2,8 @@ import type { GenerateOptions, GenerateRequest, GenerateResult, Generator } from
 import { small } from './small-manifest';
 import { still } from './made-state';
 
-/** A generator whose answers the test gives by hand. */
-export class Hand {
+/** A generator whose answers the test gives. */
+export class ManualGenerator {
   readonly calls: {
     request: GenerateRequest;
     options: GenerateOptions;
@@ -25,7 +25,7 @@ export class Hand {
   } satisfies Generator;
 }
 
-/** What it may answer. */
+/** A result that it may answer with. */
 export const result = (frames = 60): GenerateResult => ({
   motion: still(frames),
   locked: still(frames),

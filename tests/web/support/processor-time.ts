@@ -1,4 +1,4 @@
-/** Seconds that the processor worked on a call; unlike the time on the wall, other programs hardly change it. */
+/** Processor time of a call, seconds; unlike elapsed time it hardly depends on other programs. */
 export function processorSeconds(work: () => unknown): number {
   const before = process.cpuUsage();
   work();

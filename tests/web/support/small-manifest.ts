@@ -9,7 +9,7 @@ const graph = (path: string) => ({
   files: { wasm: file(path), webgpu: file(path) },
 });
 
-/** A manifest with round little numbers, as parsed JSON: blocks of 6, 4 channels, memory of 2. */
+/** A manifest with small round numbers, as parsed JSON: blocks of 6 latent frames, 3 channels, memory width 2. */
 export function smallJson() {
   return {
     format: 'reactdance-model',

@@ -3,7 +3,7 @@ interface Mesh {
   readonly indices: Uint32Array;
 }
 
-/** What a mesh is as a surface. */
+/** Topology and volume of a mesh. */
 export interface Topology {
   /** Edges with more triangles on one side than on the other: holes. */
   readonly holes: number;

@@ -5,7 +5,7 @@ import { reactorMotion } from '../store/reactor-motion';
 import type { AppState, Who } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 
-/** What files of the reaction on the stage are named after; null without a reaction. */
+/** What the files of the reaction on the stage are named after; null without a reaction. */
 export function namedAfter(state: AppState): Named | null {
   const { reaction, footLock } = state;
   return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state) };
@@ -17,7 +17,7 @@ function titleOnStage(state: AppState): string | null {
   return take && takeTitle(take);
 }
 
-/** The couple on the stage or one of it, as they are taken home; null without a reaction. */
+/** The motions to be written: both dancers on the stage or one of them; null without a reaction. */
 export function danceOf(state: AppState, who: Who): Dance | null {
   const { reaction, manifest, footLock } = state;
   const motion = reactorMotion(state);

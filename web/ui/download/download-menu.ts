@@ -1,81 +1,55 @@
+import { textButton } from '../widgets/button';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
 import { createDownloadMotion } from './download-motion';
 import { createDownloadVideo } from './download-video';
-import { icon } from '../widgets/icons';
+import { icon, type IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
 import { opened } from '../store/actions/view';
 
+/** A Download button; its icon becomes a ring of progress while a video is written. */
+interface MenuButton {
+  readonly element: HTMLButtonElement;
+  readonly ring: HTMLElement;
+  readonly sign: SVGSVGElement;
+}
+
 /**
- * The Download button and its menu: whose motion, in which format and under which name, and the video. A video goes on
- * while the menu is closed; the button then shows how far it is.
+ * The Download button, wide and for phones narrow, and its menu: motion, video and project. A video goes on while the
+ * menu is closed; the button then shows its progress.
  */
 export const mountDownloadMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
     apply(store, opened('download'));
   };
-  const attributes = { type: 'button', 'aria-haspopup': 'dialog', 'aria-label': 'Download' };
-  const button = (kind: string, sign: SVGSVGElement, text: string | null) => {
-    const ring = el('span', { class: 'ring', attributes: { 'aria-hidden': true } });
-    const element = el('button', { class: kind, attributes, on: { click: toggle } }, ring, sign, text);
-    return { element, ring, sign };
-  };
-  const wide = button('btn primary desk', icon('download'), 'Download');
-  const narrow = button('icon phone-only', icon('share'), null);
+  const wide = createButton('btn primary desk', 'download', 'Download', toggle);
+  const narrow = createButton('icon phone-only', 'share', null, toggle);
+  const buttons = [wide, narrow];
   const motion = createDownloadMotion(store, services);
   const video = createDownloadVideo(store, services);
+  const project = textButton('btn tint project-button', 'Open or save a project', () => {
+    apply(store, opened('project'));
+  });
   const menu = el(
     'div',
     { class: 'float menu', attributes: { role: 'dialog', 'aria-label': 'Download' } },
     ...motion.parts,
     video.part,
+    project,
   );
   menu.hidden = true;
-  const door = el('button', {
-    class: 'btn tint project-door',
-    text: 'Open or save a project',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        apply(store, opened('project'));
-      },
-    },
-  });
-  menu.append(door);
-  // Read out at the start, half way and at the end, not at every picture.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
-  root.append(wide.element, narrow.element, menu, spoken);
+  const elements = [wide.element, narrow.element, menu, spoken];
+  root.append(...elements);
 
-  const showButtons = ({ reaction, filming, saved }: AppState): void => {
-    const share = filming && filming.frame / filming.frames;
-    for (const { element, ring, sign } of [wide, narrow]) {
-      element.disabled = reaction === null && !filming;
-      element.title = filming
-        ? `Writing the video, ${Math.round(100 * (share ?? 0))} %`
-        : reaction
-          ? ''
-          : 'Ready when a reactor is on the stage';
-      ring.hidden = !filming;
-      sign.toggleAttribute('hidden', filming !== null);
-      setVariable(ring, '--part', share ?? 0);
-    }
-    if (filming)
-      setText(spoken, (share ?? 0) < 0.5 ? 'The video is being written.' : 'The video is half done.');
-    else setText(spoken, saved ? `Saved ${saved.name}.` : '');
-  };
   const showOpen = (open: boolean): void => {
-    const before = menu.hidden;
+    const wasOpen = !menu.hidden;
     menu.hidden = !open;
-    for (const { element } of [wide, narrow]) setAttribute(element, 'aria-expanded', open ? 'true' : 'false');
-    if (open) {
-      motion.focus();
-    } else if (
-      !before &&
-      (menu.contains(document.activeElement) || document.activeElement === document.body)
-    ) {
+    for (const { element } of buttons) setAttribute(element, 'aria-expanded', open ? 'true' : 'false');
+    if (open) motion.focus();
+    else if (wasOpen && (menu.contains(document.activeElement) || document.activeElement === document.body))
       (wide.element.offsetParent ? wide : narrow).element.focus();
-    }
   };
   const closeOutside = (event: PointerEvent): void => {
     const target = event.target as Node;
@@ -84,13 +58,52 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
-    watchAll(store, (state) => [state.reaction, state.filming, state.saved], showButtons),
+    watchAll(
+      store,
+      (state) => [state.reaction, state.filming, state.saved],
+      (state) => {
+        for (const button of buttons) showButton(button, state);
+        setText(spoken, spokenWords(state));
+      },
+    ),
     watch(store, (state) => state.open === 'download', showOpen),
     motion.dispose,
     video.dispose,
     () => {
       document.removeEventListener('pointerdown', closeOutside);
-      for (const part of [wide.element, narrow.element, menu, spoken]) part.remove();
+      for (const element of elements) element.remove();
     },
   );
 };
+
+function createButton(
+  className: string,
+  iconName: IconName,
+  text: string | null,
+  onClick: () => void,
+): MenuButton {
+  const attributes = { type: 'button', 'aria-haspopup': 'dialog', 'aria-label': 'Download' };
+  const ring = el('span', { class: 'ring', attributes: { 'aria-hidden': true } });
+  const sign = icon(iconName);
+  const element = el('button', { class: className, attributes, on: { click: onClick } }, ring, sign, text);
+  return { element, ring, sign };
+}
+
+function showButton({ element, ring, sign }: MenuButton, { reaction, filming }: AppState): void {
+  const share = filming ? filming.frame / filming.frames : 0;
+  element.disabled = reaction === null && !filming;
+  element.title = filming
+    ? `Writing the video, ${Math.round(100 * share)} %`
+    : reaction
+      ? ''
+      : 'Ready when a reactor is on the stage';
+  ring.hidden = !filming;
+  sign.toggleAttribute('hidden', filming !== null);
+  setVariable(ring, '--part', share);
+}
+
+/** What is announced: the start, the middle and the end of a video, not every frame. */
+function spokenWords({ filming, saved }: AppState): string {
+  if (!filming) return saved ? `Saved ${saved.name}.` : '';
+  return filming.frame / filming.frames < 0.5 ? 'The video is being written.' : 'The video is half done.';
+}

@@ -18,8 +18,8 @@ const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
   ['json', 'JSON', 'Joints with all settings, readable'],
 ];
 
-/** What a tool has to be told when it reads a format, where the file cannot say it itself. */
-const READING: Partial<Record<MotionFormat, string>> = {
+/** What must be set by hand when a tool reads a format, because the file cannot say it. */
+const IMPORT_HINTS: Partial<Record<MotionFormat, string>> = {
   bvh: 'In centimetres: in Blender import it with scale 0.01 and “Update Scene FPS”',
 };
 
@@ -43,74 +43,34 @@ export function createDownloadMotion(store: Store, services: Services): Download
       apply(store, downloadChosen({ who: value }));
     },
   );
-  /** The format whose file name is shown while pointer or focus is on it; else the last one saved. */
-  let looked: MotionFormat | null = null;
-  const look = (format: MotionFormat | null) => (): void => {
-    looked = format;
-    showName(store.getState());
-  };
-  const rows = FORMATS.map(([format, name, purpose]) => {
-    const size = el('em');
-    const words = el('span', { text: purpose });
-    const button = el(
-      'button',
-      {
-        class: 'it',
-        attributes: { type: 'button', title: READING[format] },
-        on: {
-          click: () => {
-            services.saveMotion(format);
-          },
-          pointerenter: look(format),
-          pointerleave: look(null),
-          focus: look(format),
-          blur: look(null),
-        },
+  const fileName = createFileNameLine();
+  /** The format under pointer or focus; its file name is shown instead of that of the format saved last. */
+  let previewed: MotionFormat | null = null;
+  const rows = FORMATS.map(([format, name, purpose]) =>
+    createFormatRow(format, name, purpose, {
+      save: () => {
+        services.saveMotion(format);
       },
-      el('b', { text: name }),
-      words,
-      size,
-    );
-    return { format, button, size, words, purpose };
-  });
-  const fileState = el('span');
-  const fileName = el('b');
-  const file = el('div', { class: 'file' }, icon('check'), fileState, fileName);
-
-  const showName = (state: AppState): void => {
-    const named = namedAfter(state);
-    const { who: whose, format } = state.download;
-    const name = named ? motionFileName(named, whose, looked ?? format) : '';
-    const { saved } = state;
-    const done = saved?.name === name;
-    file.classList.toggle('saved', done);
-    setText(fileState, done ? `Saved, ${byteSize(saved.bytes)}` : 'Will be saved as');
-    setText(fileName, name);
-  };
-  const show = (state: AppState): void => {
-    who.show(state.download.who);
-    for (const { format, button, words, purpose } of rows) {
-      setText(words, format === 'bvh' && state.download.who === 'both' ? TWO_FILES : purpose);
-      button.disabled = state.reaction === null;
-      button.classList.toggle('last', format === state.download.format);
-      button.setAttribute('aria-busy', String(state.writing === format));
-    }
-    showName(state);
-  };
-  /** Sizes cost a little to know and are only asked for when someone looks. */
+      preview: (on) => {
+        previewed = on ? format : null;
+        fileName.show(store.getState(), previewed);
+      },
+    }),
+  );
+  /** Sizes take time to estimate, so they are only shown while the menu is open. */
   const showSizes = (state: AppState): void => {
     if (state.open !== 'download') return;
     const dance = danceOf(state, state.download.who);
-    for (const { format, size } of rows) {
-      const writing = state.writing === format;
-      setText(size, writing ? 'Writing' : dance ? byteSize(estimateBytes(format, dance)) : '');
+    for (const { format, showSize } of rows) {
+      const size = dance ? byteSize(estimateBytes(format, dance)) : '';
+      showSize(state.writing === format ? 'Writing' : size);
     }
   };
   return {
     parts: [
       el('div', { class: 'row' }, el('h2', { text: 'Motion of' }), who.element),
       ...rows.map(({ button }) => button),
-      file,
+      fileName.root,
     ],
     focus: () => {
       const { format } = store.getState().download;
@@ -121,7 +81,9 @@ export function createDownloadMotion(store: Store, services: Services): Download
         store,
         (state) => [state.reaction, state.footLock, state.download, state.writing, state.saved],
         (state) => {
-          show(state);
+          who.show(state.download.who);
+          for (const row of rows) row.show(state);
+          fileName.show(state, previewed);
           showSizes(state);
         },
       ),
@@ -133,5 +95,80 @@ export function createDownloadMotion(store: Store, services: Services): Download
         },
       ),
     ),
+  };
+}
+
+/** A format: its name, what it is for and how large the file will be; a click saves it. */
+interface FormatRow {
+  readonly format: MotionFormat;
+  readonly button: HTMLButtonElement;
+  readonly show: (state: AppState) => void;
+  readonly showSize: (text: string) => void;
+}
+
+function createFormatRow(
+  format: MotionFormat,
+  name: string,
+  purpose: string,
+  { save, preview }: { readonly save: () => void; readonly preview: (on: boolean) => void },
+): FormatRow {
+  const size = el('em');
+  const words = el('span', { text: purpose });
+  const previewIs = (on: boolean) => (): void => {
+    preview(on);
+  };
+  const button = el(
+    'button',
+    {
+      class: 'it',
+      attributes: { type: 'button', title: IMPORT_HINTS[format] },
+      on: {
+        click: save,
+        pointerenter: previewIs(true),
+        pointerleave: previewIs(false),
+        focus: previewIs(true),
+        blur: previewIs(false),
+      },
+    },
+    el('b', { text: name }),
+    words,
+    size,
+  );
+  return {
+    format,
+    button,
+    show: ({ download, reaction, writing }) => {
+      setText(words, format === 'bvh' && download.who === 'both' ? TWO_FILES : purpose);
+      button.disabled = reaction === null;
+      button.classList.toggle('last', format === download.format);
+      button.setAttribute('aria-busy', String(writing === format));
+    },
+    showSize: (text) => {
+      setText(size, text);
+    },
+  };
+}
+
+/** The name under which a file will be saved, or was. */
+function createFileNameLine(): {
+  readonly root: HTMLElement;
+  /** @param previewed the format whose file is meant; null means the one saved last */
+  readonly show: (state: AppState, previewed: MotionFormat | null) => void;
+} {
+  const status = el('span');
+  const nameText = el('b');
+  const root = el('div', { class: 'file' }, icon('check'), status, nameText);
+  return {
+    root,
+    show: (state, previewed) => {
+      const named = namedAfter(state);
+      const { who, format } = state.download;
+      const name = named ? motionFileName(named, who, previewed ?? format) : '';
+      const { saved } = state;
+      const done = saved?.name === name;
+      root.classList.toggle('saved', done);
+      setText(status, done ? `Saved, ${byteSize(saved.bytes)}` : 'Will be saved as');
+      setText(nameText, name);
+    },
   };
 }

@@ -1,5 +1,6 @@
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
 import { namedAfter } from './dance';
+import { textButton } from '../widgets/button';
 import { el, setText, setVariable, together } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { videoFileName } from './file-name';
@@ -7,16 +8,16 @@ import { byteSize, duration } from '../store/format';
 import { radioGroup } from '../widgets/radio-group';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
-import type { AppState, Saved } from '../store/state';
+import type { AppState, Filming, Saved } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 
-/** Part of the download menu: the video of the stage, its size, how far it is, and its end. */
+/** Part of the download menu: the video of the stage, its size and its progress. */
 export function createDownloadVideo(
   store: Store,
   services: Services,
 ): { readonly part: HTMLElement; readonly dispose: () => void } {
-  /** How the video would be written; undefined until the browser has said. */
-  let plan: VideoPlan | null | undefined;
+  /** How the video would be written; undefined until the browser has answered. */
+  let plan: Plan;
   const sizes = radioGroup(
     'Size of the video',
     VIDEO_SIZES.map((size) => [size, size] as const),
@@ -24,66 +25,35 @@ export function createDownloadVideo(
       apply(store, downloadChosen({ size }));
     },
   );
-  const about = el('span', { class: 'soft' });
-  const save = action('Save video', services.saveVideo);
-  const cancel = action('Cancel', services.cancelVideo);
-  const share = action('Share', services.shareSaved);
-  share.setAttribute('aria-label', 'Share the video');
-  cancel.setAttribute('aria-label', 'Cancel the video');
-  const fill = el('i');
-  const meter = el(
-    'span',
-    {
-      class: 'meter',
-      attributes: { role: 'progressbar', 'aria-label': 'Video', 'aria-valuemin': 0, 'aria-valuemax': 100 },
-    },
-    fill,
-  );
-  const count = el('span', { class: 'grow' });
-  const left = el('span');
-  const choosing = el('div', { class: 'row' }, el('span', { class: 'soft', text: 'Size' }), sizes.element);
-  const telling = el('div', { class: 'row told' }, meter, count, left);
+  const head = createHead(services);
+  const sizeRow = el('div', { class: 'row' }, el('span', { class: 'soft', text: 'Size' }), sizes.element);
+  const progress = createProgress();
   const part = el(
     'section',
-    { class: 'film', attributes: { 'aria-label': 'Video' } },
-    el('div', { class: 'row' }, el('h3', { text: 'Video with the song' }), about, share, save, cancel),
-    choosing,
-    telling,
+    { class: 'video', attributes: { 'aria-label': 'Video' } },
+    head.root,
+    sizeRow,
+    progress.root,
   );
 
   const show = (state: AppState): void => {
-    const { filming, reaction } = state;
-    const hadFocus = part.contains(document.activeElement);
-    const focused = document.activeElement;
-    save.hidden = filming !== null;
-    cancel.hidden = filming === null;
-    share.hidden = filming !== null || !savedVideo(plan, state)?.shareable;
-    choosing.hidden = filming !== null;
-    telling.hidden = filming === null;
-    if (hadFocus && focused instanceof HTMLElement && !focused.offsetParent)
-      (filming ? cancel : save).focus();
-    save.disabled = !reaction || !plan;
+    const focused = part.contains(document.activeElement) ? document.activeElement : null;
+    head.show(state, plan);
+    sizeRow.hidden = state.filming !== null;
     sizes.show(state.download.size);
-    setText(about, services.stageSize() ? aboutWords(plan, state) : 'A video needs the 3D picture.');
-    const named = namedAfter(state);
-    save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
-    if (!filming) return;
-    const { frame, frames } = filming;
-    setVariable(fill, '--part', frame / frames);
-    meter.setAttribute('aria-valuenow', String(Math.round((100 * frame) / frames)));
-    setText(count, `Frame ${frame.toLocaleString('en')} of ${frames.toLocaleString('en')}`);
-    setText(left, filming.left === null ? '' : timeLeft(filming.left));
+    progress.show(state.filming);
+    if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
   };
-  /** Asks the browser what it can do, when someone looks; only the latest answer counts. */
-  let asked = 0;
+  let lastQuestion = 0;
+  /** Asks the browser how it can write the video, while the menu is open; only the latest answer counts. */
   const ask = async (state: AppState): Promise<void> => {
     if (state.open !== 'download') return;
     const pixels = services.stageSize();
     sizes.label('stage', pixels ? `As on stage, ${pixels.width} × ${pixels.height}` : 'As on stage');
-    const question = ++asked;
-    // What could not be asked, because the page has gone offline, is asked again when the menu is opened again.
+    const question = ++lastQuestion;
+    // A question that fails, because the page has gone offline, is asked again when the menu is opened again.
     const answer = await services.planVideo().catch(() => undefined);
-    if (question !== asked) return;
+    if (question !== lastQuestion) return;
     plan = answer;
     show(store.getState());
   };
@@ -104,17 +74,69 @@ export function createDownloadVideo(
   };
 }
 
-function action(text: string, run: () => void): HTMLButtonElement {
-  return el('button', { class: 'btn tint', text, attributes: { type: 'button' }, on: { click: run } });
+type Plan = VideoPlan | null | undefined;
+
+/** The heading, what will be written, and the buttons. */
+function createHead(services: Services): {
+  readonly root: HTMLElement;
+  readonly show: (state: AppState, plan: Plan) => void;
+  /** Puts the focus on the button that goes on from here. */
+  readonly focus: (state: AppState) => void;
+} {
+  const about = el('span', { class: 'soft' });
+  const save = textButton('btn tint', 'Save video', services.saveVideo);
+  const cancel = textButton('btn tint', 'Cancel', services.cancelVideo);
+  const share = textButton('btn tint', 'Share', services.shareSaved);
+  share.setAttribute('aria-label', 'Share the video');
+  cancel.setAttribute('aria-label', 'Cancel the video');
+  const title = el('h3', { text: 'Video with the song' });
+  return {
+    root: el('div', { class: 'row' }, title, about, share, save, cancel),
+    show: (state, plan) => {
+      const running = state.filming !== null;
+      save.hidden = running;
+      cancel.hidden = !running;
+      share.hidden = running || !savedVideo(plan, state)?.shareable;
+      save.disabled = !state.reaction || !plan;
+      setText(about, services.stageSize() ? aboutWords(plan, state) : 'A video needs the 3D picture.');
+      const named = namedAfter(state);
+      save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
+    },
+    focus: ({ filming }) => {
+      (filming ? cancel : save).focus();
+    },
+  };
+}
+
+/** Frames written and time left. */
+function createProgress(): { readonly root: HTMLElement; readonly show: (filming: Filming | null) => void } {
+  const fill = el('i');
+  const attributes = { role: 'progressbar', 'aria-label': 'Video', 'aria-valuemin': 0, 'aria-valuemax': 100 };
+  const meter = el('span', { class: 'meter', attributes }, fill);
+  const count = el('span', { class: 'grow' });
+  const left = el('span');
+  const root = el('div', { class: 'row progress-row' }, meter, count, left);
+  return {
+    root,
+    show: (filming) => {
+      root.hidden = filming === null;
+      if (!filming) return;
+      const { frame, frames } = filming;
+      setVariable(fill, '--part', frame / frames);
+      meter.setAttribute('aria-valuenow', String(Math.round((100 * frame) / frames)));
+      setText(count, `Frame ${frame.toLocaleString('en')} of ${frames.toLocaleString('en')}`);
+      setText(left, filming.left === null ? '' : timeLeft(filming.left));
+    },
+  };
 }
 
 /** What was written last, if that is a video. */
-function savedVideo(plan: VideoPlan | null | undefined, { saved }: AppState): Saved | null {
+function savedVideo(plan: Plan, { saved }: AppState): Saved | null {
   return plan && saved?.name.endsWith(`.${plan.container}`) ? saved : null;
 }
 
 /** Beside the heading: what will be written, what was, or why it cannot be. */
-function aboutWords(plan: VideoPlan | null | undefined, state: AppState): string {
+function aboutWords(plan: Plan, state: AppState): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);

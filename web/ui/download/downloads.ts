@@ -1,5 +1,5 @@
-import { AppError } from '../../common/error';
 import {
+  type MotionFormat,
   planVideo,
   secondsLeft,
   type VideoPlan,
@@ -11,34 +11,32 @@ import { danceOf, namedAfter } from './dance';
 import { downloadChosen, filmingChanged, savedChanged, writingChanged } from '../store/actions/download';
 import { motionFileName, videoFileName } from './file-name';
 import { isAbort, savingProblem } from '../store/problems';
+import { canShare, saveFile, shareFile } from './save-and-share';
 import { songStart } from '../store/song-shift';
 import type { Services } from '../store/services';
 import { apply, type Store } from '../store/store';
 import { told } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
+import { AppError } from '../../common/error';
 
 interface Pixels {
   readonly width: number;
   readonly height: number;
 }
 
-/** The dance on the stage at the moment it was asked for, drawn picture by picture. */
-export interface Camera {
+/** A stage that draws the dance, as it was when the stage was opened, for the frames of a video. */
+export interface VideoStage {
   readonly canvas: HTMLCanvasElement;
-  /** Draws the moment `seconds`; moments ascend. */
-  readonly shoot: (seconds: number) => void;
+  /** Draws the dance at `seconds`; times ascend. */
+  readonly drawAt: (seconds: number) => void;
   readonly dispose: () => void;
 }
 
 /** What the downloads need of the rest of the page. */
 export interface DownloadTools {
-  /** Sets up a camera beside the stage, framed alike; null without a stage. */
-  readonly camera: ((size: Pixels) => Promise<Camera>) | null;
+  /** Opens a stage for a video, framed as the one on the page; null without a stage. */
+  readonly openVideoStage: ((size: Pixels) => Promise<VideoStage>) | null;
   readonly stageSize: () => Pixels | null;
-  /** Hands a file to the browser's downloads. */
-  readonly save: (file: Blob, name: string) => void;
-  /** Passes a file on to another app; `can` says whether the system takes it. */
-  readonly share: { readonly can: (file: File) => boolean; readonly pass: (file: File) => Promise<void> };
 }
 
 export type Downloads = Pick<
@@ -46,124 +44,155 @@ export type Downloads = Pick<
   'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'stageSize'
 >;
 
-/** The page is told of a video's progress at most this often, milliseconds: without a graphics card, showing it costs. */
-const BETWEEN_REPORTS = 400;
+type SaveFile = typeof saveFile;
 
-/** Writing files to take home. A failure becomes a sentence and changes nothing else. */
-export function createDownloads(store: Store, { camera, stageSize, save, share }: DownloadTools): Downloads {
-  let filming: AbortController | null = null;
-  let last: File | null = null;
+/** Least time between two updates of a video's progress: without a graphics card, drawing the page is slow. */
+const PROGRESS_INTERVAL_MS = 400;
+/** Size of a video as on stage where there is no stage. */
+const FALLBACK_SIZE: Pixels = { width: 1280, height: 720 };
 
-  const handOver = (file: Blob, name: string): void => {
-    save(file, name);
-    last = new File([file], name, { type: file.type });
-    apply(store, savedChanged({ name, bytes: file.size, shareable: share.can(last) }));
+/** Writes motions and videos to files. A failure is shown in words and changes nothing else. */
+export function createDownloads(store: Store, tools: DownloadTools): Downloads {
+  let lastSaved: File | null = null;
+  const save: SaveFile = (file, name) => {
+    saveFile(file, name);
+    lastSaved = new File([file], name, { type: file.type });
+    apply(store, savedChanged({ name, bytes: file.size, shareable: canShare(lastSaved) }));
   };
-
-  const pixels = (): Pixels => {
-    const { size } = store.getState().download;
-    return videoPixels(size, stageSize() ?? { width: 1280, height: 720 });
-  };
-  const song = (): Blob | null => store.getState().reaction?.inputs.song?.data.sound ?? null;
-  const planned = async (): Promise<VideoPlan | null> =>
-    camera ? planVideo(pixels(), song() !== null) : null;
-
-  async function film(signal: AbortSignal): Promise<void> {
-    const state = store.getState();
-    const named = namedAfter(state);
-    if (!named || !camera) return;
-    const size = pixels();
-    const sound = song();
-    const { fps, frames } = named.inputs.leader.file.clip; // a picture for each frame of the motion
-    apply(store, filmingChanged({ frame: 0, frames, left: null }));
-    const plan = await planVideo(size, sound !== null);
-    signal.throwIfAborted();
-    if (!plan) throw unsupported();
-    const shot = await camera(size);
-    try {
-      const begin = performance.now();
-      let shown = begin;
-      const file = await writeVideo(
-        {
-          ...size,
-          fps,
-          frames,
-          canvas: shot.canvas,
-          draw: (frame) => {
-            shot.shoot(frame / fps);
-          },
-          sound: sound && { file: sound, start: songStart(named.inputs) },
-        },
-        plan,
-        {
-          signal,
-          onProgress: ({ frame }) => {
-            const now = performance.now();
-            if (signal.aborted || now - shown < BETWEEN_REPORTS) return;
-            shown = now;
-            const left = secondsLeft((now - begin) / 1000, frame, frames);
-            apply(store, filmingChanged({ frame, frames, left }));
-          },
-        },
-      );
-      handOver(file, videoFileName(named, state.download.size, plan.container));
-    } finally {
-      shot.dispose();
-    }
-  }
-
   return {
-    stageSize,
-    planVideo: planned,
-    saveMotion: (format) => {
-      const state = store.getState();
-      const { who } = state.download;
-      const named = namedAfter(state);
-      const dance = danceOf(state, who);
-      if (!named || !dance || state.writing) return;
-      apply(store, downloadChosen({ format }));
-      apply(store, writingChanged(format));
-      writeMotion(format, dance, state.theme, (role) => motionFileName(named, role, format))
-        .then((file) => {
-          handOver(file, motionFileName(named, who, format));
-        })
-        .catch((error: unknown) => {
-          apply(store, told(savingProblem(error)));
-        })
-        .finally(() => {
-          apply(store, writingChanged(null));
-        });
-    },
-    saveVideo: () => {
-      if (filming) return;
-      const controller = new AbortController();
-      filming = controller;
-      const over = (): void => {
-        if (filming !== controller) return;
-        filming = null;
-        apply(store, filmingChanged(null));
-      };
-      // Whoever cancels is at once where they were; the rest is tidied up behind.
-      controller.signal.addEventListener('abort', over, { once: true });
-      apply(store, savedChanged(null));
-      // Two stages that draw at once would each wait for the other.
-      apply(store, playbackSet({ playing: false }));
-      film(controller.signal)
-        .catch((error: unknown) => {
-          if (!controller.signal.aborted && !isAbort(error)) apply(store, told(savingProblem(error)));
-        })
-        .finally(over);
-    },
-    cancelVideo: () => {
-      filming?.abort();
-    },
+    stageSize: tools.stageSize,
+    planVideo: () => planFor(store, tools),
+    saveMotion: (format) => void saveMotion(store, format, save),
+    ...createVideoJob(store, tools, save),
     shareSaved: () => {
-      if (!last) return;
-      share.pass(last).catch((error: unknown) => {
+      if (!lastSaved) return;
+      shareFile(lastSaved).catch((error: unknown) => {
         if (!isAbort(error)) apply(store, told(savingProblem(error)));
       });
     },
   };
+}
+
+async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): Promise<void> {
+  const state = store.getState();
+  const { who } = state.download;
+  const named = namedAfter(state);
+  const dance = danceOf(state, who);
+  if (!named || !dance || state.writing) return;
+  apply(store, downloadChosen({ format }));
+  apply(store, writingChanged(format));
+  try {
+    const nameOf = (role: typeof who): string => motionFileName(named, role, format);
+    save(await writeMotion(format, dance, state.theme, nameOf), nameOf(who));
+  } catch (error) {
+    apply(store, told(savingProblem(error)));
+  } finally {
+    apply(store, writingChanged(null));
+  }
+}
+
+/** Starts and cancels the one video that may be written at a time. */
+function createVideoJob(
+  store: Store,
+  tools: DownloadTools,
+  save: SaveFile,
+): Pick<Downloads, 'saveVideo' | 'cancelVideo'> {
+  let running: AbortController | null = null;
+  return {
+    saveVideo: () => {
+      if (running) return;
+      const controller = new AbortController();
+      running = controller;
+      const end = (): void => {
+        if (running !== controller) return;
+        running = null;
+        apply(store, filmingChanged(null));
+      };
+      // A cancelled video has ended for the visitor at once; its resources are freed later.
+      controller.signal.addEventListener('abort', end, { once: true });
+      apply(store, savedChanged(null));
+      // Two stages that draw at once would slow each other down.
+      apply(store, playbackSet({ playing: false }));
+      writeDance(store, tools, save, controller.signal)
+        .catch((error: unknown) => {
+          if (!controller.signal.aborted && !isAbort(error)) apply(store, told(savingProblem(error)));
+        })
+        .finally(end);
+    },
+    cancelVideo: () => {
+      running?.abort();
+    },
+  };
+}
+
+/** Writes the video of the dance on the stage, one video frame for each frame of the motion, and saves it. */
+async function writeDance(
+  store: Store,
+  tools: DownloadTools,
+  save: SaveFile,
+  signal: AbortSignal,
+): Promise<void> {
+  const state = store.getState();
+  const named = namedAfter(state);
+  if (!named || !tools.openVideoStage) return;
+  const size = videoSize(store, tools);
+  const sound = soundOf(store);
+  const { fps, frames } = named.inputs.leader.file.clip;
+  apply(store, filmingChanged({ frame: 0, frames, left: null }));
+  const plan = await planVideo(size, sound !== null);
+  signal.throwIfAborted();
+  if (!plan) throw unsupported();
+  const stage = await tools.openVideoStage(size);
+  try {
+    const draw = (frame: number): void => {
+      stage.drawAt(frame / fps);
+    };
+    const file = await writeVideo(
+      {
+        ...size,
+        fps,
+        frames,
+        canvas: stage.canvas,
+        draw,
+        sound: sound && { file: sound, start: songStart(named.inputs) },
+      },
+      plan,
+      { signal, onProgress: videoProgress(store, frames, signal) },
+    );
+    save(file, videoFileName(named, state.download.size, plan.container));
+  } finally {
+    stage.dispose();
+  }
+}
+
+/** Puts the progress of a video and the time it will still take into the state. */
+function videoProgress(
+  store: Store,
+  frames: number,
+  signal: AbortSignal,
+): (progress: { readonly frame: number }) => void {
+  const begin = performance.now();
+  let updated = begin;
+  return ({ frame }) => {
+    const now = performance.now();
+    if (signal.aborted || now - updated < PROGRESS_INTERVAL_MS) return;
+    updated = now;
+    apply(store, filmingChanged({ frame, frames, left: secondsLeft((now - begin) / 1000, frame, frames) }));
+  };
+}
+
+function videoSize(store: Store, { stageSize }: DownloadTools): Pixels {
+  return videoPixels(store.getState().download.size, stageSize() ?? FALLBACK_SIZE);
+}
+
+/** The file of the song that the reaction was made to, if any. */
+function soundOf(store: Store): Blob | null {
+  return store.getState().reaction?.inputs.song?.data.sound ?? null;
+}
+
+/** How the browser would write the video; null when it can't. */
+async function planFor(store: Store, tools: DownloadTools): Promise<VideoPlan | null> {
+  return tools.openVideoStage ? planVideo(videoSize(store, tools), soundOf(store) !== null) : null;
 }
 
 function unsupported(): AppError {

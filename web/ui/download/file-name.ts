@@ -4,7 +4,7 @@ import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
 import type { Inputs, Who } from '../store/state';
 
-/** What the name of a file tells about the reaction in it. */
+/** What a file name is made from. */
 export interface Named {
   readonly inputs: Inputs;
   readonly footLock: boolean;
@@ -13,28 +13,28 @@ export interface Named {
 }
 
 /**
- * `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_reactor.bvh`, after what the reaction was made from. The loaded
- * dancer alone depends on nothing but its file. Where body parts differ, `c` and `f` are their means; `m`, the
- * guidance of the music, is there when a song is.
+ * `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_reactor.bvh`, after what the reaction was made from. The file of
+ * the loaded dancer alone is named after the inputs only. Where body parts differ, `c` and `f` are their means; `m`, the
+ * guidance of the music, is there only with a song.
  */
 export function motionFileName(named: Named, who: Who, format: MotionFormat): string {
   const parts =
     who === otherRole(named.inputs.settings.role)
-      ? sources(named.inputs)
-      : [...sources(named.inputs), ...made(named)];
+      ? inputParts(named.inputs)
+      : [...inputParts(named.inputs), ...settingsParts(named)];
   return `${[...parts, who].join('_')}${motionExtension(format, who === 'both' ? 2 : 1)}`;
 }
 
 /** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm`. */
 export function videoFileName(named: Named, size: string, container: string): string {
-  return `${[...sources(named.inputs), ...made(named), size].join('_')}.${container}`;
+  return `${[...inputParts(named.inputs), ...settingsParts(named), size].join('_')}.${container}`;
 }
 
-function sources({ song, leader }: Inputs): string[] {
+function inputParts({ song, leader }: Inputs): string[] {
   return [song ? slug(song.name, 'song') : 'no-song', slug(leader.name, 'leader')];
 }
 
-function made({ inputs: { song, settings }, footLock, take }: Named): string[] {
+function settingsParts({ inputs: { song, settings }, footLock, take }: Named): string[] {
   const [coarse, fine] = [columnOf(settings.guidance, 'coarse'), columnOf(settings.guidance, 'fine')];
   return [
     ...(take ? [slug(take, 'take')] : []),

@@ -48,7 +48,7 @@ export function mountChip(root: HTMLElement, store: Store, services: Services, s
     setVariable(foot, '--part', words.fraction ?? 0);
     chip.title = words.name ?? '';
     const role = loadedRole(state);
-    sign.className = `sign ${side === 'song' ? '' : role === 'leader' ? 'lead' : 'reac'}`;
+    sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
     // Says what can be read on it, so that it can be called by that.
     const what = words.name ? `${title}: ${words.name} ${words.short}${words.long}` : `No ${side} yet`;

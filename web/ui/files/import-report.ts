@@ -85,7 +85,7 @@ function songFacts({ song, reading }: AppState): HTMLElement[] {
 function leaderFacts(state: AppState, services: Services): HTMLElement[] {
   const { leader, reading } = state;
   const role = loadedRole(state);
-  const head = group(role === 'leader' ? 'lead' : 'reac', roleName(role));
+  const head = group(role, roleName(role));
   if (!leader) return [head, ...fact('File', reading.leader ? 'being read' : 'none yet')];
   const { clip, report } = leader.file;
   return [
@@ -125,7 +125,7 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
 function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
   const { seed, steps, role } = inputs.settings;
   return [
-    group(role === 'leader' ? 'lead' : 'reac', roleName(role)),
+    group(role, roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
     ...fact('Guidance', guidanceWords(inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),

@@ -7,32 +7,32 @@ import { told } from '../store/actions/notices';
 import { coarseChanged, shownToggled } from '../store/actions/view';
 import { otherTake } from '../store/take';
 
-/** Whether the reaction on the stage can't tell its coarse layer, since it was not made here. */
+/** Whether the reaction on the stage has no latents to decode the coarse layer from, since it was not made here. */
 export const coarseIsMissing = ({ reaction }: Pick<AppState, 'reaction'>): boolean =>
   reaction !== null && reaction.latents === null;
 
-/** The reaction that stands beside the one on the stage, each in its own half of the picture. */
+/** The reaction shown side by side with the one on the stage, if any. */
 export const besideStage = (state: AppState): Reaction | null =>
   state.compare === 'side' ? (otherTake(state)?.reaction ?? null) : null;
 
-/** A reaction that can tell its coarse layer. */
+/** A reaction whose coarse layer can be decoded. */
 type Layered = Reaction & { readonly latents: Float32Array };
 
 /**
- * Decodes the coarse layer of the reaction on the stage, and of the one beside it, when somebody wants to see it: once
- * for each reaction, dropped when another reaction takes its place.
+ * Decodes the coarse layer of the reaction on the stage, and of the one beside it, while its overlay is on: once for
+ * each reaction; the request is aborted when another reaction takes its place.
  * @param model resolves with the model that makes the reactions
- * @returns how to stop
+ * @returns a function that stops it
  */
 export function createCoarseLayer(store: Store, model: () => Promise<Generator>): () => void {
-  /** By the latents; they go when no reaction has them any more. */
-  const known = new WeakMap<Float32Array, SolvedMotion>();
+  /** By latents; freed with the reaction that has them. */
+  const decodedMotions = new WeakMap<Float32Array, SolvedMotion>();
   let running: AbortController | null = null;
 
   const decoded = (reaction: Reaction | null): SolvedMotion | null =>
-    (reaction?.latents && known.get(reaction.latents)) ?? null;
+    (reaction?.latents && decodedMotions.get(reaction.latents)) ?? null;
 
-  /** Shows what is known by now. */
+  /** Puts what has been decoded so far into the state. */
   const show = (decoding: boolean): void => {
     const state = store.getState();
     const { reaction, coarse } = state;
@@ -51,7 +51,7 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
       const generator = await model();
       for (const { inputs, latents } of missing) {
         const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
-        known.set(latents, motion);
+        decodedMotions.set(latents, motion);
         if (signal.aborted) return;
         show(latents !== missing.at(-1)?.latents);
       }
@@ -60,7 +60,7 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
       show(false);
       if (isAbort(error)) return;
       apply(store, told(coarseProblem(error)));
-      // Asked for again by hand, not by itself.
+      // The visitor may switch it on again; it is not tried again by itself.
       if (store.getState().shown.ghost) apply(store, shownToggled('ghost'));
     }
   };

@@ -3,22 +3,22 @@ import type { Mount } from '../store/services';
 import { footLockSet } from '../store/actions/reaction';
 import { apply, watch } from '../store/store';
 
-const WORDS = 'Keeps planted feet from sliding';
+const HINT = 'Keeps planted feet from sliding';
 
-/** Whether the feet of the reactor are locked; what is on the stage follows at once. */
+/** The switch for the foot lock; the reactor on the stage follows at once. */
 export const mountFootLock: Mount = (root, store) => {
   const control = el(
     'button',
     {
       class: 'switch',
-      attributes: { type: 'button', role: 'switch', 'aria-label': 'Foot lock', title: WORDS },
+      attributes: { type: 'button', role: 'switch', 'aria-label': 'Foot lock', title: HINT },
       on: {
         click: () => {
           apply(store, footLockSet(!store.getState().footLock));
         },
       },
     },
-    el('span', {}, 'Foot lock', el('small', { class: 'hint', text: WORDS })),
+    el('span', {}, 'Foot lock', el('small', { class: 'hint', text: HINT })),
     el('span', { class: 'knob', attributes: { 'aria-hidden': true } }),
   );
   const section = el('section', { class: 'sec', attributes: { 'aria-label': 'Motion' } }, control);

@@ -15,109 +15,119 @@ import { jobChanged, previewed, reacted } from '../store/actions/reaction';
 import { apply, type Store } from '../store/store';
 import { told } from '../store/actions/notices';
 
-/** Stillness after the last change before a new reaction is begun, milliseconds. */
-const STILLNESS = 60;
-
-export interface Generation {
-  /** Makes the reaction now, whether or not anything has changed. */
-  readonly generate: () => void;
-  /** Stops what is being made; nothing begins again until something changes or is asked for. */
-  readonly cancel: () => void;
-  readonly dispose: () => void;
-}
+/** Time without a change after which a new reaction is begun. */
+const DEBOUNCE_MS = 60;
 
 /**
- * Keeps the reaction in step with song, leader and settings: what they ask for is made by itself, once, and a
- * newer wish drops the older one. Whatever was on the stage stays there until the new reaction is ready, save for the
- * part under the playhead, which changes as soon as it can.
- * @param model resolves with the model when it is there; rejects when it cannot be had, which is told elsewhere
+ * Makes a new reaction whenever song, leader or settings change; a newer request aborts the older one. The reaction
+ * on the stage stays there until the new one is ready, except for the frames around the playhead, which are replaced
+ * by a preview as soon as the model has one.
  */
-export function createGeneration(store: Store, model: () => Promise<Generator>): Generation {
-  /** The last wish that was answered, is being answered, failed or was cancelled: it is not begun again. */
-  let asked: Inputs | null = null;
-  let running: { readonly controller: AbortController; readonly inputs: Inputs } | null = null;
-  let timer: ReturnType<typeof setTimeout> | undefined;
+export class Generation {
+  readonly #store: Store;
+  readonly #model: () => Promise<Generator>;
+  readonly #unsubscribe: () => void;
+  /** The inputs requested last, whether answered, running, failed or cancelled: they are not requested again. */
+  #requested: Inputs | null = null;
+  #running: { readonly controller: AbortController; readonly inputs: Inputs } | null = null;
+  #timer: ReturnType<typeof setTimeout> | undefined;
 
-  const stop = (): void => {
-    clearTimeout(timer);
-    running?.controller.abort();
-    running = null;
+  /** @param model resolves with the model when it is loaded; rejects when it can't be, which is reported elsewhere */
+  constructor(store: Store, model: () => Promise<Generator>) {
+    this.#store = store;
+    this.#model = model;
+    this.#unsubscribe = store.subscribe(() => {
+      this.#followInputs();
+    });
+  }
+
+  /** Makes the reaction now, whether or not anything has changed. */
+  readonly generate = (): void => {
+    const inputs = wantedInputs(this.#store.getState());
+    if (inputs) void this.#run(inputs);
   };
 
-  const begin = async (inputs: Inputs): Promise<void> => {
-    stop();
-    asked = inputs;
-    const controller = new AbortController();
-    running = { controller, inputs };
-    const { signal } = controller;
-    try {
-      apply(store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, fresh: null }));
-      const generator = await model();
-      if (signal.aborted) return;
-      const { playback, leader } = store.getState();
-      const made = await generator.generate(requestFor(inputs, generator.manifest), {
-        signal,
-        onProgress: (progress) => {
-          const fresh = store.getState().job?.fresh ?? null;
-          if (!signal.aborted) apply(store, jobChanged({ ...progress, fresh }));
-        },
-        at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
-        onPreview: (preview) => {
-          if (!signal.aborted) showPreview(store, preview);
-        },
-      });
-      if (signal.aborted) return;
-      running = null;
-      apply(store, reacted(reactionOf(made, inputs)));
-    } catch (error) {
-      if (signal.aborted) return;
-      running = null;
-      apply(store, jobChanged(null));
-      const failedToLoad = store.getState().model.phase === 'failed';
-      if (!isAbort(error) && !failedToLoad) apply(store, told(generationProblem(error)));
-    }
+  /** Aborts the running request; nothing begins again until something changes or `generate` is called. */
+  readonly cancel = (): void => {
+    this.#abort();
+    apply(this.#store, jobChanged(null));
   };
 
-  const consider = (): void => {
-    const state = store.getState();
-    const wanted = wantedInputs(state);
-    if (!wanted) return;
-    if (state.reaction && sameInputs(wanted, state.reaction.inputs)) {
-      // On the stage already; what else was begun or about to begin is not wanted any more.
-      asked = wanted;
-      clearTimeout(timer);
-      if (running && !sameInputs(running.inputs, wanted)) {
-        stop();
-        apply(store, jobChanged(null));
-      }
+  readonly dispose = (): void => {
+    this.#unsubscribe();
+    this.#abort();
+  };
+
+  #abort(): void {
+    clearTimeout(this.#timer);
+    this.#running?.controller.abort();
+    this.#running = null;
+  }
+
+  #followInputs(): void {
+    const state = this.#store.getState();
+    const inputs = wantedInputs(state);
+    if (!inputs) return;
+    if (state.reaction && sameInputs(inputs, state.reaction.inputs)) {
+      this.#keepOnStage(inputs);
       return;
     }
-    if (sameInputs(wanted, asked)) return;
-    asked = wanted;
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      void begin(wanted);
-    }, STILLNESS);
-  };
+    if (sameInputs(inputs, this.#requested)) return;
+    this.#requested = inputs;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      void this.#run(inputs);
+    }, DEBOUNCE_MS);
+  }
 
-  const unsubscribe = store.subscribe(consider);
-  return {
-    generate: () => {
-      const wanted = wantedInputs(store.getState());
-      if (wanted) void begin(wanted);
-    },
-    cancel: () => {
-      stop();
-      apply(store, jobChanged(null));
-    },
-    dispose: () => {
-      unsubscribe();
-      stop();
-    },
-  };
+  /** The reaction on the stage has these inputs: requests for others are aborted. */
+  #keepOnStage(inputs: Inputs): void {
+    this.#requested = inputs;
+    clearTimeout(this.#timer);
+    if (this.#running && !sameInputs(this.#running.inputs, inputs)) this.cancel();
+  }
+
+  async #run(inputs: Inputs): Promise<void> {
+    this.#abort();
+    this.#requested = inputs;
+    const controller = new AbortController();
+    this.#running = { controller, inputs };
+    const { signal } = controller;
+    try {
+      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, fresh: null }));
+      const result = await this.#request(inputs, signal);
+      if (signal.aborted) return;
+      this.#running = null;
+      apply(this.#store, reacted(reactionOf(result, inputs)));
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#running = null;
+      apply(this.#store, jobChanged(null));
+      const failedToLoad = this.#store.getState().model.phase === 'failed';
+      if (!isAbort(error) && !failedToLoad) apply(this.#store, told(generationProblem(error)));
+    }
+  }
+
+  /** Runs the model, showing progress and previews meanwhile. */
+  async #request(inputs: Inputs, signal: AbortSignal): Promise<GenerateResult> {
+    const generator = await this.#model();
+    signal.throwIfAborted();
+    const { playback, leader } = this.#store.getState();
+    return generator.generate(requestFor(inputs, generator.manifest), {
+      signal,
+      onProgress: (progress) => {
+        const fresh = this.#store.getState().job?.fresh ?? null;
+        if (!signal.aborted) apply(this.#store, jobChanged({ ...progress, fresh }));
+      },
+      at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
+      onPreview: (preview) => {
+        if (!signal.aborted) showPreview(this.#store, preview);
+      },
+    });
+  }
 }
 
-/** What the model is asked for. */
+/** The request to the model for these inputs. */
 export function requestFor({ song, leader, shift, settings }: Inputs, manifest: Manifest): GenerateRequest {
   return {
     leader: leader.file.clip,
@@ -130,14 +140,14 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
   };
 }
 
-/** What the model made, as a reaction that can be shown. */
+/** The model's result as a reaction that can be shown. */
 export function reactionOf({ motion, locked, latents, seconds }: GenerateResult, inputs: Inputs): Reaction {
   rememberLocked(motion, locked);
-  const took = Object.values(seconds).reduce((sum, part) => sum + part, 0);
-  return { motion, latents, inputs, label: null, seconds: took };
+  const total = Object.values(seconds).reduce((sum, part) => sum + part, 0);
+  return { motion, latents, inputs, label: null, seconds: total };
 }
 
-/** Puts the new part into what is on the stage; where nothing is, the whole of what the model has so far. */
+/** Puts the new frames into the reaction on the stage; without one, shows all that the model has so far. */
 function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): void {
   const { reaction } = store.getState();
   const into = (shown: SolvedMotion | null, made: SolvedMotion): SolvedMotion =>

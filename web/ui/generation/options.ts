@@ -1,63 +1,28 @@
-import { mountChoiceCards } from './variation-cards';
-import { complete } from '../store/actions/variations';
+import { mountVariationCards } from './variation-cards';
+import { allMade } from '../store/actions/variations';
 import { loadedRole, madeRole } from '../store/roles';
+import { iconButton, textButton } from '../widgets/button';
 import { el, setText, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountSeedBox } from './seed-box';
 import { beingRead, upToDate } from '../store/selectors';
-import type { Mount } from '../store/services';
+import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { rolesSwapped, seedRolled, stepsSet, rolledSeed } from '../store/actions/settings';
-import { apply, watchAll } from '../store/store';
+import { apply, type Store, watchAll } from '../store/store';
 
-/** Which of the many possible reactions, how carefully it is made, whose part it is, and the order to make it. */
+/** One or several controls and how they follow the state. */
+interface Controls {
+  readonly elements: readonly HTMLElement[];
+  readonly show: (state: AppState) => void;
+}
+
+/** The section of reactions: seed, variations to pick from, generate, number of steps and swapped roles. */
 export const mountOptions: Mount = (root, store, services) => {
-  const count = el('output', { attributes: { 'aria-label': 'Steps' } });
-  const move = (by: number): void => {
-    apply(store, stepsSet((store.getState().settings?.steps ?? 0) + by));
-  };
-  const fewer = stepper('minus', 'Fewer steps', 'Fewer steps: quicker, rougher', () => {
-    move(-1);
-  });
-  const more = stepper('plus', 'More steps', 'More steps: slower, smoother', () => {
-    move(1);
-  });
-  const swap = el(
-    'button',
-    {
-      class: 'btn tint swap',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, rolesSwapped());
-        },
-      },
-    },
-    icon('swap'),
-    'Swap roles',
-  );
-  const make = el('button', {
-    class: 'btn tint',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        const state = store.getState();
-        // With a reaction to the very wish on the stage, another one is another seed, unless that is locked.
-        if (upToDate(state) && !state.seedLocked) apply(store, seedRolled(rolledSeed()));
-        else services.generate();
-      },
-    },
-  });
-  const three = el('button', {
-    class: 'btn tint',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        if (store.getState().choices?.making) services.cancel();
-        else services.makeChoices();
-      },
-    },
-  });
+  const steps = createStepControl(store);
+  const swap = createSwapButton(store);
+  const generate = createGenerateButton(store, services);
+  const three = createVariationsButton(store, services);
   const head = el(
     'div',
     { class: 'head' },
@@ -70,44 +35,11 @@ export const mountOptions: Mount = (root, store, services) => {
   );
   root.append(section);
   const seed = mountSeedBox(head, store, services);
-  const cards = mountChoiceCards(section, store, services);
+  const cards = mountVariationCards(section, store, services);
   section.append(
-    el('div', { class: 'make' }, make, three),
-    el(
-      'div',
-      { class: 'opts' },
-      el('span', { class: 'num' }, el('span', { class: 'lbl', text: 'Steps' }), fewer, count, more),
-      el('span', { class: 'grow' }),
-      swap,
-    ),
+    el('div', { class: 'make' }, ...generate.elements, ...three.elements),
+    el('div', { class: 'option-row' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
   );
-
-  const show = (state: AppState): void => {
-    const { settings, manifest } = state;
-    for (const control of [fewer, more, swap]) control.disabled = !settings;
-    if (settings && manifest) {
-      const { min, max } = manifest.diffusion.steps;
-      fewer.disabled = settings.steps <= min;
-      more.disabled = settings.steps >= max;
-      setText(count, String(settings.steps));
-    }
-    swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
-    swap.title =
-      `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
-      'Press to have it the other way round.';
-    make.disabled = !state.leader || !settings || state.job !== null || beingRead(state).some(Boolean);
-    setText(make, state.reaction ? 'Generate again' : 'Generate');
-    make.title = makeWords(state);
-    const making = state.choices?.making ?? false;
-    const kept = complete(state.choices) && state.seedLocked;
-    three.disabled = !making && (!state.leader || !settings || beingRead(state).some(Boolean) || kept);
-    setText(three, making ? 'Cancel' : 'Three reactions');
-    three.title = making
-      ? 'Make no more'
-      : kept
-        ? 'Unlock the seed to make three others'
-        : 'Make three at once that differ by chance alone, and pick the best';
-  };
   return together(
     seed,
     cards,
@@ -119,12 +51,14 @@ export const mountOptions: Mount = (root, store, services) => {
         state.leader,
         state.song,
         state.reaction,
-        state.choices,
+        state.variations,
         state.seedLocked,
         ...beingRead(state),
         state.job !== null,
       ],
-      show,
+      (state) => {
+        for (const control of [steps, swap, generate, three]) control.show(state);
+      },
     ),
     () => {
       section.remove();
@@ -132,7 +66,100 @@ export const mountOptions: Mount = (root, store, services) => {
   );
 };
 
-function makeWords(state: AppState): string {
+/** The number of diffusion steps with a button for fewer and one for more. */
+function createStepControl(store: Store): Controls {
+  const count = el('output', { attributes: { 'aria-label': 'Steps' } });
+  const changeBy = (by: number) => (): void => {
+    apply(store, stepsSet((store.getState().settings?.steps ?? 0) + by));
+  };
+  const fewer = iconButton(
+    'icon',
+    'minus',
+    { label: 'Fewer steps', title: 'Fewer steps: quicker, rougher' },
+    changeBy(-1),
+  );
+  const more = iconButton(
+    'icon',
+    'plus',
+    { label: 'More steps', title: 'More steps: slower, smoother' },
+    changeBy(1),
+  );
+  const label = el('span', { class: 'label', text: 'Steps' });
+  return {
+    elements: [el('span', { class: 'number' }, label, fewer, count, more)],
+    show: ({ settings, manifest }) => {
+      fewer.disabled = more.disabled = !settings;
+      if (!settings || !manifest) return;
+      const { min, max } = manifest.diffusion.steps;
+      fewer.disabled = settings.steps <= min;
+      more.disabled = settings.steps >= max;
+      setText(count, String(settings.steps));
+    },
+  };
+}
+
+function createSwapButton(store: Store): Controls {
+  const swap = textButton('btn tint swap', 'Swap roles', () => {
+    apply(store, rolesSwapped());
+  });
+  swap.prepend(icon('swap'));
+  return {
+    elements: [swap],
+    show: (state) => {
+      swap.disabled = !state.settings;
+      swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
+      swap.title =
+        `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
+        'Press to swap the roles.';
+    },
+  };
+}
+
+/** Makes a reaction: another one, with a new seed, when the reaction to the present inputs is on the stage. */
+function createGenerateButton(store: Store, services: Services): Controls {
+  const button = textButton('btn tint', '', () => {
+    const state = store.getState();
+    if (upToDate(state) && !state.seedLocked) apply(store, seedRolled(rolledSeed()));
+    else services.generate();
+  });
+  return {
+    elements: [button],
+    show: (state) => {
+      button.disabled = !canGenerate(state) || state.job !== null;
+      setText(button, state.reaction ? 'Generate again' : 'Generate');
+      button.title = generateTitle(state);
+    },
+  };
+}
+
+/** Makes three variations, or cancels them while they are being made. */
+function createVariationsButton(store: Store, services: Services): Controls {
+  const button = textButton('btn tint', '', () => {
+    if (store.getState().variations?.making) services.cancel();
+    else services.makeVariations();
+  });
+  return {
+    elements: [button],
+    show: (state) => {
+      const making = state.variations?.making ?? false;
+      const locked = allMade(state.variations) && state.seedLocked;
+      button.disabled = !making && (!canGenerate(state) || locked);
+      setText(button, making ? 'Cancel' : 'Three reactions');
+      button.title = making
+        ? 'Make no more'
+        : locked
+          ? 'Unlock the seed to make three others'
+          : 'Make three that differ only by chance, and pick the best';
+    },
+  };
+}
+
+/** Whether leader and settings are there and no file is being read. */
+function canGenerate(state: AppState): boolean {
+  return state.leader !== null && state.settings !== null && !beingRead(state).some(Boolean);
+}
+
+function generateTitle(state: AppState): string {
   if (!state.leader)
     return state.reading.leader ? 'Reading the leader' : 'Needs a leader; a song is optional.';
   if (state.job) return 'The reaction is being made.';
@@ -140,18 +167,5 @@ function makeWords(state: AppState): string {
   if (!upToDate(state)) return state.reaction ? 'The settings have changed since.' : 'Ready.';
   return state.seedLocked
     ? 'Makes the same again: the seed is locked.'
-    : 'Another reaction, with a new seed. Changes of the settings are followed by themselves.';
-}
-
-function stepper(
-  name: Parameters<typeof icon>[0],
-  label: string,
-  title: string,
-  run: () => void,
-): HTMLButtonElement {
-  return el(
-    'button',
-    { class: 'icon', attributes: { type: 'button', 'aria-label': label, title }, on: { click: run } },
-    icon(name),
-  );
+    : 'Another reaction, with a new seed. Changed settings take effect by themselves.';
 }

@@ -5,10 +5,10 @@ import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** Work shorter than this shows no progress at all, milliseconds. */
-const PATIENCE = 400;
+/** A job shorter than this shows no progress. */
+const SHOW_AFTER_MS = 400;
 
-/** The pill over the stage while a reaction is being made. It changes no layout and holds Cancel. */
+/** The progress of the reaction that is being made, over the stage, with a button to cancel it. */
 export const mountProgress: Mount = (root, store, services) => {
   const words = el('span', { class: 'soft' });
   const fill = el('i');
@@ -40,11 +40,11 @@ export const mountProgress: Mount = (root, store, services) => {
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
   );
   const title = el('b');
-  const pill = el('div', { class: 'float prog' }, el('span', {}, title, words), meter, cancel);
-  pill.hidden = true;
-  // Read out at the start, half way and at the end, not at every step.
+  const box = el('div', { class: 'float progress' }, el('span', {}, title, words), meter, cancel);
+  box.hidden = true;
+  // Announced at the start, half way and at the end, not at every step.
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
-  root.append(pill, spoken);
+  root.append(box, spoken);
 
   let timer: ReturnType<typeof setTimeout> | null = null;
   const show = (state: AppState): void => {
@@ -53,14 +53,14 @@ export const mountProgress: Mount = (root, store, services) => {
       if (timer !== null) clearTimeout(timer);
       timer = null;
       if (spoken.textContent) setText(spoken, state.reaction ? `The ${madeRole(state)} is ready.` : '');
-      pill.hidden = true;
+      box.hidden = true;
       return;
     }
     timer ??= setTimeout(() => {
-      pill.hidden = false;
+      box.hidden = false;
       setText(spoken, `The ${madeRole(state)} is being made.`);
-    }, PATIENCE);
-    if (!pill.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
+    }, SHOW_AFTER_MS);
+    if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
     setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
     setText(words, jobWords(job, state));
     setVariable(fill, '--part', job.fraction);
@@ -70,7 +70,7 @@ export const mountProgress: Mount = (root, store, services) => {
     watchAll(store, (state) => [state.job, state.model], show),
     () => {
       if (timer !== null) clearTimeout(timer);
-      pill.remove();
+      box.remove();
       spoken.remove();
     },
   );

@@ -1,3 +1,4 @@
+import { iconButton } from '../widgets/button';
 import { el, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import type { Mount } from '../store/services';
@@ -14,7 +15,7 @@ export const mountSeedBox: Mount = (root, store) => {
       step: 1,
       'aria-label': 'Seed',
       inputmode: 'numeric',
-      title: 'The number behind the chance: the same seed and settings make the same reaction again',
+      title: 'The seed of the random numbers: the same seed and settings make the same reaction again',
     },
     on: {
       change: () => {
@@ -23,30 +24,14 @@ export const mountSeedBox: Mount = (root, store) => {
       },
     },
   });
-  const roll = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Roll a new seed' },
-      on: {
-        click: () => {
-          apply(store, seedRolled(rolledSeed()));
-        },
-      },
-    },
-    icon('dice'),
-  );
-  const lock = el('button', {
-    class: 'icon lock',
-    attributes: { type: 'button', 'aria-label': 'Lock the seed' },
-    on: {
-      click: () => {
-        apply(store, seedLockSet(!store.getState().seedLocked));
-      },
-    },
+  const roll = iconButton('icon', 'dice', { label: 'Roll a new seed' }, () => {
+    apply(store, seedRolled(rolledSeed()));
   });
-  const box = el('span', { class: 'num' }, input, roll, lock);
-  const label = el('span', { class: 'lbl', text: 'Seed', attributes: { 'aria-hidden': true } });
+  const lock = iconButton('icon lock', 'unlock', { label: 'Lock the seed' }, () => {
+    apply(store, seedLockSet(!store.getState().seedLocked));
+  });
+  const box = el('span', { class: 'number' }, input, roll, lock);
+  const label = el('span', { class: 'label', text: 'Seed', attributes: { 'aria-hidden': true } });
   root.append(label, box);
 
   const show = (): void => {

@@ -1,4 +1,4 @@
-import { CHOICES } from '../store/actions/variations';
+import { VARIATION_COUNT } from '../store/actions/variations';
 import { madeRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
 import { drawFigure, facing } from '../widgets/figure';
@@ -6,147 +6,93 @@ import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';
 import type { Mount } from '../store/services';
-import type { AppState, Reaction } from '../store/state';
+import type { AppState, Reaction, Variation } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** What one card shows. */
-interface Card {
-  readonly seed: number | null;
-  readonly reaction: Reaction | null;
-  readonly fraction: number;
+/** A variation, or an empty place for one. */
+type CardContent = Omit<Variation, 'seed'> & { readonly seed: number | null };
+
+/** How a card is shown: whether its reaction is on the stage or being made, and whether Tab leads to the card. */
+interface CardState {
+  readonly onStage: boolean;
+  readonly making: boolean;
+  readonly tabStop: boolean;
 }
 
-/** Milliseconds between two pictures of a figure while it dances. */
-const BEAT = 100;
+interface Card {
+  readonly button: HTMLButtonElement;
+  readonly canvas: HTMLCanvasElement;
+  readonly show: (content: CardContent, state: CardState) => void;
+}
 
-/** The reactions to pick from, as little figures at the playhead; the one on the stage is marked. */
-export const mountChoiceCards: Mount = (root, store, services) => {
-  const cards = Array.from({ length: CHOICES }, (_, index) => {
-    const canvas = el('canvas');
-    const seed = el('span');
-    const fill = el('i');
-    const meter = el('span', { class: 'meter' }, fill);
-    const button = el(
-      'button',
-      {
-        class: 'react',
-        attributes: { type: 'button', role: 'radio', 'aria-checked': 'false' },
-        on: {
-          click: () => {
-            pick(index);
-          },
-          keydown: (event) => {
-            const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-            if (by === undefined) return;
-            event.preventDefault();
-            event.stopPropagation();
-            step(index, by);
-          },
-        },
-      },
-      canvas,
-      el('em', {}, icon('check')),
-      seed,
-      meter,
-    );
-    return { button, canvas, seed, fill, meter };
-  });
-  const group = el(
-    'div',
-    { class: 'reacts', attributes: { role: 'radiogroup', 'aria-label': 'Reactions to pick from' } },
-    ...cards.map(({ button }) => button),
-  );
-  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
-  root.append(group, spoken);
+/** Time between two drawings of the figures while they dance. */
+const DRAW_INTERVAL_MS = 100;
 
+/** Steps between cards, by key. */
+const ARROWS: Readonly<Record<string, number>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+
+/** The variations to pick from, as small figures posed at the playhead; the one on the stage is marked. */
+export const mountVariationCards: Mount = (root, store, services) => {
   const pick = (index: number): void => {
-    const card = shownCards(store.getState())[index];
-    if (card?.seed !== null && card?.seed !== undefined) services.pickChoice(card.seed);
+    const seed = cardContents(store.getState())[index]?.seed ?? null;
+    if (seed !== null) services.pickVariation(seed);
   };
-  /** To the next card that holds something. */
+  /** To the next card that has a reaction. */
   const step = (index: number, by: number): void => {
-    const list = shownCards(store.getState());
-    for (let turn = 1; turn < CHOICES; turn++) {
-      const next = (index + by * turn + CHOICES * turn) % CHOICES;
-      if (!list[next]?.reaction) continue;
+    const contents = cardContents(store.getState());
+    for (let distance = 1; distance < VARIATION_COUNT; distance++) {
+      const next = (index + by * distance + VARIATION_COUNT * distance) % VARIATION_COUNT;
+      if (!contents[next]?.reaction) continue;
       pick(next);
       cards[next]?.button.focus();
       return;
     }
   };
+  const cards = Array.from({ length: VARIATION_COUNT }, (_, index) =>
+    createCard(
+      () => {
+        pick(index);
+      },
+      (by) => {
+        step(index, by);
+      },
+    ),
+  );
+  const group = el(
+    'div',
+    { class: 'variations', attributes: { role: 'radiogroup', 'aria-label': 'Reactions to pick from' } },
+    ...cards.map(({ button }) => button),
+  );
+  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  root.append(group, spoken);
 
-  const show = (state: AppState): void => {
-    const list = shownCards(state);
-    const onStage = list.findIndex(({ reaction }) => isOnStage(state, reaction));
-    const first = Math.max(0, onStage);
-    list.forEach(({ seed, reaction, fraction }, index) => {
-      const card = cards[index];
-      if (!card) return;
-      const making = state.choices?.making === true && !reaction;
-      setText(card.seed, seed === null ? '' : String(seed));
-      card.button.disabled = reaction === null;
-      card.button.classList.toggle('empty', reaction === null);
-      card.meter.hidden = !making;
-      setVariable(card.fill, '--part', fraction);
-      setAttribute(card.button, 'aria-checked', index === onStage ? 'true' : 'false');
-      setAttribute(card.button, 'tabindex', index === first ? 0 : -1);
-      setAttribute(
-        card.button,
-        'aria-label',
-        seed === null ? 'No reaction yet' : `Reaction, seed ${seed}${reaction ? '' : ', not made yet'}`,
-      );
-      card.button.title =
-        reaction && index !== onStage ? 'Bring this one to the stage' : (reaction?.label ?? '');
-    });
-    const there = list.filter(({ reaction }) => reaction).length;
-    setText(spoken, state.choices ? `${there} of ${CHOICES} reactions made.` : '');
-  };
-
-  let drawn = -Infinity;
-  let due: ReturnType<typeof setTimeout> | undefined;
-  const draw = (): void => {
-    clearTimeout(due);
-    const wait = drawn + BEAT - performance.now();
-    if (wait > 0) {
-      due = setTimeout(draw, wait);
-      return;
-    }
-    drawn = performance.now();
-    const state = store.getState();
-    const list = shownCards(state);
-    const poses = list.map(({ reaction }) => poseOf(state, reaction));
-    const eye = facing(poses.find((pose) => pose !== null) ?? new Float32Array(66));
-    const colour = token(root, `--figure-${madeRole(state)}`);
-    poses.forEach((pose, index) => {
-      const context = cards[index]?.canvas.getContext('2d');
-      if (!context) return;
-      const { canvas } = context;
-      const ratio = Math.min(2, window.devicePixelRatio);
-      const [width, height] = [canvas.clientWidth * ratio, canvas.clientHeight * ratio].map(Math.round);
-      if (!width || !height) return;
-      if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-      if (pose) drawFigure(context, pose, eye, colour);
-      else context.clearRect(0, 0, width, height);
-    });
-  };
-  const sizes = new ResizeObserver(draw);
+  const figures = throttle(() => {
+    drawFigures(root, cards, store.getState());
+  }, DRAW_INTERVAL_MS);
+  const sizes = new ResizeObserver(figures.run);
   sizes.observe(group);
-
   return together(
-    watchAll(store, (state) => [state.choices, state.reaction, state.settings], show),
     watchAll(
       store,
-      (state) => [
-        state.choices?.list,
-        state.reaction,
-        state.theme,
-        state.playback.time,
-        state.settings?.role,
+      (state) => [state.variations, state.reaction, state.settings],
+      (state) => {
+        showCards(cards, state);
+        setText(spoken, state.variations ? madeWords(state.variations.list) : '');
+      },
+    ),
+    watchAll(
+      store,
+      ({ variations, reaction, theme, playback, settings }) => [
+        variations?.list,
+        reaction,
+        theme,
+        playback.time,
+        settings?.role,
       ],
-      draw,
+      figures.run,
     ),
     () => {
-      clearTimeout(due);
+      figures.cancel();
       sizes.disconnect();
       group.remove();
       spoken.remove();
@@ -154,9 +100,69 @@ export const mountChoiceCards: Mount = (root, store, services) => {
   );
 };
 
-/** The choices, or in the first card what is on the stage. */
-function shownCards({ choices, reaction }: AppState): readonly Card[] {
-  if (choices) return choices.list;
+function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
+  const canvas = el('canvas');
+  const seedText = el('span');
+  const fill = el('i');
+  const meter = el('span', { class: 'meter' }, fill);
+  const button = el(
+    'button',
+    {
+      class: 'variation',
+      attributes: { type: 'button', role: 'radio', 'aria-checked': 'false' },
+      on: {
+        click: onPick,
+        keydown: (event) => {
+          const by = ARROWS[event.key];
+          if (by === undefined) return;
+          event.preventDefault();
+          event.stopPropagation();
+          onArrow(by);
+        },
+      },
+    },
+    canvas,
+    el('em', {}, icon('check')),
+    seedText,
+    meter,
+  );
+  return {
+    button,
+    canvas,
+    show: ({ seed, reaction, fraction }, { onStage, making, tabStop }) => {
+      setText(seedText, seed === null ? '' : String(seed));
+      button.disabled = reaction === null;
+      button.classList.toggle('empty', reaction === null);
+      meter.hidden = !making;
+      setVariable(fill, '--part', fraction);
+      setAttribute(button, 'aria-checked', String(onStage));
+      setAttribute(button, 'tabindex', tabStop ? 0 : -1);
+      const label = `Reaction, seed ${seed}${reaction ? '' : ', not made yet'}`;
+      setAttribute(button, 'aria-label', seed === null ? 'No reaction yet' : label);
+      button.title = reaction && !onStage ? 'Bring this one to the stage' : (reaction?.label ?? '');
+    },
+  };
+}
+
+function showCards(cards: readonly Card[], state: AppState): void {
+  const contents = cardContents(state);
+  const onStage = contents.findIndex(({ reaction }) => isOnStage(state, reaction));
+  contents.forEach((content, index) => {
+    cards[index]?.show(content, {
+      onStage: index === onStage,
+      making: state.variations?.making === true && !content.reaction,
+      tabStop: index === Math.max(0, onStage),
+    });
+  });
+}
+
+function madeWords(list: readonly Variation[]): string {
+  return `${list.filter(({ reaction }) => reaction).length} of ${VARIATION_COUNT} reactions made.`;
+}
+
+/** The variations; without any, the reaction on the stage in the first card. */
+function cardContents({ variations, reaction }: AppState): readonly CardContent[] {
+  if (variations) return variations.list;
   const none = { seed: null, reaction: null, fraction: 0 };
   const first = reaction ? { seed: reaction.inputs.settings.seed, reaction, fraction: 1 } : none;
   return [first, none, none];
@@ -169,9 +175,56 @@ function isOnStage(state: AppState, reaction: Reaction | null): boolean {
   );
 }
 
-function poseOf({ playback }: AppState, reaction: Reaction | null): Float32Array | null {
-  if (!reaction) return null;
-  const { motion } = reaction;
-  const frame = Math.min(motion.frames - 1, Math.max(0, Math.round(playback.time * motion.fps)));
+/** Draws each card's dancer at the playhead, all seen from the same direction. */
+function drawFigures(root: HTMLElement, cards: readonly Card[], state: AppState): void {
+  const poses = cardContents(state).map(({ reaction }) => reaction && poseAt(reaction, state.playback.time));
+  const direction = facing(poses.find((pose) => pose !== null) ?? new Float32Array(66));
+  const colour = token(root, `--figure-${madeRole(state)}`);
+  poses.forEach((pose, index) => {
+    const context = cards[index]?.canvas.getContext('2d');
+    if (!context || !fitCanvas(context.canvas)) return;
+    if (pose) drawFigure(context, pose, direction, colour);
+    else context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+  });
+}
+
+/** Joint positions (22 x 3, metres) of the frame nearest to `time`, seconds. */
+function poseAt({ motion }: Reaction, time: number): Float32Array {
+  const frame = Math.min(motion.frames - 1, Math.max(0, Math.round(time * motion.fps)));
   return motion.positions.subarray(frame * 66, (frame + 1) * 66);
+}
+
+/** Gives the canvas the pixels of its element; false while it has no size. */
+function fitCanvas(canvas: HTMLCanvasElement): boolean {
+  const ratio = Math.min(2, window.devicePixelRatio);
+  const width = Math.round(canvas.clientWidth * ratio);
+  const height = Math.round(canvas.clientHeight * ratio);
+  if (width === 0 || height === 0) return false;
+  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+  return true;
+}
+
+/** Runs `action` at once, but at most every `interval` milliseconds: later calls in between share one late run. */
+function throttle(
+  action: () => void,
+  interval: number,
+): { readonly run: () => void; readonly cancel: () => void } {
+  let last = -Infinity;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const run = (): void => {
+    clearTimeout(timer);
+    const wait = last + interval - performance.now();
+    if (wait > 0) {
+      timer = setTimeout(run, wait);
+      return;
+    }
+    last = performance.now();
+    action();
+  };
+  return {
+    run,
+    cancel: () => {
+      clearTimeout(timer);
+    },
+  };
 }

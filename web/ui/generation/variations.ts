@@ -1,146 +1,150 @@
 import type { Generator } from '../../model/client';
 import {
-  choiceInputs,
-  choiceMade,
-  choiceProgressed,
-  choicesBegun,
-  choicesDropped,
-  choicesResumed,
-  choicesStopped,
-  complete,
-  sameButSeed,
+  allMade,
+  sameExceptSeed,
+  variationInputs,
+  variationMade,
+  variationProgressed,
+  variationsBegun,
+  variationsDropped,
+  variationsResumed,
+  variationsStopped,
 } from '../store/actions/variations';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, upToDate, wantedInputs } from '../store/selectors';
-import type { Choice } from '../store/state';
+import type { Variation } from '../store/state';
 import { reacted } from '../store/actions/reaction';
-import { seedRolled, settingsSet, rolledSeed } from '../store/actions/settings';
+import { rolledSeed, seedRolled, settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { told } from '../store/actions/notices';
 
-export interface ChoiceMaker {
-  /** Makes three reactions that differ in their seed; where three are there already, three others. */
-  readonly make: () => void;
-  /** Brings one of them to the stage. */
-  readonly pick: (seed: number) => void;
-  readonly cancel: () => void;
-  readonly dispose: () => void;
-}
-
 /**
- * Several reactions to pick from. The first is the one that the page makes anyway; the others follow one after the
- * other, and go when files or settings ask for something else.
- * @param generate makes the reaction that is wanted now, as `Services.generate`
+ * Makes several reactions to pick from. The first is the one that `Generation` makes anyway; the others follow one
+ * after the other. All are dropped when files or settings other than the seed change.
  */
-export function createChoices(
-  store: Store,
-  model: () => Promise<Generator>,
-  generate: () => void,
-): ChoiceMaker {
-  let controller: AbortController | null = null;
+export class VariationMaker {
+  readonly #store: Store;
+  readonly #model: () => Promise<Generator>;
+  readonly #generate: () => void;
+  readonly #unsubscribe: () => void;
+  #controller: AbortController | null = null;
 
-  const stop = (): void => {
-    controller?.abort();
-    controller = null;
+  /** @param generate makes the reaction to the present inputs, as `Services.generate` */
+  constructor(store: Store, model: () => Promise<Generator>, generate: () => void) {
+    this.#store = store;
+    this.#model = model;
+    this.#generate = generate;
+    this.#unsubscribe = store.subscribe(() => {
+      this.#follow();
+    });
+  }
+
+  /** Makes three reactions that differ in their seed; where three are made already, three others. */
+  readonly make = (): void => {
+    const others = allMade(this.#store.getState().variations);
+    if (others) {
+      apply(this.#store, variationsDropped());
+      apply(this.#store, seedRolled(rolledSeed()));
+    }
+    const inputs = wantedInputs(this.#store.getState());
+    if (!inputs) return;
+    apply(this.#store, this.#store.getState().variations ? variationsResumed() : variationsBegun(inputs));
+    const state = this.#store.getState();
+    if (!upToDate(state) && (others || !state.job)) this.#generate();
+    this.#follow();
+    void this.#run();
   };
 
-  /** Waits until the page has made the reaction on its own, or has given up on it. */
-  const made = (seed: number, signal: AbortSignal): Promise<boolean> =>
-    new Promise((resolve) => {
-      const look = (): void => {
-        const { choices, job } = store.getState();
-        const there = choices?.list.some((choice) => choice.seed === seed && choice.reaction) ?? false;
-        if (!there && job && !signal.aborted) return;
-        unsubscribe();
-        resolve(there);
-      };
-      const unsubscribe = store.subscribe(look);
-      look();
-    });
+  /** Shows the variation with this seed on the stage. */
+  readonly pick = (seed: number): void => {
+    const { variations, reaction: shown } = this.#store.getState();
+    const reaction = variations?.list.find((variation) => variation.seed === seed)?.reaction;
+    if (!reaction || reaction === shown) return;
+    apply(this.#store, settingsSet(reaction.inputs.settings));
+    apply(this.#store, reacted(reaction));
+  };
 
-  const makeOne = async ({ seed }: Choice, signal: AbortSignal): Promise<void> => {
-    const { choices } = store.getState();
-    if (!choices) return;
-    const inputs = choiceInputs(choices, seed);
-    const generator = await model();
+  readonly cancel = (): void => {
+    this.#abort();
+    apply(this.#store, variationsStopped());
+  };
+
+  readonly dispose = (): void => {
+    this.#unsubscribe();
+    this.#abort();
+  };
+
+  #abort(): void {
+    this.#controller?.abort();
+    this.#controller = null;
+  }
+
+  /** Takes over what `Generation` has made, and drops the variations when their inputs have changed. */
+  #follow(): void {
+    const state = this.#store.getState();
+    const { variations, reaction, job } = state;
+    if (!variations) return;
+    const inputs = wantedInputs(state);
+    const known = variations.list.find(({ seed }) => seed === inputs?.settings.seed);
+    if (!inputs || !known || !sameExceptSeed(inputs, variations.inputs)) {
+      this.#abort();
+      apply(this.#store, variationsDropped());
+    } else if (reaction && !known.reaction && sameInputs(reaction.inputs, inputs))
+      apply(this.#store, variationMade(known.seed, reaction));
+    else if (job && !known.reaction && known.fraction !== job.fraction && variations.making)
+      apply(this.#store, variationProgressed(known.seed, job.fraction));
+  }
+
+  /** Makes all that are missing, in order. */
+  async #run(): Promise<void> {
+    this.#abort();
+    const controller = new AbortController();
+    this.#controller = controller;
+    const { signal } = controller;
+    try {
+      for (const variation of this.#store.getState().variations?.list ?? []) {
+        if (variation.reaction) continue;
+        if (this.#store.getState().settings?.seed !== variation.seed) await this.#makeOne(variation, signal);
+        else if (!(await this.#madeByGeneration(variation.seed, signal))) break;
+      }
+    } catch (error) {
+      if (!signal.aborted && !isAbort(error)) apply(this.#store, told(generationProblem(error)));
+    }
+    if (this.#controller === controller) {
+      this.#controller = null;
+      apply(this.#store, variationsStopped());
+    }
+  }
+
+  async #makeOne({ seed }: Variation, signal: AbortSignal): Promise<void> {
+    const { variations } = this.#store.getState();
+    if (!variations) return;
+    const inputs = variationInputs(variations, seed);
+    const generator = await this.#model();
     signal.throwIfAborted();
     const result = await generator.generate(requestFor(inputs, generator.manifest), {
       signal,
       onProgress: ({ fraction }) => {
-        if (!signal.aborted) apply(store, choiceProgressed(seed, fraction));
+        if (!signal.aborted) apply(this.#store, variationProgressed(seed, fraction));
       },
     });
     signal.throwIfAborted();
-    apply(store, choiceMade(seed, reactionOf(result, inputs)));
-  };
+    apply(this.#store, variationMade(seed, reactionOf(result, inputs)));
+  }
 
-  const run = async (): Promise<void> => {
-    stop();
-    const mine = (controller = new AbortController());
-    const { signal } = mine;
-    try {
-      for (const choice of store.getState().choices?.list ?? []) {
-        if (choice.reaction) continue;
-        if (store.getState().settings?.seed !== choice.seed) await makeOne(choice, signal);
-        else if (!(await made(choice.seed, signal))) break;
-      }
-    } catch (error) {
-      if (!signal.aborted && !isAbort(error)) apply(store, told(generationProblem(error)));
-    }
-    if (controller === mine) {
-      controller = null;
-      apply(store, choicesStopped());
-    }
-  };
-
-  /** Takes in what the page made by itself, and lets go of what is not asked for any more. */
-  const follow = (): void => {
-    const state = store.getState();
-    const { choices, reaction, job } = state;
-    if (!choices) return;
-    const wanted = wantedInputs(state);
-    const known = choices.list.find(({ seed }) => seed === wanted?.settings.seed);
-    if (!wanted || !known || !sameButSeed(wanted, choices.inputs)) {
-      stop();
-      apply(store, choicesDropped());
-    } else if (reaction && !known.reaction && sameInputs(reaction.inputs, wanted))
-      apply(store, choiceMade(known.seed, reaction));
-    else if (job && !known.reaction && known.fraction !== job.fraction && choices.making)
-      apply(store, choiceProgressed(known.seed, job.fraction));
-  };
-  const unsubscribe = store.subscribe(follow);
-
-  const begin = (): void => {
-    const others = complete(store.getState().choices);
-    if (others) {
-      apply(store, choicesDropped());
-      apply(store, seedRolled(rolledSeed()));
-    }
-    const wanted = wantedInputs(store.getState());
-    if (!wanted) return;
-    apply(store, store.getState().choices ? choicesResumed() : choicesBegun(wanted));
-    const state = store.getState();
-    if (!upToDate(state) && (others || !state.job)) generate();
-    follow();
-    void run();
-  };
-
-  return {
-    make: begin,
-    pick: (seed) => {
-      const reaction = store.getState().choices?.list.find((choice) => choice.seed === seed)?.reaction;
-      if (!reaction || reaction === store.getState().reaction) return;
-      apply(store, settingsSet(reaction.inputs.settings));
-      apply(store, reacted(reaction));
-    },
-    cancel: () => {
-      stop();
-      apply(store, choicesStopped());
-    },
-    dispose: () => {
-      unsubscribe();
-      stop();
-    },
-  };
+  /** Resolves once `Generation` has made the reaction with this seed (true) or has given it up (false). */
+  #madeByGeneration(seed: number, signal: AbortSignal): Promise<boolean> {
+    return new Promise((resolve) => {
+      const check = (): void => {
+        const { variations, job } = this.#store.getState();
+        const made = variations?.list.some((each) => each.seed === seed && each.reaction) ?? false;
+        if (!made && job && !signal.aborted) return;
+        unsubscribe();
+        resolve(made);
+      };
+      const unsubscribe = this.#store.subscribe(check);
+      check();
+    });
+  }
 }

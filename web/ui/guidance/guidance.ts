@@ -1,62 +1,31 @@
+import { iconButton } from '../widgets/button';
 import { el, together } from '../widgets/dom';
 import { createFader } from '../widgets/fader';
 import { columnOf } from '../store/guidance-matrix';
-import { icon } from '../widgets/icons';
 import { mountMatrix } from './matrix';
 import { mountMusicFader } from './music-fader';
 import { mountPresetMenu } from './preset-menu';
 import type { Mount } from '../store/services';
-import type { Guidance, Layer } from '../store/state';
+import type { AppState, Guidance, Layer } from '../store/state';
 import { guidanceReset, guidanceSet } from '../store/actions/settings';
-import { apply, watchAll } from '../store/store';
+import { apply, type Store, watchAll } from '../store/store';
 
 const FADERS: readonly (readonly [Layer, string, string])[] = [
   ['coarse', 'Coarse', 'The big shape: path, turns, weight.'],
   ['fine', 'Fine', 'The detail: hands, feet, accents.'],
 ];
 
-/** The instrument: how closely the partner's big shape and its detail follow the other dancer and the music. */
+/** The section of classifier-free guidance: presets, a fader for each layer, one for the music, and body parts. */
 export const mountGuidance: Mount = (root, store, services) => {
-  const reset = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: {
-        type: 'button',
-        'aria-label': 'Reset guidance',
-        title: 'Back to what suits this model best (R)',
-      },
-      on: {
-        click: () => {
-          apply(store, guidanceReset());
-        },
-      },
+  const reset = iconButton(
+    'icon',
+    'reset',
+    { label: 'Reset guidance', title: 'Back to what suits this model best (R)' },
+    () => {
+      apply(store, guidanceReset());
     },
-    icon('reset'),
   );
-  let touched: Layer | null = null;
-  /** Where the body parts stood when a fader was taken in hand: while it is held, their differences come back. */
-  let held: Guidance | null = null;
-  let worked = false;
-  const faders = FADERS.map(([layer, name, hint]) => ({
-    layer,
-    fader: createFader(layer, name, hint, {
-      change: (value) => {
-        touched = layer;
-        apply(store, guidanceSet(layer, value, held ?? undefined));
-      },
-      reset: () => {
-        touched = layer;
-        apply(store, guidanceReset(layer));
-      },
-      grab: () => {
-        held = store.getState().settings?.guidance ?? null;
-      },
-      letGo: () => {
-        held = null;
-      },
-    }),
-  }));
+  const faders = createLayerFaders(store);
   const head = el(
     'div',
     { class: 'head' },
@@ -66,7 +35,7 @@ export const mountGuidance: Mount = (root, store, services) => {
     'section',
     { class: 'sec guidance', attributes: { 'aria-labelledby': 'guidance-head' } },
     head,
-    ...faders.map(({ fader }) => fader.root),
+    ...faders.elements,
   );
   root.append(section);
   const menu = mountPresetMenu(head, store, services);
@@ -78,16 +47,9 @@ export const mountGuidance: Mount = (root, store, services) => {
     watchAll(
       store,
       (state) => [state.settings, state.manifest, state.job !== null],
-      ({ settings, manifest, job }) => {
-        reset.disabled = !settings;
-        // A fader is touched a moment before its job begins, and is done with when that job ends.
-        if (worked && !job) touched = null;
-        worked = job !== null;
-        for (const { layer, fader } of faders) {
-          const { value, mixed } = columnOf(settings?.guidance ?? {}, layer);
-          fader.show(settings && manifest ? manifest.guidance : null, value, mixed);
-          fader.setApplying(job !== null && touched === layer);
-        }
+      (state) => {
+        reset.disabled = !state.settings;
+        faders.show(state);
       },
     ),
     menu,
@@ -98,3 +60,47 @@ export const mountGuidance: Mount = (root, store, services) => {
     },
   );
 };
+
+/** A fader for each layer; it sets the mean over the body parts and is outlined while its change is being applied. */
+function createLayerFaders(store: Store): {
+  readonly elements: readonly HTMLElement[];
+  readonly show: (state: AppState) => void;
+} {
+  /** The fader that was moved last, until the job that it caused has ended. */
+  let changed: Layer | null = null;
+  let hadJob = false;
+  /** Guidance at the start of a drag: while it lasts, the differences between body parts are taken from here. */
+  let beforeDrag: Guidance | null = null;
+  const faders = FADERS.map(([layer, name, hint]) => ({
+    layer,
+    fader: createFader(layer, name, hint, {
+      change: (value) => {
+        changed = layer;
+        apply(store, guidanceSet(layer, value, beforeDrag ?? undefined));
+      },
+      reset: () => {
+        changed = layer;
+        apply(store, guidanceReset(layer));
+      },
+      grab: () => {
+        beforeDrag = store.getState().settings?.guidance ?? null;
+      },
+      letGo: () => {
+        beforeDrag = null;
+      },
+    }),
+  }));
+  return {
+    elements: faders.map(({ fader }) => fader.root),
+    show: ({ settings, manifest, job }) => {
+      // The job begins a moment after the fader was moved, so only its end counts.
+      if (hadJob && !job) changed = null;
+      hadJob = job !== null;
+      for (const { layer, fader } of faders) {
+        const { value, mixed } = columnOf(settings?.guidance ?? {}, layer);
+        fader.show(settings && manifest ? manifest.guidance : null, value, mixed);
+        fader.setApplying(job !== null && changed === layer);
+      }
+    },
+  };
+}

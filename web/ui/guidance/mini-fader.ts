@@ -3,14 +3,17 @@ import { type FaderEvents, type FaderRange, steer, valueWords } from '../widgets
 
 export interface MiniFader {
   readonly root: HTMLElement;
-  /** Sets range and value; null draws it asleep. */
+  /** Sets range and value; null disables it. */
   readonly show: (range: FaderRange | null, value: number) => void;
 }
 
-/** With the handle beyond this share of the way the number stands on the other side of it. */
-const HIGH = 0.7;
+/** Share of the range above which the number stands on the other side of the handle. */
+const HIGH_SHARE = 0.7;
 
-/** A small fader, as of one cell of the matrix: as the large ones, without a hint of its own. */
+/**
+ * A small fader, as in a cell of the matrix. Its hint is in the tooltip only.
+ * @param words what a screen reader says of a value
+ */
 export function createMiniFader(
   label: string,
   hint: string,
@@ -41,7 +44,7 @@ export function createMiniFader(
       input.setAttribute('aria-valuetext', words(current));
       const share = (current - range.min) / (range.max - range.min);
       setVariable(root, '--v', share);
-      root.classList.toggle('high', share > HIGH);
+      root.classList.toggle('high', share > HIGH_SHARE);
     },
   };
 }

@@ -6,7 +6,7 @@ import { apply, watchAll } from '../store/store';
 
 const HINT = 'How strongly the song shapes the dance, beside the other dancer.';
 
-/** How loudly the song speaks to the model; asleep while there is none. */
+/** The fader of the guidance weight of the music; disabled while there is no song. */
 export const mountMusicFader: Mount = (root, store) => {
   const fader = createMiniFader(
     'Music guidance',
@@ -19,12 +19,12 @@ export const mountMusicFader: Mount = (root, store) => {
         apply(store, musicReset());
       },
     },
-    loudness,
+    musicWords,
   );
   const note = el('small');
   const row = el(
     'div',
-    { class: 'hear' },
+    { class: 'music-row' },
     el('span', { class: 'name', text: 'Music', attributes: { title: HINT } }),
     fader.root,
     note,
@@ -47,7 +47,7 @@ export const mountMusicFader: Mount = (root, store) => {
 };
 
 /** What a screen reader says of a value. */
-export function loudness(value: number): string {
+export function musicWords(value: number): string {
   const words =
     value === 0 ? 'as it comes' : value < 2 ? 'a little more' : value < 3.5 ? 'clearly' : 'strongly';
   return `${value.toFixed(2)}, the song is heard ${words}`;

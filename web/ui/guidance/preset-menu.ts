@@ -7,7 +7,7 @@ import { apply, watch, watchAll } from '../store/store';
 
 const CUSTOM = 'Custom';
 
-/** Guidance by name. The menu is the system's own, laid over the name of what is chosen. */
+/** The menu of presets: a native select, transparent, over the name of the chosen preset. */
 export const mountPresetMenu: Mount = (root, store) => {
   let list: Preset[] = [];
   const name = el('span');
@@ -28,7 +28,7 @@ export const mountPresetMenu: Mount = (root, store) => {
       ({ manifest }) => manifest,
       (manifest) => {
         list = manifest ? presets(manifest) : [];
-        menu.replaceChildren(...groups(list), custom());
+        menu.replaceChildren(...optionGroups(list), customOption());
       },
     ),
     watchAll(
@@ -49,7 +49,7 @@ export const mountPresetMenu: Mount = (root, store) => {
   );
 };
 
-function groups(list: readonly Preset[]): HTMLElement[] {
+function optionGroups(list: readonly Preset[]): HTMLElement[] {
   return [...new Set(list.map(({ group }) => group))].map((group) =>
     el(
       'optgroup',
@@ -63,11 +63,12 @@ function groups(list: readonly Preset[]): HTMLElement[] {
   );
 }
 
-/** What stands for values without a name; it can be shown but not chosen. */
-function custom(): HTMLElement {
+/** Shown for values that are no preset; it can't be chosen. */
+function customOption(): HTMLElement {
   return el('option', { text: CUSTOM, attributes: { disabled: true, hidden: true } });
 }
 
+/** `(1.2, 1.5)`: guidance of the layers. */
 function numbers({ guidance }: Preset): string {
   const [row = {}] = Object.values(guidance);
   return `(${Object.values(row)

@@ -2,7 +2,7 @@ import type { Manifest } from '../../model/client';
 import { defaultGuidance, sameGuidance, uniform } from '../store/guidance-matrix';
 import type { Guidance, Settings } from '../store/state';
 
-/** Guidance with a name. */
+/** Named guidance weights. */
 export interface Preset {
   readonly name: string;
   /** What to expect of it, in a sentence. */
@@ -13,8 +13,8 @@ export interface Preset {
 }
 
 /**
- * Rows of the paper's Table 4, S = [coarse, fine], with what they did best there. Its Eq. 9 counts as the graphs do,
- * so the numbers mean the same here; the praise is of the paper's model and dances.
+ * Rows of the paper's Table 4, S = [coarse, fine], with what they did best there. The exported graphs follow the
+ * paper's Eq. 9, so the numbers mean the same here; the descriptions are of the paper's model and dances.
  */
 const TABLE_4: readonly (readonly [coarse: number, fine: number, name: string, words: string])[] = [
   [1, 1, 'Lightest', 'The least guidance that the paper tried.'],
@@ -25,7 +25,7 @@ const TABLE_4: readonly (readonly [coarse: number, fine: number, name: string, w
   [1.5, 1.5, 'Most varied', 'The most varied motion, the loosest couple.'],
 ];
 
-/** What the page offers for a model: its own choice, and the paper's. */
+/** The presets for a model: its own default and the paper's. */
 export function presets(manifest: Pick<Manifest, 'latent' | 'guidance'>): Preset[] {
   const { streams, layers } = manifest.latent;
   const own: Preset = {
@@ -40,7 +40,7 @@ export function presets(manifest: Pick<Manifest, 'latent' | 'guidance'>): Preset
     words,
     group: 'From the paper, Table 4',
     guidance: uniform(streams, layers, (layer) => (layer === 'coarse' ? coarse : fine)),
-    // Eq. 9 knows no guidance by the song alone.
+    // Eq. 9 has no separate guidance by the music.
     music: 0,
   }));
   return [own, ...paper];

@@ -3,14 +3,9 @@ import type { Explainer, Explanation } from '../widgets/info-card';
 import { surface, token } from '../widgets/lane-canvas';
 import type { Mark } from './quality-marks';
 import type { MeasureRow } from '../widgets/info-card';
+import type { Span } from '../store/time-scale';
 
-/** The part of the dance that the lanes show, seconds. */
-export interface Shown {
-  readonly from: number;
-  readonly to: number;
-}
-
-/** A mark with its name and what there is to explain about it. */
+/** A mark with its name and what its card says. */
 export interface MarkWords {
   readonly mark: Mark;
   readonly words: string;
@@ -21,14 +16,15 @@ export interface MarkWords {
 export interface LanePicture {
   readonly value: string;
   readonly sentence: string;
-  /** What the lane's card shows; the sentence stands below it where `told` says so. */
+  /** Shown in the lane's card, with the sentence below where `sentenceInCard` is set. */
   readonly measures: readonly MeasureRow[];
-  readonly told: boolean;
-  /** Concern per frame, one row or several above each other. */
+  readonly sentenceInCard: boolean;
+  /** How bad each frame is (1 is the limit of what is acceptable), in one row or several above each other. */
   readonly rows: readonly Float32Array[];
   readonly fps: number;
   readonly marks: readonly MarkWords[];
-  readonly shown: Shown;
+  /** The part of the dance that is shown, seconds. */
+  readonly shown: Span;
 }
 
 export interface QualityLane {
@@ -38,14 +34,12 @@ export interface QualityLane {
   readonly setStale: (stale: boolean) => void;
 }
 
-/** Width of one cell of the heat, CSS pixels. */
-const CELL = 3;
-/** Opacities of a cell: at the limit from below, just beyond it, and where it is bad. */
-const TINT = 0.36;
-const BEYOND = 0.5;
-const FULL = 1;
+/** Width of one cell of the heat map, CSS pixels. */
+const CELL_WIDTH = 3;
+/** Opacity of a cell just below the limit, just above it, and from twice the limit on. */
+const [BELOW_LIMIT, ABOVE_LIMIT, FULL] = [0.36, 0.5, 1];
 
-/** One row of the strip: its name and number, heat along time, and marks to click. */
+/** One lane of the strip: its name and number, a heat map along time, and numbered marks to click. */
 export function createQualityLane(
   name: string,
   className: string,
@@ -53,11 +47,16 @@ export function createQualityLane(
   { explain }: Explainer,
 ): QualityLane {
   const value = el('b');
-  const label = el('button', { class: `lab q ${className}`, attributes: { type: 'button' } }, name, value);
+  const label = el(
+    'button',
+    { class: `lane-label quality ${className}`, attributes: { type: 'button' } },
+    name,
+    value,
+  );
   const canvas = el('canvas', { attributes: { role: 'img', 'aria-label': `${name}: not measured yet` } });
   const flags = el('div', { class: 'flags' });
-  const lane = el('div', { class: `lane q ${className}` }, canvas, flags);
-  /** By place in the list: a mark that only moves stays the same button, with its focus. */
+  const lane = el('div', { class: `lane quality ${className}` }, canvas, flags);
+  /** By index of the mark: when marks change, the buttons stay, and with them the focus. */
   const buttons: { readonly flag: HTMLButtonElement; mark: Mark }[] = [];
   const button = (index: number, mark: Mark): HTMLButtonElement => {
     const known = buttons[index];
@@ -88,8 +87,8 @@ export function createQualityLane(
     },
     draw: (picture) => {
       setText(value, picture.value);
-      const { measures, told, sentence } = picture;
-      explain(label, { title: name, aside: '', rows: measures, text: told ? sentence : '' });
+      const { measures, sentenceInCard, sentence } = picture;
+      explain(label, { title: name, aside: '', rows: measures, text: sentenceInCard ? sentence : '' });
       canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
       drawHeat(canvas, picture);
       const { from, to } = picture.shown;
@@ -107,27 +106,33 @@ export function createQualityLane(
   };
 }
 
-/** Neutral up to the limit, the colour of attention beyond it; a cell shows the worst of its frames. */
+/** Draws the heat map: neutral up to the limit, in the warning colour above it; a cell shows its worst frame. */
 function drawHeat(canvas: HTMLCanvasElement, { rows, fps, shown }: LanePicture): void {
   const on = surface(canvas);
   if (!on || shown.to <= shown.from) return;
   const { context, width, height } = on;
   const [neutral, attention] = [token(canvas, '--text-3'), token(canvas, '--attention')];
-  const tall = height / Math.max(1, rows.length);
+  const rowHeight = height / Math.max(1, rows.length);
   const frameAt = (x: number): number => (shown.from + (x / width) * (shown.to - shown.from)) * fps;
   rows.forEach((row, index) => {
-    for (let x = 0; x < width; x += CELL) {
+    for (let x = 0; x < width; x += CELL_WIDTH) {
       const first = Math.max(0, Math.floor(frameAt(x)));
-      const last = Math.max(first + 1, Math.floor(frameAt(x + CELL)));
-      let most = 0;
+      const last = Math.max(first + 1, Math.floor(frameAt(x + CELL_WIDTH)));
+      let max = 0;
       for (let frame = first; frame < Math.min(last, row.length); frame++) {
-        if (row[frame]! > most) most = row[frame]!;
+        if (row[frame]! > max) max = row[frame]!;
       }
-      if (most === 0) continue;
-      context.fillStyle = most > 1 ? attention : neutral;
-      context.globalAlpha = most > 1 ? BEYOND + (FULL - BEYOND) * Math.min(1, most - 1) : TINT * most;
-      // Rows keep a hairline between them.
-      context.fillRect(x, index * tall, Math.min(CELL, width - x), tall - (index + 1 < rows.length ? 1 : 0));
+      if (max === 0) continue;
+      context.fillStyle = max > 1 ? attention : neutral;
+      context.globalAlpha =
+        max > 1 ? ABOVE_LIMIT + (FULL - ABOVE_LIMIT) * Math.min(1, max - 1) : BELOW_LIMIT * max;
+      // One pixel stays free between rows.
+      context.fillRect(
+        x,
+        index * rowHeight,
+        Math.min(CELL_WIDTH, width - x),
+        rowHeight - (index + 1 < rows.length ? 1 : 0),
+      );
     }
   });
   context.globalAlpha = 1;

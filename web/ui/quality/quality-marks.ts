@@ -1,17 +1,17 @@
 import type { Moment, Report } from '../../quality/client';
 import type { Part } from './quality-words';
 
-/** A moment with its number: 1 is the worst of the dance. */
+/** A moment with its rank: 1 is the worst of the dance. */
 export interface Mark {
   readonly part: Part;
   readonly rank: number;
   readonly moment: Moment;
 }
 
-/** Marks over all lanes, so that each one still says: look here first. */
-const MOST = 5;
-/** Marks in the one row of low windows and phones. */
-const MOST_IN_ONE = 3;
+/** Number of marks over all lanes. */
+const MAX_MARKS = 5;
+/** Number of marks in the one lane of low windows and phones. */
+const MAX_IN_ONE_LANE = 3;
 
 /** The worst moments of all measures, the worst first. */
 export function marksOf(report: Report): Mark[] {
@@ -19,24 +19,24 @@ export function marksOf(report: Report): Mark[] {
   return parts
     .flatMap((part) => report[part].worst.map((moment) => ({ part, moment })))
     .sort((a, b) => b.moment.concern - a.moment.concern)
-    .slice(0, MOST)
+    .slice(0, MAX_MARKS)
     .map((mark, index) => ({ ...mark, rank: index + 1 }));
 }
 
 /**
- * Those that fit into one row without lying on each other; they keep their numbers' order.
- * @param apart frames that the width of a mark stands for
+ * The marks that fit into one lane without overlapping, ranked anew.
+ * @param minDistance of two marks, frames
  */
-export function marksInOne(marks: readonly Mark[], apart: number): Mark[] {
-  const kept: Mark[] = [];
+export function marksInOne(marks: readonly Mark[], minDistance: number): Mark[] {
+  const chosen: Mark[] = [];
   for (const mark of marks) {
-    const free = kept.every(({ moment }) => Math.abs(moment.frame - mark.moment.frame) >= apart);
-    if (free && kept.length < MOST_IN_ONE) kept.push({ ...mark, rank: kept.length + 1 });
+    const free = chosen.every(({ moment }) => Math.abs(moment.frame - mark.moment.frame) >= minDistance);
+    if (free && chosen.length < MAX_IN_ONE_LANE) chosen.push({ ...mark, rank: chosen.length + 1 });
   }
-  return kept;
+  return chosen;
 }
 
-/** The worst of several rows in every frame; NaN where none has anything to say. */
+/** The largest value of several rows in every frame; NaN where all are NaN. */
 export function worstRow(rows: readonly Float32Array[]): Float32Array {
   const worst = new Float32Array(Math.max(0, ...rows.map(({ length }) => length))).fill(NaN);
   for (const row of rows) {

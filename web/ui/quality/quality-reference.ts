@@ -3,7 +3,7 @@ import * as v from 'valibot';
 
 const known = v.nullable(v.number());
 
-/** The part of metrics.json, the report that lies beside a shipped model, that says how the recorded dancers do. */
+/** The part of metrics.json, the evaluation of a shipped model, with the scores of the recorded dancers. */
 const schema = v.object({
   model: v.string(),
   rows: v.object({
@@ -20,7 +20,7 @@ const schema = v.object({
   }),
 });
 
-/** Reads it; null where there is none, as beside a model of one's own. */
+/** Reads the scores of the recorded dancers; null where there are none, as beside a visitor's own model. */
 export async function readReference(manifestUrl: string): Promise<Reference | null> {
   try {
     const response = await fetch(new URL('metrics.json', manifestUrl));

@@ -9,29 +9,29 @@ const score = (value: number): string => value.toFixed(2);
 const missing = (value: number | null | undefined): value is null | undefined =>
   value === null || value === undefined || Number.isNaN(value);
 
-/** How far beyond its reference a number may be that should be small: still good, still so-so. */
+/** For numbers that should be small: multiples of the reference up to which they are good and so-so. */
 const [GOOD_TIMES, FAIR_TIMES] = [1.15, 1.75];
-/** Share of what recorded dancers have above chance that is good, and that is so-so. */
+/** For scores above chance: shares of the recorded dancers' gain from which they are good and so-so. */
 const [GOOD_GAIN, FAIR_GAIN] = [0.75, 0.25];
-/** Scores that differ by less than this are the same. */
-const ALIKE = 0.03;
+/** Scores that differ by less count as equal. */
+const EQUAL_WITHIN = 0.03;
 
-/** A number that should not be larger than its reference. */
+/** The verdict on a number that should not be larger than its reference. */
 export function atMost(value: number, reference: number | null | undefined): Verdict | null {
   if (missing(reference) || Number.isNaN(value)) return null;
   if (value <= reference * GOOD_TIMES) return 'good';
   return value <= reference * FAIR_TIMES ? 'so-so' : 'poor';
 }
 
-/** A number that should be about its reference: neither much less nor much more. */
+/** The verdict on a number that should be neither much less nor much more than its reference. */
 export function about(value: number, reference: number | null | undefined): Verdict | null {
   if (missing(reference) || Number.isNaN(value)) return null;
   return atMost(Math.max(value, reference), Math.min(value, reference));
 }
 
 /**
- * A number that should be above chance, as far as that of recorded dancers is. Where these are not above chance
- * either, it can at best be so-so not to be: it proves nothing.
+ * The verdict on a score that should be as far above chance as that of recorded dancers. Where theirs is not above
+ * chance either, a score at chance says nothing and counts as so-so.
  */
 export function aboveChance(
   value: number,
@@ -39,17 +39,17 @@ export function aboveChance(
   recorded: number | null | undefined,
 ): Verdict | null {
   if (Number.isNaN(value) || Number.isNaN(chance)) return null;
-  const most = missing(recorded) ? chance : recorded;
-  if (most - chance < ALIKE) {
-    if (value - chance >= ALIKE) return 'good';
-    return value > chance - ALIKE ? 'so-so' : 'poor';
+  const best = missing(recorded) ? chance : recorded;
+  if (best - chance < EQUAL_WITHIN) {
+    if (value - chance >= EQUAL_WITHIN) return 'good';
+    return value > chance - EQUAL_WITHIN ? 'so-so' : 'poor';
   }
-  const gain = (value - chance) / (most - chance);
+  const gain = (value - chance) / (best - chance);
   if (gain >= GOOD_GAIN) return 'good';
   return gain >= FAIR_GAIN ? 'so-so' : 'poor';
 }
 
-/** The measures of a dance, by the lane that they belong to. */
+/** The measures of a dance for the cards, by lane. */
 export function measureRows(
   { feet, closeness, beats, seams }: Report,
   reference: Reference | null,

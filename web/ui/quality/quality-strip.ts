@@ -1,30 +1,31 @@
 import { together } from '../widgets/dom';
 import { createExplainer } from '../widgets/info-card';
-import { createQualityLane, type LanePicture, type Shown } from './quality-lane';
+import { createQualityLane, type LanePicture, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
 import { laneWords, momentExplained, momentWords, type Part, PART_NAMES } from './quality-words';
 import { reactorMotion } from '../store/reactor-motion';
 import { danceDuration, danceFps, upToDate } from '../store/selectors';
+import type { Manifest } from '../../model/client';
 import type { Services } from '../store/services';
-import type { AppState } from '../store/state';
+import type { AppState, Quality } from '../store/state';
 import { type Store, watchAll } from '../store/store';
+import type { Span } from '../store/time-scale';
 
 const PARTS: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
-/** While it plays, a click lands this much before the moment, so that it is seen coming, seconds. */
+/** How much before a moment a click jumps while it plays, seconds. */
 const LEAD_IN = 0.5;
-
-/** Room that a mark takes in a row, CSS pixels. */
-const MARK_ROOM = 28;
+/** Width that a mark takes in a row, CSS pixels. */
+const MARK_WIDTH = 28;
 
 /** All of the dance. */
-function whole(state: AppState): Shown {
+function whole(state: AppState): Span {
   return { from: 0, to: danceDuration(state) };
 }
 
 /**
- * How good the dance is, along the timeline: four narrow lanes, or in low windows one with the worst of them. The
- * worst moments are numbered; a click goes there.
+ * The quality of the dance along the timeline: a narrow lane for each part, and one of the worst of them, which low
+ * windows show instead. The worst moments are numbered; a click jumps there.
  * @param root the grid of the timeline's lanes: labels left, lanes right
  * @param shown the part of the dance that the lanes show
  */
@@ -32,69 +33,25 @@ export function mountQualityStrip(
   root: HTMLElement,
   store: Store,
   services: Services,
-  shown: (state: AppState) => Shown = whole,
+  shown: (state: AppState) => Span = whole,
 ): () => void {
-  const goTo = ({ moment }: Mark): void => {
+  const jumpTo = ({ moment }: Mark): void => {
     const { playback, quality } = store.getState();
     if (!quality) return;
     const time = moment.frame / quality.reactor.fps;
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
-  const explainer = createExplainer(root.closest('section') ?? root);
-  const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo, explainer));
-  const all = createQualityLane('Quality', 'q-all', goTo, explainer);
-  root.append(...[...lanes, all].flatMap(({ label, lane }) => [label, lane]));
+  const cards = createExplainer(root.closest('section') ?? root);
+  const partLanes = PARTS.map((part) =>
+    createQualityLane(PART_NAMES[part], `quality-${part}`, jumpTo, cards),
+  );
+  const worstLane = createQualityLane('Quality', 'quality-all', jumpTo, cards);
+  const lanes = [...partLanes, worstLane];
+  root.append(...lanes.flatMap(({ label, lane }) => [label, lane]));
 
   const draw = (state: AppState): void => {
-    const { quality, manifest } = state;
-    const empty: LanePicture = {
-      value: '',
-      sentence: 'Nothing to measure yet.',
-      measures: [],
-      told: true,
-      rows: [],
-      fps: danceFps(state),
-      marks: [],
-      shown: shown(state),
-    };
-    if (!quality || !manifest) {
-      for (const lane of [...lanes, all]) lane.draw(empty);
-      return;
-    }
-    const { report, reactor } = quality;
-    const { from, to } = empty.shown;
-    const reference = state.reference?.model === manifest.id ? state.reference : null;
-    const block = (manifest.latent.block * manifest.latent.stride) / manifest.fps;
-    const words = laneWords(report, block, reference);
-    const measures = measureRows(report, reference);
-    const marks = marksOf(report);
-    const flagged = (some: readonly Mark[]): LanePicture['marks'] =>
-      some.map((mark) => ({
-        mark,
-        words: momentWords(mark.moment, reactor.fps),
-        explained: momentExplained(mark.moment, reactor.fps, report, manifest.quality),
-      }));
-    PARTS.forEach((part, index) => {
-      lanes[index]?.draw({
-        ...empty,
-        ...words[part],
-        measures: measures[part],
-        rows: report[part].rows,
-        fps: reactor.fps,
-        marks: flagged(marks.filter((mark) => mark.part === part)),
-      });
-    });
-    all.draw({
-      ...empty,
-      sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
-      measures: PARTS.flatMap((part) => measures[part]),
-      told: false,
-      rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
-      fps: reactor.fps,
-      marks: flagged(marksInOne(marks, (MARK_ROOM * (to - from) * reactor.fps) / all.lane.clientWidth)),
-    });
+    drawLanes(partLanes, worstLane, state, shown(state));
   };
-
   const sizes = new ResizeObserver(() => {
     draw(store.getState());
   });
@@ -112,18 +69,98 @@ export function mountQualityStrip(
       store,
       (state) => [state.quality, state.job, state.reaction, reactorMotion(state)],
       (state) => {
-        const old = state.quality !== null && state.quality.reactor !== reactorMotion(state);
-        const stale = old || (state.job !== null && !upToDate(state));
-        for (const lane of [...lanes, all]) lane.setStale(stale);
+        for (const lane of lanes) lane.setStale(isStale(state));
       },
     ),
     () => {
       sizes.disconnect();
-      explainer.dispose();
-      for (const { label, lane } of [...lanes, all]) {
+      cards.dispose();
+      for (const { label, lane } of lanes) {
         label.remove();
         lane.remove();
       }
     },
   );
+}
+
+/** Whether the measures are of another motion than the one on the stage, or that one is being replaced. */
+function isStale(state: AppState): boolean {
+  const { quality, job } = state;
+  const ofAnother = quality !== null && quality.reactor !== reactorMotion(state);
+  return ofAnother || (job !== null && !upToDate(state));
+}
+
+function drawLanes(
+  partLanes: readonly QualityLane[],
+  worstLane: QualityLane,
+  state: AppState,
+  shown: Span,
+): void {
+  const empty: LanePicture = {
+    value: '',
+    sentence: 'Nothing to measure yet.',
+    measures: [],
+    sentenceInCard: true,
+    rows: [],
+    fps: danceFps(state),
+    marks: [],
+    shown,
+  };
+  const { quality, manifest } = state;
+  if (!quality || !manifest) {
+    for (const lane of [...partLanes, worstLane]) lane.draw(empty);
+    return;
+  }
+  const marksApart =
+    (MARK_WIDTH * (shown.to - shown.from) * quality.reactor.fps) / worstLane.lane.clientWidth;
+  const { parts, worst } = lanePictures(empty, quality, manifest, state, marksApart);
+  parts.forEach((picture, index) => {
+    partLanes[index]?.draw(picture);
+  });
+  worstLane.draw(worst);
+}
+
+/**
+ * What the lanes show of a measured dance.
+ * @param empty what a lane without measures shows
+ * @param marksApart least distance of two marks in the one lane of the worst, frames
+ */
+function lanePictures(
+  empty: LanePicture,
+  { report, reactor }: Quality,
+  manifest: Manifest,
+  state: AppState,
+  marksApart: number,
+): { readonly parts: readonly LanePicture[]; readonly worst: LanePicture } {
+  const { fps } = reactor;
+  const reference = state.reference?.model === manifest.id ? state.reference : null;
+  const blockSeconds = (manifest.latent.block * manifest.latent.stride) / manifest.fps;
+  const words = laneWords(report, blockSeconds, reference);
+  const measures = measureRows(report, reference);
+  const marks = marksOf(report);
+  const withWords = (some: readonly Mark[]): LanePicture['marks'] =>
+    some.map((mark) => ({
+      mark,
+      words: momentWords(mark.moment, fps),
+      explained: momentExplained(mark.moment, fps, report, manifest.quality),
+    }));
+  return {
+    parts: PARTS.map((part) => ({
+      ...empty,
+      ...words[part],
+      measures: measures[part],
+      rows: report[part].rows,
+      fps,
+      marks: withWords(marks.filter((mark) => mark.part === part)),
+    })),
+    worst: {
+      ...empty,
+      sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
+      measures: PARTS.flatMap((part) => measures[part]),
+      sentenceInCard: false,
+      rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
+      fps,
+      marks: withWords(marksInOne(marks, marksApart)),
+    },
+  };
 }

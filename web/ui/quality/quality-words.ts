@@ -5,7 +5,7 @@ import { clockTime } from '../store/format';
 
 export type Part = keyof Report;
 
-/** What a lane says of the whole dance. */
+/** The number and the sentences of a lane on the whole dance. */
 export interface LaneWords {
   /** The number beside the lane's name; a dash where there is nothing to measure. */
   readonly value: string;
@@ -33,7 +33,7 @@ function recorded(value: number | null | undefined, write: (value: number) => st
 }
 
 /**
- * What the lanes say.
+ * The words of the lanes.
  * @param block length of the model's blocks, seconds
  * @param reference what recorded dances score, if known for this model
  */
@@ -85,7 +85,7 @@ function beatWords({ music, leader }: Report['beats']['whole'], reference: Refer
   const one = (name: string, { value, chance }: typeof music, known: number | null | undefined): string =>
     Number.isNaN(value)
       ? `There are no beats of the ${name} to meet.`
-      : `With the ${name}: ${score(value)}, by accident ${score(chance)}${recorded(known, score)}.`;
+      : `With the ${name}: ${score(value)}, by chance ${score(chance)}${recorded(known, score)}.`;
   const brief = ({ value }: typeof music): string => (Number.isNaN(value) ? NOTHING : score(value));
   return {
     value: `${brief(music)} ${brief(leader)}`,
@@ -131,7 +131,7 @@ export function momentWords({ kind, value, frame }: Moment, fps: number): string
   }
 }
 
-/** What a mark means, for somebody who has never heard of the measure: what happens there, and how bad that is. */
+/** The card of a mark, for a reader who does not know the measure: what happens there, and how bad that is. */
 export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): Explanation {
   const { kind, value, frame } = moment;
   const text = (): string => {
@@ -150,7 +150,7 @@ export function momentExplained(moment: Moment, fps: number, { beats }: Report, 
       case 'leader':
         return (
           `Around here the partner’s moves miss most beats of the ${kind}: ${score(value)} on a scale from ` +
-          `0 (none met) to 1 (all). By accident it would be ${score(beats.whole[kind].chance)}.`
+          `0 (none met) to 1 (all). By chance it would be ${score(beats.whole[kind].chance)}.`
         );
       case 'seam':
         return (

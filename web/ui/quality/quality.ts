@@ -7,12 +7,12 @@ import { measured } from '../store/actions/reaction';
 import { apply, type Store, watchAll } from '../store/store';
 import { remarked } from '../store/actions/notices';
 
-/** What the measures follow from; compared by identity. */
-function parts(state: AppState): readonly unknown[] {
+/** What the measures depend on; compared by identity. */
+function measuredParts(state: AppState): readonly unknown[] {
   return [reactorMotion(state), state.leader, state.song, state.shift, state.manifest];
 }
 
-/** The duet on the stage as the measures take it, the made dancer as the reactor; null while there is none. */
+/** The duet on the stage, with the generated dancer as the reactor; null while there is none. */
 function duetOf(state: AppState): Duet | null {
   const { leader, manifest } = state;
   const reactor = reactorMotion(state);
@@ -29,9 +29,10 @@ function duetOf(state: AppState): Duet | null {
 }
 
 /**
- * Keeps the measures in step with what is on the stage; a newer dance drops the measuring of an older one. Numbers of
- * the one before stay until the new ones are there.
- * @param measure answers in its own time and ends at once when the signal says so
+ * Measures the dance on the stage whenever it changes; a newer dance aborts the measurement of an older one, whose
+ * numbers stay until the new ones are there.
+ * @param measure resolves with the report; rejects at once when the signal is aborted
+ * @returns a function that stops it
  */
 export function createQuality(
   store: Store,
@@ -60,7 +61,7 @@ export function createQuality(
     }
   };
 
-  const stop = watchAll(store, parts, () => void begin());
+  const stop = watchAll(store, measuredParts, () => void begin());
   return () => {
     stop();
     running.abort();

@@ -84,7 +84,7 @@ function half(services: Services, side: Side, name: string, kinds: string, ask: 
   return el(
     'div',
     {},
-    el('b', {}, el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(sign)), name),
+    el('b', {}, el('span', { class: side === 'leader' ? 'sign leader' : 'sign' }, icon(sign)), name),
     el('p', { text: kinds }),
     el('button', {
       class: 'btn tint',

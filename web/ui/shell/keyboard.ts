@@ -55,10 +55,10 @@ export function mountKeyboard(store: Store, services: Services): () => void {
 
 /** Closes or cancels the one thing in front; true if there was one. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, open, job, choices, playback } = store.getState();
+  const { problem, open, job, variations, playback } = store.getState();
   if (problem) apply(store, dismissed());
   else if (open) apply(store, opened(open));
-  else if (job || choices?.making) services.cancel();
+  else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));
   else return false;
   return true;

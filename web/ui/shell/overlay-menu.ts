@@ -4,7 +4,7 @@ import type { Mount } from '../store/services';
 import { SHOWS } from '../store/overlays';
 import type { AppState, Reaction } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { mountTakesDoor } from '../takes/takes-button';
+import { mountTakesButton } from '../takes/takes-panel';
 import { opened, shownToggled } from '../store/actions/view';
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
@@ -64,7 +64,7 @@ export const mountShowMenu: Mount = (root, store, services) => {
   menu.hidden = true;
   const corner = el('div', { class: 'over shows' }, button, menu);
   root.append(corner);
-  const takes = mountTakesDoor(corner, store, services);
+  const takes = mountTakesButton(corner, store, services);
 
   const showState = (state: AppState): void => {
     const { shown, coarse, job } = state;

@@ -48,8 +48,8 @@ export const mountStageControls: Mount = (root, store, services) => {
   const legend = el(
     'ul',
     { class: 'over legend' },
-    el('li', { class: 'lead' }, el('span', { class: 'dot' }), 'Leader'),
-    el('li', { class: 'reac' }, el('span', { class: 'dot' }), 'Reactor'),
+    el('li', { class: 'leader' }, el('span', { class: 'dot' }), 'Leader'),
+    el('li', { class: 'reactor' }, el('span', { class: 'dot' }), 'Reactor'),
     coarse,
   );
   const select = (camera: Camera): void => {

@@ -59,9 +59,9 @@ export interface Services {
   readonly generate: () => void;
   readonly cancel: () => void;
   /** Makes three reactions to pick from; where three are there already, three others. */
-  readonly makeChoices: () => void;
+  readonly makeVariations: () => void;
   /** Brings the one with this seed to the stage. */
-  readonly pickChoice: (seed: number) => void;
+  readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */
   readonly retryModel: () => void;
   readonly togglePlay: () => void;

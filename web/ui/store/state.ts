@@ -145,7 +145,7 @@ export interface Preview {
 }
 
 /** One of several reactions to pick from. */
-export interface Choice {
+export interface Variation {
   readonly seed: number;
   /** Null until it is made. */
   readonly reaction: Reaction | null;
@@ -154,10 +154,10 @@ export interface Choice {
 }
 
 /** Reactions to the same files and settings that differ in their seed. */
-export interface Choices {
+export interface Variations {
   /** What they are made from; the seed in it counts for nothing. */
   readonly inputs: Inputs;
-  readonly list: readonly Choice[];
+  readonly list: readonly Variation[];
   /** Some are still being made. */
   readonly making: boolean;
 }
@@ -256,7 +256,7 @@ export interface AppState {
   readonly reading: Readonly<Record<Side, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
-  readonly choices: Choices | null;
+  readonly variations: Variations | null;
   /** The seed stays as it is when a reaction is made again. */
   readonly seedLocked: boolean;
   /** The newest first; the one on the stage is the one whose reaction is `reaction`. */

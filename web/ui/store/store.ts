@@ -27,7 +27,7 @@ export function initialState(theme: Theme): AppState {
     reading: { song: null, leader: null },
     reaction: null,
     preview: null,
-    choices: null,
+    variations: null,
     seedLocked: false,
     takes: [],
     takesMade: 0,

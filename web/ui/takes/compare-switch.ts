@@ -1,106 +1,47 @@
 import { el, listen, setAttribute, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
-import type { Compare, Letter } from '../store/state';
-import { apply, watchAll } from '../store/store';
+import type { AppState, Compare, Letter } from '../store/state';
+import { apply, type Store, watchAll } from '../store/store';
 import { compareSet, flipped } from '../store/actions/takes';
 import { otherTake } from '../store/take';
 
-/** A key that is held this long is a look at the other take, not a change to it, milliseconds. */
-const HELD = 350;
+/** A key held at least this long flips back when it is released. */
+const HOLD_MS = 350;
 
 const LETTERS: readonly Letter[] = ['A', 'B'];
-const WAYS: readonly (readonly [Exclude<Compare, 'off'>, string])[] = [
+const MODES: readonly (readonly [Exclude<Compare, 'off'>, string])[] = [
   ['ghost', 'Ghost'],
   ['side', 'Side by side'],
 ];
 
+/** A group of buttons and how it follows the state. */
+interface Group {
+  readonly root: HTMLElement;
+  readonly show: (state: AppState) => void;
+}
+
 /**
- * The switch over the stage while two takes are compared: which of them is shown, and whether the other one is seen
- * too. Key B flips; held, it shows the other take until it is let go.
+ * The switch over the stage while two takes are compared: which of them is on the stage, and whether the other one is
+ * drawn too. Key B flips; held, it shows the other take until it is released.
  * @param drawn whether the stage can draw the other take
  */
 export const mountCompareSwitch =
   (drawn: boolean): Mount =>
   (root, store) => {
-    const letters = LETTERS.map((letter) =>
-      el('button', {
-        text: letter,
-        attributes: { type: 'button', role: 'radio', title: 'Flip (B)' },
-        on: {
-          click: () => {
-            if (store.getState().letter !== letter) apply(store, flipped());
-          },
-          keydown: (event) => {
-            if (!/^Arrow/.test(event.key)) return;
-            event.preventDefault();
-            event.stopPropagation();
-            apply(store, flipped());
-            letters[LETTERS.indexOf(store.getState().letter)]?.focus();
-          },
-        },
-      }),
-    );
-    const ways = WAYS.map(([way, text]) =>
-      el('button', {
-        class: 'desk',
-        text,
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            apply(store, compareSet(way));
-          },
-        },
-      }),
-    );
-    const group = el(
-      'div',
-      { class: 'seg', attributes: { role: 'radiogroup', 'aria-label': 'Compare takes' } },
-      ...letters,
-    );
-    const seen = el(
-      'div',
-      { class: 'seg', attributes: { role: 'group', 'aria-label': 'Show both takes' } },
-      ...ways,
-    );
-    seen.hidden = !drawn;
-    const bar = el('div', { class: 'over ab' }, group, seen);
+    const letters = createLetters(store);
+    const modes = createModes(store);
+    modes.root.hidden = !drawn;
+    const bar = el('div', { class: 'over compare-switch' }, letters.root, modes.root);
     root.append(bar);
-
-    let pressed: number | null = null;
-    const types = (event: KeyboardEvent): boolean =>
-      event.target instanceof Element && event.target.matches('input:not([type="range"]), select, textarea');
     return together(
-      listen(window, 'keydown', (event) => {
-        if (event.key.toLowerCase() !== 'b' || event.ctrlKey || event.metaKey || event.altKey) return;
-        if (event.repeat || pressed !== null || types(event)) return;
-        const before = store.getState().reaction;
-        apply(store, flipped());
-        if (store.getState().reaction !== before) pressed = event.timeStamp;
-      }),
-      listen(window, 'keyup', (event) => {
-        if (event.key.toLowerCase() !== 'b' || pressed === null) return;
-        if (event.timeStamp - pressed >= HELD) apply(store, flipped());
-        pressed = null;
-      }),
-      listen(window, 'blur', () => {
-        pressed = null;
-      }),
+      flipByKey(store),
       watchAll(
         store,
         (state) => [otherTake(state), state.letter, state.compare],
         (state) => {
-          const { letter, compare } = state;
           bar.hidden = otherTake(state) === null;
-          LETTERS.forEach((name, index) => {
-            const button = letters[index];
-            if (!button) return;
-            setAttribute(button, 'aria-checked', String(name === letter));
-            button.tabIndex = name === letter ? 0 : -1;
-          });
-          WAYS.forEach(([way], index) => {
-            const button = ways[index];
-            if (button) setAttribute(button, 'aria-pressed', String(way === compare));
-          });
+          letters.show(state);
+          modes.show(state);
         },
       ),
       () => {
@@ -108,3 +49,89 @@ export const mountCompareSwitch =
       },
     );
   };
+
+/** Which of the two takes is on the stage. */
+function createLetters(store: Store): Group {
+  const buttons = LETTERS.map((letter) =>
+    el('button', {
+      text: letter,
+      attributes: { type: 'button', role: 'radio', title: 'Flip (B)' },
+      on: {
+        click: () => {
+          if (store.getState().letter !== letter) apply(store, flipped());
+        },
+        keydown: (event) => {
+          if (!/^Arrow/.test(event.key)) return;
+          event.preventDefault();
+          event.stopPropagation();
+          apply(store, flipped());
+          buttons[LETTERS.indexOf(store.getState().letter)]?.focus();
+        },
+      },
+    }),
+  );
+  const attributes = { role: 'radiogroup', 'aria-label': 'Compare takes' };
+  return {
+    root: el('div', { class: 'seg', attributes }, ...buttons),
+    show: ({ letter }) => {
+      buttons.forEach((button, index) => {
+        const chosen = LETTERS[index] === letter;
+        setAttribute(button, 'aria-checked', String(chosen));
+        button.tabIndex = chosen ? 0 : -1;
+      });
+    },
+  };
+}
+
+/** How the other take is drawn; pressed again, a mode is switched off. */
+function createModes(store: Store): Group {
+  const buttons = MODES.map(([mode, text]) =>
+    el('button', {
+      class: 'desk',
+      text,
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          apply(store, compareSet(mode));
+        },
+      },
+    }),
+  );
+  const attributes = { role: 'group', 'aria-label': 'Show both takes' };
+  return {
+    root: el('div', { class: 'seg', attributes }, ...buttons),
+    show: ({ compare }) => {
+      buttons.forEach((button, index) => {
+        setAttribute(button, 'aria-pressed', String(MODES[index]?.[0] === compare));
+      });
+    },
+  };
+}
+
+/** Flips the two takes when B is pressed, and back when it is released after a long press. */
+function flipByKey(store: Store): () => void {
+  let pressedAt: number | null = null;
+  const isB = ({ key }: KeyboardEvent): boolean => key.toLowerCase() === 'b';
+  return together(
+    listen(window, 'keydown', (event) => {
+      if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.repeat || pressedAt !== null || isTyping(event)) return;
+      const before = store.getState().reaction;
+      apply(store, flipped());
+      if (store.getState().reaction !== before) pressedAt = event.timeStamp;
+    }),
+    listen(window, 'keyup', (event) => {
+      if (!isB(event) || pressedAt === null) return;
+      if (event.timeStamp - pressedAt >= HOLD_MS) apply(store, flipped());
+      pressedAt = null;
+    }),
+    listen(window, 'blur', () => {
+      pressedAt = null;
+    }),
+  );
+}
+
+/** Whether the key goes to a field that takes letters. */
+function isTyping({ target }: KeyboardEvent): boolean {
+  return target instanceof Element && target.matches('input:not([type="range"]), select, textarea');
+}

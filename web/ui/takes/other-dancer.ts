@@ -4,12 +4,12 @@ import type { Letter, Take } from '../store/state';
 import { type Store, watchAll } from '../store/store';
 import { otherTake, takeOnStage, takeTitle } from '../store/take';
 
-/** The reactor of the other take, as it is to be seen at the same playhead. */
+/** The reactor of the other take, drawn at the same playhead. */
 export interface OtherDancer {
   readonly motion: SolvedMotion;
-  /** Through the one on the stage, or in a half of the picture: A is always on the left. */
+  /** As a ghost in the same picture, or in one half of a split picture: A is always on the left. */
   readonly mode: 'ghost' | 'left' | 'right';
-  /** What the halves are called: `A Softer hands`, `B Take 2`. */
+  /** Labels of the two halves: `A Softer hands`, `B Take 2`. */
   readonly labels: { readonly left: string; readonly right: string };
 }
 
@@ -18,9 +18,9 @@ export interface ComparingStage {
   readonly setOther: (other: OtherDancer | null) => void;
 }
 
-/** Keeps the stage's second reactor in step with the comparison. */
+/** Shows the other take on the stage while two takes are compared; returns a function that stops it. */
 export function showOther(store: Store, stage: ComparingStage): () => void {
-  const called = (letter: Letter, take: Take | null): string =>
+  const labelOf = (letter: Letter, take: Take | null): string =>
     take ? `${letter} ${takeTitle(take)}` : letter;
   return watchAll(
     store,
@@ -34,7 +34,7 @@ export function showOther(store: Store, stage: ComparingStage): () => void {
         return;
       }
       const [a, b] = letter === 'A' ? [takeOnStage(state), other] : [other, takeOnStage(state)];
-      const labels = { left: called('A', a), right: called('B', b) };
+      const labels = { left: labelOf('A', a), right: labelOf('B', b) };
       stage.setOther({
         motion,
         mode: compare === 'ghost' ? 'ghost' : letter === 'A' ? 'right' : 'left',

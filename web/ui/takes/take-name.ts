@@ -1,7 +1,7 @@
 import { el, setText } from '../widgets/dom';
 import { LONGEST_NAME } from '../store/actions/takes';
 
-/** The name of a take, which turns into a field and back. */
+/** The name of a take, as text or as a field while it is edited. */
 export interface TakeName {
   readonly root: HTMLElement;
   readonly show: (title: string) => void;
@@ -9,10 +9,10 @@ export interface TakeName {
 }
 
 /**
- * @param named hears the new name; not called when it is the old one or the visitor thinks better of it
- * @param left the field was left by key, so that the focus has nowhere to be
+ * @param onRename is called with the new name, unless it is the old one or editing was cancelled with Escape
+ * @param onLeave is called when editing was ended by key, so that the focus can be moved on
  */
-export function createTakeName(named: (name: string) => void, left: () => void): TakeName {
+export function createTakeName(onRename: (name: string) => void, onLeave: () => void): TakeName {
   const words = el('b');
   const field = el('input', {
     attributes: {
@@ -23,12 +23,12 @@ export function createTakeName(named: (name: string) => void, left: () => void):
     },
     on: {
       keydown: (event) => {
-        // The keys of the list and of the page rest while someone types.
+        // The shortcuts of the list and of the page do nothing while someone types.
         event.stopPropagation();
         if (event.key !== 'Enter' && event.key !== 'Escape') return;
         event.preventDefault();
         close(event.key === 'Enter');
-        left();
+        onLeave();
       },
       blur: () => {
         close(true);
@@ -41,7 +41,7 @@ export function createTakeName(named: (name: string) => void, left: () => void):
     if (field.hidden) return;
     field.hidden = true;
     words.hidden = false;
-    if (keep && field.value !== words.textContent) named(field.value);
+    if (keep && field.value !== words.textContent) onRename(field.value);
   };
   return {
     root: el('div', { class: 'name' }, words, field),

@@ -1,5 +1,5 @@
+import { iconButton } from '../widgets/button';
 import { el, setAttribute, setText } from '../widgets/dom';
-import { icon, type IconName } from '../widgets/icons';
 import type { AppState, Letter, Take } from '../store/state';
 import { apply, type Store } from '../store/store';
 import {
@@ -19,29 +19,20 @@ const LETTERS: readonly Letter[] = ['A', 'B'];
 /** One take in the list. */
 export interface TakeRow {
   readonly root: HTMLElement;
-  readonly show: (take: Take, state: AppState, reachable: boolean) => void;
+  /** @param tabStop whether Tab leads to this row and its buttons */
+  readonly show: (take: Take, state: AppState, tabStop: boolean) => void;
   /** Puts a field in the place of the name. */
   readonly rename: () => void;
 }
 
 /**
- * A row of the grid of takes: star, name with settings, the letters of the comparison, rename and delete. A click
- * shows the take on the stage. Only the row that the arrows have led to is reached by Tab, with its buttons.
+ * A row of the grid of takes: star, name with settings, rename and delete, the letters of the comparison. A click
+ * shows the take on the stage, a double click renames it.
  */
 export function createTakeRow(store: Store, id: string): TakeRow {
-  const star = el(
-    'button',
-    {
-      class: 'star',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, takeStarred(id));
-        },
-      },
-    },
-    icon('star'),
-  );
+  const star = iconButton('star', 'star', {}, () => {
+    apply(store, takeStarred(id));
+  });
   const name = createTakeName(
     (text) => {
       apply(store, takeRenamed(id, text));
@@ -51,25 +42,11 @@ export function createTakeRow(store: Store, id: string): TakeRow {
     },
   );
   const words = el('small');
-  const letters = LETTERS.map((letter) =>
-    el('button', {
-      text: letter,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, letterGiven(id, letter));
-        },
-      },
-    }),
-  );
-  const rename = action('rename', () => {
-    name.edit();
-  });
-  const remove = action('remove', () => {
+  const rename = iconButton('icon', 'rename', {}, name.edit);
+  const remove = iconButton('icon', 'remove', {}, () => {
     apply(store, takeDeleted(id));
   });
-  const cell = (className: string, ...parts: HTMLElement[]): HTMLElement =>
-    el('div', { class: className, attributes: { role: 'gridcell' } }, ...parts);
+  const letters = createLetterButtons(store, id);
   const root = el(
     'div',
     {
@@ -87,47 +64,62 @@ export function createTakeRow(store: Store, id: string): TakeRow {
     },
     cell('mark', star),
     cell('about', name.root, words),
-    cell('acts', rename, remove),
-    cell('lets', ...letters),
+    cell('actions', rename, remove),
+    cell('letters', ...letters),
   );
-
   return {
     root,
-    rename: () => {
-      name.edit();
-    },
-    show: (take, state, reachable) => {
+    rename: name.edit,
+    show: (take, state, tabStop) => {
       const title = takeTitle(take);
-      const onStage = take.reaction === state.reaction;
       name.show(title);
       setText(words, takeWords(take, state));
       words.title = allTakeWords(take);
-      setAttribute(root, 'aria-selected', String(onStage));
+      setAttribute(root, 'aria-selected', String(take.reaction === state.reaction));
       setAttribute(star, 'aria-pressed', String(take.starred));
       setAttribute(star, 'aria-label', `Star ${title}`);
-      label(rename, `Rename ${title}`, 'Rename (F2)');
-      label(remove, `Delete ${title}`, 'Delete (Del)');
-      const mine = letterOf(take, state);
-      LETTERS.forEach((letter, index) => {
-        const button = letters[index];
-        if (!button) return;
-        setAttribute(button, 'aria-pressed', String(mine === letter));
-        setAttribute(button, 'aria-label', `Use ${title} as ${letter}`);
-        const reason = whyNoLetter(take, letter, state);
-        // It stays within reach, so that the reason is.
-        setAttribute(button, 'aria-disabled', reason !== null && 'true');
-        button.title = reason ?? '';
-      });
-      for (const control of [root, star, rename, remove, ...letters]) control.tabIndex = reachable ? 0 : -1;
+      setLabel(rename, `Rename ${title}`, 'Rename (F2)');
+      setLabel(remove, `Delete ${title}`, 'Delete (Del)');
+      showLetters(letters, take, state);
+      for (const control of [root, star, rename, remove, ...letters]) control.tabIndex = tabStop ? 0 : -1;
     },
   };
 }
 
-function action(sign: IconName, run: () => void): HTMLButtonElement {
-  return el('button', { class: 'icon', attributes: { type: 'button' }, on: { click: run } }, icon(sign));
+function cell(className: string, ...children: HTMLElement[]): HTMLElement {
+  return el('div', { class: className, attributes: { role: 'gridcell' } }, ...children);
 }
 
-function label(button: HTMLButtonElement, text: string, title: string): void {
-  setAttribute(button, 'aria-label', text);
+/** The buttons that make the take A or B of the comparison, in this order. */
+function createLetterButtons(store: Store, id: string): HTMLButtonElement[] {
+  return LETTERS.map((letter) =>
+    el('button', {
+      text: letter,
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          apply(store, letterGiven(id, letter));
+        },
+      },
+    }),
+  );
+}
+
+function showLetters(buttons: readonly HTMLButtonElement[], take: Take, state: AppState): void {
+  const current = letterOf(take, state);
+  LETTERS.forEach((letter, index) => {
+    const button = buttons[index];
+    if (!button) return;
+    setAttribute(button, 'aria-pressed', String(current === letter));
+    setAttribute(button, 'aria-label', `Use ${takeTitle(take)} as ${letter}`);
+    const reason = whyNoLetter(take, letter, state);
+    // Not `disabled`: the button can still have focus and pointer, so that its tooltip tells the reason.
+    setAttribute(button, 'aria-disabled', reason !== null && 'true');
+    button.title = reason ?? '';
+  });
+}
+
+function setLabel(button: HTMLButtonElement, label: string, title: string): void {
+  setAttribute(button, 'aria-label', label);
   button.title = title;
 }

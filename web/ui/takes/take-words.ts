@@ -1,12 +1,12 @@
 import { columnOf, guidanceWords } from '../store/guidance-matrix';
 import type { AppState, Inputs, Take } from '../store/state';
 
-/** Longest name of a file in a line, characters. */
-const LONGEST = 16;
+/** Length at which the name of a file is cut, characters. */
+const MAX_NAME_LENGTH = 16;
 
 /**
- * What a take was made from, in a line: first what sets it apart from the files on the page and from the model's own
- * ways, then what nearly every take has of its own: `as leader, song 1.7 s later, 6 steps, seed 1204, 2 coarse, 1.5 fine`.
+ * What a take was made from, in a line: files and settings that differ from those on the page and the model's
+ * defaults, seed and guidance always: `as leader, song 1.7 s later, 6 steps, seed 1204, 2 coarse, 1.5 fine`.
  */
 export function takeWords({ reaction: { inputs } }: Take, { leader, song, manifest }: AppState): string {
   const { settings } = inputs;
@@ -45,11 +45,11 @@ function shiftWords({ shift, leader }: Inputs): string[] {
 
 const stepWords = (steps: number): string => `${steps} ${steps === 1 ? 'step' : 'steps'}`;
 
-/** `2`, `1.5`, `0.05`: no needless zeros. */
+/** `2`, `1.5`, `0.05`: no trailing zeros. */
 const plain = (value: number): string => String(Math.round(value * 100) / 100);
 
-/** A file's name without its ending, cut where it is long. */
+/** A file's name without its extension, cut where it is long. */
 function brief(name: string): string {
   const stem = name.replace(/\.[a-z0-9]{1,5}$/i, '');
-  return stem.length > LONGEST ? `${stem.slice(0, LONGEST - 1).trimEnd()}…` : stem;
+  return stem.length > MAX_NAME_LENGTH ? `${stem.slice(0, MAX_NAME_LENGTH - 1).trimEnd()}…` : stem;
 }

@@ -2,38 +2,15 @@ import { closeButton } from '../widgets/close-button';
 import { el, listen, setText, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
-import { apply, watch, watchAll } from '../store/store';
+import { apply, type Store, watch, watchAll } from '../store/store';
 import { opened } from '../store/actions/view';
-import { takeChosen, takeDeleted, takeStarred } from '../store/actions/takes';
-import { createTakeRow, type TakeRow } from './take-row';
+import { TakeList } from './take-list';
 import { takeOnStage } from '../store/take';
 import { mountUndo } from './undo';
 
-/** The list of takes in the panel; on the phone a sheet over the page. */
+/** The section of takes in the panel; on the phone a sheet over the page. */
 export const mountTakes: Mount = (root, store, services) => {
-  const rows = new Map<string, TakeRow>();
-  /** The row that Tab leads to: the one the arrows were on last, else the one on the stage. */
-  let current: string | null = null;
-
-  const list = el('div', {
-    class: 'takes',
-    attributes: { role: 'grid', 'aria-labelledby': 'takes-head' },
-    on: {
-      keydown: (event) => {
-        if (press(event)) {
-          event.preventDefault();
-          event.stopPropagation();
-        }
-      },
-      focusin: (event) => {
-        const row = event.target instanceof Element ? event.target.closest('[data-take]') : null;
-        const id = row?.getAttribute('data-take') ?? null;
-        if (id === current) return;
-        current = id;
-        show(store.getState());
-      },
-    },
-  });
+  const list = new TakeList(store);
   const empty = el('p', {
     class: 'empty-line',
     text: 'Every partner that is made becomes a take. Mark two of them A and B to compare them on the same beat.',
@@ -43,106 +20,30 @@ export const mountTakes: Mount = (root, store, services) => {
     apply(store, opened('takes'));
   });
   close.classList.add('phone-only');
-  const project = el('button', {
-    class: 'btn tint phone-only',
-    text: 'Project',
-    attributes: { type: 'button', 'aria-haspopup': 'dialog' },
-    on: {
-      click: () => {
-        apply(store, opened('project'));
-      },
-    },
-  });
   const head = el(
     'div',
     { class: 'head' },
     el('h2', { text: 'Takes', attributes: { id: 'takes-head' } }),
     count,
-    project,
+    createProjectButton(store),
   );
   const section = el(
     'section',
     { class: 'sec takes-sec', attributes: { 'aria-labelledby': 'takes-head' } },
     head,
-    list,
+    list.root,
     empty,
   );
   const undo = mountUndo(head, store, services);
   head.append(close);
   root.append(section);
 
-  const focusRow = (id: string | undefined): void => {
-    if (id !== undefined) rows.get(id)?.root.focus();
-  };
-  const press = (event: KeyboardEvent): boolean => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return false;
-    const { takes } = store.getState();
-    const at = takes.findIndex(({ id }) => id === current);
-    const id = takes[at]?.id;
-    if (id === undefined) return false;
-    const onRow = event.target instanceof Element && event.target.matches('[data-take]');
-    switch (event.key) {
-      case 'ArrowDown':
-        focusRow(takes[Math.min(takes.length - 1, at + 1)]?.id);
-        return true;
-      case 'ArrowUp':
-        focusRow(takes[Math.max(0, at - 1)]?.id);
-        return true;
-      case 'Home':
-        focusRow(takes[0]?.id);
-        return true;
-      case 'End':
-        focusRow(takes.at(-1)?.id);
-        return true;
-      case 'Enter':
-        if (onRow) apply(store, takeChosen(id));
-        return onRow;
-      case 'F2':
-        rows.get(id)?.rename();
-        return true;
-      case 'Delete':
-      case 'Backspace':
-        apply(store, takeDeleted(id));
-        return true;
-      case 's':
-      case 'S':
-        apply(store, takeStarred(id));
-        return true;
-    }
-    return false;
-  };
-
   const show = (state: AppState): void => {
     const { takes } = state;
-    const focused = document.activeElement;
-    const inside = list.contains(focused);
-    const place = takes.findIndex(({ id }) => id === current);
-    const onStage = takeOnStage(state)?.id;
-    if (place < 0 && !inside) current = onStage ?? takes[0]?.id ?? null;
-    const gone = inside && place < 0;
-    // A row that was deleted under the focus hands it to the one that moves up.
-    const heir = gone ? Math.min(takes.length - 1, [...rows.keys()].indexOf(current ?? '')) : -1;
-    if (gone) current = takes[Math.max(0, heir)]?.id ?? null;
-
-    for (const [id, row] of rows)
-      if (!takes.some((take) => take.id === id)) {
-        row.root.remove();
-        rows.delete(id);
-      }
-    const before = new Map(rows);
-    rows.clear();
-    takes.forEach((take, index) => {
-      const row = before.get(take.id) ?? createTakeRow(store, take.id);
-      rows.set(take.id, row);
-      if (list.children[index] !== row.root) list.insertBefore(row.root, list.children[index] ?? null);
-      row.show(take, state, take.id === current);
-    });
-    if (gone) focusRow(current ?? undefined);
+    list.show(state);
     empty.hidden = takes.some(({ reaction }) => reaction.label === null);
-    list.hidden = takes.length === 0;
     setText(count, takes.length > 1 ? String(takes.length) : '');
   };
-
   return together(
     watchAll(
       store,
@@ -161,7 +62,7 @@ export const mountTakes: Mount = (root, store, services) => {
       store,
       (state) => takeOnStage(state)?.id,
       (id) => {
-        if (id !== undefined) reveal(list, rows.get(id)?.root);
+        if (id !== undefined) list.reveal(id);
       },
     ),
     watch(
@@ -172,43 +73,67 @@ export const mountTakes: Mount = (root, store, services) => {
         if (open) close.focus();
       },
     ),
-    listen(window, 'pointerdown', ({ target }) => {
-      const outside =
-        target instanceof Element && !section.contains(target) && !target.closest('.takes-door');
-      if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
-    }),
-    fadeEnds(list),
+    closeOutside(section, store),
     undo,
     () => {
+      list.dispose();
       section.remove();
     },
   );
 };
 
-/** Scrolls the list, and nothing around it, until the row is in sight, clear of the ends that fade. */
-function reveal(list: HTMLElement, row: HTMLElement | undefined): void {
-  if (!row) return;
-  const faded = row.offsetHeight / 2;
-  const top = row.offsetTop - list.offsetTop - faded;
-  const bottom = top + row.offsetHeight + 2 * faded;
-  if (top < list.scrollTop) list.scrollTop = top;
-  else if (bottom > list.scrollTop + list.clientHeight) list.scrollTop = bottom - list.clientHeight;
+/** On the phone, the button that opens the sheet of takes, with their number. */
+export const mountTakesButton: Mount = (root, store) => {
+  const count = el('span', { class: 'muted' });
+  const button = el(
+    'button',
+    {
+      class: 'btn takes-button',
+      attributes: { type: 'button', 'aria-haspopup': 'dialog' },
+      on: {
+        click: () => {
+          apply(store, opened('takes'));
+        },
+      },
+    },
+    'Takes ',
+    count,
+  );
+  root.append(button);
+  return together(
+    watchAll(
+      store,
+      ({ takes, open }) => [takes.length, open === 'takes'],
+      ({ takes, open }) => {
+        setText(count, takes.length > 0 ? String(takes.length) : '');
+        button.setAttribute('aria-expanded', String(open === 'takes'));
+      },
+    ),
+    () => {
+      button.remove();
+    },
+  );
+};
+
+/** On the phone, the button that opens the project menu. */
+function createProjectButton(store: Store): HTMLElement {
+  return el('button', {
+    class: 'btn tint phone-only',
+    text: 'Project',
+    attributes: { type: 'button', 'aria-haspopup': 'dialog' },
+    on: {
+      click: () => {
+        apply(store, opened('project'));
+      },
+    },
+  });
 }
 
-/** Lets the ends of the list fade beyond which it goes on. Returns how to stop. */
-function fadeEnds(list: HTMLElement): () => void {
-  const fade = (): void => {
-    list.classList.toggle('above', list.scrollTop > 1);
-    list.classList.toggle('below', list.scrollTop + list.clientHeight < list.scrollHeight - 1);
-  };
-  const sizes = new ResizeObserver(fade);
-  sizes.observe(list);
-  list.addEventListener('scroll', fade, { passive: true });
-  const rows = new MutationObserver(fade);
-  rows.observe(list, { childList: true });
-  return () => {
-    sizes.disconnect();
-    rows.disconnect();
-    list.removeEventListener('scroll', fade);
-  };
+/** Closes the sheet when the pointer goes down outside it; returns a function that stops it. */
+function closeOutside(section: HTMLElement, store: Store): () => void {
+  return listen(window, 'pointerdown', ({ target }) => {
+    const outside =
+      target instanceof Element && !section.contains(target) && !target.closest('.takes-button');
+    if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
+  });
 }

@@ -1,25 +1,16 @@
-import { el, listen, together } from '../widgets/dom';
-import { icon, type IconName } from '../widgets/icons';
+import { iconButton } from '../widgets/button';
+import { listen, together } from '../widgets/dom';
+import type { IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import { apply, type Change, type Store, watchAll } from '../store/store';
 import { redone, undone } from '../store/history';
 
 /** Undo and redo as two buttons. */
 export const mountUndo: Mount = (root, store) => {
-  const button = (sign: IconName, label: string, title: string, change: Change): HTMLButtonElement =>
-    el(
-      'button',
-      {
-        class: 'icon undo',
-        attributes: { type: 'button', 'aria-label': label, title },
-        on: {
-          click: () => {
-            apply(store, change);
-          },
-        },
-      },
-      icon(sign),
-    );
+  const button = (name: IconName, label: string, title: string, change: Change): HTMLButtonElement =>
+    iconButton('icon undo', name, { label, title }, () => {
+      apply(store, change);
+    });
   const undo = button('undo', 'Undo', 'Undo (Ctrl Z)', undone());
   const redo = button('redo', 'Redo', 'Redo (Ctrl Y)', redone());
   root.append(undo, redo);
@@ -39,7 +30,7 @@ export const mountUndo: Mount = (root, store) => {
   );
 };
 
-/** Ctrl or Command with Z, Shift Z and Y. Fields that are typed in have their own undo. */
+/** Undo and redo by Ctrl or Command with Z, Shift Z and Y; text fields have their own undo. */
 export function mountUndoKeys(store: Store): () => void {
   return listen(window, 'keydown', (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;

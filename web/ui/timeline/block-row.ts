@@ -1,20 +1,18 @@
-import { blocksOf, doneOf } from './blocks';
 import { el, setVariable } from '../widgets/dom';
 import { clockTime } from '../store/format';
-import type { AppState } from '../store/state';
+import type { AppState, Job } from '../store/state';
 import type { Span, TimeScale } from '../store/time-scale';
 import { danceFps } from '../store/selectors';
 
-/** The reactor's blocks under its curve: where the model's blocks meet, and how far a new reaction has come. */
+/** The blocks in which the model makes a dance, under its curve, each filled as far as a new reaction is made. */
 export interface BlockRow {
   readonly root: HTMLElement;
   /** Places the blocks. */
   readonly draw: (state: AppState, scale: TimeScale) => void;
-  /** Fills what is done. */
+  /** Shows the progress of the job. */
   readonly fill: (state: AppState) => void;
 }
 
-/** A row without blocks. */
 export function createBlockRow(): BlockRow {
   const root = el('div', { class: 'blocks' });
   let blocks: Span[] = [];
@@ -37,13 +35,13 @@ export function createBlockRow(): BlockRow {
       const fps = danceFps(state);
       const frames = leader?.file.clip.frames ?? 0;
       const length = manifest ? manifest.latent.block * manifest.latent.stride : frames;
-      const coming = blocksOf(frames, length);
-      if (coming.length !== blocks.length || coming.length === 0) {
-        const count = Math.max(1, coming.length);
-        cells = Array.from({ length: count }, () => el('div', { class: 'blk' }, el('div', { class: 'p' })));
+      const next = blocksOf(frames, length);
+      if (next.length !== blocks.length || next.length === 0) {
+        const count = Math.max(1, next.length);
+        cells = Array.from({ length: count }, () => el('div', { class: 'block' }, el('div', { class: 'p' })));
         root.replaceChildren(...cells);
       }
-      blocks = coming;
+      blocks = next;
       cells.forEach((cell, index) => {
         const block = blocks[index];
         const left = block ? scale.x(block.from / fps) : 0;
@@ -57,4 +55,34 @@ export function createBlockRow(): BlockRow {
       fill(state);
     },
   };
+}
+
+/**
+ * The blocks of a dance, frames; the last one may be short.
+ * @param length of a block, frames
+ */
+export function blocksOf(frames: number, length: number): Span[] {
+  if (frames <= 0 || length <= 0) return [];
+  return Array.from({ length: Math.ceil(frames / length) }, (_, index) => ({
+    from: index * length,
+    to: Math.min(frames, (index + 1) * length),
+  }));
+}
+
+/**
+ * The part of a block that is made, as shares of the block from 0 to 1: the frames that are shown already where the
+ * job tells them, else an estimate as if blocks were made one after the other.
+ */
+export function doneOf(block: Span, blocks: readonly Span[], job: Job | null): Span {
+  if (!job) return { from: 0, to: 0 };
+  const length = block.to - block.from;
+  if (job.fresh) {
+    const from = Math.max(block.from, job.fresh.from);
+    const to = Math.min(block.to, job.fresh.to);
+    if (to <= from) return { from: 0, to: 0 };
+    return { from: (from - block.from) / length, to: (to - block.from) / length };
+  }
+  const frames = blocks.at(-1)?.to ?? 0;
+  const done = (job.fraction * frames - block.from) / length;
+  return { from: 0, to: Math.min(1, Math.max(0, done)) };
 }

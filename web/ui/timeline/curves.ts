@@ -3,11 +3,11 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Span } from '../store/time-scale';
 
 /**
- * The picture of a waveform.
+ * The lowest and highest sample of each column of a drawn waveform.
  * @param pcm mono samples
  * @param rate samples per second
- * @param span what the picture shows, seconds of the song; before its start and past its end it is flat
- * @param columns width of the picture
+ * @param span the part that is drawn, seconds of the song; outside the song the waveform is flat
+ * @param columns width of the drawing
  */
 export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, columns: number): Peaks {
   const low = new Float32Array(columns);
@@ -16,25 +16,25 @@ export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, colum
   for (let column = 0; column < columns; column++) {
     const first = sampleAt(column);
     const end = Math.min(pcm.length, Math.max(first + 1, sampleAt(column + 1)));
-    let least = 0;
-    let most = 0;
+    let min = 0;
+    let max = 0;
     for (let i = Math.max(0, first); i < end; i++) {
       const value = pcm[i] ?? 0;
-      if (value < least) least = value;
-      if (value > most) most = value;
+      if (value < min) min = value;
+      if (value > max) max = value;
     }
-    low[column] = least;
-    high[column] = most;
+    low[column] = min;
+    high[column] = max;
   }
   return { low, high };
 }
 
-/** The loudest sample of a song, at least a little above silence so that one can divide by it. */
+/** The largest absolute sample of a song, at least 0.001 so that it can be divided by. */
 export function loudest(pcm: Float32Array): number {
-  return pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 1e-3);
+  return pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 1e-3);
 }
 
-/** Speed of a dancer as drawn in its lane: mean over the joints in m/s per frame, smoothed over about 0.2 s. */
+/** Speed of a dancer in each frame: the mean over the joints, m/s, smoothed over about 0.2 s. */
 export function speedCurve({
   positions,
   frames,
@@ -60,7 +60,7 @@ export function speedCurve({
   return smooth(raw, Math.max(1, Math.round(fps / 15)));
 }
 
-/** A running mean over `radius` frames to either side, twice, which is close to a Gaussian. */
+/** A moving average over `radius` frames to either side, applied twice, which is close to a Gaussian filter. */
 function smooth(values: Float32Array, radius: number): Float32Array {
   let from = values;
   for (let pass = 0; pass < 2; pass++) {

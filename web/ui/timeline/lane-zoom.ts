@@ -1,17 +1,22 @@
 import { el, setVariable, together } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
+import { onPinch } from '../widgets/pinch';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { brought, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { moved, type TimeScale, zoomed } from '../store/time-scale';
 
-/** Zoom of one wheel pixel; a wheel's notch is about 100 of them, a pinch on a pad a few. */
-const PER_PIXEL = 0.01;
-const MOST_PIXELS = 40;
-/** Pixels of a line of a wheel that counts in lines. */
-const LINE = 16;
+/** Logarithm of the zoom of one wheel pixel; a wheel's notch is about 100 pixels, a pinch on a touchpad a few. */
+const ZOOM_PER_PIXEL = 0.01;
+/** Pixels of one wheel event that count at most. */
+const MAX_PIXELS = 40;
+/** Pixels of a line, for wheels that count in lines. */
+const LINE_PIXELS = 16;
 
-/** The hands on the lanes: wheel and pinch zoom around the pointer, wheel and bar scroll, the playhead is followed. */
+/**
+ * Zoom and scroll of the lanes: wheel and pinch zoom around the pointer, wheel and scroll bar scroll, and the lanes
+ * follow the playhead. Returns a function that stops it.
+ */
 export function mountLaneZoom(
   store: Store,
   lanes: HTMLElement,
@@ -19,128 +24,98 @@ export function mountLaneZoom(
   scale: () => TimeScale,
 ): () => void {
   const timeAt = (x: number): number => scale().time(x - tracks.getBoundingClientRect().left);
-  const whole = (): number => danceDuration(store.getState());
-  const scroll = (pixels: number): void => {
-    const { from, to, width } = scale();
-    apply(store, zoomSet(moved({ from, to }, whole(), (pixels / width) * (to - from))));
-  };
+  return together(
+    followPlayhead(store),
+    onWheel(store, lanes, timeAt, (pixels) => {
+      const { from, to, width } = scale();
+      apply(store, zoomSet(moved({ from, to }, duration(store), (pixels / width) * (to - from))));
+    }),
+    onPinch(lanes, (middle, factor, by) => {
+      if (duration(store) === 0) return;
+      const larger = zoomed(shown(store.getState()), duration(store), factor, timeAt(middle));
+      const { width } = scale();
+      apply(store, zoomSet(moved(larger, duration(store), (-by / width) * (larger.to - larger.from))));
+    }),
+    mountScrollBar(store, lanes),
+  );
+}
 
-  const onWheel = (event: WheelEvent): void => {
-    if (whole() === 0) return;
-    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1;
+function duration(store: Store): number {
+  return danceDuration(store.getState());
+}
+
+/** With Ctrl or Command a wheel zooms (browsers report a touchpad's pinch so), else it scrolls while zoomed in. */
+function onWheel(
+  store: Store,
+  lanes: HTMLElement,
+  timeAt: (x: number) => number,
+  scroll: (pixels: number) => void,
+): () => void {
+  const listener = (event: WheelEvent): void => {
+    if (duration(store) === 0) return;
+    const unit = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PIXELS : 1;
     if (event.ctrlKey || event.metaKey) {
       event.preventDefault();
-      const pixels = Math.max(-MOST_PIXELS, Math.min(MOST_PIXELS, event.deltaY * unit));
-      apply(store, zoomedBy(Math.exp(-pixels * PER_PIXEL), timeAt(event.clientX)));
+      const pixels = Math.max(-MAX_PIXELS, Math.min(MAX_PIXELS, event.deltaY * unit));
+      apply(store, zoomedBy(Math.exp(-pixels * ZOOM_PER_PIXEL), timeAt(event.clientX)));
       return;
     }
     if (!store.getState().zoom) return;
     event.preventDefault();
     scroll((Math.abs(event.deltaX) > Math.abs(event.deltaY) ? event.deltaX : event.deltaY) * unit);
   };
-  lanes.addEventListener('wheel', onWheel, { passive: false });
+  lanes.addEventListener('wheel', listener, { passive: false });
+  return () => {
+    lanes.removeEventListener('wheel', listener);
+  };
+}
 
-  const undoPinch = onPinch(lanes, (middle, factor, by) => {
-    if (whole() === 0) return;
-    const larger = zoomed(shown(store.getState()), whole(), factor, timeAt(middle));
-    const { width } = scale();
-    apply(store, zoomSet(moved(larger, whole(), (-by / width) * (larger.to - larger.from))));
-  });
-
+/** The bar under the lanes while they show a part of the dance. */
+function mountScrollBar(store: Store, lanes: HTMLElement): () => void {
   const thumb = el('div', { class: 'thumb' });
   const bar = el('div', { class: 'scroll', attributes: { 'aria-hidden': 'true' } }, thumb);
   lanes.append(bar);
   let before = { from: 0, to: 0 };
-  const undoThumb = draggable(thumb, {
-    begin: () => {
-      before = shown(store.getState());
-      return true;
-    },
-    move: (distance) => {
-      apply(store, zoomSet(moved(before, whole(), (distance / bar.clientWidth) * whole())));
-    },
-    drop: () => undefined,
-    click: () => undefined,
-    cancel: () => {
-      apply(store, zoomSet(before));
-    },
-  });
-
-  let last = store.getState().playback.time;
   return together(
-    watch(
-      store,
-      (state) => state.playback.time,
-      (time, { zoom, playback }) => {
-        // Who looked elsewhere while it plays goes on looking there.
-        const wasSeen = zoom && last >= zoom.from && last <= zoom.to;
-        last = time;
-        if (wasSeen || !playback.playing) apply(store, brought(time));
+    draggable(thumb, {
+      begin: () => {
+        before = shown(store.getState());
+        return true;
       },
-    ),
+      move: (distance) => {
+        const whole = duration(store);
+        apply(store, zoomSet(moved(before, whole, (distance / bar.clientWidth) * whole)));
+      },
+      drop: () => undefined,
+      click: () => undefined,
+      cancel: () => {
+        apply(store, zoomSet(before));
+      },
+    }),
     watchAll(
       store,
       (state) => [state.zoom, state.leader, state.song],
       (state) => {
         const { from, to } = shown(state);
+        const whole = danceDuration(state);
         bar.hidden = state.zoom === null;
-        setVariable(thumb, '--from', whole() > 0 ? from / whole() : 0);
-        setVariable(thumb, '--span', whole() > 0 ? (to - from) / whole() : 1);
+        setVariable(thumb, '--from', whole > 0 ? from / whole : 0);
+        setVariable(thumb, '--span', whole > 0 ? (to - from) / whole : 1);
       },
     ),
-    undoPinch,
-    undoThumb,
-    () => {
-      lanes.removeEventListener('wheel', onWheel);
-    },
   );
 }
 
-/**
- * Two fingers: the place between them, by how much they spread and how far they moved since the last time. Whatever
- * the first finger had begun is taken back when the second one comes.
- */
-function onPinch(
-  element: HTMLElement,
-  change: (middle: number, factor: number, by: number) => void,
-): () => void {
-  const fingers = new Map<number, number>();
-  const look = (): { middle: number; apart: number } | null => {
-    const [a, b] = [...fingers.values()];
-    return a === undefined || b === undefined
-      ? null
-      : { middle: (a + b) / 2, apart: Math.max(20, Math.abs(a - b)) };
-  };
-  /** Where the first finger came down. */
-  let begun: EventTarget | null = null;
-  const down = (event: PointerEvent): void => {
-    if (event.pointerType !== 'touch' || fingers.size === 2) return;
-    const [first] = fingers.keys();
-    fingers.set(event.pointerId, event.clientX);
-    if (first === undefined) {
-      begun = event.target;
-      return;
-    }
-    event.stopPropagation();
-    begun?.dispatchEvent(new PointerEvent('pointercancel', { pointerId: first, bubbles: true }));
-    // Fingers that slide off the lanes go on zooming, and are missed nowhere when they are lifted.
-    for (const finger of fingers.keys()) element.setPointerCapture(finger);
-  };
-  const move = (event: PointerEvent): void => {
-    if (!fingers.has(event.pointerId)) return;
-    const before = look();
-    fingers.set(event.pointerId, event.clientX);
-    const after = look();
-    if (!before || !after) return;
-    change(before.middle, after.apart / before.apart, after.middle - before.middle);
-  };
-  const up = (event: PointerEvent): void => {
-    if (event.isTrusted) fingers.delete(event.pointerId);
-  };
-  const heard = { pointerdown: down, pointermove: move, pointerup: up, pointercancel: up } as const;
-  const types = Object.keys(heard) as (keyof typeof heard)[];
-  for (const type of types) element.addEventListener(type, heard[type], { capture: true });
-  return () => {
-    for (const type of types) element.removeEventListener(type, heard[type], { capture: true });
-  };
+/** Scrolls to the playhead when it leaves the shown part; while it plays outside of it, the lanes stay. */
+function followPlayhead(store: Store): () => void {
+  let last = store.getState().playback.time;
+  return watch(
+    store,
+    (state) => state.playback.time,
+    (time, { zoom, playback }) => {
+      const wasShown = zoom && last >= zoom.from && last <= zoom.to;
+      last = time;
+      if (wasShown || !playback.playing) apply(store, brought(time));
+    },
+  );
 }

@@ -3,13 +3,14 @@ import { draggable } from '../widgets/drag';
 import { clockTime } from '../store/format';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
+import type { AppState } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 import { regionEndSet, regionSet } from '../store/actions/timeline';
 import type { Span, TimeScale } from '../store/time-scale';
 
-/** Where the region is drawn and drawn on. */
+/** The elements that the region lies on. */
 export interface LoopPlaces {
-  /** A drag here draws a region, a click jumps, a double click takes the region away. */
+  /** A drag here draws a region, a click jumps, a double click removes the region. */
   readonly ruler: HTMLElement;
   /** Lies over all lanes and holds the band. */
   readonly overlay: HTMLElement;
@@ -17,132 +18,166 @@ export interface LoopPlaces {
 }
 
 type End = 'from' | 'to';
+const ENDS: readonly End[] = ['from', 'to'];
 
-/** The loop: a tinted band over the lanes with a grip at each end. */
-export function mountLoopRegion(
-  store: Store,
-  services: Services,
-  { ruler, overlay, scale }: LoopPlaces,
-): { readonly draw: () => void; readonly dispose: () => void } {
-  const band = el('div', { class: 'loop' });
-  const grips: Record<End, HTMLElement> = { from: grip('Loop start'), to: grip('Loop end') };
-  overlay.append(band, grips.from, grips.to);
-  /** The region while it is being drawn; it holds when the pointer is up. */
-  let drawn: Span | null = null;
+/** Direction of a step, by key. */
+const ARROWS: Readonly<Record<string, number>> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
-  const draw = (): void => {
-    const state = store.getState();
-    const { playback } = state;
-    const region = drawn ?? playback.region;
-    const now = scale();
-    const place = (time: number): number => (now.width > 0 ? now.x(time) / now.width : 0);
-    band.hidden = !region || region.to <= now.from || region.from >= now.to;
-    for (const end of ['from', 'to'] as const) {
-      const each = grips[end];
-      each.hidden = !region || place(region[end]) < -1e-6 || place(region[end]) > 1 + 1e-6;
-      if (!region) continue;
-      setVariable(each, '--at', place(region[end]));
-      each.setAttribute('aria-valuemax', danceDuration(state).toFixed(2));
-      each.setAttribute('aria-valuenow', region[end].toFixed(2));
-      each.setAttribute('aria-valuetext', clockTime(region[end]));
+/** How far outside the picture, as a share of its width, an end still counts as inside. */
+const TOLERANCE = 1e-6;
+
+/** The looped region: a tinted band over the lanes with a handle at each end. */
+export class LoopRegion {
+  readonly #store: Store;
+  readonly #places: LoopPlaces;
+  readonly #band = el('div', { class: 'loop' });
+  readonly #handles: Readonly<Record<End, HTMLElement>> = {
+    from: createHandle('Loop start'),
+    to: createHandle('Loop end'),
+  };
+  /** The region while it is being dragged; it is set when the pointer is up. */
+  #dragged: Span | null = null;
+  readonly dispose: () => void;
+
+  constructor(store: Store, services: Services, places: LoopPlaces) {
+    this.#store = store;
+    this.#places = places;
+    const { ruler, overlay } = places;
+    overlay.append(this.#band, this.#handles.from, this.#handles.to);
+    const clear = (): void => {
+      if (store.getState().playback.region) apply(store, regionSet(null));
+    };
+    ruler.addEventListener('dblclick', clear);
+    // Its first click may move the playhead's handle under the pointer.
+    overlay.addEventListener('dblclick', clear);
+    this.dispose = together(
+      watchAll(
+        store,
+        ({ playback, zoom }) => [playback.region, playback.loop, zoom],
+        () => {
+          this.draw();
+        },
+      ),
+      this.#dragOnRuler(services),
+      ...ENDS.map((end) => this.#dragHandle(end)),
+    );
+    for (const end of ENDS)
+      this.#handles[end].addEventListener('keydown', (event) => {
+        this.#moveByKey(end, event);
+      });
+  }
+
+  /** Places band and handles. */
+  draw(): void {
+    const state = this.#store.getState();
+    const region = this.#dragged ?? state.playback.region;
+    const scale = this.#places.scale();
+    const place = (time: number): number => (scale.width > 0 ? scale.x(time) / scale.width : 0);
+    for (const end of ENDS) {
+      const at = region ? place(region[end]) : 0;
+      this.#handles[end].hidden = !region || at < -TOLERANCE || at > 1 + TOLERANCE;
+      if (region) showHandle(this.#handles[end], at, region[end], state);
     }
+    this.#band.hidden = !region || region.to <= scale.from || region.from >= scale.to;
     if (!region) return;
     const [left, right] = [Math.max(0, place(region.from)), Math.min(1, place(region.to))];
-    setVariable(band, '--from', left);
-    setVariable(band, '--span', Math.max(0, right - left));
-    band.classList.toggle('off', !playback.loop && !drawn);
-    setAttribute(band, 'data-cut', cutEnds(region, now));
-  };
-  const timeAt = (event: PointerEvent): number => {
+    setVariable(this.#band, '--from', left);
+    setVariable(this.#band, '--span', Math.max(0, right - left));
+    this.#band.classList.toggle('off', !state.playback.loop && !this.#dragged);
+    setAttribute(this.#band, 'data-cut', cutEnds(region, scale));
+  }
+
+  #timeAt(event: PointerEvent): number {
+    const { scale, overlay } = this.#places;
     const time = scale().time(event.clientX - overlay.getBoundingClientRect().left);
-    return Math.min(danceDuration(store.getState()), Math.max(0, time));
-  };
-  const settle = (): void => {
-    drawn = null;
-    draw();
-  };
+    return Math.min(danceDuration(this.#store.getState()), Math.max(0, time));
+  }
 
-  let anchor = 0;
-  const undoRuler = draggable(ruler, {
-    begin: (event) => {
-      anchor = timeAt(event);
-      return danceDuration(store.getState()) > 0;
-    },
-    move: (_, event) => {
-      const time = timeAt(event);
-      drawn = { from: Math.min(anchor, time), to: Math.max(anchor, time) };
-      draw();
-    },
-    drop: (event) => {
-      const time = timeAt(event);
-      drawn = null;
-      apply(store, regionSet({ from: anchor, to: time }));
-    },
-    click: (event) => {
-      services.seek(timeAt(event));
-    },
-    cancel: settle,
-  });
-  const clear = (): void => {
-    if (store.getState().playback.region) apply(store, regionSet(null));
-  };
-  ruler.addEventListener('dblclick', clear);
-  // Its first click may bring the playhead's grip under the pointer.
-  overlay.addEventListener('dblclick', clear);
+  #drag(region: Span | null): void {
+    this.#dragged = region;
+    this.draw();
+  }
 
-  const undoGrips = (['from', 'to'] as const).map((end) => {
-    const each = grips[end];
-    each.addEventListener('keydown', (event) => {
-      const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
-      const { region } = store.getState().playback;
-      if (!region || by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const hop = event.shiftKey ? 1 : 1 / danceFps(store.getState());
-      apply(store, regionEndSet(end, region[end] + by * hop));
-    });
-    return draggable(each, {
+  #dragOnRuler(services: Services): () => void {
+    let start = 0;
+    return draggable(this.#places.ruler, {
+      begin: (event) => {
+        start = this.#timeAt(event);
+        return danceDuration(this.#store.getState()) > 0;
+      },
       move: (_, event) => {
-        const { region } = store.getState().playback;
-        if (region) drawn = { ...region, [end]: timeAt(event) };
-        if (drawn) drawn = { from: Math.min(drawn.from, drawn.to), to: Math.max(drawn.from, drawn.to) };
-        draw();
+        this.#drag(ordered({ from: start, to: this.#timeAt(event) }));
+      },
+      drop: (event) => {
+        this.#dragged = null;
+        apply(this.#store, regionSet({ from: start, to: this.#timeAt(event) }));
+      },
+      click: (event) => {
+        services.seek(this.#timeAt(event));
+      },
+      cancel: () => {
+        this.#drag(null);
+      },
+    });
+  }
+
+  #dragHandle(end: End): () => void {
+    return draggable(this.#handles[end], {
+      move: (_, event) => {
+        const { region } = this.#store.getState().playback;
+        if (region) this.#drag(ordered({ ...region, [end]: this.#timeAt(event) }));
       },
       drop: () => {
-        const region = drawn;
-        drawn = null;
-        if (region) apply(store, regionSet(region));
+        const region = this.#dragged;
+        this.#dragged = null;
+        if (region) apply(this.#store, regionSet(region));
       },
       click: () => undefined,
-      cancel: settle,
+      cancel: () => {
+        this.#drag(null);
+      },
     });
-  });
+  }
 
-  return {
-    draw,
-    dispose: together(
-      watchAll(store, ({ playback, zoom }) => [playback.region, playback.loop, zoom], draw),
-      undoRuler,
-      ...undoGrips,
-    ),
-  };
+  /** An arrow key moves an end by a frame, with Shift by a second. */
+  #moveByKey(end: End, event: KeyboardEvent): void {
+    const by = ARROWS[event.key];
+    const { region } = this.#store.getState().playback;
+    if (!region || by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const step = event.shiftKey ? 1 : 1 / danceFps(this.#store.getState());
+    apply(this.#store, regionEndSet(end, region[end] + by * step));
+  }
 }
 
-function grip(label: string): HTMLElement {
+function createHandle(label: string): HTMLElement {
   return el('div', {
-    class: 'loop-grip',
+    class: 'loop-handle',
     attributes: {
       'data-own-pointer': true,
       role: 'slider',
       tabindex: 0,
       'aria-label': label,
       'aria-valuemin': 0,
-      title: `${label}: drag to change it, double click to take the loop away`,
+      title: `${label}: drag to change it, double click to remove the loop`,
     },
   });
 }
 
-/** Which ends of a region lie outside the picture: they get no edge. */
+/** @param at its place in the picture, 0 to 1 */
+function showHandle(handle: HTMLElement, at: number, time: number, state: AppState): void {
+  setVariable(handle, '--at', at);
+  handle.setAttribute('aria-valuemax', danceDuration(state).toFixed(2));
+  handle.setAttribute('aria-valuenow', time.toFixed(2));
+  handle.setAttribute('aria-valuetext', clockTime(time));
+}
+
+function ordered({ from, to }: Span): Span {
+  return { from: Math.min(from, to), to: Math.max(from, to) };
+}
+
+/** Which ends of a region lie outside the picture: the band has no edge there. */
 function cutEnds(region: Span, { from, to }: Span): string | undefined {
   const ends = [region.from < from ? 'from' : '', region.to > to ? 'to' : ''].filter(Boolean);
   return ends.length > 0 ? ends.join(' ') : undefined;

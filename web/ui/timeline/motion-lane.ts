@@ -6,22 +6,25 @@ import { speedCurve } from './curves';
 import { el, setText } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { drawCurve, drawDots, surface, token } from '../widgets/lane-canvas';
+import { roleName } from '../store/roles';
+import type { Role } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
 
-/** A motion beat that scores as much lies on a music beat: within two frames and a half. */
-const ON_MUSIC = 0.7;
-/** Opacity of motion that is about to be replaced. */
-const OLD = 0.35;
+/** Beat score from which a motion beat counts as on the music: within two and a half frames of a music beat. */
+const MIN_ON_MUSIC = 0.7;
+/** Opacity of a motion that is being replaced. */
+const STALE_OPACITY = 0.35;
 
-/** What is drawn of a motion. */
+/** What a lane draws of a motion. */
 export interface DrawnMotion {
+  /** m/s per frame. */
   readonly speed: Float32Array;
   readonly fps: number;
   /** Frames. */
   readonly beats: readonly number[];
 }
 
-/** Speed and beats of a motion; there are no beats before the manifest has told how they are found. */
+/** Speed and beats of a motion; without the manifest, which says how beats are found, there are no beats. */
 export function drawnMotion(motion: SolvedMotion, manifest: Manifest | null): DrawnMotion {
   const beats = manifest ? motionBeats(motion, manifest.quality.beats.smoothing) : [];
   return { speed: speedCurve(motion), fps: motion.fps, beats };
@@ -36,8 +39,9 @@ export interface MotionPicture {
   readonly tolerance: number;
   /** The speed that reaches the upper edge, m/s. */
   readonly top: number;
-  /** Whether a new motion is being made, and the seconds of it that are shown already. */
+  /** Whether a new motion is being made. */
   readonly stale: boolean;
+  /** The part of the new motion that is shown already, seconds. */
   readonly fresh: { readonly from: number; readonly to: number } | null;
 }
 
@@ -49,16 +53,12 @@ export interface MotionLane {
   readonly say: (word: string) => void;
 }
 
-/** An empty lane; `under` lies below the curve. */
-export function createMotionLane(
-  who: 'leader' | 'reactor',
-  className: string,
-  under: HTMLElement,
-): MotionLane {
+/** @param under lies below the curve */
+export function createMotionLane(role: Role, className: string, under: HTMLElement): MotionLane {
   const canvas = el('canvas');
   const word = el('span', { class: 'word' });
   const root = el('div', { class: className, attributes: { role: 'img' } }, under, canvas, word);
-  const name = who === 'leader' ? 'Leader' : 'Reactor';
+  const name = roleName(role);
   return {
     root,
     say: (text) => {
@@ -67,7 +67,7 @@ export function createMotionLane(
     draw: (motion, { scale, musicBeats, tolerance, top, stale, fresh }) => {
       const on = surface(canvas);
       if (!motion) {
-        root.setAttribute('aria-label', who === 'leader' ? 'No leader' : 'No reactor yet');
+        root.setAttribute('aria-label', role === 'leader' ? 'No leader' : 'No reactor yet');
         return;
       }
       const scores = beatScores(
@@ -77,19 +77,19 @@ export function createMotionLane(
       );
       const beats = motion.beats.map((frame, index) => ({
         time: frame / motion.fps,
-        onMusic: (scores[index] ?? 0) >= ON_MUSIC,
+        onMusic: (scores[index] ?? 0) >= MIN_ON_MUSIC,
       }));
       root.setAttribute('aria-label', words(name, motion, beats.filter(({ onMusic }) => onMusic).length));
       if (!on) return;
-      const line = token(root, `--${who}`);
-      const colours = { line, fill: token(root, `--${who}-soft`), ground: token(root, '--raised') };
+      const line = token(root, `--${role}`);
+      const colours = { line, fill: token(root, `--${role}-soft`), ground: token(root, '--raised') };
       const curve = { ...motion, top };
       const paint = (opacity: number): void => {
         on.context.globalAlpha = opacity;
         drawCurve(on, curve, scale, colours);
         drawDots(on, curve, beats, scale, colours);
       };
-      paint(stale ? OLD : 1);
+      paint(stale ? STALE_OPACITY : 1);
       if (!stale || !fresh) return;
       const [left, right] = [scale.x(fresh.from), scale.x(fresh.to)];
       on.context.save();
@@ -103,15 +103,16 @@ export function createMotionLane(
   };
 }
 
-function words(who: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
+/** The lane in words, for screen readers. */
+function words(name: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
   let sum = 0;
-  let most = 0;
-  let at = 0;
-  speed.forEach((value, index) => {
+  let max = 0;
+  let maxFrame = 0;
+  speed.forEach((value, frame) => {
     sum += value;
-    if (value > most) [most, at] = [value, index];
+    if (value > max) [max, maxFrame] = [value, frame];
   });
   const mean = (sum / Math.max(1, speed.length)).toFixed(2);
   const counted = `${beats.length} motion beats, ${onMusic} of them on the music`;
-  return `${who} speed, ${mean} metres per second on average, fastest at ${clockTime(at / fps)}; ${counted}`;
+  return `${name} speed, ${mean} metres per second on average, fastest at ${clockTime(maxFrame / fps)}; ${counted}`;
 }

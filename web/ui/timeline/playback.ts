@@ -10,109 +10,129 @@ import { playbackSet } from '../store/actions/view';
 import { together } from '../widgets/dom';
 import type { Span } from '../store/time-scale';
 
-export interface PlaybackControl {
-  readonly toggle: () => void;
-  readonly seek: (seconds: number) => void;
-  readonly playFromStart: () => void;
-  readonly dispose: () => void;
-}
+/** Connects player and store: the audio is the clock, and the store takes its time once per drawn frame. */
+export class PlaybackControl {
+  readonly #store: Store;
+  readonly #player: Player;
+  readonly #unsubscribe: () => void;
+  #frame = 0;
 
-/** Ties player and store together: the audio is the clock, the store follows it once per drawn frame. */
-export function createPlayback(store: Store, player: Player): PlaybackControl {
-  let frame = 0;
+  constructor(store: Store, player: Player) {
+    this.#store = store;
+    this.#player = player;
+    this.#unsubscribe = together(
+      watchAll(
+        store,
+        (state) => [state.song, state.leader],
+        (state) => {
+          player.load(state.song?.data.sound ?? null, danceDuration(state));
+          player.seek(state.playback.time);
+        },
+      ),
+      watch(store, songStart, (seconds) => {
+        player.setSongStart(seconds);
+      }),
+      watchAll(
+        store,
+        (state) => [state.playback.loop, state.playback.region, state.song, state.leader],
+        (state) => {
+          this.#setLoop(state);
+        },
+      ),
+      watch(
+        store,
+        (state) => state.playback.playing,
+        (playing) => {
+          this.#setPlaying(playing);
+        },
+      ),
+      watch(
+        store,
+        (state) => state.playback.speed,
+        (speed) => {
+          player.setSpeed(speed);
+        },
+      ),
+    );
+  }
 
-  const seek = (seconds: number): void => {
-    const to = Math.min(danceDuration(store.getState()), Math.max(0, seconds));
-    player.seek(to);
-    apply(store, playbackSet({ time: to }));
+  readonly toggle = (): void => {
+    if (this.#store.getState().playback.playing) apply(this.#store, playbackSet({ playing: false }));
+    else this.#start();
   };
-  const follow = (): void => {
-    const whole = danceDuration(store.getState());
-    if (player.time >= whole && !store.getState().playback.loop) {
-      apply(store, playbackSet({ playing: false, time: whole }));
+
+  readonly seek = (seconds: number): void => {
+    const time = Math.min(danceDuration(this.#store.getState()), Math.max(0, seconds));
+    this.#player.seek(time);
+    apply(this.#store, playbackSet({ time }));
+  };
+
+  readonly playFromStart = (): void => {
+    this.seek(0);
+    this.#start();
+  };
+
+  readonly dispose = (): void => {
+    cancelAnimationFrame(this.#frame);
+    this.#unsubscribe();
+  };
+
+  /** Plays on from the playhead, or from the start of what is played when the playhead is at its end. */
+  #start(): void {
+    const state = this.#store.getState();
+    const duration = danceDuration(state);
+    if (duration === 0) return;
+    const part = loopedPart(state) ?? { from: 0, to: duration };
+    if (state.playback.time >= part.to - 1e-3) this.seek(part.from);
+    apply(this.#store, visitEnded());
+    apply(this.#store, playbackSet({ playing: true }));
+  }
+
+  #setPlaying(playing: boolean): void {
+    cancelAnimationFrame(this.#frame);
+    if (!playing) {
+      this.#player.pause();
       return;
     }
-    apply(store, playbackSet({ time: player.time }));
-    frame = requestAnimationFrame(follow);
-  };
-  const start = (): void => {
-    const state = store.getState();
-    if (danceDuration(state) === 0) return;
-    const part = loopOf(state) ?? { from: 0, to: danceDuration(state) };
-    if (state.playback.time >= part.to - 1e-3) seek(part.from);
-    apply(store, visitEnded());
-    apply(store, playbackSet({ playing: true }));
-  };
+    this.#player.play().then(
+      () => {
+        if (this.#store.getState().playback.playing) this.#requestFrame();
+      },
+      (error: unknown) => {
+        apply(this.#store, playbackSet({ playing: false }));
+        if (!isAbort(error)) apply(this.#store, told(playbackProblem(error)));
+      },
+    );
+  }
 
-  const disposers = together(
-    watchAll(
-      store,
-      (state) => [state.song, state.leader],
-      (state) => {
-        player.load(state.song?.data.sound ?? null, danceDuration(state));
-        player.seek(state.playback.time);
-      },
-    ),
-    watch(store, songStart, (seconds) => {
-      player.setSongStart(seconds);
-    }),
-    watchAll(
-      store,
-      (state) => [state.playback.loop, state.playback.region, state.song, state.leader],
-      (state) => {
-        const part = loopOf(state);
-        player.setLoop(part);
-        // A region drawn behind the playhead is meant to be heard now.
-        if (part && state.playback.playing && state.playback.time > part.to) seek(part.from);
-      },
-    ),
-    watch(
-      store,
-      (state) => state.playback.playing,
-      (playing) => {
-        cancelAnimationFrame(frame);
-        if (!playing) {
-          player.pause();
-          return;
-        }
-        player.play().then(
-          () => {
-            if (store.getState().playback.playing) frame = requestAnimationFrame(follow);
-          },
-          (error: unknown) => {
-            apply(store, playbackSet({ playing: false }));
-            if (!isAbort(error)) apply(store, told(playbackProblem(error)));
-          },
-        );
-      },
-    ),
-    watch(
-      store,
-      (state) => state.playback.speed,
-      (speed) => {
-        player.setSpeed(speed);
-      },
-    ),
-  );
-  return {
-    toggle: () => {
-      if (store.getState().playback.playing) apply(store, playbackSet({ playing: false }));
-      else start();
-    },
-    seek,
-    playFromStart: () => {
-      seek(0);
-      start();
-    },
-    dispose: () => {
-      cancelAnimationFrame(frame);
-      disposers();
-    },
-  };
+  #setLoop(state: AppState): void {
+    const part = loopedPart(state);
+    this.#player.setLoop(part);
+    // A region that was drawn before the playhead is played at once.
+    if (part && state.playback.playing && state.playback.time > part.to) this.seek(part.from);
+  }
+
+  #requestFrame(): void {
+    this.#frame = requestAnimationFrame(() => {
+      this.#followPlayer();
+    });
+  }
+
+  /** Takes the player's time, and stops at the end of the dance. */
+  #followPlayer(): void {
+    const duration = danceDuration(this.#store.getState());
+    const { time } = this.#player;
+    if (time >= duration && !this.#store.getState().playback.loop) {
+      apply(this.#store, playbackSet({ playing: false, time: duration }));
+      return;
+    }
+    apply(this.#store, playbackSet({ time }));
+    this.#requestFrame();
+  }
 }
 
-/** What is gone round in: the region, or all of the dance; null without a loop. */
-function loopOf(state: AppState): Span | null {
+/** The part that is looped, seconds: the region, or all of the dance; null without a loop. */
+function loopedPart(state: AppState): Span | null {
   const { loop, region } = state.playback;
   return loop ? (region ?? { from: 0, to: danceDuration(state) }) : null;
 }

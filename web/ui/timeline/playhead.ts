@@ -3,98 +3,131 @@ import { SLOP } from '../widgets/drag';
 import { barAt, danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
 import { musicBeats } from '../store/song-shift';
+import type { AppState } from '../store/state';
 import { type Store, watchAll } from '../store/store';
 import type { TimeScale } from '../store/time-scale';
 
+/** How far outside the picture, as a share of its width, the playhead still counts as inside. */
+const TOLERANCE = 1e-6;
+
 /**
- * The playhead: one slider over all lanes. Keys, its own grip and a press on any lane move it, playing or not. Lanes
- * that do something else with the pointer, and buttons in lanes, keep it to themselves with `data-own-pointer`.
+ * The playhead: one slider over all lanes, moved by keys, by its handle and by a press on any lane, playing or not.
+ * Lanes that use the pointer otherwise, and buttons in lanes, are left alone: `data-own-pointer` marks them.
  */
-export function createPlayhead(
-  lanes: HTMLElement,
-  store: Store,
-  services: Services,
-  scale: () => TimeScale,
-): { readonly root: HTMLElement; readonly draw: () => void; readonly dispose: () => void } {
-  const line = el('div', { class: 'head-line' }, el('div', { class: 'head-grip' }));
-  const slider = el(
-    'div',
-    {
-      class: 'playhead',
-      attributes: { role: 'slider', tabindex: 0, 'aria-label': 'Playhead', 'aria-valuemin': 0 },
-    },
-    line,
-  );
+export class Playhead {
+  readonly root: HTMLElement;
+  readonly #line = el('div', { class: 'head-line' }, el('div', { class: 'head-handle' }));
+  readonly #store: Store;
+  readonly #services: Services;
+  readonly #scale: () => TimeScale;
+  /** The pointer that moves it. */
+  #pointer: number | null = null;
+  /** Where a finger came down, until it is clear whether it scrolls the page or moves the playhead; CSS pixels. */
+  #undecided: { readonly x: number; readonly y: number } | null = null;
+  readonly dispose: () => void;
 
-  let pointer: number | null = null;
-  /** Where a finger came down that may yet turn out to scroll the page or to zoom. */
-  let waiting: { readonly x: number; readonly y: number } | null = null;
-  const toPointer = (event: PointerEvent): void => {
-    const time = scale().time(event.clientX - slider.getBoundingClientRect().left);
-    services.seek(Math.min(danceDuration(store.getState()), Math.max(0, time)));
-  };
-  const down = (event: PointerEvent): void => {
-    const target = event.target instanceof Element ? event.target : null;
-    const isGrip = target?.matches('.head-grip') ?? false;
-    const isLane = target?.closest('.lane') && !target.closest('[data-own-pointer], button');
-    if (!target || !(isGrip || isLane) || event.button !== 0 || danceDuration(store.getState()) === 0) return;
-    pointer = event.pointerId;
-    // Clicks go to whoever holds the pointer: the grip passes a double click on.
-    target.setPointerCapture(pointer);
-    waiting = event.pointerType === 'touch' ? { x: event.clientX, y: event.clientY } : null;
-    if (!waiting) toPointer(event);
-  };
-  const move = (event: PointerEvent): void => {
-    if (event.pointerId !== pointer) return;
-    const along = waiting ? Math.abs(event.clientX - waiting.x) : Infinity;
-    if (along < SLOP || (waiting && along < Math.abs(event.clientY - waiting.y))) return;
-    waiting = null;
-    toPointer(event);
-  };
-  const up = (event: PointerEvent): void => {
-    if (event.pointerId !== pointer) return;
-    if (waiting) toPointer(event);
-    pointer = null;
-  };
-  const cancel = (event: PointerEvent): void => {
-    if (event.pointerId === pointer) pointer = null;
-  };
-  lanes.addEventListener('pointerdown', down);
-  lanes.addEventListener('pointermove', move);
-  lanes.addEventListener('pointerup', up);
-  lanes.addEventListener('pointercancel', cancel);
-
-  const draw = (): void => {
-    const now = scale();
-    const place = now.width > 0 ? now.x(store.getState().playback.time) / now.width : 0;
-    line.hidden = place < -1e-6 || place > 1 + 1e-6;
-    setVariable(line, '--at', place);
-  };
-  return {
-    root: slider,
-    draw,
-    dispose: together(
+  constructor(lanes: HTMLElement, store: Store, services: Services, scale: () => TimeScale) {
+    this.#store = store;
+    this.#services = services;
+    this.#scale = scale;
+    this.root = el(
+      'div',
+      {
+        class: 'playhead',
+        attributes: { role: 'slider', tabindex: 0, 'aria-label': 'Playhead', 'aria-valuemin': 0 },
+      },
+      this.#line,
+    );
+    this.dispose = together(
+      this.#listen(lanes),
       watchAll(
         store,
         (state) => [state.playback.time, state.zoom, state.leader, state.song, state.shift],
         (state) => {
-          draw();
-          const { time } = state.playback;
-          const whole = danceDuration(state);
-          slider.setAttribute('aria-valuemax', whole.toFixed(1));
-          slider.setAttribute('aria-valuenow', time.toFixed(1));
-          slider.setAttribute('aria-disabled', String(whole === 0));
-          const place = barAt(musicBeats(state), time);
-          const counted = place ? `, bar ${place.bar}, count ${place.count}` : '';
-          slider.setAttribute('aria-valuetext', `${time.toFixed(1)} seconds${counted}`);
+          this.draw();
+          this.#describe(state);
         },
       ),
-      () => {
-        lanes.removeEventListener('pointerdown', down);
-        lanes.removeEventListener('pointermove', move);
-        lanes.removeEventListener('pointerup', up);
-        lanes.removeEventListener('pointercancel', cancel);
+    );
+  }
+
+  /** Places the line. */
+  draw(): void {
+    const scale = this.#scale();
+    const at = scale.width > 0 ? scale.x(this.#store.getState().playback.time) / scale.width : 0;
+    this.#line.hidden = at < -TOLERANCE || at > 1 + TOLERANCE;
+    setVariable(this.#line, '--at', at);
+  }
+
+  /** Tells screen readers where it is. */
+  #describe(state: AppState): void {
+    const { time } = state.playback;
+    const duration = danceDuration(state);
+    const place = barAt(musicBeats(state), time);
+    const counted = place ? `, bar ${place.bar}, count ${place.count}` : '';
+    this.root.setAttribute('aria-valuemax', duration.toFixed(1));
+    this.root.setAttribute('aria-valuenow', time.toFixed(1));
+    this.root.setAttribute('aria-disabled', String(duration === 0));
+    this.root.setAttribute('aria-valuetext', `${time.toFixed(1)} seconds${counted}`);
+  }
+
+  #listen(lanes: HTMLElement): () => void {
+    const listeners = {
+      pointerdown: (event: PointerEvent) => {
+        this.#down(event);
       },
-    ),
-  };
+      pointermove: (event: PointerEvent) => {
+        this.#move(event);
+      },
+      pointerup: (event: PointerEvent) => {
+        this.#up(event);
+      },
+      pointercancel: (event: PointerEvent) => {
+        if (event.pointerId === this.#pointer) this.#pointer = null;
+      },
+    } as const;
+    const types = Object.keys(listeners) as (keyof typeof listeners)[];
+    for (const type of types) lanes.addEventListener(type, listeners[type]);
+    return () => {
+      for (const type of types) lanes.removeEventListener(type, listeners[type]);
+    };
+  }
+
+  #down(event: PointerEvent): void {
+    const target = event.target instanceof Element ? event.target : null;
+    if (!target || !movesPlayhead(target) || event.button !== 0) return;
+    if (danceDuration(this.#store.getState()) === 0) return;
+    this.#pointer = event.pointerId;
+    // A captured pointer's clicks go to the element that captured it: the handle passes a double click on.
+    target.setPointerCapture(this.#pointer);
+    this.#undecided = event.pointerType === 'touch' ? { x: event.clientX, y: event.clientY } : null;
+    if (!this.#undecided) this.#seekTo(event);
+  }
+
+  #move(event: PointerEvent): void {
+    if (event.pointerId !== this.#pointer) return;
+    if (this.#undecided) {
+      const across = Math.abs(event.clientX - this.#undecided.x);
+      if (across < SLOP || across < Math.abs(event.clientY - this.#undecided.y)) return;
+    }
+    this.#undecided = null;
+    this.#seekTo(event);
+  }
+
+  #up(event: PointerEvent): void {
+    if (event.pointerId !== this.#pointer) return;
+    if (this.#undecided) this.#seekTo(event);
+    this.#pointer = null;
+  }
+
+  #seekTo(event: PointerEvent): void {
+    const time = this.#scale().time(event.clientX - this.root.getBoundingClientRect().left);
+    this.#services.seek(Math.min(danceDuration(this.#store.getState()), Math.max(0, time)));
+  }
+}
+
+/** Whether a press on this element moves the playhead: on its handle, and on lanes that do nothing else with it. */
+function movesPlayhead(target: Element): boolean {
+  if (target.matches('.head-handle')) return true;
+  return target.closest('.lane') !== null && target.closest('[data-own-pointer], button') === null;
 }

@@ -1,41 +1,76 @@
+import { el, setText, setVariable } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import type { TimeScale } from '../store/time-scale';
 
-export interface Ruler {
+/** The ruler over the lanes: bars, or seconds where there are no beats. */
+export interface RulerLane {
+  readonly label: HTMLElement;
+  readonly root: HTMLElement;
+  /** @param beats seconds of the dance, ascending */
+  readonly draw: (beats: readonly number[], scale: TimeScale) => void;
+}
+
+export function createRulerLane(): RulerLane {
+  const label = el('div', { class: 'lane-label ruler' });
+  const markRow = el('div', { class: 'marks', attributes: { 'aria-hidden': 'true' } });
+  const root = el('div', { class: 'lane ruler', attributes: { 'data-own-pointer': true } }, markRow);
+  root.title = 'Drag to loop a part, click to jump';
+  return {
+    label,
+    root,
+    draw: (beats, scale) => {
+      const { name, marks } = rulerMarks(beats, scale);
+      setText(label, name);
+      markRow.replaceChildren(
+        ...marks.map(({ text, at }) => {
+          const mark = el('span', { text });
+          setVariable(mark, '--at', at);
+          return mark;
+        }),
+      );
+    },
+  };
+}
+
+/** What the ruler shows. */
+export interface RulerMarks {
+  /** `Bars` or `Time`. */
   readonly name: string;
   /** Texts with their place in the picture, 0 to 1. */
   readonly marks: readonly { readonly text: string; readonly at: number }[];
 }
 
-/** Room that a mark needs, CSS pixels. */
-const ROOM = 40;
-/** Room that a mark's own number needs, CSS pixels. */
-const CUT = 18;
+/** Least distance between two marks, CSS pixels. */
+const MARK_DISTANCE = 40;
+/** Width of a mark's text, CSS pixels. */
+const TEXT_WIDTH = 18;
+/** With fewer beats than this the ruler shows seconds. */
+const MIN_BEATS = 8;
 
 /**
- * Bars counted in four from the first beat, with the counts between them where there is room; seconds where there is
- * no beat to count.
+ * Bars of four beats from the first beat, with the beats between them where there is room; seconds where there are
+ * too few beats.
  * @param beats seconds of the dance, ascending
  */
-export function rulerMarks(beats: readonly number[], scale: TimeScale): Ruler {
+export function rulerMarks(beats: readonly number[], scale: TimeScale): RulerMarks {
   const { from, to, width } = scale;
   const seconds = to - from;
   if (seconds <= 0 || width <= 0) return { name: 'Time', marks: [] };
-  if (beats.length < 8)
-    return { name: 'Time', marks: timeMarks(scale, Math.max(1, Math.floor(width / ROOM))) };
-  // A mark so near the end that its number would be cut off is left out.
-  const last = scale.time(width - CUT);
+  if (beats.length < MIN_BEATS)
+    return { name: 'Time', marks: timeMarks(scale, Math.max(1, Math.floor(width / MARK_DISTANCE))) };
+  // A mark whose text would be cut off at the end is left out.
+  const last = scale.time(width - TEXT_WIDTH);
   const seen = beats.flatMap((time, index) => (time >= from && time <= last ? [{ time, index }] : []));
   const bars = seen.filter(({ index }) => index % 4 === 0);
   const place = (time: number): number => scale.x(time) / width;
   const apart = scale.x(seen.at(-1)?.time ?? 0) - scale.x(seen[0]?.time ?? 0);
-  const beatRoom = seen.length > 1 ? apart / (seen.length - 1) : ROOM;
-  if (beatRoom >= ROOM)
+  const beatDistance = seen.length > 1 ? apart / (seen.length - 1) : MARK_DISTANCE;
+  if (beatDistance >= MARK_DISTANCE)
     return {
       name: 'Bars',
       marks: seen.map(({ time, index }) => ({ text: barAndCount(index), at: place(time) })),
     };
-  const every = nextOf([1, 2, 4, 8, 16, 32, 64], ROOM / (4 * beatRoom));
+  const every = nextOf([1, 2, 4, 8, 16, 32, 64], MARK_DISTANCE / (4 * beatDistance));
   const marks = bars.flatMap(({ time, index }) =>
     (index / 4) % every === 0 ? [{ text: String(index / 4 + 1), at: place(time) }] : [],
   );
@@ -48,8 +83,8 @@ function barAndCount(beat: number): string {
   return beat % 4 === 0 ? bar : `${bar}.${(beat % 4) + 1}`;
 }
 
-function timeMarks({ from, to, x, width }: TimeScale, most: number): Ruler['marks'] {
-  const every = nextOf([0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300], (to - from) / most);
+function timeMarks({ from, to, x, width }: TimeScale, maxMarks: number): RulerMarks['marks'] {
+  const every = nextOf([0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300], (to - from) / maxMarks);
   const first = Math.ceil(from / every - 1e-6);
   const last = Math.floor((to - 1e-6) / every);
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => {
@@ -58,7 +93,7 @@ function timeMarks({ from, to, x, width }: TimeScale, most: number): Ruler['mark
   });
 }
 
-/** The first of the ascending steps that is at least `least`, or the last. */
-function nextOf(steps: readonly number[], least: number): number {
-  return steps.find((step) => step >= least) ?? steps.at(-1) ?? 1;
+/** The first of the ascending steps that is at least `min`, or the last. */
+function nextOf(steps: readonly number[], min: number): number {
+  return steps.find((step) => step >= min) ?? steps.at(-1) ?? 1;
 }

@@ -4,13 +4,12 @@ import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
 
-/** The song's name in the lanes, with how it is shifted and how it would fit better. */
+/** The label of the song lane: the shift, with a button that resets it, and one that aligns the song. */
 export interface SongLabel {
   readonly root: HTMLElement;
   readonly show: (state: AppState) => void;
 }
 
-/** The label; its buttons and its quiet words come and go without moving anything. */
 export function createSongLabel(store: Store): SongLabel {
   const back = el('button', {
     class: 'shifted',
@@ -32,11 +31,11 @@ export function createSongLabel(store: Store): SongLabel {
       },
     },
   });
-  const none = el('span', { class: 'no-align' });
+  const none = el('span', { class: 'well-aligned' });
   const root = el(
     'div',
-    { class: 'lab song' },
-    el('span', { class: 'of-song' }, el('span', { text: 'Song' }), back),
+    { class: 'lane-label song' },
+    el('span', { class: 'song-name' }, el('span', { text: 'Song' }), back),
     align,
     none,
   );

@@ -1,142 +1,173 @@
+import { iconButton } from '../widgets/button';
 import { el, setText, together } from '../widgets/dom';
 import { clockTime } from '../store/format';
-import { icon, type IconName } from '../widgets/icons';
+import { icon } from '../widgets/icons';
 import { barAt, beingRead, danceDuration, firstNote } from '../store/selectors';
-import type { Mount } from '../store/services';
+import type { Mount, Services } from '../store/services';
 import { musicBeats } from '../store/song-shift';
-import { apply, watch, watchAll } from '../store/store';
+import type { AppState } from '../store/state';
+import { apply, type Store, watch, watchAll } from '../store/store';
 import { playbackSet, SPEEDS } from '../store/actions/view';
 import { createZoomControl } from './zoom-control';
 
-/** Play, where we are, how fast. */
+/** A control of the transport with what takes it out of the store's watchers. */
+interface Control<E extends HTMLElement = HTMLElement> {
+  readonly element: E;
+  readonly dispose: () => void;
+}
+
+/** The transport: play, jump to the ends, time and count, speed, loop, a note about the files, and zoom. */
 export const mountTransport: Mount = (root, store, services) => {
-  const start = button('icon desk', 'start', 'To the start', 'To the start (Home)', () => {
-    services.seek(0);
-  });
-  const end = button('icon desk', 'end', 'To the end', 'To the end (End)', () => {
+  const start = iconButton(
+    'icon desk',
+    'start',
+    { label: 'To the start', title: 'To the start (Home)' },
+    () => {
+      services.seek(0);
+    },
+  );
+  const end = iconButton('icon desk', 'end', { label: 'To the end', title: 'To the end (End)' }, () => {
     services.seek(danceDuration(store.getState()));
   });
-  const play = button('play', 'play', 'Play', 'Play or pause (Space)', services.togglePlay);
-  const now = el('span', { class: 'now' });
-  const of = el('span', { class: 'of' });
-  const bar = el('b');
-  const count = el('b');
-  const counted = el(
-    'div',
-    { class: 'count', attributes: { title: 'Counted in four from the first beat found' } },
-    'Bar ',
-    bar,
-    'Count ',
-    count,
-  );
-  const speed = el(
-    'select',
-    {
-      class: 'speed',
-      attributes: { 'aria-label': 'Speed' },
-      on: {
-        change: () => {
-          apply(store, playbackSet({ speed: Number(speed.value) }));
-        },
-      },
-    },
-    ...SPEEDS.map((value) => el('option', { text: `${value}×`, attributes: { value } })),
-  );
-  const loop = button(
-    'icon',
-    'loop',
-    'Loop',
-    'Start over at the end; drag on the ruler to loop a part (L)',
-    () => {
-      apply(store, playbackSet({ loop: !store.getState().playback.loop }));
-    },
-  );
-  const note = el('span', { class: 'silence' });
+  const play = createPlayButton(store, services);
+  const clock = createClock(store);
+  const count = createBeatCount(store);
+  const speed = createSpeedMenu(store);
+  const loop = createLoopButton(store);
+  const note = el('span', { class: 'file-note' });
   const zoom = createZoomControl(store);
   const line = el(
     'div',
     { class: 'transport', attributes: { role: 'group', 'aria-label': 'Transport' } },
     start,
-    play,
+    play.element,
     end,
-    el('div', { class: 'clock' }, now, ' ', of),
-    counted,
-    speed,
-    loop,
+    clock.element,
+    count.element,
+    speed.element,
+    loop.element,
     el('span', { class: 'grow' }),
     note,
     zoom.root,
   );
   root.append(line);
-
   return together(
     watchAll(
       store,
       (state) => [state.leader, state.song, state.shift, ...beingRead(state)],
       (state) => {
-        const whole = danceDuration(state);
-        for (const control of [start, play, end, loop]) control.disabled = whole === 0;
-        setText(of, `/ ${clockTime(whole)}`);
-        const first = firstNote(state);
-        setText(note, first?.text ?? '');
-        note.title = note.textContent;
-        note.classList.toggle('look', first?.look ?? false);
-        // Its room stays, so that nothing beside it moves when a song comes.
-        counted.classList.toggle('none', !state.song || state.song.data.beats.length === 0);
+        const empty = danceDuration(state) === 0;
+        for (const button of [start, play.element, end, loop.element]) button.disabled = empty;
+        showNote(note, state);
       },
     ),
-    watchAll(
-      store,
-      (state) => [state.playback.time, state.song, state.shift],
-      (state) => {
-        setText(now, clockTime(state.playback.time));
-        const place = barAt(musicBeats(state), state.playback.time);
-        setText(bar, place ? String(place.bar) : '–');
-        setText(count, place ? String(place.count) : '–');
-      },
-    ),
-    watch(
-      store,
-      (state) => state.playback.playing,
-      (playing) => {
-        play.replaceChildren(icon(playing ? 'pause' : 'play'));
-        play.setAttribute('aria-label', playing ? 'Pause' : 'Play');
-      },
-    ),
-    watch(
-      store,
-      (state) => state.playback.speed,
-      (value) => {
-        speed.value = String(value);
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.playback.loop, state.playback.region],
-      ({ playback }) => {
-        loop.setAttribute('aria-pressed', String(playback.loop));
-        const { region } = playback;
-        const part = region ? `Loop ${clockTime(region.from)} to ${clockTime(region.to)}` : 'Loop';
-        loop.setAttribute('aria-label', part);
-      },
-    ),
-    zoom.dispose,
+    ...[play, clock, count, speed, loop, zoom].map(({ dispose }) => dispose),
     () => {
       line.remove();
     },
   );
 };
 
-function button(
-  className: string,
-  sign: IconName,
-  label: string,
-  title: string,
-  run: () => void,
-): HTMLButtonElement {
-  return el(
-    'button',
-    { class: className, attributes: { type: 'button', 'aria-label': label, title }, on: { click: run } },
-    icon(sign),
+/** What is worth knowing about the files, in one sentence. */
+function showNote(element: HTMLElement, state: AppState): void {
+  const note = firstNote(state);
+  setText(element, note?.text ?? '');
+  element.title = element.textContent;
+  element.classList.toggle('look', note?.look ?? false);
+}
+
+function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLButtonElement> {
+  const element = iconButton('play', 'play', { label: 'Play', title: 'Play or pause (Space)' }, togglePlay);
+  const dispose = watch(
+    store,
+    (state) => state.playback.playing,
+    (playing) => {
+      element.replaceChildren(icon(playing ? 'pause' : 'play'));
+      element.setAttribute('aria-label', playing ? 'Pause' : 'Play');
+    },
   );
+  return { element, dispose };
+}
+
+/** Time of the playhead and duration of the dance. */
+function createClock(store: Store): Control {
+  const now = el('span', { class: 'now' });
+  const of = el('span', { class: 'of' });
+  const element = el('div', { class: 'clock' }, now, ' ', of);
+  const dispose = watchAll(
+    store,
+    (state) => [state.playback.time, state.leader, state.song],
+    (state) => {
+      setText(now, clockTime(state.playback.time));
+      setText(of, `/ ${clockTime(danceDuration(state))}`);
+    },
+  );
+  return { element, dispose };
+}
+
+/** Bar and count at the playhead. */
+function createBeatCount(store: Store): Control {
+  const bar = el('b');
+  const count = el('b');
+  const element = el(
+    'div',
+    { class: 'count', attributes: { title: 'Bars of four beats, counted from the first beat found' } },
+    'Bar ',
+    bar,
+    'Count ',
+    count,
+  );
+  const dispose = watchAll(
+    store,
+    (state) => [state.playback.time, state.song, state.shift, state.leader],
+    (state) => {
+      // Only its words are hidden, so that nothing beside it moves when a song comes.
+      element.classList.toggle('none', !state.song || state.song.data.beats.length === 0);
+      const place = barAt(musicBeats(state), state.playback.time);
+      setText(bar, place ? String(place.bar) : '–');
+      setText(count, place ? String(place.count) : '–');
+    },
+  );
+  return { element, dispose };
+}
+
+function createSpeedMenu(store: Store): Control {
+  const element = el(
+    'select',
+    {
+      class: 'speed',
+      attributes: { 'aria-label': 'Speed' },
+      on: {
+        change: () => {
+          apply(store, playbackSet({ speed: Number(element.value) }));
+        },
+      },
+    },
+    ...SPEEDS.map((value) => el('option', { text: `${value}×`, attributes: { value } })),
+  );
+  const dispose = watch(
+    store,
+    (state) => state.playback.speed,
+    (value) => {
+      element.value = String(value);
+    },
+  );
+  return { element, dispose };
+}
+
+function createLoopButton(store: Store): Control<HTMLButtonElement> {
+  const title = 'Start over at the end; drag on the ruler to loop a part (L)';
+  const element = iconButton('icon', 'loop', { label: 'Loop', title }, () => {
+    apply(store, playbackSet({ loop: !store.getState().playback.loop }));
+  });
+  const dispose = watchAll(
+    store,
+    (state) => [state.playback.loop, state.playback.region],
+    ({ playback: { loop, region } }) => {
+      element.setAttribute('aria-pressed', String(loop));
+      const part = region ? `Loop ${clockTime(region.from)} to ${clockTime(region.to)}` : 'Loop';
+      element.setAttribute('aria-label', part);
+    },
+  );
+  return { element, dispose };
 }

@@ -1,66 +1,68 @@
-import { el, together } from '../widgets/dom';
-import { icon, type IconName } from '../widgets/icons';
+import { iconButton } from '../widgets/button';
+import { el } from '../widgets/dom';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watchAll } from '../store/store';
 import { magnified, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { largest, magnification } from '../store/time-scale';
 
-/** Zoom of one press of a button or key. */
+/** Factor of one press of a button or key. */
 export const ZOOM_STEP = 1.5;
-/** Steps of the slider from all of the dance to its largest. */
-const STEPS = 100;
+/** Steps of the slider from the whole dance to the largest zoom; the zoom grows exponentially along it. */
+const SLIDER_STEPS = 100;
 
-/** Zoom out, slider, zoom in, and all of the dance. */
+/** Buttons and a slider for the zoom of the lanes, and one that shows the whole dance. */
 export function createZoomControl(store: Store): {
   readonly root: HTMLElement;
   readonly dispose: () => void;
 } {
-  const out = button('minus', 'Zoom out', 'Zoom out (−)', () => {
+  const out = iconButton('icon', 'minus', { label: 'Zoom out', title: 'Zoom out (−)' }, () => {
     apply(store, zoomedBy(1 / ZOOM_STEP));
   });
-  const into = button('plus', 'Zoom in', 'Zoom in (+)', () => {
+  const into = iconButton('icon', 'plus', { label: 'Zoom in', title: 'Zoom in (+)' }, () => {
     apply(store, zoomedBy(ZOOM_STEP));
   });
-  const fit = button('fit', 'Show the whole dance', 'Show the whole dance (0)', () => {
-    apply(store, zoomSet(null));
-  });
+  const fit = iconButton(
+    'icon',
+    'fit',
+    { label: 'Show the whole dance', title: 'Show the whole dance (0)' },
+    () => {
+      apply(store, zoomSet(null));
+    },
+  );
   const slider = el('input', {
     class: 'zoom',
-    attributes: { type: 'range', min: 0, max: STEPS, step: 1, value: 0, 'aria-label': 'Timeline zoom' },
+    attributes: {
+      type: 'range',
+      min: 0,
+      max: SLIDER_STEPS,
+      step: 1,
+      value: 0,
+      'aria-label': 'Timeline zoom',
+    },
     on: {
       input: () => {
-        const most = largest(danceDuration(store.getState()));
-        apply(store, magnified(most ** (Number(slider.value) / STEPS)));
+        const max = largest(danceDuration(store.getState()));
+        apply(store, magnified(max ** (Number(slider.value) / SLIDER_STEPS)));
       },
     },
   });
-  const root = el('div', { class: 'zooming desk' }, out, slider, into, fit);
+  const root = el('div', { class: 'zoom-control desk' }, out, slider, into, fit);
   return {
     root,
-    dispose: together(
-      watchAll(
-        store,
-        (state) => [state.zoom, state.leader, state.song],
-        (state) => {
-          const whole = danceDuration(state);
-          const most = largest(whole);
-          const times = magnification(shown(state), whole);
-          const part = most > 1 ? Math.log(times) / Math.log(most) : 0;
-          slider.value = String(Math.round(part * STEPS));
-          slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
-          for (const each of [slider, into]) each.disabled = most <= 1 || whole === 0;
-          into.disabled ||= part > 1 - 1e-6;
-          out.disabled = fit.disabled = state.zoom === null;
-        },
-      ),
+    dispose: watchAll(
+      store,
+      (state) => [state.zoom, state.leader, state.song],
+      (state) => {
+        const whole = danceDuration(state);
+        const max = largest(whole);
+        const times = magnification(shown(state), whole);
+        const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
+        slider.value = String(Math.round(part * SLIDER_STEPS));
+        slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
+        for (const each of [slider, into]) each.disabled = max <= 1 || whole === 0;
+        into.disabled ||= part > 1 - 1e-6;
+        out.disabled = fit.disabled = state.zoom === null;
+      },
     ),
   };
-}
-
-function button(sign: IconName, label: string, title: string, run: () => void): HTMLButtonElement {
-  return el(
-    'button',
-    { class: 'icon', attributes: { type: 'button', 'aria-label': label, title }, on: { click: run } },
-    icon(sign),
-  );
 }

@@ -1,11 +1,17 @@
 import { expect, test } from 'vitest';
 import { motionFileName, videoFileName } from '../../../../web/ui/download/file-name';
-import { alike, leader, song } from '../../support/made-state';
+import { uniformGuidance, leader, song } from '../../support/made-state';
 
-const settings = { guidance: alike(1.2, 0.6), music: 3, steps: 10, seed: 1204, role: 'reactor' as const };
+const settings = {
+  guidance: uniformGuidance(1.2, 0.6),
+  music: 3,
+  steps: 10,
+  seed: 1204,
+  role: 'reactor' as const,
+};
 const inputs = { leader: leader(90), song: song(3), shift: 0, settings };
 
-test('a name says song, leader, take, seed, guidance, foot lock and whose motion it is', () => {
+test('a file name holds song, leader, take, seed, guidance, foot lock and role', () => {
   expect(motionFileName({ inputs, footLock: false }, 'reactor', 'bvh')).toBe(
     'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_reactor.bvh',
   );
@@ -18,19 +24,19 @@ test('a name says song, leader, take, seed, guidance, foot lock and whose motion
   );
 });
 
-test('a leader alone is named after what it depends on', () => {
+test('a leader alone is named after song and leader', () => {
   expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'leader', 'json')).toBe(
     'descarga_lead-0412_leader.json',
   );
 });
 
-test('a video says its size instead', () => {
+test('a video’s name ends with its size', () => {
   expect(videoFileName({ inputs, footLock: true, take: '' }, '1080p', 'webm')).toBe(
     'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm',
   );
 });
 
-test('where roles are swapped, the leader is what was made', () => {
+test('with swapped roles the leader is the generated dancer', () => {
   const swapped = { ...inputs, settings: { ...settings, role: 'leader' as const } };
   expect(motionFileName({ inputs: swapped, footLock: false }, 'leader', 'bvh')).toBe(
     'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_leader.bvh',
@@ -40,7 +46,7 @@ test('where roles are swapped, the leader is what was made', () => {
   );
 });
 
-test('body parts that differ are said to', () => {
+test('body parts that differ are marked as mixed', () => {
   const guidance = { ...settings.guidance, upper: { coarse: 3, fine: 0.6 } };
   const mixed = { ...inputs, settings: { ...settings, guidance } };
   expect(motionFileName({ inputs: mixed, footLock: false }, 'reactor', 'bvh')).toContain(

@@ -4,7 +4,7 @@ import { createFiles } from '../../../../web/ui/files/files';
 import type { Files, Readers } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
-import { heard, leaderFile, still } from '../../support/made-state';
+import { songData, leaderFile, still } from '../../support/made-state';
 
 const file = (name: string, content: string): File => new File([content], name);
 const BVH = 'HIERARCHY\nROOT Hips\n';
@@ -21,7 +21,7 @@ describe('files', () => {
     readers = {
       loadSong: (_file, _recipe, { onProgress }) => {
         onProgress({ fraction: 0.5 });
-        return Promise.resolve(heard(2));
+        return Promise.resolve(songData(2));
       },
       readLeader: ({ fps }) => {
         const frames = fps === null ? 60 : 120;
@@ -105,7 +105,7 @@ describe('files', () => {
     let late: (progress: { fraction: number }) => void = () => undefined;
     readers.loadSong = (_file, _recipe, { onProgress }) => {
       late = onProgress;
-      return Promise.resolve(heard(2));
+      return Promise.resolve(songData(2));
     };
     await files.openSong(file('a', SONG), 'a.mp3', null);
     late({ fraction: 1 });

@@ -7,10 +7,10 @@ import type { Reaction } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { compareSet, flipped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';
-import { alike, leader, still } from '../../support/made-state';
+import { uniformGuidance, leader, still } from '../../support/made-state';
 
-/** A model whose answers the test gives by hand. */
-class Hand {
+/** A model whose answers the test gives. */
+class ManualGenerator {
   readonly calls: {
     request: CoarseRequest;
     signal: AbortSignal | undefined;
@@ -34,13 +34,19 @@ class Hand {
 
 describe('the coarse layer', () => {
   let store: change.Store;
-  let hand: Hand;
+  let model: ManualGenerator;
   let stop: () => void;
   /** What promises do comes before the next task. */
   const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
   const state = () => store.getState();
   const reaction = (latents: Float32Array | null): Reaction => {
-    const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+    const settings = {
+      guidance: uniformGuidance(0, 0),
+      music: 2,
+      steps: 10,
+      seed: 1,
+      role: 'reactor' as const,
+    };
     const inputs = { leader: leader(60), song: null, shift: 0, settings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
   };
@@ -50,25 +56,28 @@ describe('the coarse layer', () => {
   beforeEach(() => {
     store = change.createAppStore('dark');
     change.apply(store, change.footLockSet(false));
-    hand = new Hand();
-    stop = createCoarseLayer(store, () => Promise.resolve(hand.generator));
+    model = new ManualGenerator();
+    stop = createCoarseLayer(store, () => Promise.resolve(model.generator));
   });
   afterEach(() => {
     stop();
     vi.restoreAllMocks();
   });
 
-  it('is decoded when it is wanted, from the latents of the reaction and its leader', async () => {
+  it('is decoded when its overlay is switched on, from the latents of the reaction and its leader', async () => {
     const shown = reaction(new Float32Array([1, 2]));
     show(shown);
     await turn();
-    expect(hand.calls).toHaveLength(0);
+    expect(model.calls).toHaveLength(0);
     toggle();
     await turn();
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: true });
-    expect(hand.calls[0]?.request).toEqual({ leader: shown.inputs.leader.file.clip, latents: shown.latents });
+    expect(model.calls[0]?.request).toEqual({
+      leader: shown.inputs.leader.file.clip,
+      latents: shown.latents,
+    });
     const motion = still(60);
-    hand.calls[0]?.answer(motion);
+    model.calls[0]?.answer(motion);
     await turn();
     expect(state().coarse).toEqual({ motion, other: null, decoding: false });
     expect(coarseMotion(state())).toBe(motion);
@@ -76,7 +85,7 @@ describe('the coarse layer', () => {
     expect(coarseMotion(state())).toBeNull();
   });
 
-  it('is decoded once for each reaction, however often takes are changed and the ghost is switched', async () => {
+  it('is decoded once for each reaction, however often takes and the overlay are switched', async () => {
     const [one, two] = [reaction(new Float32Array([1])), reaction(new Float32Array([2]))];
     toggle();
     const motions = [];
@@ -85,7 +94,7 @@ describe('the coarse layer', () => {
       await turn();
       const motion = still(60);
       motions.push(motion);
-      hand.calls.at(-1)?.answer(motion);
+      model.calls.at(-1)?.answer(motion);
       await turn();
     }
     toggle();
@@ -95,10 +104,10 @@ describe('the coarse layer', () => {
     show(two);
     expect(state().coarse.motion).toBe(motions[1]);
     await turn();
-    expect(hand.calls).toHaveLength(2);
+    expect(model.calls).toHaveLength(2);
   });
 
-  it('is decoded for both halves of a comparison, the stage first, and goes along when they are flipped', async () => {
+  it('is decoded for both of two takes side by side, the one on the stage first, and flips with them', async () => {
     const dancer = leader(60);
     const made = (seed: number): Reaction => {
       const { inputs, ...rest } = reaction(new Float32Array([seed]));
@@ -113,16 +122,16 @@ describe('the coarse layer', () => {
     change.apply(store, compareSet('ghost'));
     await turn();
     // In one picture, the other take's would only be in the way.
-    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2]]);
+    expect(model.calls.map(({ request }) => [...request.latents])).toEqual([[2]]);
     change.apply(store, compareSet('side'));
     await turn();
-    expect(hand.calls.map(({ request }) => [...request.latents])).toEqual([[2], [2]]);
+    expect(model.calls.map(({ request }) => [...request.latents])).toEqual([[2], [2]]);
     const [two, one] = [still(60), still(60)];
-    hand.calls[1]?.answer(two);
+    model.calls[1]?.answer(two);
     await turn();
     expect(state().coarse).toEqual({ motion: two, other: null, decoding: true });
-    expect([...hand.calls[2]!.request.latents]).toEqual([1]);
-    hand.calls[2]?.answer(one);
+    expect([...model.calls[2]!.request.latents]).toEqual([1]);
+    model.calls[2]?.answer(one);
     await turn();
     expect(state().coarse).toEqual({ motion: two, other: one, decoding: false });
     expect(otherCoarseMotion(state())).toBe(one);
@@ -131,54 +140,54 @@ describe('the coarse layer', () => {
     change.apply(store, compareSet('side'));
     expect(state().coarse).toEqual({ motion: one, other: null, decoding: false });
     await turn();
-    expect(hand.calls).toHaveLength(3);
+    expect(model.calls).toHaveLength(3);
   });
 
-  it('drops what it decodes when another reaction comes, and keeps the ghost until the next is there', async () => {
+  it('aborts decoding when another reaction comes, and keeps the old layer until the next is decoded', async () => {
     toggle();
     show(reaction(new Float32Array([1])));
     await turn();
     const first = still(60);
-    hand.calls[0]?.answer(first);
+    model.calls[0]?.answer(first);
     await turn();
     show(reaction(new Float32Array([2])));
     await turn();
     expect(state().coarse).toEqual({ motion: first, other: null, decoding: true });
     show(reaction(new Float32Array([3])));
     await turn();
-    expect(hand.calls[1]?.signal?.aborted).toBe(true);
+    expect(model.calls[1]?.signal?.aborted).toBe(true);
     expect(state().coarse.decoding).toBe(true);
     const last = still(60);
-    hand.calls[2]?.answer(last);
+    model.calls[2]?.answer(last);
     await turn();
     expect(state().coarse).toEqual({ motion: last, other: null, decoding: false });
     change.apply(store, change.leaderLoaded(leader(30)));
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
   });
 
-  it('is missing from a reaction that came ready-made, or was made by a model that has gone', async () => {
+  it('is missing from a reaction that came ready-made or from another model', async () => {
     toggle();
     show(reaction(null));
     await turn();
     expect(coarseIsMissing(state())).toBe(true);
-    expect(hand.calls).toHaveLength(0);
+    expect(model.calls).toHaveLength(0);
     show(reaction(new Float32Array([1])));
     expect(coarseIsMissing(state())).toBe(false);
     change.apply(store, change.modelOpened(small, 1));
     expect(coarseIsMissing(state())).toBe(true);
-    expect(hand.calls.every(({ signal }) => signal?.aborted)).toBe(true);
+    expect(model.calls.every(({ signal }) => signal?.aborted)).toBe(true);
   });
 
-  it('tells a failure in words and switches the ghost off, so that it is not tried again by itself', async () => {
+  it('shows a failure and switches the overlay off, so that it is not tried again by itself', async () => {
     show(reaction(new Float32Array([1])));
     toggle();
     await turn();
-    hand.calls[0]?.fail(new Error('boom'));
+    model.calls[0]?.fail(new Error('boom'));
     await turn();
     expect(state().problem).toMatchObject({ code: 'coarse-failed', remedy: 'generate' });
     expect(state().shown.ghost).toBe(false);
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
     await turn();
-    expect(hand.calls).toHaveLength(1);
+    expect(model.calls).toHaveLength(1);
   });
 });

@@ -4,7 +4,7 @@ import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { splice } from '../../../../web/ui/generation/splice';
 import { maxDifference } from '../../support/open-model';
 
-/** A dancer who stands at x with one turn of all joints about y. */
+/** A dancer who stands at x, with all joints rotated by one angle about y. */
 function stander(x: number, angle: number, frames = 60): SolvedMotion {
   const offsets = Float32Array.from({ length: 66 }, (_, i) => (i < 3 ? 0 : ((i * 7) % 5) / 20));
   const root = Float32Array.from({ length: frames * 3 }, (_, i) => (i % 3 === 0 ? x : 1));
@@ -15,7 +15,7 @@ function stander(x: number, angle: number, frames = 60): SolvedMotion {
   return { fps: 30, frames, offsets, root, rotations, positions, fitError: 0 };
 }
 
-test('only the fresh frames change, the two pass into each other, and bones keep their length', () => {
+test('only the fresh frames change, crossfaded at both ends, and bones keep their length', () => {
   const [shown, made] = [stander(0, 0), stander(1, 1)];
   const { root, rotations, positions } = splice(shown, made, { from: 20, to: 40 });
   const x = (frame: number): number => root[frame * 3] ?? NaN;
@@ -27,7 +27,7 @@ test('only the fresh frames change, the two pass into each other, and bones keep
   expect(positions.subarray(0, 20 * 66)).toEqual(shown.positions.subarray(0, 20 * 66));
 });
 
-test('where the dance itself begins or ends, nothing is faded', () => {
+test('there is no crossfade at the start and the end of the dance', () => {
   const { root } = splice(stander(0, 0), stander(1, 1), { from: 0, to: 60 });
   expect(root).toEqual(stander(1, 1).root);
 });

@@ -12,7 +12,7 @@ import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/
 import { redone, undone } from '../../../../web/ui/store/history';
 import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
-import { alike, heard, leader, leaderFile, song, still } from '../../support/made-state';
+import { uniformGuidance, songData, leader, leaderFile, song, still } from '../../support/made-state';
 
 /** A motion in which every number is another one. */
 function numbered(frames: number, from: number): SolvedMotion {
@@ -63,7 +63,7 @@ function filled(): change.Store {
 }
 
 const readers: Rereaders = {
-  song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: heard(4) }),
+  song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
   leader: ({ name, label, text, fps }) =>
     Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
 };
@@ -222,7 +222,7 @@ describe('what cannot be read any more', () => {
     }));
     const { content } = await contentOf({ ...before, takes }, empty().getState());
     expect(content.takes?.[0]?.reaction.inputs.settings).toEqual({
-      guidance: { ...alike(0, 0), upper: { coarse: 0, fine: 0.6 } },
+      guidance: { ...uniformGuidance(0, 0), upper: { coarse: 0, fine: 0.6 } },
       music: 2,
       steps: 10,
       seed: 5,

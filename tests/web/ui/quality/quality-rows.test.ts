@@ -4,8 +4,8 @@ import { aboveChance, about, atMost, measureRows } from '../../../../web/ui/qual
 import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
 
-describe('how a number stands beside its reference', () => {
-  it('is good up to a little beyond what should not be exceeded', () => {
+describe('the verdict on a number beside its reference', () => {
+  it('is good up to a little above a reference that should not be exceeded', () => {
     expect([0.2, 0.36, 0.5, 0.7].map((value) => atMost(value, 0.33))).toEqual([
       'good',
       'good',
@@ -16,12 +16,12 @@ describe('how a number stands beside its reference', () => {
     expect(atMost(0.2, null)).toBeNull();
   });
 
-  it('is no better for being far below what it should be like', () => {
+  it('is no better for a number far below a reference that it should equal', () => {
     expect([0.46, 0.34, 0.2].map((value) => about(value, 0.48))).toEqual(['good', 'so-so', 'poor']);
     expect(about(0.9, 0.48)).toBe('poor');
   });
 
-  it('counts on the beat only what is above chance, and never calls chance good', () => {
+  it('counts only what is above chance on the beat, and never calls chance good', () => {
     expect([0.31, 0.25, 0.16].map((value) => aboveChance(value, 0.15, 0.32))).toEqual([
       'good',
       'so-so',
@@ -38,7 +38,7 @@ describe('how a number stands beside its reference', () => {
   });
 });
 
-it('names each measure once, with its number, its reference and a word only where there is one', () => {
+it('names each measure once, with its number, and with reference and verdict where there are any', () => {
   const { positions, fps, frames } = madeStander({ frames: 900, path: (t) => [0.3 * Math.sin(t / 20), 0] });
   const leader = positions.map((value, index) => (index % 3 === 2 ? value + 1 : value));
   const duet = { fps, frames, leader, reactor: positions, beats: [], block: 240 };

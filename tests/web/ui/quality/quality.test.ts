@@ -7,9 +7,9 @@ import { laneWords, momentExplained, momentWords } from '../../../../web/ui/qual
 import * as change from '../../support/actions';
 import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
-import { alike, leader, song } from '../../support/made-state';
+import { uniformGuidance, leader, song } from '../../support/made-state';
 
-const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+const settings = { guidance: uniformGuidance(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });
 
@@ -41,7 +41,7 @@ describe('measuring', () => {
     change.apply(store, change.leaderLoaded(leader(90)));
   });
 
-  it('begins with a reaction and takes the reactor as drawn, the beats in frames and the blocks of the model', () => {
+  it('starts with a reaction, from the drawn reactor, the beats in frames and the blocks of the model', () => {
     expect(calls).toHaveLength(0);
     change.apply(store, change.songLoaded(song(3)));
     react();
@@ -52,7 +52,7 @@ describe('measuring', () => {
     expect(rules).toBe(small.quality);
   });
 
-  it('drops an older dance for a newer one, and begins again with foot lock and song', async () => {
+  it('aborts for a newer dance, and starts again when foot lock or song change', async () => {
     react();
     change.apply(store, change.footLockSet(false));
     change.apply(store, change.songLoaded(song(3)));
@@ -66,7 +66,7 @@ describe('measuring', () => {
     expect(store.getState().remarks).toEqual([]);
   });
 
-  it('keeps the numbers until new ones are there, but not beyond another leader', async () => {
+  it('keeps the numbers until new ones are there, but not for another leader', async () => {
     react();
     calls[0]!.answer(measure(calls[0]!.question.duet, calls[0]!.question.rules));
     await settled();
@@ -96,7 +96,7 @@ describe('what is shown', () => {
     expect(concerns).toEqual([...concerns].sort((a, b) => b - a));
   });
 
-  it('leaves out of the one row what would lie on a worse mark', () => {
+  it('leaves marks out of the one lane that would overlap a worse mark', () => {
     const at = (frame: number) => ({ kind: 'seam' as const, frame, value: 3, concern: 1.5 });
     const marks = [100, 110, 300, 320, 600].map((frame, index) => ({
       part: 'seams' as const,
@@ -110,12 +110,12 @@ describe('what is shown', () => {
     ]);
   });
 
-  it('takes the worst of several rows, and nothing where none has anything', () => {
+  it('takes the worst of several rows, and NaN where all are NaN', () => {
     const rows = [Float32Array.of(NaN, 0.5, 2, NaN), Float32Array.of(1, 0.25, NaN, NaN)];
     expect([...worstRow(rows)]).toEqual([1, 0.5, 2, NaN]);
   });
 
-  it('says it in words, with what recorded dancers score', () => {
+  it('gives the words with the scores of recorded dancers', () => {
     const reference = {
       model: 'small',
       skateShare: 0.33,

@@ -4,7 +4,7 @@ import { presetOf, presets } from '../../../../web/ui/guidance/presets';
 import type { Guidance } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
-import { alike } from '../../support/made-state';
+import { uniformGuidance } from '../../support/made-state';
 
 const range = small.guidance;
 const rows = (upper: number, lower: number, placement: number): Guidance => ({
@@ -32,8 +32,8 @@ describe('a big fader', () => {
   });
 
   it('leaves the other layer and parts that are alike as one does', () => {
-    const moved = matrix.withColumn(alike(0.5, 0.2), 'fine', 1.23, range);
-    expect(moved).toEqual(alike(0.5, 1.25));
+    const moved = matrix.withColumn(uniformGuidance(0.5, 0.2), 'fine', 1.23, range);
+    expect(moved).toEqual(uniformGuidance(0.5, 1.25));
   });
 
   it('can be stepped by keys however mixed the parts are', () => {
@@ -58,11 +58,11 @@ describe('changes of the guidance', () => {
   it('set and reset one cell, held to range and step', () => {
     const store = ready();
     change.apply(store, change.guidanceCellSet('lower', 'fine', 7.33));
-    expect(guidance(store)).toEqual({ ...alike(0, 0), lower: { coarse: 0, fine: 3 } });
+    expect(guidance(store)).toEqual({ ...uniformGuidance(0, 0), lower: { coarse: 0, fine: 3 } });
     change.apply(store, change.guidanceCellSet('lower', 'fine', 0.33));
     expect(guidance(store)['lower']?.['fine']).toBe(0.35);
     change.apply(store, change.guidanceCellReset('lower', 'fine'));
-    expect(guidance(store)).toEqual(alike(0, 0));
+    expect(guidance(store)).toEqual(uniformGuidance(0, 0));
   });
 
   it('while a fader is held, bring back the differences that the end of the range took', () => {
@@ -70,7 +70,7 @@ describe('changes of the guidance', () => {
     change.apply(store, change.guidanceCellSet('upper', 'coarse', 2));
     const held = guidance(store);
     change.apply(store, change.guidanceSet('coarse', 3, held));
-    expect(guidance(store)).toEqual(alike(3, 0));
+    expect(guidance(store)).toEqual(uniformGuidance(3, 0));
     change.apply(store, change.guidanceSet('coarse', matrix.columnOf(held, 'coarse').value, held));
     expect(guidance(store)).toEqual(held);
   });
@@ -80,7 +80,7 @@ describe('changes of the guidance', () => {
     change.apply(store, change.guidanceCellSet('upper', 'coarse', 2));
     change.apply(store, change.guidanceSet('fine', 1));
     change.apply(store, change.guidanceReset('coarse'));
-    expect(guidance(store)).toEqual(alike(0, 1));
+    expect(guidance(store)).toEqual(uniformGuidance(0, 1));
   });
 
   it('come out as plain JSON', () => {
@@ -102,14 +102,14 @@ describe('presets', () => {
       [1.2, 1.5],
       [1.5, 1.5],
     ]);
-    expect(presetOf(list, { guidance: alike(1.2, 1.2), music: 0 })?.name).toBe("Paper's choice");
+    expect(presetOf(list, { guidance: uniformGuidance(1.2, 1.2), music: 0 })?.name).toBe("Paper's choice");
   });
 
   it('count as chosen exactly while the values match', () => {
     const { music } = small.guidance;
-    expect(presetOf(list, { guidance: alike(0, 0), music: music.default })?.name).toBe('Balanced');
-    expect(presetOf(list, { guidance: alike(0, 0), music: 0 })).toBeNull();
-    const mixed = { ...alike(1.2, 1.2), upper: { coarse: 1.2, fine: 1.25 } };
+    expect(presetOf(list, { guidance: uniformGuidance(0, 0), music: music.default })?.name).toBe('Balanced');
+    expect(presetOf(list, { guidance: uniformGuidance(0, 0), music: 0 })).toBeNull();
+    const mixed = { ...uniformGuidance(1.2, 1.2), upper: { coarse: 1.2, fine: 1.25 } };
     expect(presetOf(list, { guidance: mixed, music: 0 })).toBeNull();
   });
 });

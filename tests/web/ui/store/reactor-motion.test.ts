@@ -4,7 +4,7 @@ import { reactorMotion } from '../../../../web/ui/store/reactor-motion';
 import { footLockSet, reacted } from '../../../../web/ui/store/actions/reaction';
 import { createAppStore, apply } from '../../../../web/ui/store/store';
 import { madeStander } from '../../support/made-stander';
-import { alike, leader } from '../../support/made-state';
+import { uniformGuidance, leader } from '../../support/made-state';
 
 test('the foot lock is on at first, and switching it changes the motion shown, not the one that was made', () => {
   const motion = madeStander({ frames: 90, path: (frame) => [0.05 * Math.sin(frame / 4.8), 0] });
@@ -13,7 +13,13 @@ test('the foot lock is on at first, and switching it changes the motion shown, n
   const shown = () => reactorMotion(store.getState());
   expect(shown()).toBeNull();
 
-  const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+  const settings = {
+    guidance: uniformGuidance(0, 0),
+    music: 2,
+    steps: 10,
+    seed: 1,
+    role: 'reactor' as const,
+  };
   const inputs = { leader: leader(90), song: null, shift: 0, settings };
   apply(store, reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();

@@ -3,9 +3,15 @@ import * as select from '../../../../web/ui/store/selectors';
 import type { AppState, Settings } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { small } from '../../support/small-manifest';
-import { alike, leader, song, still } from '../../support/made-state';
+import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
-const settings: Settings = { guidance: alike(1.2, 0.6), music: 2, steps: 10, seed: 1204, role: 'reactor' };
+const settings: Settings = {
+  guidance: uniformGuidance(1.2, 0.6),
+  music: 2,
+  steps: 10,
+  seed: 1204,
+  role: 'reactor',
+};
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),
   manifest: small,
@@ -46,7 +52,7 @@ describe('what is wanted', () => {
       { ...settings, seed: 1 },
       { ...settings, steps: 4 },
       { ...settings, music: 0 },
-      { ...settings, guidance: alike(1.2, 0.65) },
+      { ...settings, guidance: uniformGuidance(1.2, 0.65) },
       { ...settings, guidance: { ...settings.guidance, lower: { coarse: 1.2, fine: 0.65 } } },
       { ...settings, role: 'leader' as const },
     ])

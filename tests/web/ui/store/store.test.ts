@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import * as change from '../../support/actions';
 import type { Problem } from '../../../../web/ui/store/state';
 import { small } from '../../support/small-manifest';
-import { alike, leader, song, still } from '../../support/made-state';
+import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
 const ready = (): change.Store => {
   const store = change.createAppStore('dark');
@@ -14,7 +14,7 @@ describe('settings', () => {
   it('come from the manifest, with the seed that was rolled', () => {
     const store = ready();
     expect(store.getState().settings).toEqual({
-      guidance: alike(0, 0),
+      guidance: uniformGuidance(0, 0),
       music: 2,
       steps: 10,
       seed: 7,
@@ -34,11 +34,11 @@ describe('settings', () => {
     const store = ready();
     change.apply(store, change.guidanceSet('coarse', 9));
     change.apply(store, change.guidanceSet('fine', 0.33));
-    expect(store.getState().settings?.guidance).toEqual(alike(3, 0.35));
+    expect(store.getState().settings?.guidance).toEqual(uniformGuidance(3, 0.35));
     change.apply(store, change.guidanceReset('coarse'));
-    expect(store.getState().settings?.guidance).toEqual(alike(0, 0.35));
+    expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0.35));
     change.apply(store, change.guidanceReset());
-    expect(store.getState().settings?.guidance).toEqual(alike(0, 0));
+    expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0));
   });
 
   it('hold the guidance of the music to its own range, and reset it with the rest', () => {
@@ -54,9 +54,9 @@ describe('settings', () => {
     change.apply(store, change.guidanceSet('fine', 1));
     expect(music()).toBe(0);
     change.apply(store, change.guidanceReset());
-    expect(store.getState().settings).toMatchObject({ guidance: alike(0, 0), music: 2 });
-    change.apply(store, change.presetChosen({ guidance: alike(1, 1.2), music: 0 }));
-    expect(store.getState().settings).toMatchObject({ guidance: alike(1, 1.2), music: 0 });
+    expect(store.getState().settings).toMatchObject({ guidance: uniformGuidance(0, 0), music: 2 });
+    change.apply(store, change.presetChosen({ guidance: uniformGuidance(1, 1.2), music: 0 }));
+    expect(store.getState().settings).toMatchObject({ guidance: uniformGuidance(1, 1.2), music: 0 });
   });
 
   it('are the same object while nothing changes, so that nothing is made anew', () => {

@@ -3,11 +3,11 @@ import type { AppState, Inputs, Take } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
 import { small } from '../../support/small-manifest';
-import { alike, leader, song, still } from '../../support/made-state';
+import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
 const music = small.guidance.music.default;
 const settings = {
-  guidance: alike(2, 1.5),
+  guidance: uniformGuidance(2, 1.5),
   music,
   steps: small.diffusion.steps.default,
   seed: 1204,
@@ -25,7 +25,7 @@ const take = (more: Partial<Inputs>): Take => ({
 });
 const guided = 'seed 1204, 2 coarse, 1.5 fine';
 
-test('the line of a take leaves out what is as the page and the model have it', () => {
+test('the line of a take leaves out what is as on the page and as the model’s defaults', () => {
   expect(takeWords(take({}), page)).toBe(guided);
 });
 
@@ -43,7 +43,7 @@ test.each<[string, Partial<Inputs>]>([
   expect(takeWords(take(more), page)).toBe(words);
 });
 
-test('all of it is said where there is room', () => {
+test('the tooltip of a take names all inputs', () => {
   expect(allTakeWords(take({ shift: 51 }))).toBe(
     `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, seed 1204`,

@@ -1,12 +1,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Player } from '../../../../web/audio/client';
-import { createPlayback, type PlaybackControl } from '../../../../web/ui/timeline/playback';
+import { PlaybackControl } from '../../../../web/ui/timeline/playback';
 import * as change from '../../support/actions';
 import { regionSet, shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { leader, song } from '../../support/made-state';
 
 /** A player whose time the test sets. */
-class Hand implements Player {
+class FakePlayer implements Player {
   time = 0;
   playing = false;
   duration = 0;
@@ -35,7 +35,7 @@ class Hand implements Player {
   setSongStart(seconds: number): void {
     this.songStart = seconds;
   }
-  setLoop(loop: Hand['loop']): void {
+  setLoop(loop: FakePlayer['loop']): void {
     this.loop = loop;
   }
   dispose(): void {
@@ -45,7 +45,7 @@ class Hand implements Player {
 
 describe('playback', () => {
   let store: change.Store;
-  let hand: Hand;
+  let player: FakePlayer;
   let playback: PlaybackControl;
   let frames: (() => void)[];
 
@@ -54,18 +54,18 @@ describe('playback', () => {
     vi.stubGlobal('requestAnimationFrame', (frame: () => void) => frames.push(frame));
     vi.stubGlobal('cancelAnimationFrame', () => (frames = []));
     store = change.createAppStore('dark');
-    hand = new Hand();
-    playback = createPlayback(store, hand);
+    player = new FakePlayer();
+    playback = new PlaybackControl(store, player);
   });
   afterEach(() => {
     playback.dispose();
     vi.unstubAllGlobals();
   });
-  /** Time passes for the player, then the page draws. */
+  /** Sets the player's time, then draws a frame. */
   const draw = async (time: number): Promise<void> => {
     await Promise.resolve();
     await Promise.resolve();
-    hand.time = time;
+    player.time = time;
     for (const frame of frames.splice(0)) frame();
   };
   const load = (): void => {
@@ -80,8 +80,8 @@ describe('playback', () => {
 
   it('gives the player the song and the length of the dance', () => {
     load();
-    expect(hand.sound).toBe(store.getState().song?.data.sound);
-    expect(hand.duration).toBe(3);
+    expect(player.sound).toBe(store.getState().song?.data.sound);
+    expect(player.duration).toBe(3);
   });
 
   it('follows the player, ends the visit, and stops at the end', async () => {
@@ -91,31 +91,31 @@ describe('playback', () => {
     expect(store.getState()).toMatchObject({ visiting: false, playback: { playing: true, time: 1.25 } });
     await draw(3);
     expect(store.getState().playback).toMatchObject({ playing: false, time: 3 });
-    expect(hand.playing).toBe(false);
+    expect(player.playing).toBe(false);
   });
 
   it('starts over from the end, by hand or by loop', async () => {
     load();
     playback.seek(3);
     playback.toggle();
-    expect(hand.time).toBe(0);
+    expect(player.time).toBe(0);
     change.apply(store, change.playbackSet({ loop: true }));
-    expect(hand.loop).toEqual({ from: 0, to: 3 });
+    expect(player.loop).toEqual({ from: 0, to: 3 });
     await draw(3);
     expect(store.getState().playback).toMatchObject({ playing: true, time: 3 });
     await draw(0.5);
     expect(store.getState().playback).toMatchObject({ playing: true, time: 0.5 });
   });
 
-  it('loops a region, which is heard at once when it lies behind the playhead', async () => {
+  it('loops a region, from whose start it plays at once when the playhead is past it', async () => {
     load();
     playback.toggle();
     await draw(2);
     change.apply(store, regionSet({ from: 0.5, to: 1 }));
-    expect(hand.loop).toEqual({ from: 0.5, to: 1 });
-    expect(hand.time).toBe(0.5);
+    expect(player.loop).toEqual({ from: 0.5, to: 1 });
+    expect(player.time).toBe(0.5);
     change.apply(store, regionSet(null));
-    expect(hand.loop).toBeNull();
+    expect(player.loop).toBeNull();
   });
 
   it('plays from the start of the region when the playhead is past it', async () => {
@@ -123,20 +123,20 @@ describe('playback', () => {
     change.apply(store, regionSet({ from: 0.5, to: 1 }));
     playback.seek(0.2);
     playback.toggle();
-    expect(hand.time).toBe(0.2);
+    expect(player.time).toBe(0.2);
     playback.toggle();
     playback.seek(2);
     playback.toggle();
-    expect(hand.time).toBe(0.5);
+    expect(player.time).toBe(0.5);
     await draw(0.5);
   });
 
   it('starts the song as much later as it is shifted', () => {
     load();
     change.apply(store, shiftSet(15));
-    expect(hand.songStart).toBe(0.5);
+    expect(player.songStart).toBe(0.5);
     change.apply(store, change.songLoaded(song(2)));
-    expect(hand.songStart).toBe(0);
+    expect(player.songStart).toBe(0);
   });
 
   it('goes on playing when another song comes', async () => {
@@ -144,13 +144,13 @@ describe('playback', () => {
     playback.toggle();
     await draw(1);
     change.apply(store, change.songLoaded(song(5)));
-    expect(hand.playing).toBe(true);
-    expect(hand.time).toBe(1);
+    expect(player.playing).toBe(true);
+    expect(player.time).toBe(1);
   });
 
-  it('tells when the browser refuses to play', async () => {
+  it('shows a problem when the browser refuses to play', async () => {
     load();
-    hand.refusal = new Error('no');
+    player.refusal = new Error('no');
     playback.toggle();
     await draw(0);
     expect(store.getState()).toMatchObject({
@@ -159,8 +159,8 @@ describe('playback', () => {
     });
   });
 
-  it('hands the speed on', () => {
+  it('sets the speed of the player', () => {
     change.apply(store, change.playbackSet({ speed: 0.25 }));
-    expect(hand.speed).toBe(0.25);
+    expect(player.speed).toBe(0.25);
   });
 });

@@ -37,7 +37,7 @@ describe('ruler', () => {
     expect(marks.map(({ text }) => text)).toEqual(['1', '2', '3']);
   });
 
-  it('counts between the bars when a part is seen so large that there is room', () => {
+  it('shows the beats between the bars when zoomed in so far that there is room', () => {
     const { marks } = rulerMarks(beats(40, 0.5), timeScale({ from: 3.6, to: 6.2 }, 400));
     expect(marks.map(({ text }) => text)).toEqual(['3', '3.2', '3.3', '3.4', '4']);
     expect(marks[0]?.at).toBeCloseTo(0.4 / 2.6);
@@ -50,7 +50,7 @@ describe('ruler', () => {
     expect(dense.marks.map(({ text }) => text)).toEqual(['1', '3']);
   });
 
-  it('tells the time of a part', () => {
+  it('shows the seconds of a part', () => {
     const { marks } = rulerMarks([], timeScale({ from: 8.7, to: 11.3 }, 130));
     expect(marks.map(({ text, at }) => [text, Number((at * 2.6).toFixed(3))])).toEqual([
       ['0:09', 0.3],
@@ -59,7 +59,7 @@ describe('ruler', () => {
     ]);
   });
 
-  it('tells the time where no beat is', () => {
+  it('shows seconds where there are no beats', () => {
     const { name, marks } = rulerMarks([], timeScale({ from: 0, to: 10 }, 400));
     expect(name).toBe('Time');
     expect(marks.map(({ text }) => text)).toEqual([

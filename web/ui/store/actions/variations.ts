@@ -1,68 +1,76 @@
 import { sameInputs } from '../selectors';
-import type { AppState, Choices, Inputs, Reaction } from '../state';
+import type { AppState, Variations, Inputs, Reaction } from '../state';
 import type { Change } from '../store';
 
-/** How many reactions there are to pick from. */
-export const CHOICES = 3;
+/** How many variations are made. */
+export const VARIATION_COUNT = 3;
 
-/** Whether two wishes differ in nothing but the seed. */
-export function sameButSeed(a: Inputs, b: Inputs): boolean {
+/** Whether two inputs differ in nothing but the seed. */
+export function sameExceptSeed(a: Inputs, b: Inputs): boolean {
   return sameInputs(a, { ...b, settings: { ...b.settings, seed: a.settings.seed } });
 }
 
-/** The wish for one of the choices. */
-export function choiceInputs({ inputs }: Choices, seed: number): Inputs {
+/** The inputs that the variation with this seed is made from. */
+export function variationInputs({ inputs }: Variations, seed: number): Inputs {
   return { ...inputs, settings: { ...inputs.settings, seed } };
 }
 
-/** Seeds that follow each other, the wished one first; past the largest they begin again at 0. */
-export function choicesBegun(inputs: Inputs): Change {
-  const list = Array.from({ length: CHOICES }, (_, i) => ({
+/** Seeds that follow each other, the one that is set first; past the largest they begin again at 0. */
+export function variationsBegun(inputs: Inputs): Change {
+  const list = Array.from({ length: VARIATION_COUNT }, (_, i) => ({
     seed: (inputs.settings.seed + i) % 2 ** 32,
     reaction: null,
     fraction: 0,
   }));
-  return () => ({ choices: { inputs, list, making: true } });
+  return () => ({ variations: { inputs, list, making: true } });
 }
 
 /** The missing ones are made again. */
-export function choicesResumed(): Change {
-  return changed((choices) => ({ ...choices, making: true }));
+export function variationsResumed(): Change {
+  return changed((variations) => ({ ...variations, making: true }));
 }
 
-export function choiceProgressed(seed: number, fraction: number): Change {
-  return changed((choices) => withChoice(choices, seed, { fraction }));
+export function variationProgressed(seed: number, fraction: number): Change {
+  return changed((variations) => withVariation(variations, seed, { fraction }));
 }
 
-export function choiceMade(seed: number, reaction: Reaction): Change {
-  return changed((choices) => withChoice(choices, seed, { reaction, fraction: 1 }));
+export function variationMade(seed: number, reaction: Reaction): Change {
+  return changed((variations) => withVariation(variations, seed, { reaction, fraction: 1 }));
 }
 
 /** No more are made; what is made stays to pick from. */
-export function choicesStopped(): Change {
-  return changed((choices) => ({
-    ...choices,
+export function variationsStopped(): Change {
+  return changed((variations) => ({
+    ...variations,
     making: false,
-    list: choices.list.map((choice) => (choice.reaction ? choice : { ...choice, fraction: 0 })),
+    list: variations.list.map((variation) =>
+      variation.reaction ? variation : { ...variation, fraction: 0 },
+    ),
   }));
 }
 
-export function choicesDropped(): Change {
-  return ({ choices }) => (choices ? { choices: null } : {});
+export function variationsDropped(): Change {
+  return ({ variations }) => (variations ? { variations: null } : {});
 }
 
-/** Whether all choices are there. */
-export function complete(choices: Choices | null): boolean {
-  return choices?.list.every(({ reaction }) => reaction !== null) ?? false;
+/** Whether all variations are made. */
+export function allMade(variations: Variations | null): boolean {
+  return variations?.list.every(({ reaction }) => reaction !== null) ?? false;
 }
 
-function changed(next: (choices: Choices) => Choices): Change {
-  return ({ choices }: AppState) => (choices ? { choices: next(choices) } : {});
+function changed(next: (variations: Variations) => Variations): Change {
+  return ({ variations }: AppState) => (variations ? { variations: next(variations) } : {});
 }
 
-function withChoice(choices: Choices, seed: number, change: Partial<Choices['list'][number]>): Choices {
+function withVariation(
+  variations: Variations,
+  seed: number,
+  change: Partial<Variations['list'][number]>,
+): Variations {
   return {
-    ...choices,
-    list: choices.list.map((choice) => (choice.seed === seed ? { ...choice, ...change } : choice)),
+    ...variations,
+    list: variations.list.map((variation) =>
+      variation.seed === seed ? { ...variation, ...change } : variation,
+    ),
   };
 }

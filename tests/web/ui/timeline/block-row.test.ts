@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { blocksOf, doneOf } from '../../../../web/ui/timeline/blocks';
+import { blocksOf, doneOf } from '../../../../web/ui/timeline/block-row';
 import type { Job } from '../../../../web/ui/store/state';
 
 const job = (fraction: number, fresh: Job['fresh'] = null): Job => ({
@@ -22,7 +22,7 @@ describe('blocks', () => {
     expect(blocksOf(100, 0)).toEqual([]);
   });
 
-  it('fill one after the other while a job tells no more than its fraction', () => {
+  it('fill one after the other while only the fraction of the job is known', () => {
     const parts = (fraction: number): number[] =>
       blocks.map((block) => Number(doneOf(block, blocks, job(fraction)).to.toFixed(3)));
     expect(parts(0)).toEqual([0, 0, 0]);

@@ -1,0 +1,99 @@
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import type { Manifest } from '../../model/client';
+import { createBlockRow } from './block-row';
+import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } from './motion-lane';
+import { madeRole, otherRole } from '../store/roles';
+import { danceFps, jobWords, upToDate } from '../store/selectors';
+import type { AppState, Role } from '../store/state';
+import type { TimeScale } from '../store/time-scale';
+import { el } from '../widgets/dom';
+
+/** Speed that the upper edge of a lane stands for at least, m/s, so that standing still looks still. */
+const MIN_TOP_SPEED = 1;
+/** The upper edge over the fastest usual speed. */
+const HEADROOM = 1.2;
+/** Share of the frames whose speeds are usual: a single quick turn must not flatten all the rest. */
+const USUAL_SHARE = 0.98;
+
+/** The lanes of leader and reactor on one scale of speed, and the blocks of the model under the generated one. */
+export class DancerLanes {
+  readonly #blocks = createBlockRow();
+  readonly #lanes = {
+    leader: createMotionLane('leader', 'lane motion leader-lane', el('div', { class: 'base' })),
+    reactor: createMotionLane('reactor', 'lane motion', this.#blocks.root),
+  };
+  readonly #motions: Record<Role, DrawnMotion | null> = { leader: null, reactor: null };
+  /** Speed at the upper edge of both lanes, m/s. */
+  #topSpeed = MIN_TOP_SPEED;
+
+  /** Labels and lanes, in the order of the grid. */
+  readonly elements: readonly HTMLElement[] = [
+    el('div', { class: 'lane-label motion leader-lane leader' }, el('span', { class: 'dot' }), 'Leader'),
+    this.#lanes.leader.root,
+    el('div', { class: 'lane-label motion reactor' }, el('span', { class: 'dot' }), 'Reactor'),
+    this.#lanes.reactor.root,
+  ];
+
+  /** Width of a lane, CSS pixels. */
+  get width(): number {
+    return this.#lanes.reactor.root.clientWidth;
+  }
+
+  /** Takes another motion, which the next `draw` shows. */
+  setMotion(role: Role, motion: SolvedMotion | null, manifest: Manifest | null): void {
+    this.#motions[role] = motion && drawnMotion(motion, manifest);
+    const { leader, reactor } = this.#motions;
+    const usual = usualTopSpeed([...(leader?.speed ?? []), ...(reactor?.speed ?? [])]);
+    this.#topSpeed = Math.max(MIN_TOP_SPEED, HEADROOM * usual);
+  }
+
+  /** @param musicBeats seconds of the dance */
+  draw(state: AppState, scale: TimeScale, musicBeats: readonly number[]): void {
+    const { job } = state;
+    const fps = danceFps(state);
+    const made = madeRole(state);
+    const loadedPicture: MotionPicture = {
+      scale,
+      musicBeats,
+      tolerance: state.manifest?.quality.beats.tolerance ?? 0,
+      top: this.#topSpeed,
+      stale: false,
+      fresh: null,
+    };
+    const madePicture: MotionPicture = {
+      ...loadedPicture,
+      stale: job !== null && !upToDate(state),
+      fresh: job?.fresh ? { from: job.fresh.from / fps, to: job.fresh.to / fps } : null,
+    };
+    for (const role of ['leader', 'reactor'] as const)
+      this.#lanes[role].draw(this.#motions[role], role === made ? madePicture : loadedPicture);
+    const { root } = this.#lanes[made];
+    if (this.#blocks.root.parentElement !== root) root.prepend(this.#blocks.root);
+    this.#blocks.draw(state, scale);
+    this.#showWords(state);
+  }
+
+  /** Shows how far the job has come. */
+  showProgress(state: AppState): void {
+    this.#blocks.fill(state);
+    this.#showWords(state);
+  }
+
+  /** What a lane without a motion says. */
+  #showWords(state: AppState): void {
+    const { leader, reading, reaction, job } = state;
+    const made = madeRole(state);
+    this.#lanes[otherRole(made)].say(leader ? '' : reading.leader ? 'Reading the leader' : 'No leader yet');
+    const waiting = job ? capitalised(jobWords(job, state)) : 'Not made yet';
+    this.#lanes[made].say(leader && !reaction ? waiting : '');
+  }
+}
+
+/** The largest of the usual speeds; `speeds` are sorted in place. */
+function usualTopSpeed(speeds: number[]): number {
+  return speeds.sort((a, b) => a - b)[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
+}
+
+function capitalised(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

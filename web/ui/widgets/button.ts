@@ -1,0 +1,21 @@
+import { el } from './dom';
+import { icon, type IconName } from './icons';
+
+/** A button that shows an icon. `label` is what a screen reader says, `title` the tooltip. */
+export function iconButton(
+  className: string,
+  name: IconName,
+  { label, title }: { readonly label?: string; readonly title?: string },
+  onClick: () => void,
+): HTMLButtonElement {
+  return el(
+    'button',
+    { class: className, attributes: { type: 'button', 'aria-label': label, title }, on: { click: onClick } },
+    icon(name),
+  );
+}
+
+/** A button that shows words. */
+export function textButton(className: string, text: string, onClick: () => void): HTMLButtonElement {
+  return el('button', { class: className, text, attributes: { type: 'button' }, on: { click: onClick } });
+}
