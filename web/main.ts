@@ -17,8 +17,8 @@ import { mountFirstVisit } from './ui/shell/first-visit';
 import { mountFootLock } from './ui/generation/foot-lock';
 import { createGeneration } from './ui/generation/generation';
 import { mountGuidance } from './ui/guidance/guidance';
-import { createKeeping } from './ui/project/autosave';
-import { openStorage } from './ui/project/storage';
+import { Project } from './ui/project/project';
+import { ProjectDatabase } from './ui/project/storage';
 import { mountKeyboard } from './ui/shell/keyboard';
 import { mountKeysDialog } from './ui/shell/keys-dialog';
 import { readLeader } from './motion/client';
@@ -71,7 +71,7 @@ const model = createModelLink(store, (onStatus, folder) =>
 );
 const readers = { loadSong, readLeader, manifest: model.manifest };
 const files = createFiles(store, readers);
-const keeping = createKeeping(store, files, readers, openStorage());
+const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = createGeneration(store, model.generator);
 const choices = createChoices(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
@@ -150,7 +150,7 @@ const services: Services = {
   saveProject: () => void saveProject(),
   startAfresh: () => {
     generation.cancel();
-    keeping.startAfresh();
+    project.clear();
     void showDemo();
   },
   measureKept: () => measureKept(globalThis),
@@ -163,14 +163,14 @@ const services: Services = {
 };
 
 async function saveProject(): Promise<void> {
-  const project = await keeping.project();
-  if (project) saveFile(new Blob([project.bytes], { type: 'application/zip' }), project.name);
+  const file = await project.toFile();
+  if (file) saveFile(new Blob([file.bytes], { type: 'application/zip' }), file.name);
 }
 
 /** A project holds song and leader of its own, so nothing that comes along with it is read. */
 async function openFiles(chosen: readonly File[]): Promise<void> {
-  const project = chosen.find(({ name }) => isProject(name));
-  if (project) await keeping.openProject(project);
+  const projectFile = chosen.find(({ name }) => isProject(name));
+  if (projectFile) await project.open(projectFile);
   else await files.open(chosen);
 }
 
@@ -220,7 +220,7 @@ function showDemo(): Promise<void> {
 
 /** The demo is for those who have nothing here yet. */
 async function begin(): Promise<void> {
-  if (!(await keeping.restore())) await showDemo();
+  if (!(await project.restore())) await showDemo();
 }
 void begin();
 

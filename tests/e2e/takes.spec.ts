@@ -252,7 +252,7 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
     await page.keyboard.press('Enter');
   };
   const oldest = (await titles(page)).at(-1) ?? '';
-  const isFull = () => app.read(({ keeping }) => keeping === 'full');
+  const isFull = () => app.read(({ autosave }) => autosave === 'full');
   let count = 2;
   for (; !(await isFull()) && count < 12; count++) {
     await expect.poll(async () => (await keptNames(page)).length).toBe(count);

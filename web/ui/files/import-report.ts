@@ -53,7 +53,7 @@ export const mountUnderstood: Mount = (root, store, services) => {
         state.manifest,
         state.model,
         state.remarks,
-        state.keeping,
+        state.autosave,
         state.settings?.role,
       ],
       show,

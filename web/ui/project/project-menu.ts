@@ -1,24 +1,78 @@
 import { closeButton } from '../widgets/close-button';
 import { el, listen, setAttribute, setText, together } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
-import type { Mount } from '../store/services';
-import type { KeepingState } from '../store/state';
+import type { Mount, Services } from '../store/services';
+import type { AutosaveStatus } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
 import { opened } from '../store/actions/view';
-import { worthKeeping } from './schema';
+import { hasVisitorContent } from './schema';
 
-const HEADS: Readonly<Record<KeepingState, string>> = {
+const HEADS: Readonly<Record<AutosaveStatus, string>> = {
   kept: 'Kept in this browser until you start afresh',
   full: 'Not all of it is kept: this browser’s space is full',
   refused: 'This browser keeps nothing for the page',
 };
 
-/** The project in the bar: saving and opening all of it as one file, and starting afresh. */
+interface Elements {
+  readonly opener: HTMLButtonElement;
+  readonly menu: HTMLElement;
+  readonly head: HTMLElement;
+  readonly save: HTMLButtonElement;
+  readonly open: HTMLButtonElement;
+  readonly clear: HTMLButtonElement;
+}
+
+/** The project menu in the bar: saving and opening everything as one file, and starting afresh. */
 export const mountProjectMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
     apply(store, opened('project'));
   };
-  const door = el(
+  const elements = build(services, toggle);
+  const { opener, menu, head, save, clear } = elements;
+  root.append(opener, menu);
+  return together(
+    watch(
+      store,
+      (state) => state.open === 'project',
+      (isOpen) => {
+        showOpen(elements, isOpen);
+      },
+    ),
+    watch(
+      store,
+      (state) => state.autosave,
+      (status) => {
+        setText(head, HEADS[status]);
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [state.leader, state.song, state.takes],
+      (state) => {
+        save.disabled = !state.leader && !state.song;
+        clear.disabled = !hasVisitorContent(state);
+      },
+    ),
+    listen(window, 'pointerdown', ({ target }) => {
+      const outside = target instanceof Node && ![menu, opener].some((part) => part.contains(target));
+      if (!menu.hidden && outside) toggle();
+    }),
+    listen(window, 'keydown', (event) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+      if (event.key.toLowerCase() !== 's') return;
+      // Also while there is nothing to save: nobody wants the page itself as a file.
+      event.preventDefault();
+      if (!save.disabled) services.saveProject();
+    }),
+    () => {
+      opener.remove();
+      menu.remove();
+    },
+  );
+};
+
+function build(services: Services, toggle: () => void): Elements {
+  const opener = el(
     'button',
     {
       class: 'icon desk',
@@ -27,22 +81,11 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     },
     icon('folder'),
   );
-  const entry = (sign: IconName, name: string, words: string, run: () => void): HTMLButtonElement =>
-    el(
-      'button',
-      {
-        class: 'it',
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            toggle();
-            run();
-          },
-        },
-      },
-      icon(sign),
-      el('span', {}, el('b', { text: name }), el('small', { text: words })),
-    );
+  const entry = (sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement =>
+    menuEntry(sign, name, hint, () => {
+      toggle();
+      run();
+    });
   const save = entry(
     'save',
     'Save project',
@@ -52,7 +95,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
   const open = entry('folder', 'Open a project', 'In the place of what is here; undo brings it back', () => {
     services.choose('project');
   });
-  const afresh = entry(
+  const clear = entry(
     'remove',
     'Start afresh',
     'Empties the page; undo brings it back',
@@ -65,52 +108,25 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     el('div', { class: 'row' }, head, closeButton(toggle)),
     save,
     open,
-    afresh,
+    clear,
   );
   menu.hidden = true;
-  root.append(door, menu);
+  return { opener, menu, head, save, open, clear };
+}
 
-  return together(
-    watch(
-      store,
-      (state) => state.open === 'project',
-      (isOpen) => {
-        const inside = menu.contains(document.activeElement);
-        menu.hidden = !isOpen;
-        setAttribute(door, 'aria-expanded', isOpen ? 'true' : 'false');
-        if (isOpen) (save.disabled ? open : save).focus();
-        else if (inside) door.focus();
-      },
-    ),
-    watch(
-      store,
-      (state) => state.keeping,
-      (keeping) => {
-        setText(head, HEADS[keeping]);
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.leader, state.song, state.takes],
-      (state) => {
-        save.disabled = !state.leader && !state.song;
-        afresh.disabled = !worthKeeping(state);
-      },
-    ),
-    listen(window, 'pointerdown', ({ target }) => {
-      if (!menu.hidden && target instanceof Node && ![menu, door].some((part) => part.contains(target)))
-        toggle();
-    }),
-    listen(window, 'keydown', (event) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
-      if (event.key.toLowerCase() !== 's') return;
-      // Also while there is nothing to save: nobody wants the page itself as a file.
-      event.preventDefault();
-      if (!save.disabled) services.saveProject();
-    }),
-    () => {
-      door.remove();
-      menu.remove();
-    },
+function menuEntry(sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement {
+  return el(
+    'button',
+    { class: 'it', attributes: { type: 'button' }, on: { click: run } },
+    icon(sign),
+    el('span', {}, el('b', { text: name }), el('small', { text: hint })),
   );
-};
+}
+
+function showOpen({ menu, opener, save, open }: Elements, isOpen: boolean): void {
+  const focusInside = menu.contains(document.activeElement);
+  menu.hidden = !isOpen;
+  setAttribute(opener, 'aria-expanded', isOpen ? 'true' : 'false');
+  if (isOpen) (save.disabled ? open : save).focus();
+  else if (focusInside) opener.focus();
+}

@@ -1,6 +1,6 @@
 import { bytesOf, duration, rate } from './format';
 import { guidanceAt, sameGuidance } from './guidance-matrix';
-import type { AppState, Inputs, Job, KeepingState, Settings } from './state';
+import type { AppState, Inputs, Job, AutosaveStatus, Settings } from './state';
 
 /** Length of what plays, seconds: the leader rules it; a song alone plays for itself. */
 export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number {
@@ -119,7 +119,7 @@ export function beingRead({ reading }: Pick<AppState, 'reading'>): [boolean, boo
   return [reading.song !== null, reading.leader !== null];
 }
 
-const KEEPING_NOTES: Readonly<Record<KeepingState, string | null>> = {
+const KEEPING_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
   kept: null,
   full:
     'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
@@ -152,7 +152,7 @@ function fileNotes(state: AppState): Note[] {
 /** All that is to be said. */
 export function notes(state: AppState): Note[] {
   const list = fileNotes(state);
-  const keeping = KEEPING_NOTES[state.keeping];
+  const keeping = KEEPING_NOTES[state.autosave];
   if (keeping) list.push({ text: keeping, look: true });
   for (const remark of state.remarks) list.push({ text: remark, look: true });
   return list;

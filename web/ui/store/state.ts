@@ -90,7 +90,7 @@ export interface Take {
 export type Letter = 'A' | 'B';
 
 /** Whether the browser keeps what is on the page: it does, its space is full, or it gives the page none. */
-export type KeepingState = 'kept' | 'full' | 'refused';
+export type AutosaveStatus = 'kept' | 'full' | 'refused';
 
 /** How the other take is seen beside the one on the stage. */
 export type Compare = 'off' | 'side' | 'ghost';
@@ -269,7 +269,7 @@ export interface AppState {
   readonly letter: Letter;
   readonly compare: Compare;
   readonly history: History;
-  readonly keeping: KeepingState;
+  readonly autosave: AutosaveStatus;
   /** Whether planted feet of the reactor are kept from sliding. */
   readonly footLock: boolean;
   /** Of the newest reactor that was measured; that may be the one before the one on the stage. */

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createFiles } from '../../../../web/ui/files/files';
 import type { Readers } from '../../../../web/ui/store/services';
-import type { Kept } from '../../../../web/ui/project/schema';
-import { createKeeping, type Keeping } from '../../../../web/ui/project/autosave';
+import type { StoredProject } from '../../../../web/ui/project/schema';
+import { Project } from '../../../../web/ui/project/project';
 import { notes } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
@@ -13,9 +13,9 @@ import { leader, still } from '../../support/made-state';
 const never = () => Promise.reject(new Error('Nothing is read here.'));
 const readers: Readers = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
 
-describe('keeping what is on the page', () => {
+describe('autosave', () => {
   let store: change.Store;
-  let keeping: Keeping;
+  let project: Project;
   /** Titles of the takes as they were written, one write after the other. */
   let writes: (readonly (string | null)[])[];
   /** Takes that the browser has room for, and what it says when they are more. */
@@ -38,16 +38,16 @@ describe('keeping what is on the page', () => {
     store = change.createAppStore('dark');
     change.apply(store, change.manifestArrived(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
-    keeping = createKeeping(store, createFiles(store, readers), readers, {
+    project = new Project(store, createFiles(store, readers), readers, {
       read: () => Promise.resolve(null),
-      write: ({ takes }: Kept) => {
+      write: ({ takes }: StoredProject) => {
         if (takes.length > room) return Promise.reject(failure);
         writes.push(takes.map(({ name }) => name));
         return Promise.resolve();
       },
       clear: () => Promise.resolve(),
     });
-    await keeping.restore();
+    await project.restore();
     await pass(1000);
     writes = [];
   };
@@ -57,11 +57,11 @@ describe('keeping what is on the page', () => {
     await visit(9);
   });
   afterEach(() => {
-    keeping.dispose();
+    project.dispose();
     vi.useRealTimers();
   });
 
-  it('writes a change once it rests, also while the playhead never does', async () => {
+  it('writes a change once it has stopped for a moment, also while the playhead moves all the time', async () => {
     made('a');
     change.apply(store, takeRenamed('a', 'One'));
     for (let frame = 0; frame < 60; frame++) {
@@ -71,7 +71,7 @@ describe('keeping what is on the page', () => {
     expect(writes).toEqual([['One']]);
   });
 
-  it('tells once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
+  it('reports once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
     room = 1;
     made('a');
     made('bb');
@@ -92,7 +92,7 @@ describe('keeping what is on the page', () => {
     expect(writes).toHaveLength(1);
   });
 
-  it('keeps on as soon as the visitor has made room', async () => {
+  it('goes on as soon as the visitor has made room', async () => {
     room = 1;
     made('a');
     made('bb');
@@ -100,15 +100,15 @@ describe('keeping what is on the page', () => {
     change.apply(store, takeDeleted('a'));
     await pass(1000);
     expect(writes).toEqual([[null]]);
-    expect(store.getState().keeping).toBe('kept');
+    expect(store.getState().autosave).toBe('kept');
   });
 
   it('says only in the notes that there never was any room', async () => {
-    keeping.dispose();
+    project.dispose();
     await visit(-1);
     made('a');
     await pass(1000);
-    expect(store.getState().keeping).toBe('full');
+    expect(store.getState().autosave).toBe('full');
     expect(store.getState().problem).toBeNull();
     expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
   });

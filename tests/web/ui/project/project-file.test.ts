@@ -1,11 +1,16 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
-import { projectOpened, startedAfresh } from '../../../../web/ui/store/actions/project';
+import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import { ProjectError } from '../../../../web/ui/project/error';
-import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/project/schema';
+import {
+  decoderOf,
+  type StoredProject,
+  storedProject,
+  hasVisitorContent,
+} from '../../../../web/ui/project/schema';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
-import { type Rereaders, reviving } from '../../../../web/ui/project/restore';
+import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
 import type { AppState } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
@@ -62,7 +67,7 @@ function filled(): change.Store {
   return store;
 }
 
-const readers: Rereaders = {
+const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: heard(4) }),
   leader: ({ name, label, text, fps }) =>
     Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
@@ -74,11 +79,11 @@ function empty(): change.Store {
   return store;
 }
 
-async function contentOf(kept: Kept, state: AppState, how = readers) {
-  const revival = reviving(kept);
-  await revival.readPage(how);
-  await revival.readRest(how);
-  return { content: revival.content(state), losses: revival.losses() };
+async function contentOf(kept: StoredProject, state: AppState, how = readers) {
+  const restorer = new Restorer(kept);
+  await restorer.readPage(how);
+  await restorer.readRest(how);
+  return { content: restorer.content(state), losses: restorer.losses() };
 }
 
 const summary = (state: AppState) => ({
@@ -101,7 +106,7 @@ const summary = (state: AppState) => ({
 describe('a project', () => {
   it('brings everything back through its file, to the bit', async () => {
     const before = filled().getState();
-    const kept = readProject(await writeProject(keep(before)));
+    const kept = readProject(await writeProject(storedProject(before)));
     const store = empty();
     const { content, losses } = await contentOf(kept, store.getState());
     change.apply(store, projectOpened(content));
@@ -115,7 +120,7 @@ describe('a project', () => {
   });
 
   it('holds files that other programs open', async () => {
-    const files = unzipSync(await writeProject(keep(filled().getState())));
+    const files = unzipSync(await writeProject(storedProject(filled().getState())));
     expect(Object.keys(files).sort()).toEqual([
       'leaders/1-lead-0412.bvh',
       'leaders/2-fruher.bvh',
@@ -132,7 +137,7 @@ describe('a project', () => {
   });
 
   it('takes the place of what is there, and undoing brings that back', async () => {
-    const kept = readProject(await writeProject(keep(filled().getState())));
+    const kept = readProject(await writeProject(storedProject(filled().getState())));
     const store = filled();
     const before = store.getState();
     const { content } = await contentOf(kept, before);
@@ -149,7 +154,7 @@ describe('a project', () => {
   it('starting afresh empties the page, and undoing brings it back', () => {
     const store = filled();
     const before = store.getState();
-    change.apply(store, startedAfresh(small, 3));
+    change.apply(store, projectCleared(small, 3));
     expect(store.getState()).toMatchObject({
       takes: [],
       leader: null,
@@ -158,18 +163,18 @@ describe('a project', () => {
       visiting: true,
     });
     expect(store.getState().settings?.seed).toBe(3);
-    expect(worthKeeping(store.getState())).toBe(false);
+    expect(hasVisitorContent(store.getState())).toBe(false);
     change.apply(store, undone());
     expect(summary(store.getState())).toEqual(summary(before));
   });
 });
 
 describe('latents', () => {
-  const latentsIn = async (kept: Kept, state: AppState) =>
+  const latentsIn = async (kept: StoredProject, state: AppState) =>
     (await contentOf(kept, state)).content.takes?.map(({ reaction }) => reaction.latents);
 
   it('are left out where another decoder would read them, whatever its model is called', async () => {
-    const kept = keep(filled().getState());
+    const kept = storedProject(filled().getState());
     const { decode, ...graphs } = small.graphs;
     const { wasm, webgpu } = decode.files;
     const tuned = { ...decode, files: { wasm: { ...wasm, sha256: '1'.repeat(64) }, webgpu } };
@@ -181,7 +186,7 @@ describe('latents', () => {
   });
 
   it('are missing from takes that were kept without them, which open all the same', async () => {
-    const files = unzipSync(await writeProject(keep(filled().getState())));
+    const files = unzipSync(await writeProject(storedProject(filled().getState())));
     const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as {
       motions: Record<string, unknown>[];
     };
@@ -192,7 +197,7 @@ describe('latents', () => {
 });
 
 describe('what cannot be read any more', () => {
-  const kept = () => keep(filled().getState());
+  const kept = () => storedProject(filled().getState());
 
   it('takes only its own takes with it when it is a leader', async () => {
     const { content, losses } = await contentOf(kept(), empty().getState(), {
@@ -232,7 +237,7 @@ describe('what cannot be read any more', () => {
 });
 
 describe('a broken project', () => {
-  const whole = writeProject(keep(filled().getState()));
+  const whole = writeProject(storedProject(filled().getState()));
   const changed = async (alter: (files: Record<string, Uint8Array>) => void): Promise<Uint8Array> => {
     const files = unzipSync(await whole);
     alter(files);
