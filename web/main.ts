@@ -12,7 +12,7 @@ import { loadDemo } from './ui/files/demo';
 import { downloadChosen } from './ui/store/actions/download';
 import { createDownloads } from './ui/download/downloads';
 import { mountDropTarget } from './ui/files/drop-target';
-import { createFiles } from './ui/files/files';
+import { FileLoader } from './ui/files/file-loader';
 import { mountFirstVisit } from './ui/shell/first-visit';
 import { mountFootLock } from './ui/generation/foot-lock';
 import { createGeneration } from './ui/generation/generation';
@@ -70,7 +70,7 @@ const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
 );
 const readers = { loadSong, readLeader, manifest: model.manifest };
-const files = createFiles(store, readers);
+const files = new FileLoader(store, readers);
 const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = createGeneration(store, model.generator);
 const choices = createChoices(store, model.generator, generation.generate);

@@ -1,7 +1,7 @@
 /** What a file is, judged by its first bytes; the name decides only where the bytes do not. */
 export type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
 
-/** Bytes that `kindOf` wants to see. */
+/** Bytes that that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
@@ -18,7 +18,7 @@ export function isProject(name: string): boolean {
  * @param name the file's name
  * @param type the browser's guess of its media type
  */
-export function kindOf(head: Uint8Array, name: string, type: string): FileKind {
+export function fileKind(head: Uint8Array, name: string, type: string): FileKind {
   const text = String.fromCharCode(...head);
   if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
   if (isMotionWeCannotRead(text)) return 'other-motion';

@@ -1,5 +1,5 @@
 import { el, setAttribute, setText, setVariable } from '../widgets/dom';
-import type { Explainer, Explanation } from '../widgets/info-card';
+import type { CardContent, InfoCard } from '../widgets/info-card';
 import { surface, token } from '../widgets/lane-canvas';
 import type { Mark } from './quality-marks';
 import type { MeasureRow } from '../widgets/info-card';
@@ -14,7 +14,7 @@ export interface Shown {
 export interface MarkWords {
   readonly mark: Mark;
   readonly words: string;
-  readonly explained: Explanation;
+  readonly explained: CardContent;
 }
 
 /** What a lane shows. */
@@ -50,7 +50,7 @@ export function createQualityLane(
   name: string,
   className: string,
   onMark: (mark: Mark) => void,
-  { explain }: Explainer,
+  infoCard: InfoCard,
 ): QualityLane {
   const value = el('b');
   const label = el('button', { class: `lab q ${className}`, attributes: { type: 'button' } }, name, value);
@@ -89,7 +89,7 @@ export function createQualityLane(
     draw: (picture) => {
       setText(value, picture.value);
       const { measures, told, sentence } = picture;
-      explain(label, { title: name, aside: '', rows: measures, text: told ? sentence : '' });
+      infoCard.set(label, { title: name, aside: '', rows: measures, text: told ? sentence : '' });
       canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
       drawHeat(canvas, picture);
       const { from, to } = picture.shown;
@@ -100,7 +100,7 @@ export function createQualityLane(
         setText(flag, String(mark.rank));
         setAttribute(flag, 'aria-label', `${mark.rank}. ${words}`);
         setVariable(flag, '--at', at);
-        explain(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
+        infoCard.set(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
       });
       for (const { flag } of buttons.splice(picture.marks.length)) flag.remove();
     },

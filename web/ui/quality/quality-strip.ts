@@ -1,5 +1,5 @@
 import { together } from '../widgets/dom';
-import { createExplainer } from '../widgets/info-card';
+import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LanePicture, type Shown } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
@@ -40,9 +40,9 @@ export function mountQualityStrip(
     const time = moment.frame / quality.reactor.fps;
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
-  const explainer = createExplainer(root.closest('section') ?? root);
-  const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo, explainer));
-  const all = createQualityLane('Quality', 'q-all', goTo, explainer);
+  const infoCard = new InfoCard(root.closest('section') ?? root);
+  const lanes = PARTS.map((part) => createQualityLane(PART_NAMES[part], `q-${part}`, goTo, infoCard));
+  const all = createQualityLane('Quality', 'q-all', goTo, infoCard);
   root.append(...[...lanes, all].flatMap(({ label, lane }) => [label, lane]));
 
   const draw = (state: AppState): void => {
@@ -119,7 +119,7 @@ export function mountQualityStrip(
     ),
     () => {
       sizes.disconnect();
-      explainer.dispose();
+      infoCard.dispose();
       for (const { label, lane } of [...lanes, all]) {
         label.remove();
         lane.remove();

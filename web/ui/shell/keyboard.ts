@@ -3,7 +3,7 @@ import { listen, together } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { SHOWS } from '../store/overlays';
-import type { Camera, Shown } from '../store/state';
+import type { AppState, Camera, Shown } from '../store/state';
 import { guidanceReset, seedRolled, rolledSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { dismissed } from '../store/actions/notices';
@@ -14,8 +14,8 @@ import { takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
 /**
- * The keys of the page. Letters rest while someone types; arrows, Home and End rest on sliders of their own;
- * Space on a control that was reached by keyboard presses that control.
+ * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider that has the
+ * focus; Space on a control that was reached by keyboard presses that control.
  */
 export function mountKeyboard(store: Store, services: Services): () => void {
   let byPointer = true;
@@ -64,102 +64,67 @@ function escape(store: Store, services: Services): boolean {
   return true;
 }
 
-function press(event: KeyboardEvent, store: Store, services: Services): boolean {
+/** What keys do, by `event.key`; letters in lower case. */
+const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
+  ' ': ({ services }) => services.togglePlay(),
+  ArrowLeft: (key) => key.services.seek(key.time - arrowStep(key)),
+  ArrowRight: (key) => key.services.seek(key.time + arrowStep(key)),
+  Home: ({ services }) => services.seek(0),
+  End: ({ services, state }) => services.seek(danceDuration(state)),
+  '[': ({ store, state }) => apply(store, playbackSet({ speed: nextSpeed(state.playback.speed, -1) })),
+  ']': ({ store, state }) => apply(store, playbackSet({ speed: nextSpeed(state.playback.speed, 1) })),
+  '+': ({ store }) => apply(store, zoomedBy(ZOOM_STEP)),
+  '=': ({ store }) => apply(store, zoomedBy(ZOOM_STEP)),
+  '-': ({ store }) => apply(store, zoomedBy(1 / ZOOM_STEP)),
+  '0': ({ store }) => apply(store, zoomSet(null)),
+  '?': ({ store }) => apply(store, opened('keys')),
+  l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
+  i: ({ store, time }) => apply(store, regionEndSet('from', time)),
+  o: ({ store, time }) => apply(store, regionEndSet('to', time)),
+  c: () => focusFader('Coarse guidance'),
+  v: () => focusFader('Fine guidance'),
+  m: () => focusFader('Music guidance'),
+  r: ({ store }) => apply(store, guidanceReset()),
+  d: ({ store }) => apply(store, seedRolled(rolledSeed())),
+  f: ({ store }) => toggleCamera(store, 'follow'),
+  t: ({ store }) => toggleCamera(store, 'top'),
+  x: ({ store }) => toggleCamera(store, 'side'),
+  a: ({ services }) => services.frameBoth(),
+  s: ({ store, state }) => {
+    const take = takeOnStage(state);
+    if (take) apply(store, takeStarred(take.id));
+  },
+  e: ({ store, state }) => {
+    if (state.reaction) apply(store, opened('download'));
+  },
+};
+
+interface KeyPress {
+  readonly store: Store;
+  readonly services: Services;
+  readonly state: AppState;
+  readonly shift: boolean;
+  /** Of the playhead, seconds. */
+  readonly time: number;
+}
+
+/** Does what a key is for; false for a key that does nothing. */
+function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: Services): boolean {
+  const overlay = SHOWS.find((one) => one.key === key.toUpperCase());
+  const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
   const state = store.getState();
-  const { time, speed, loop } = state.playback;
-  const frame = 1 / danceFps(state);
-  const hop = event.shiftKey ? 1 : frame;
-  switch (event.key) {
-    case ' ':
-      services.togglePlay();
-      return true;
-    case 'ArrowLeft':
-      services.seek(time - hop);
-      return true;
-    case 'ArrowRight':
-      services.seek(time + hop);
-      return true;
-    case 'Home':
-      services.seek(0);
-      return true;
-    case 'End':
-      services.seek(danceDuration(state));
-      return true;
-    case '[':
-      apply(store, playbackSet({ speed: beside(speed, -1) }));
-      return true;
-    case ']':
-      apply(store, playbackSet({ speed: beside(speed, 1) }));
-      return true;
-    case '+':
-    case '=':
-      apply(store, zoomedBy(ZOOM_STEP));
-      return true;
-    case '-':
-      apply(store, zoomedBy(1 / ZOOM_STEP));
-      return true;
-    case '0':
-      apply(store, zoomSet(null));
-      return true;
-    case '?':
-      apply(store, opened('keys'));
-      return true;
-  }
-  const show = SHOWS.find(({ key }) => key === event.key.toUpperCase());
-  if (show) {
-    toggleShow(store, show.what);
-    return true;
-  }
-  const onStage = takeOnStage(state);
-  switch (event.key.toLowerCase()) {
-    case 'l':
-      apply(store, playbackSet({ loop: !loop }));
-      return true;
-    case 'i':
-      apply(store, regionEndSet('from', time));
-      return true;
-    case 'o':
-      apply(store, regionEndSet('to', time));
-      return true;
-    case 'c':
-      focusFader('Coarse guidance');
-      return true;
-    case 'v':
-      focusFader('Fine guidance');
-      return true;
-    case 'm':
-      focusFader('Music guidance');
-      return true;
-    case 'r':
-      apply(store, guidanceReset());
-      return true;
-    case 'd':
-      apply(store, seedRolled(rolledSeed()));
-      return true;
-    case 'f':
-      toggleCamera(store, 'follow');
-      return true;
-    case 't':
-      toggleCamera(store, 'top');
-      return true;
-    case 'x':
-      toggleCamera(store, 'side');
-      return true;
-    case 'a':
-      services.frameBoth();
-      return true;
-    case 's':
-      if (onStage) apply(store, takeStarred(onStage.id));
-      return true;
-    case 'e':
-      if (state.reaction) apply(store, opened('download'));
-      return true;
-  }
-  return false;
+  if (overlay) toggleShow(store, overlay.what);
+  else action?.({ store, services, state, shift, time: state.playback.time });
+  return overlay !== undefined || action !== undefined;
+}
+
+/** How far an arrow moves the playhead, seconds: one frame, with Shift one second. */
+function arrowStep({ shift, state }: KeyPress): number {
+  return shift ? 1 : 1 / danceFps(state);
 }
 
 /** The next slower or faster of the offered speeds. */
-function beside(speed: number, by: 1 | -1): number {
+function nextSpeed(speed: number, by: 1 | -1): number {
   const at = SPEEDS.findIndex((value) => value === speed);
   return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + by))] ?? 1;
 }
@@ -176,6 +141,6 @@ function toggleCamera(store: Store, camera: Camera): void {
 function toggleShow(store: Store, what: keyof Shown): void {
   apply(store, shownToggled(what));
   const { shown, open, visiting } = store.getState();
-  const silent = what === 'ghost' && shown.ghost && coarseIsMissing(store.getState());
-  if (silent && open === null && !visiting) apply(store, opened('show'));
+  const isMissing = what === 'ghost' && shown.ghost && coarseIsMissing(store.getState());
+  if (isMissing && open === null && !visiting) apply(store, opened('show'));
 }

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createFiles } from '../../../../web/ui/files/files';
+import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { Readers } from '../../../../web/ui/store/services';
 import type { StoredProject } from '../../../../web/ui/project/schema';
 import { Project } from '../../../../web/ui/project/project';
@@ -38,7 +38,7 @@ describe('autosave', () => {
     store = change.createAppStore('dark');
     change.apply(store, change.manifestArrived(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
-    project = new Project(store, createFiles(store, readers), readers, {
+    project = new Project(store, new FileLoader(store, readers), readers, {
       read: () => Promise.resolve(null),
       write: ({ takes }: StoredProject) => {
         if (takes.length > room) return Promise.reject(failure);

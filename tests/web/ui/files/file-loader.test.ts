@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { MotionError } from '../../../../web/motion/error';
-import { createFiles } from '../../../../web/ui/files/files';
+import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { Files, Readers } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
@@ -29,7 +29,7 @@ describe('files', () => {
       },
       manifest: () => Promise.resolve(small),
     };
-    files = createFiles(store, {
+    files = new FileLoader(store, {
       loadSong: (...all) => readers.loadSong(...all),
       readLeader: (...all) => readers.readLeader(...all),
       manifest: () => readers.manifest(),
