@@ -6,7 +6,7 @@ import { openCamera, showOn } from './stage-binding';
 import { measureDance } from './quality/client';
 import { mountBar } from './ui/shell/bar';
 import { createChoices } from './ui/generation/variations';
-import { createChooser } from './ui/files/file-chooser';
+import { createFileChooser } from './ui/files/file-chooser';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { loadDemo } from './ui/files/demo';
 import { downloadChosen } from './ui/store/actions/download';
@@ -24,16 +24,16 @@ import { mountKeysDialog } from './ui/shell/keys-dialog';
 import { readLeader } from './motion/client';
 import { createModelLink } from './ui/files/model-link';
 import { mountNewVersion } from './ui/shell/new-version';
-import { mountNews } from './ui/shell/toast';
+import { mountToast } from './ui/shell/toast';
 import { openDropped } from './ui/files/open-dropped';
 import { mountOptions } from './ui/generation/options';
 import { readParameters } from './ui/files/parameters';
 import { createPlayback } from './ui/timeline/playback';
-import { keepPreferences } from './ui/shell/preferences';
+import { syncPreferences } from './ui/shell/preferences';
 import { mountProblemDialog } from './ui/shell/problem-dialog';
 import { stageProblem } from './ui/store/problems';
 import { mountProgress } from './ui/generation/progress';
-import { madeRole } from './ui/store/roles';
+import { generatedRole } from './ui/store/roles';
 import { createQuality } from './ui/quality/quality';
 import { mountQualityStrip } from './ui/quality/quality-strip';
 import { readReference } from './ui/quality/quality-reference';
@@ -41,9 +41,9 @@ import { canShare, saveFile, shareFile } from './ui/download/save-and-share';
 import type { Services } from './ui/store/services';
 import { isProject } from './ui/files/file-type';
 import { mountStageControls } from './ui/shell/stage-controls';
-import { referenceKnown } from './ui/store/actions/reaction';
+import { referenceLoaded } from './ui/store/actions/reaction';
 import { apply, createAppStore, watch } from './ui/store/store';
-import { told } from './ui/store/actions/notices';
+import { problemShown } from './ui/store/actions/notices';
 import { updateSet } from './ui/store/actions/view';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
 import { mountUndoKeys } from './ui/takes/undo';
@@ -51,7 +51,7 @@ import { mountTakes } from './ui/takes/takes-panel';
 import { showTheme, systemTheme, watchSystemTheme } from './ui/shell/theme';
 import { mountTimeline } from './ui/timeline/timeline';
 import { mountTransport } from './ui/timeline/transport';
-import { mountUnderstood } from './ui/files/import-report';
+import { mountImportReport } from './ui/files/import-report';
 import { createStage, type Stage } from './view/stage';
 
 /** The places that index.html leaves for the panels. */
@@ -64,7 +64,7 @@ function place(id: string): HTMLElement {
 // ---- state and the four machines: model, files, generation, playback ----
 
 const store = createAppStore(systemTheme());
-keepPreferences(store, () => localStorage, watchSystemTheme);
+syncPreferences(store, () => localStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
 const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
@@ -91,7 +91,7 @@ function openStage(): Stage | null {
   try {
     return createStage(picture);
   } catch (error) {
-    apply(store, told(stageProblem(error)));
+    apply(store, problemShown(stageProblem(error)));
     return null;
   }
 }
@@ -110,7 +110,7 @@ watch(
 );
 
 // Style sheets colour what acts on the made dancer as the stage does.
-watch(store, madeRole, (role) => {
+watch(store, generatedRole, (role) => {
   document.documentElement.dataset['made'] = role;
 });
 
@@ -124,7 +124,7 @@ const offline = import.meta.env.PROD
 
 // ---- what panels may ask for ----
 
-const choose = createChooser(document.body, (chosen) => void openFiles(chosen));
+const choose = createFileChooser(document.body, (chosen) => void openFiles(chosen));
 const services: Services = {
   openDropped: (coming) => void openDropped(coming, store, { open: openFiles }, model, generation.generate),
   choose,
@@ -135,8 +135,8 @@ const services: Services = {
     generation.cancel();
     choices.cancel();
   },
-  makeChoices: choices.make,
-  pickChoice: choices.pick,
+  makeVariations: choices.make,
+  pickVariation: choices.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
@@ -148,18 +148,18 @@ const services: Services = {
     share: { can: canShare, pass: shareFile },
   }),
   saveProject: () => void saveProject(),
-  startAfresh: () => {
+  clearProject: () => {
     generation.cancel();
     project.clear();
     void showDemo();
   },
-  measureKept: () => measureKept(globalThis),
-  clearKept: () =>
+  measureStorage: () => measureKept(globalThis),
+  clearStorage: () =>
     clearKept(globalThis).then(
       () => true,
       () => false,
     ),
-  takeUpdate: () => offline?.takeUpdate(),
+  loadUpdate: () => offline?.takeUpdate(),
 };
 
 async function saveProject(): Promise<void> {
@@ -181,7 +181,7 @@ mountStageControls(stageHost, store, services);
 mountCompareSwitch(stage !== null)(stageHost, store, services);
 mountFirstVisit(stageHost, store, services);
 mountProgress(stageHost, store, services);
-mountNews(stageHost, store, services);
+mountToast(stageHost, store, services);
 mountNewVersion(stageHost, store, services);
 mountProblemDialog(stageHost, store, services);
 mountDropTarget(stageHost, store, services);
@@ -191,7 +191,7 @@ mountGuidance(place('panel'), store, services);
 mountOptions(place('panel'), store, services);
 mountFootLock(place('panel'), store, services);
 mountTakes(place('panel'), store, services);
-mountUnderstood(place('panel'), store, services);
+mountImportReport(place('panel'), store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
 mountUndoKeys(store);
@@ -205,7 +205,7 @@ const roomBeside = matchMedia('(min-width: 761px)');
 const ASIDE = 200;
 watch(
   store,
-  (state) => state.visiting,
+  (state) => state.firstVisit,
   (visiting) => stage?.standAside(visiting && roomBeside.matches ? ASIDE : 0),
 );
 
@@ -229,7 +229,7 @@ void model
   .manifest()
   .then(() => readReference(manifestUrl))
   .then(
-    (reference) => apply(store, referenceKnown(reference)),
+    (reference) => apply(store, referenceLoaded(reference)),
     () => undefined,
   );
 

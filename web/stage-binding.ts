@@ -1,5 +1,5 @@
 /** From the state to a stage: what is danced, seen and filmed. */
-import { couple, madeRole } from './ui/store/roles';
+import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { together } from './ui/widgets/dom';
 import type { Camera } from './ui/download/downloads';
@@ -25,13 +25,16 @@ export function showOn(shown: Stage, store: Store): () => void {
     ),
     watchAll(
       store,
-      (state) => Object.values(couple(state)),
+      (state) => Object.values(dancers(state)),
       (state) => {
         // One reaction passes over into the next; what is switched is there at once: the parts, the foot lock, and
         // which of two takes side by side is on the stage, each of which goes on in its half.
         const half = besideStage(state) && state.letter;
-        const now = `${madeRole(state)} ${state.footLock} ${half}`;
-        shown.setDancers(couple(state), { made: madeRole(state), softly: now === shownAs && !calm.matches });
+        const now = `${generatedRole(state)} ${state.footLock} ${half}`;
+        shown.setDancers(dancers(state), {
+          made: generatedRole(state),
+          softly: now === shownAs && !calm.matches,
+        });
         shownAs = now;
       },
     ),
@@ -42,7 +45,7 @@ export function showOn(shown: Stage, store: Store): () => void {
     ),
     watch(
       store,
-      (state) => state.shown,
+      (state) => state.overlays,
       (what) => shown.setShown(what),
     ),
     showOther(store, shown),

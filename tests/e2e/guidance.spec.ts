@@ -136,10 +136,10 @@ test('three reactions are made one after the other, to pick from', async ({ page
   const three = page.getByRole('button', { name: 'Three reactions' });
   await three.click();
   await page.keyboard.press('Escape');
-  await app.until(({ choices }) => choices && !choices.making);
+  await app.until(({ variations }) => variations && !variations.making);
   await expect(cards.last()).toBeDisabled();
   await three.click();
-  await app.until(({ choices }) => choices?.list.every(({ reaction }) => reaction));
+  await app.until(({ variations }) => variations?.list.every(({ reaction }) => reaction));
   await expect(cards).toHaveCount(3);
   const before = await app.reactor();
   await cards.nth(2).click();
@@ -158,5 +158,5 @@ test('three reactions are made one after the other, to pick from', async ({ page
   // Other guidance asks for other reactions.
   await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
   await expect(cards.last()).toBeDisabled();
-  await app.until(({ job, choices }) => !job && !choices);
+  await app.until(({ job, variations }) => !job && !variations);
 });

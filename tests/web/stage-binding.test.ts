@@ -3,7 +3,7 @@ import type { Role } from '../../web/view/theme';
 import type { Entrance, Stage } from '../../web/view/stage';
 import type { AppState, Inputs, Take } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
-import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
+import { compareSet, takesSwapped, takeChosen } from '../../web/ui/store/actions/takes';
 import * as change from './support/actions';
 import { alike, leader, still } from './support/made-state';
 
@@ -43,9 +43,9 @@ it('passes softly from one take to the next, but not where each goes on in a hal
     for (const one of changes) change.apply(store, one);
     return entrances.at(-1);
   };
-  expect(softly(flipped())).toBe(true);
-  expect(softly(compareSet('side'), flipped())).toBe(false);
-  expect(softly(flipped())).toBe(false);
+  expect(softly(takesSwapped())).toBe(true);
+  expect(softly(compareSet('side'), takesSwapped())).toBe(false);
+  expect(softly(takesSwapped())).toBe(false);
   expect(softly(takeChosen('c'))).toBe(true);
   expect(softly(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
   stop();

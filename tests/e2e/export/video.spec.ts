@@ -148,14 +148,14 @@ test('a video tells how far it is, with the menu closed too, and is cancelled at
   const button = page.getByRole('button', { name: 'Download', exact: true });
   await page.getByRole('radio', { name: /As on stage/ }).click();
   await page.getByRole('button', { name: 'Save video' }).click();
-  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await app.until(({ videoProgress }) => videoProgress && videoProgress.frame >= 2);
   await expect(page.getByRole('progressbar', { name: 'Video' })).toBeVisible();
   await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Frame \d+ of 1,800/);
   await page.keyboard.press('Escape');
   await expect(button).toHaveAttribute('title', /Writing the video, \d+ %/);
   await button.click();
   await page.getByRole('button', { name: 'Cancel the video' }).click();
-  const left = await app.read(({ filming, problem, saved }) => [filming, problem, saved]);
+  const left = await app.read(({ videoProgress, problem, saved }) => [videoProgress, problem, saved]);
   expect(left).toEqual([null, null, null]);
   await expect(page.getByRole('progressbar', { name: 'Video' })).toBeHidden();
   await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
@@ -193,7 +193,7 @@ test('while it films, the page stands still and tells how far it is only now and
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();
   await page.getByRole('button', { name: 'Save video' }).click();
-  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await app.until(({ videoProgress }) => videoProgress && videoProgress.frame >= 2);
   await page.evaluate(`
     const { counts } = window;
     Object.assign(counts, { filmed: 0, since: performance.now() });

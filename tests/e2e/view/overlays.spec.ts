@@ -100,7 +100,7 @@ test('every switch changes the picture and back, by key and by hand', async ({ p
     await toggle.click();
     await expect(toggle).toHaveAttribute('aria-pressed', 'true');
   }
-  expect(Object.values(await app.read(({ shown }) => shown))).toEqual(SHOWS.map(() => true));
+  expect(Object.values(await app.read(({ overlays }) => overlays))).toEqual(SHOWS.map(() => true));
   await page.keyboard.press('Escape');
   await expect(menu).toBeHidden();
   await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeFocused();

@@ -5,7 +5,7 @@ import { icon } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 /**
  * The Download button and its menu: whose motion, in which format and under which name, and the video. A video goes on
@@ -13,7 +13,7 @@ import { opened } from '../store/actions/view';
  */
 export const mountDownloadMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
-    apply(store, opened('download'));
+    apply(store, panelToggled('download'));
   };
   const attributes = { type: 'button', 'aria-haspopup': 'dialog', 'aria-label': 'Download' };
   const button = (kind: string, sign: SVGSVGElement, text: string | null) => {
@@ -38,7 +38,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     attributes: { type: 'button' },
     on: {
       click: () => {
-        apply(store, opened('project'));
+        apply(store, panelToggled('project'));
       },
     },
   });
@@ -47,20 +47,20 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
   root.append(wide.element, narrow.element, menu, spoken);
 
-  const showButtons = ({ reaction, filming, saved }: AppState): void => {
-    const share = filming && filming.frame / filming.frames;
+  const showButtons = ({ reaction, videoProgress, saved }: AppState): void => {
+    const share = videoProgress && videoProgress.frame / videoProgress.frames;
     for (const { element, ring, sign } of [wide, narrow]) {
-      element.disabled = reaction === null && !filming;
-      element.title = filming
+      element.disabled = reaction === null && !videoProgress;
+      element.title = videoProgress
         ? `Writing the video, ${Math.round(100 * (share ?? 0))} %`
         : reaction
           ? ''
           : 'Ready when a reactor is on the stage';
-      ring.hidden = !filming;
-      sign.toggleAttribute('hidden', filming !== null);
+      ring.hidden = !videoProgress;
+      sign.toggleAttribute('hidden', videoProgress !== null);
       setVariable(ring, '--part', share ?? 0);
     }
-    if (filming)
+    if (videoProgress)
       setText(spoken, (share ?? 0) < 0.5 ? 'The video is being written.' : 'The video is half done.');
     else setText(spoken, saved ? `Saved ${saved.name}.` : '');
   };
@@ -84,8 +84,8 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
-    watchAll(store, (state) => [state.reaction, state.filming, state.saved], showButtons),
-    watch(store, (state) => state.open === 'download', showOpen),
+    watchAll(store, (state) => [state.reaction, state.videoProgress, state.saved], showButtons),
+    watch(store, (state) => state.openPanel === 'download', showOpen),
     motion.dispose,
     video.dispose,
     () => {

@@ -99,7 +99,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
   };
   /** Sizes cost a little to know and are only asked for when someone looks. */
   const showSizes = (state: AppState): void => {
-    if (state.open !== 'download') return;
+    if (state.openPanel !== 'download') return;
     const dance = danceOf(state, state.download.who);
     for (const { format, size } of rows) {
       const writing = state.writing === format;
@@ -127,7 +127,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
       ),
       watch(
         store,
-        (state) => state.open,
+        (state) => state.openPanel,
         (_, state) => {
           showSizes(state);
         },

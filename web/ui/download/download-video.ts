@@ -52,32 +52,32 @@ export function createDownloadVideo(
   );
 
   const show = (state: AppState): void => {
-    const { filming, reaction } = state;
+    const { videoProgress, reaction } = state;
     const hadFocus = part.contains(document.activeElement);
     const focused = document.activeElement;
-    save.hidden = filming !== null;
-    cancel.hidden = filming === null;
-    share.hidden = filming !== null || !savedVideo(plan, state)?.shareable;
-    choosing.hidden = filming !== null;
-    telling.hidden = filming === null;
+    save.hidden = videoProgress !== null;
+    cancel.hidden = videoProgress === null;
+    share.hidden = videoProgress !== null || !savedVideo(plan, state)?.shareable;
+    choosing.hidden = videoProgress !== null;
+    telling.hidden = videoProgress === null;
     if (hadFocus && focused instanceof HTMLElement && !focused.offsetParent)
-      (filming ? cancel : save).focus();
+      (videoProgress ? cancel : save).focus();
     save.disabled = !reaction || !plan;
     sizes.show(state.download.size);
     setText(about, services.stageSize() ? aboutWords(plan, state) : 'A video needs the 3D picture.');
     const named = namedAfter(state);
     save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
-    if (!filming) return;
-    const { frame, frames } = filming;
+    if (!videoProgress) return;
+    const { frame, frames } = videoProgress;
     setVariable(fill, '--part', frame / frames);
     meter.setAttribute('aria-valuenow', String(Math.round((100 * frame) / frames)));
     setText(count, `Frame ${frame.toLocaleString('en')} of ${frames.toLocaleString('en')}`);
-    setText(left, filming.left === null ? '' : timeLeft(filming.left));
+    setText(left, videoProgress.secondsLeft === null ? '' : timeLeft(videoProgress.secondsLeft));
   };
   /** Asks the browser what it can do, when someone looks; only the latest answer counts. */
   let asked = 0;
   const ask = async (state: AppState): Promise<void> => {
-    if (state.open !== 'download') return;
+    if (state.openPanel !== 'download') return;
     const pixels = services.stageSize();
     sizes.label('stage', pixels ? `As on stage, ${pixels.width} × ${pixels.height}` : 'As on stage');
     const question = ++asked;
@@ -92,12 +92,12 @@ export function createDownloadVideo(
     dispose: together(
       watchAll(
         store,
-        (state) => [state.filming, state.reaction, state.footLock, state.download, state.saved],
+        (state) => [state.videoProgress, state.reaction, state.footLock, state.download, state.saved],
         show,
       ),
       watchAll(
         store,
-        (state) => [state.open, state.download.size, state.reaction?.inputs.song],
+        (state) => [state.openPanel, state.download.size, state.reaction?.inputs.song],
         (state) => void ask(state),
       ),
     ),
@@ -118,7 +118,7 @@ function aboutWords(plan: VideoPlan | null | undefined, state: AppState): string
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);
-  if (saved && !state.filming) return `Saved, ${byteSize(saved.bytes)}`;
+  if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
   const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as framed';
   return `${container}${pace}`;

@@ -8,13 +8,18 @@ import {
   writeVideo,
 } from '../../export/client';
 import { danceOf, namedAfter } from './dance';
-import { downloadChosen, filmingChanged, savedChanged, writingChanged } from '../store/actions/download';
+import {
+  downloadChosen,
+  videoProgressChanged,
+  savedChanged,
+  writingChanged,
+} from '../store/actions/download';
 import { motionFileName, videoFileName } from './file-name';
 import { isAbort, savingProblem } from '../store/problems';
 import { songStart } from '../store/song-shift';
 import type { Services } from '../store/services';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 
 interface Pixels {
@@ -75,7 +80,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
     const size = pixels();
     const sound = song();
     const { fps, frames } = named.inputs.leader.file.clip; // a picture for each frame of the motion
-    apply(store, filmingChanged({ frame: 0, frames, left: null }));
+    apply(store, videoProgressChanged({ frame: 0, frames, secondsLeft: null }));
     const plan = await planVideo(size, sound !== null);
     signal.throwIfAborted();
     if (!plan) throw unsupported();
@@ -102,7 +107,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
             if (signal.aborted || now - shown < BETWEEN_REPORTS) return;
             shown = now;
             const left = secondsLeft((now - begin) / 1000, frame, frames);
-            apply(store, filmingChanged({ frame, frames, left }));
+            apply(store, videoProgressChanged({ frame, frames, secondsLeft: left }));
           },
         },
       );
@@ -128,7 +133,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
           handOver(file, motionFileName(named, who, format));
         })
         .catch((error: unknown) => {
-          apply(store, told(savingProblem(error)));
+          apply(store, problemShown(savingProblem(error)));
         })
         .finally(() => {
           apply(store, writingChanged(null));
@@ -141,7 +146,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
       const over = (): void => {
         if (filming !== controller) return;
         filming = null;
-        apply(store, filmingChanged(null));
+        apply(store, videoProgressChanged(null));
       };
       // Whoever cancels is at once where they were; the rest is tidied up behind.
       controller.signal.addEventListener('abort', over, { once: true });
@@ -150,7 +155,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
       apply(store, playbackSet({ playing: false }));
       film(controller.signal)
         .catch((error: unknown) => {
-          if (!controller.signal.aborted && !isAbort(error)) apply(store, told(savingProblem(error)));
+          if (!controller.signal.aborted && !isAbort(error)) apply(store, problemShown(savingProblem(error)));
         })
         .finally(over);
     },
@@ -160,7 +165,7 @@ export function createDownloads(store: Store, { camera, stageSize, save, share }
     shareSaved: () => {
       if (!last) return;
       share.pass(last).catch((error: unknown) => {
-        if (!isAbort(error)) apply(store, told(savingProblem(error)));
+        if (!isAbort(error)) apply(store, problemShown(savingProblem(error)));
       });
     },
   };

@@ -3,11 +3,11 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
 import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/state';
 import { demoChanged } from '../store/actions/files';
-import { reacted } from '../store/actions/reaction';
+import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { playbackSet } from '../store/actions/view';
-import { unremembered } from '../store/history';
+import { withoutUndo } from '../store/history';
 
 const text = v.pipe(v.string(), v.minLength(1));
 const named = { file: text, name: text, label: text };
@@ -95,11 +95,11 @@ async function showReaction(
     seconds: null,
   });
   if (store.getState().leader !== leader) return;
-  apply(store, reacted(shown(null)));
+  apply(store, reactionAdded(shown(null)));
   await readers.settled();
-  if (store.getState().leader === leader) apply(store, unremembered(settingsSet(settings)));
+  if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await coming;
-  if (song && store.getState().leader === leader) apply(store, reacted(shown(song)));
+  if (song && store.getState().leader === leader) apply(store, reactionAdded(shown(song)));
 }
 
 function isUntouched(store: Store): boolean {

@@ -30,7 +30,7 @@ async function filesBelow(entry: FileSystemEntry): Promise<DroppedFile[]> {
 }
 
 /** The model among dropped files: what lies beside and below a manifest.json; null without one. */
-export function modelAmong(dropped: readonly DroppedFile[]): ModelFolder | null {
+export function modelFolder(dropped: readonly DroppedFile[]): ModelFolder | null {
   const manifest = dropped.find(({ path }) => /(^|\/)manifest\.json$/.test(path));
   if (!manifest) return null;
   const root = manifest.path.slice(0, -'manifest.json'.length);

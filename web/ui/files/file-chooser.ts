@@ -1,4 +1,4 @@
-import type { Choice } from '../store/services';
+import type { FileChoice } from '../store/services';
 
 /** What the system's file chooser offers first; the content decides in the end. */
 const ACCEPT = {
@@ -9,11 +9,11 @@ const ACCEPT = {
 } as const;
 
 /** Opens the system's file chooser through inputs that live in the page, one for each kind. */
-export function createChooser(
+export function createFileChooser(
   host: HTMLElement,
   open: (files: readonly File[]) => void,
-): (what: Choice) => void {
-  const inputs = new Map<Choice, HTMLInputElement>();
+): (what: FileChoice) => void {
+  const inputs = new Map<FileChoice, HTMLInputElement>();
   for (const side of ['song', 'leader', 'any', 'project'] as const) {
     const input = document.createElement('input');
     input.type = 'file';

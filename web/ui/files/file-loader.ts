@@ -1,4 +1,4 @@
-import type { Files, Readers } from '../store/services';
+import type { Files, FileReaders } from '../store/services';
 import {
   emptyFileProblem,
   fileProblem,
@@ -7,11 +7,11 @@ import {
   unknownFileProblem,
 } from '../store/problems';
 import { fileKind, HEAD_BYTES } from './file-type';
-import type { LoadedLeader, LoadedSong, Side } from '../store/state';
-import { leaderLoaded, readingSet, songLoaded, visitEnded } from '../store/actions/files';
+import type { LoadedLeader, LoadedSong, InputKind } from '../store/state';
+import { leaderLoaded, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
-import { told, dismissed } from '../store/actions/notices';
-import { unremembered } from '../store/history';
+import { problemShown, problemClosed } from '../store/actions/notices';
+import { withoutUndo } from '../store/history';
 
 /**
  * Least time between two changes of a progress line: where the processor draws the picture, each of them takes time
@@ -21,7 +21,7 @@ const PROGRESS_INTERVAL_MS = 500;
 
 /** A song or leader to read, and what to do with it. */
 interface Task<T> {
-  readonly side: Side;
+  readonly side: InputKind;
   readonly name: string;
   readonly read: (signal: AbortSignal, progress: (fraction: number) => void) => Promise<T>;
   readonly done: (value: T) => void;
@@ -32,22 +32,22 @@ interface Task<T> {
  * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
-  private readonly running: Record<Side, AbortController | null> = { song: null, leader: null };
+  private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
 
   constructor(
     private readonly store: Store,
-    private readonly readers: Readers,
+    private readonly readers: FileReaders,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
-    apply(this.store, dismissed());
+    apply(this.store, problemClosed());
     await Promise.all(
       files.map(async (file) => {
         try {
           await this.openOne(file);
         } catch (error) {
           // A folder, or a file that vanished between choosing and reading.
-          apply(this.store, told(fileProblem(error, 'leader', file.name)));
+          apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
         }
       }),
     );
@@ -94,24 +94,24 @@ export class FileLoader implements Files {
 
   private async openOne(file: File): Promise<void> {
     if (file.size === 0) {
-      apply(this.store, told(emptyFileProblem(file.name)));
+      apply(this.store, problemShown(emptyFileProblem(file.name)));
       return;
     }
     const head = new Uint8Array(await file.slice(0, HEAD_BYTES).arrayBuffer());
     switch (fileKind(head, file.name, file.type)) {
       case 'song':
-        apply(this.store, visitEnded());
+        apply(this.store, firstVisitEnded());
         await this.openSong(file, file.name, null);
         return;
       case 'leader':
-        apply(this.store, visitEnded());
+        apply(this.store, firstVisitEnded());
         await this.openLeader(await file.text(), file.name, null);
         return;
       case 'other-motion':
-        apply(this.store, told(otherMotionProblem(file.name)));
+        apply(this.store, problemShown(otherMotionProblem(file.name)));
         return;
       case 'unknown':
-        apply(this.store, told(unknownFileProblem(file.name)));
+        apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
   }
 
@@ -171,14 +171,14 @@ export class FileLoader implements Files {
       if (controller.signal.aborted || isAbort(error)) return null;
       running[side] = null;
       this.endReading(side);
-      apply(store, told(fileProblem(error, side, name)));
+      apply(store, problemShown(fileProblem(error, side, name)));
       return null;
     }
   }
 
   /** A file with a label is the page's own: loading it is not a step to undo. */
   private put(change: Change, label: string | null): void {
-    apply(this.store, label === null ? change : unremembered(change));
+    apply(this.store, label === null ? change : withoutUndo(change));
   }
 
   private putLeader(leader: LoadedLeader): void {
@@ -186,11 +186,11 @@ export class FileLoader implements Files {
   }
 
   /** Whether a file of the page's own finds another one, which came while it was being read, as by undoing. */
-  private isOvertaken(side: Side, label: string | null): boolean {
+  private isOvertaken(side: InputKind, label: string | null): boolean {
     return label !== null && this.store.getState()[side] !== null;
   }
 
-  private endReading(side: Side): void {
+  private endReading(side: InputKind): void {
     apply(this.store, readingSet(side, null));
   }
 }

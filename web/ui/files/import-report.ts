@@ -4,7 +4,7 @@ import { el, together } from '../widgets/dom';
 import { clockTime, rate, tempo } from '../store/format';
 import { guidanceWords } from '../store/guidance-matrix';
 import { jointWords } from './joint-words';
-import { beingRead, notes } from '../store/selectors';
+import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from '../store/state';
 import { watchAll } from '../store/store';
@@ -13,7 +13,7 @@ import { watchAll } from '../store/store';
 const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
 
 /** What the page understood of the files, so that a wrong guess is seen before it is danced. */
-export const mountUnderstood: Mount = (root, store, services) => {
+export const mountImportReport: Mount = (root, store, services) => {
   const facts = el('dl', { class: 'facts' });
   const list = el('ul', { class: 'notes', attributes: { 'aria-label': 'Notes' } });
   const section = el(
@@ -48,11 +48,11 @@ export const mountUnderstood: Mount = (root, store, services) => {
       (state) => [
         state.song,
         state.leader,
-        ...beingRead(state),
+        ...isReading(state),
         state.reaction,
         state.manifest,
         state.model,
-        state.remarks,
+        state.notices,
         state.autosave,
         state.settings?.role,
       ],

@@ -2,9 +2,9 @@ import { rolledSeed } from '../store/actions/settings';
 import type { Generator, Manifest, ModelFolder, Status } from '../../model/client';
 import { modelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
-import { manifestArrived, modelChanged, modelOpened } from '../store/actions/model';
+import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/model';
 import { apply, type Store } from '../store/store';
-import { told, remarked } from '../store/actions/notices';
+import { problemShown, noticeAdded } from '../store/actions/notices';
 
 export interface ModelLink {
   /** The model when it is ready; rejects when this attempt to load it has failed. */
@@ -32,9 +32,9 @@ export function createModelLink(
 
   const onStatus = (status: Status): void => {
     if (status.kind === 'manifest') {
-      if (!store.getState().manifest) apply(store, manifestArrived(status.manifest, rolledSeed()));
+      if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, rolledSeed()));
       tell(status.manifest);
-    } else if (status.kind === 'notice') apply(store, remarked(`${status.message} ${status.hint}`));
+    } else if (status.kind === 'notice') apply(store, noticeAdded(`${status.message} ${status.hint}`));
     else apply(store, modelChanged(stateOf(status)));
   };
   const load = async (): Promise<Generator> => {
@@ -49,7 +49,7 @@ export function createModelLink(
       failed = true;
       const problem = modelProblem(error);
       apply(store, modelChanged({ phase: 'failed', problem }));
-      apply(store, told(problem));
+      apply(store, problemShown(problem));
       throw error;
     }
   };
@@ -83,7 +83,7 @@ export function createModelLink(
         return true;
       } catch (error) {
         apply(store, modelChanged(shown));
-        apply(store, told(modelProblem(error)));
+        apply(store, problemShown(modelProblem(error)));
         return false;
       }
     },

@@ -1,9 +1,9 @@
-import { modelAmong } from './dropped';
+import { modelFolder } from './dropped';
 import type { DroppedFile, Files } from '../store/services';
 import type { ModelLink } from './model-link';
 import { dropProblem, emptyDropProblem } from '../store/problems';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 
 /**
  * Opens what was dropped: the folder of a model, or songs and leaders. What can't be read is told.
@@ -20,11 +20,11 @@ export async function openDropped(
   try {
     dropped = await coming;
   } catch (error) {
-    apply(store, told(dropProblem(error)));
+    apply(store, problemShown(dropProblem(error)));
     return;
   }
-  const folder = modelAmong(dropped);
-  if (dropped.length === 0) apply(store, told(emptyDropProblem()));
+  const folder = modelFolder(dropped);
+  if (dropped.length === 0) apply(store, problemShown(emptyDropProblem()));
   else if (!folder) await files.open(dropped.map(({ file }) => file));
   else if (await model.open(folder)) generate();
 }

@@ -8,12 +8,12 @@ import type {
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, rememberLocked } from '../store/reactor-motion';
-import { guidanceMatrix, sameInputs, wantedInputs } from '../store/selectors';
+import { guidanceMatrix, sameInputs, readyInputs } from '../store/selectors';
 import { splice } from './splice';
 import type { Inputs, Reaction } from '../store/state';
-import { jobChanged, previewed, reacted } from '../store/actions/reaction';
+import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 
 /** Stillness after the last change before a new reaction is begun, milliseconds. */
 const STILLNESS = 60;
@@ -51,15 +51,15 @@ export function createGeneration(store: Store, model: () => Promise<Generator>):
     running = { controller, inputs };
     const { signal } = controller;
     try {
-      apply(store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, fresh: null }));
+      apply(store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, previewed: null }));
       const generator = await model();
       if (signal.aborted) return;
       const { playback, leader } = store.getState();
       const made = await generator.generate(requestFor(inputs, generator.manifest), {
         signal,
         onProgress: (progress) => {
-          const fresh = store.getState().job?.fresh ?? null;
-          if (!signal.aborted) apply(store, jobChanged({ ...progress, fresh }));
+          const previewed = store.getState().job?.previewed ?? null;
+          if (!signal.aborted) apply(store, jobChanged({ ...progress, previewed }));
         },
         at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
         onPreview: (preview) => {
@@ -68,19 +68,19 @@ export function createGeneration(store: Store, model: () => Promise<Generator>):
       });
       if (signal.aborted) return;
       running = null;
-      apply(store, reacted(reactionOf(made, inputs)));
+      apply(store, reactionAdded(reactionOf(made, inputs)));
     } catch (error) {
       if (signal.aborted) return;
       running = null;
       apply(store, jobChanged(null));
       const failedToLoad = store.getState().model.phase === 'failed';
-      if (!isAbort(error) && !failedToLoad) apply(store, told(generationProblem(error)));
+      if (!isAbort(error) && !failedToLoad) apply(store, problemShown(generationProblem(error)));
     }
   };
 
   const consider = (): void => {
     const state = store.getState();
-    const wanted = wantedInputs(state);
+    const wanted = readyInputs(state);
     if (!wanted) return;
     if (state.reaction && sameInputs(wanted, state.reaction.inputs)) {
       // On the stage already; what else was begun or about to begin is not wanted any more.
@@ -103,7 +103,7 @@ export function createGeneration(store: Store, model: () => Promise<Generator>):
   const unsubscribe = store.subscribe(consider);
   return {
     generate: () => {
-      const wanted = wantedInputs(store.getState());
+      const wanted = readyInputs(store.getState());
       if (wanted) void begin(wanted);
     },
     cancel: () => {
@@ -146,5 +146,5 @@ function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): voi
     motion: into(reaction?.motion ?? null, motion),
     locked: into(reactorMotion({ reaction, footLock: true }), locked),
   };
-  apply(store, previewed(preview, fresh));
+  apply(store, previewShown(preview, fresh));
 }

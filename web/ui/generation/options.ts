@@ -1,10 +1,10 @@
 import { mountChoiceCards } from './variation-cards';
-import { complete } from '../store/actions/variations';
-import { loadedRole, madeRole } from '../store/roles';
+import { allVariationsMade } from '../store/actions/variations';
+import { loadedRole, generatedRole } from '../store/roles';
 import { el, setText, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountSeedBox } from './seed-box';
-import { beingRead, upToDate } from '../store/selectors';
+import { isReading, upToDate } from '../store/selectors';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { rolesSwapped, seedRolled, stepsSet, rolledSeed } from '../store/actions/settings';
@@ -53,8 +53,8 @@ export const mountOptions: Mount = (root, store, services) => {
     attributes: { type: 'button' },
     on: {
       click: () => {
-        if (store.getState().choices?.making) services.cancel();
-        else services.makeChoices();
+        if (store.getState().variations?.making) services.cancel();
+        else services.makeVariations();
       },
     },
   });
@@ -91,16 +91,16 @@ export const mountOptions: Mount = (root, store, services) => {
       more.disabled = settings.steps >= max;
       setText(count, String(settings.steps));
     }
-    swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
+    swap.setAttribute('aria-pressed', String(generatedRole(state) === 'leader'));
     swap.title =
-      `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
+      `Your dancer is the ${loadedRole(state)} and the model dances the ${generatedRole(state)}. ` +
       'Press to have it the other way round.';
-    make.disabled = !state.leader || !settings || state.job !== null || beingRead(state).some(Boolean);
+    make.disabled = !state.leader || !settings || state.job !== null || isReading(state).some(Boolean);
     setText(make, state.reaction ? 'Generate again' : 'Generate');
     make.title = makeWords(state);
-    const making = state.choices?.making ?? false;
-    const kept = complete(state.choices) && state.seedLocked;
-    three.disabled = !making && (!state.leader || !settings || beingRead(state).some(Boolean) || kept);
+    const making = state.variations?.making ?? false;
+    const kept = allVariationsMade(state.variations) && state.seedLocked;
+    three.disabled = !making && (!state.leader || !settings || isReading(state).some(Boolean) || kept);
     setText(three, making ? 'Cancel' : 'Three reactions');
     three.title = making
       ? 'Make no more'
@@ -119,9 +119,9 @@ export const mountOptions: Mount = (root, store, services) => {
         state.leader,
         state.song,
         state.reaction,
-        state.choices,
+        state.variations,
         state.seedLocked,
-        ...beingRead(state),
+        ...isReading(state),
         state.job !== null,
       ],
       show,

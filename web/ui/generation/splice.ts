@@ -1,7 +1,7 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { forwardKinematics } from '../../motion/skeleton/kinematics';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
-import type { Fresh } from '../store/state';
+import type { FrameRange } from '../store/state';
 
 /** Frames over which one motion passes into the other, a quarter of a second. */
 const PASSAGE = 8;
@@ -10,7 +10,7 @@ const PASSAGE = 8;
  * `shown` with the frames of `fresh` taken from another motion of the same length. It keeps the bones of `shown`;
  * at both ends of the fresh part, unless the dance itself ends there, one passes into the other.
  */
-export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: Fresh): SolvedMotion {
+export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: FrameRange): SolvedMotion {
   const root = shown.root.slice();
   const rotations = shown.rotations.slice();
   const positions = shown.positions.slice();

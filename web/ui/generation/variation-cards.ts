@@ -1,7 +1,7 @@
-import { CHOICES } from '../store/actions/variations';
-import { madeRole } from '../store/roles';
+import { VARIATION_COUNT } from '../store/actions/variations';
+import { generatedRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
-import { drawFigure, facing } from '../widgets/figure';
+import { drawFigure, headingOf } from '../widgets/figure';
 import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';
@@ -21,7 +21,7 @@ const BEAT = 100;
 
 /** The reactions to pick from, as little figures at the playhead; the one on the stage is marked. */
 export const mountChoiceCards: Mount = (root, store, services) => {
-  const cards = Array.from({ length: CHOICES }, (_, index) => {
+  const cards = Array.from({ length: VARIATION_COUNT }, (_, index) => {
     const canvas = el('canvas');
     const seed = el('span');
     const fill = el('i');
@@ -61,13 +61,13 @@ export const mountChoiceCards: Mount = (root, store, services) => {
 
   const pick = (index: number): void => {
     const card = shownCards(store.getState())[index];
-    if (card?.seed !== null && card?.seed !== undefined) services.pickChoice(card.seed);
+    if (card?.seed !== null && card?.seed !== undefined) services.pickVariation(card.seed);
   };
   /** To the next card that holds something. */
   const step = (index: number, by: number): void => {
     const list = shownCards(store.getState());
-    for (let turn = 1; turn < CHOICES; turn++) {
-      const next = (index + by * turn + CHOICES * turn) % CHOICES;
+    for (let turn = 1; turn < VARIATION_COUNT; turn++) {
+      const next = (index + by * turn + VARIATION_COUNT * turn) % VARIATION_COUNT;
       if (!list[next]?.reaction) continue;
       pick(next);
       cards[next]?.button.focus();
@@ -82,7 +82,7 @@ export const mountChoiceCards: Mount = (root, store, services) => {
     list.forEach(({ seed, reaction, fraction }, index) => {
       const card = cards[index];
       if (!card) return;
-      const making = state.choices?.making === true && !reaction;
+      const making = state.variations?.making === true && !reaction;
       setText(card.seed, seed === null ? '' : String(seed));
       card.button.disabled = reaction === null;
       card.button.classList.toggle('empty', reaction === null);
@@ -99,7 +99,7 @@ export const mountChoiceCards: Mount = (root, store, services) => {
         reaction && index !== onStage ? 'Bring this one to the stage' : (reaction?.label ?? '');
     });
     const there = list.filter(({ reaction }) => reaction).length;
-    setText(spoken, state.choices ? `${there} of ${CHOICES} reactions made.` : '');
+    setText(spoken, state.variations ? `${there} of ${VARIATION_COUNT} reactions made.` : '');
   };
 
   let drawn = -Infinity;
@@ -115,8 +115,8 @@ export const mountChoiceCards: Mount = (root, store, services) => {
     const state = store.getState();
     const list = shownCards(state);
     const poses = list.map(({ reaction }) => poseOf(state, reaction));
-    const eye = facing(poses.find((pose) => pose !== null) ?? new Float32Array(66));
-    const colour = token(root, `--figure-${madeRole(state)}`);
+    const eye = headingOf(poses.find((pose) => pose !== null) ?? new Float32Array(66));
+    const colour = token(root, `--figure-${generatedRole(state)}`);
     poses.forEach((pose, index) => {
       const context = cards[index]?.canvas.getContext('2d');
       if (!context) return;
@@ -133,11 +133,11 @@ export const mountChoiceCards: Mount = (root, store, services) => {
   sizes.observe(group);
 
   return together(
-    watchAll(store, (state) => [state.choices, state.reaction, state.settings], show),
+    watchAll(store, (state) => [state.variations, state.reaction, state.settings], show),
     watchAll(
       store,
       (state) => [
-        state.choices?.list,
+        state.variations?.list,
         state.reaction,
         state.theme,
         state.playback.time,
@@ -155,8 +155,8 @@ export const mountChoiceCards: Mount = (root, store, services) => {
 };
 
 /** The choices, or in the first card what is on the stage. */
-function shownCards({ choices, reaction }: AppState): readonly Card[] {
-  if (choices) return choices.list;
+function shownCards({ variations, reaction }: AppState): readonly Card[] {
+  if (variations) return variations.list;
   const none = { seed: null, reaction: null, fraction: 0 };
   const first = reaction ? { seed: reaction.inputs.settings.seed, reaction, fraction: 1 } : none;
   return [first, none, none];

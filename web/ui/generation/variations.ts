@@ -1,23 +1,23 @@
 import type { Generator } from '../../model/client';
 import {
-  choiceInputs,
-  choiceMade,
-  choiceProgressed,
-  choicesBegun,
-  choicesDropped,
-  choicesResumed,
-  choicesStopped,
-  complete,
+  variationInputs,
+  variationAdded,
+  variationProgressed,
+  variationsStarted,
+  variationsDropped,
+  variationsResumed,
+  variationsStopped,
+  allVariationsMade,
   sameButSeed,
 } from '../store/actions/variations';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
-import { sameInputs, upToDate, wantedInputs } from '../store/selectors';
-import type { Choice } from '../store/state';
-import { reacted } from '../store/actions/reaction';
+import { sameInputs, upToDate, readyInputs } from '../store/selectors';
+import type { Variation } from '../store/state';
+import { reactionAdded } from '../store/actions/reaction';
 import { seedRolled, settingsSet, rolledSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 
 export interface ChoiceMaker {
   /** Makes three reactions that differ in their seed; where three are there already, three others. */
@@ -49,8 +49,8 @@ export function createChoices(
   const made = (seed: number, signal: AbortSignal): Promise<boolean> =>
     new Promise((resolve) => {
       const look = (): void => {
-        const { choices, job } = store.getState();
-        const there = choices?.list.some((choice) => choice.seed === seed && choice.reaction) ?? false;
+        const { variations, job } = store.getState();
+        const there = variations?.list.some((choice) => choice.seed === seed && choice.reaction) ?? false;
         if (!there && job && !signal.aborted) return;
         unsubscribe();
         resolve(there);
@@ -59,20 +59,20 @@ export function createChoices(
       look();
     });
 
-  const makeOne = async ({ seed }: Choice, signal: AbortSignal): Promise<void> => {
-    const { choices } = store.getState();
-    if (!choices) return;
-    const inputs = choiceInputs(choices, seed);
+  const makeOne = async ({ seed }: Variation, signal: AbortSignal): Promise<void> => {
+    const { variations } = store.getState();
+    if (!variations) return;
+    const inputs = variationInputs(variations, seed);
     const generator = await model();
     signal.throwIfAborted();
     const result = await generator.generate(requestFor(inputs, generator.manifest), {
       signal,
       onProgress: ({ fraction }) => {
-        if (!signal.aborted) apply(store, choiceProgressed(seed, fraction));
+        if (!signal.aborted) apply(store, variationProgressed(seed, fraction));
       },
     });
     signal.throwIfAborted();
-    apply(store, choiceMade(seed, reactionOf(result, inputs)));
+    apply(store, variationAdded(seed, reactionOf(result, inputs)));
   };
 
   const run = async (): Promise<void> => {
@@ -80,46 +80,46 @@ export function createChoices(
     const mine = (controller = new AbortController());
     const { signal } = mine;
     try {
-      for (const choice of store.getState().choices?.list ?? []) {
+      for (const choice of store.getState().variations?.list ?? []) {
         if (choice.reaction) continue;
         if (store.getState().settings?.seed !== choice.seed) await makeOne(choice, signal);
         else if (!(await made(choice.seed, signal))) break;
       }
     } catch (error) {
-      if (!signal.aborted && !isAbort(error)) apply(store, told(generationProblem(error)));
+      if (!signal.aborted && !isAbort(error)) apply(store, problemShown(generationProblem(error)));
     }
     if (controller === mine) {
       controller = null;
-      apply(store, choicesStopped());
+      apply(store, variationsStopped());
     }
   };
 
   /** Takes in what the page made by itself, and lets go of what is not asked for any more. */
   const follow = (): void => {
     const state = store.getState();
-    const { choices, reaction, job } = state;
-    if (!choices) return;
-    const wanted = wantedInputs(state);
-    const known = choices.list.find(({ seed }) => seed === wanted?.settings.seed);
-    if (!wanted || !known || !sameButSeed(wanted, choices.inputs)) {
+    const { variations, reaction, job } = state;
+    if (!variations) return;
+    const wanted = readyInputs(state);
+    const known = variations.list.find(({ seed }) => seed === wanted?.settings.seed);
+    if (!wanted || !known || !sameButSeed(wanted, variations.inputs)) {
       stop();
-      apply(store, choicesDropped());
+      apply(store, variationsDropped());
     } else if (reaction && !known.reaction && sameInputs(reaction.inputs, wanted))
-      apply(store, choiceMade(known.seed, reaction));
-    else if (job && !known.reaction && known.fraction !== job.fraction && choices.making)
-      apply(store, choiceProgressed(known.seed, job.fraction));
+      apply(store, variationAdded(known.seed, reaction));
+    else if (job && !known.reaction && known.fraction !== job.fraction && variations.making)
+      apply(store, variationProgressed(known.seed, job.fraction));
   };
   const unsubscribe = store.subscribe(follow);
 
   const begin = (): void => {
-    const others = complete(store.getState().choices);
+    const others = allVariationsMade(store.getState().variations);
     if (others) {
-      apply(store, choicesDropped());
+      apply(store, variationsDropped());
       apply(store, seedRolled(rolledSeed()));
     }
-    const wanted = wantedInputs(store.getState());
+    const wanted = readyInputs(store.getState());
     if (!wanted) return;
-    apply(store, store.getState().choices ? choicesResumed() : choicesBegun(wanted));
+    apply(store, store.getState().variations ? variationsResumed() : variationsStarted(wanted));
     const state = store.getState();
     if (!upToDate(state) && (others || !state.job)) generate();
     follow();
@@ -129,14 +129,14 @@ export function createChoices(
   return {
     make: begin,
     pick: (seed) => {
-      const reaction = store.getState().choices?.list.find((choice) => choice.seed === seed)?.reaction;
+      const reaction = store.getState().variations?.list.find((choice) => choice.seed === seed)?.reaction;
       if (!reaction || reaction === store.getState().reaction) return;
       apply(store, settingsSet(reaction.inputs.settings));
-      apply(store, reacted(reaction));
+      apply(store, reactionAdded(reaction));
     },
     cancel: () => {
       stop();
-      apply(store, choicesStopped());
+      apply(store, variationsStopped());
     },
     dispose: () => {
       unsubscribe();

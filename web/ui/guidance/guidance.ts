@@ -52,7 +52,7 @@ export const mountGuidance: Mount = (root, store, services) => {
       grab: () => {
         held = store.getState().settings?.guidance ?? null;
       },
-      letGo: () => {
+      release: () => {
         held = null;
       },
     }),

@@ -1,8 +1,8 @@
 import { fullProblem } from '../store/problems';
 import type { AppState, AutosaveStatus } from '../store/state';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
-import { presentInputs } from '../store/take';
+import { problemShown } from '../store/actions/notices';
+import { currentInputs } from '../store/take';
 import { autosaveChanged } from '../store/actions/project';
 import { hasVisitorContent, type StoredProject, storedProject } from './schema';
 import { isFull, type ProjectStorage } from './storage';
@@ -106,7 +106,7 @@ export class Autosave {
   private report(status: AutosaveStatus): void {
     if (this.store.getState().autosave === status) return;
     apply(this.store, autosaveChanged(status));
-    if (status === 'full' && this.hasFitted) apply(this.store, told(fullProblem()));
+    if (status === 'full' && this.hasFitted) apply(this.store, problemShown(fullProblem()));
   }
 }
 
@@ -121,6 +121,6 @@ function storedParts(state: AppState): readonly unknown[] {
     compare,
     footLock,
     song,
-    ...Object.values<unknown>({ ...presentInputs(state) }),
+    ...Object.values<unknown>({ ...currentInputs(state) }),
   ];
 }

@@ -4,7 +4,7 @@ import { icon, type IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 import { hasVisitorContent } from './schema';
 
 const HEADS: Readonly<Record<AutosaveStatus, string>> = {
@@ -25,7 +25,7 @@ interface Elements {
 /** The project menu in the bar: saving and opening everything as one file, and starting afresh. */
 export const mountProjectMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
-    apply(store, opened('project'));
+    apply(store, panelToggled('project'));
   };
   const elements = build(services, toggle);
   const { opener, menu, head, save, clear } = elements;
@@ -33,7 +33,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
   return together(
     watch(
       store,
-      (state) => state.open === 'project',
+      (state) => state.openPanel === 'project',
       (isOpen) => {
         showOpen(elements, isOpen);
       },
@@ -99,7 +99,7 @@ function build(services: Services, toggle: () => void): Elements {
     'remove',
     'Start afresh',
     'Empties the page; undo brings it back',
-    services.startAfresh,
+    services.clearProject,
   );
   const head = el('h2');
   const menu = el(

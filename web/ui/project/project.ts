@@ -1,11 +1,11 @@
 import { rolledSeed } from '../store/actions/settings';
-import type { Files, Readers } from '../store/services';
+import type { Files, FileReaders } from '../store/services';
 import { projectProblem } from '../store/problems';
 import { slug } from '../store/format';
 import type { AppState } from '../store/state';
-import { visitEnded } from '../store/actions/files';
+import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store } from '../store/store';
-import { announced, dismissed, remarked, told } from '../store/actions/notices';
+import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
 import { projectCleared, projectOpened, takesRestored, visitRestored } from '../store/actions/project';
 import { Autosave } from './autosave';
 import { ProjectError } from './error';
@@ -25,7 +25,7 @@ export class Project {
   constructor(
     private readonly store: Store,
     files: Files,
-    private readonly readers: Readers,
+    private readonly readers: FileReaders,
     storage: ProjectStorage,
   ) {
     this.autosave = new Autosave(store, storage);
@@ -44,7 +44,7 @@ export class Project {
       this.autosave.start();
       return false;
     }
-    apply(store, visitEnded());
+    apply(store, firstVisitEnded());
     const before = store.getState();
     await this.readers.manifest();
     const restorer = new Restorer(stored, rememberId);
@@ -57,7 +57,7 @@ export class Project {
     this.autosave.start();
     void restorer.readRest(this.background).then(() => {
       apply(store, takesRestored(restorer.content(store.getState()).takes ?? []));
-      for (const loss of restorer.losses()) apply(store, remarked(loss));
+      for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
     });
     return true;
   }
@@ -65,7 +65,7 @@ export class Project {
   /** Opens a project file in place of everything; false when that fails, which is reported in the store. */
   async open(file: File): Promise<boolean> {
     const { store } = this;
-    apply(store, dismissed());
+    apply(store, problemClosed());
     try {
       const stored = readProject(new Uint8Array(await file.arrayBuffer()));
       await this.readers.manifest();
@@ -79,11 +79,11 @@ export class Project {
       const content = restorer.content(now);
       if (stored.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
-      apply(store, announced(openedWords(store.getState())));
-      for (const loss of restorer.losses()) apply(store, remarked(loss));
+      apply(store, toastShown(openedWords(store.getState())));
+      for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
       return true;
     } catch (error) {
-      apply(store, told(projectProblem(error, file.name, 'any-file')));
+      apply(store, problemShown(projectProblem(error, file.name, 'any-file')));
       return false;
     }
   }
@@ -99,7 +99,7 @@ export class Project {
         'The project could not be written.',
         'Delete some takes, or close other tabs, and save again.',
       );
-      apply(this.store, told(projectProblem(error, projectName(state), 'none')));
+      apply(this.store, problemShown(projectProblem(error, projectName(state), 'none')));
       return null;
     }
   }
@@ -114,7 +114,7 @@ export class Project {
   }
 }
 
-function backgroundReaders(readers: Readers): StoredFileReaders {
+function backgroundReaders(readers: FileReaders): StoredFileReaders {
   return {
     song: async ({ file, name, label }) => {
       const { audio } = await readers.manifest();

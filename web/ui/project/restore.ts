@@ -1,6 +1,6 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { AppState, Inputs, LoadedLeader, LoadedSong, Reaction, Take } from '../store/state';
-import { presentInputs } from '../store/take';
+import { currentInputs } from '../store/take';
 import {
   decoderOf,
   type StoredProject,
@@ -153,7 +153,7 @@ function restoredInputs(
   leader: LoadedLeader,
   song: LoadedSong | null,
 ): Inputs {
-  const present = presentInputs({ ...state, leader, song });
+  const present = currentInputs({ ...state, leader, song });
   if (!present) throw new Error('Inputs are restored once the settings are there.');
   return { ...(conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>), leader, song };
 }

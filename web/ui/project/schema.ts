@@ -1,7 +1,7 @@
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { AppState, Compare, Inputs, Letter, LoadedLeader, LoadedSong, Reaction } from '../store/state';
-import { presentInputs, takeOnStage } from '../store/take';
+import { currentInputs, takeOnStage } from '../store/take';
 
 /** A song: the file that it was read from. */
 export interface StoredSong {
@@ -135,7 +135,7 @@ export function storedProject(state: AppState): StoredProject {
     };
     return { id, number, name, starred, createdAt, label, seconds, ...parts };
   });
-  const inputs = presentInputs(state);
+  const inputs = currentInputs(state);
   const { other, letter, compare, takesMade, footLock, playback } = state;
   const page: StoredPage = {
     leader: state.leader ? leader(state.leader) : null,

@@ -5,7 +5,7 @@ import { loadingWords } from './loading-words';
 import type { Mount } from '../store/services';
 import type { ModelState } from '../store/state';
 import { apply, watch } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
 
@@ -38,7 +38,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       attributes: { type: 'button', 'aria-haspopup': 'dialog' },
       on: {
         click: () => {
-          apply(store, opened('device'));
+          apply(store, panelToggled('device'));
         },
       },
     },

@@ -4,7 +4,7 @@ import { byteSize } from '../store/format';
 import type { Services } from '../store/services';
 import type { Kept, ModelState } from '../store/state';
 import { apply, watch, watchAll, type Store } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 const PARTS = [
   ['page', 'Page and demo'],
@@ -29,7 +29,7 @@ export function mountDeviceCard(
   services: Services,
 ): () => void {
   const toggle = (): void => {
-    apply(store, opened('device'));
+    apply(store, panelToggled('device'));
   };
   const elements = build(toggle, () => void empty(elements, services));
   const { card, why } = elements;
@@ -42,18 +42,18 @@ export function mountDeviceCard(
   return together(
     watch(
       store,
-      (state) => state.open === 'device',
+      (state) => state.openPanel === 'device',
       (open) => {
         showOpen(elements, opener, open);
       },
     ),
     watchAll(
       store,
-      (state) => [state.open === 'device', state.model.phase],
-      ({ open, model }) => {
-        if (open !== 'device') return;
+      (state) => [state.openPanel === 'device', state.model.phase],
+      ({ openPanel, model }) => {
+        if (openPanel !== 'device') return;
         setText(why, reason(model));
-        void services.measureKept().then((kept) => {
+        void services.measureStorage().then((kept) => {
           showStorage(elements, kept, keptWords(kept));
         });
       },
@@ -111,10 +111,10 @@ function showStorage({ facts, sum, clear }: Elements, kept: Kept | null, sentenc
 /** Removes what is stored and says whether that worked. */
 async function empty(elements: Elements, services: Services): Promise<void> {
   elements.clear.disabled = true;
-  const cleared = await services.clearKept();
+  const cleared = await services.clearStorage();
   showStorage(
     elements,
-    await services.measureKept(),
+    await services.measureStorage(),
     cleared
       ? 'Cleared. The next visit downloads it again; nothing of yours was removed.'
       : 'The browser did not let this page clear it. Its own settings for this site can.',

@@ -2,12 +2,12 @@ import { coarseIsMissing } from '../generation/coarse-layer';
 import { listen, together } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
-import { SHOWS } from '../store/overlays';
-import type { AppState, Camera, Shown } from '../store/state';
+import { OVERLAYS } from '../store/overlays';
+import type { AppState, Camera, Overlays } from '../store/state';
 import { guidanceReset, seedRolled, rolledSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
-import { dismissed } from '../store/actions/notices';
-import { cameraSet, opened, playbackSet, shownToggled, SPEEDS } from '../store/actions/view';
+import { problemClosed } from '../store/actions/notices';
+import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
 import { takeStarred } from '../store/actions/takes';
@@ -55,10 +55,10 @@ export function mountKeyboard(store: Store, services: Services): () => void {
 
 /** Closes or cancels the one thing in front; true if there was one. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, open, job, choices, playback } = store.getState();
-  if (problem) apply(store, dismissed());
-  else if (open) apply(store, opened(open));
-  else if (job || choices?.making) services.cancel();
+  const { problem, openPanel, job, variations, playback } = store.getState();
+  if (problem) apply(store, problemClosed());
+  else if (openPanel) apply(store, panelToggled(openPanel));
+  else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));
   else return false;
   return true;
@@ -77,7 +77,7 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   '=': ({ store }) => apply(store, zoomedBy(ZOOM_STEP)),
   '-': ({ store }) => apply(store, zoomedBy(1 / ZOOM_STEP)),
   '0': ({ store }) => apply(store, zoomSet(null)),
-  '?': ({ store }) => apply(store, opened('keys')),
+  '?': ({ store }) => apply(store, panelToggled('keys')),
   l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
   i: ({ store, time }) => apply(store, regionEndSet('from', time)),
   o: ({ store, time }) => apply(store, regionEndSet('to', time)),
@@ -95,7 +95,7 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
     if (take) apply(store, takeStarred(take.id));
   },
   e: ({ store, state }) => {
-    if (state.reaction) apply(store, opened('download'));
+    if (state.reaction) apply(store, panelToggled('download'));
   },
 };
 
@@ -110,7 +110,7 @@ interface KeyPress {
 
 /** Does what a key is for; false for a key that does nothing. */
 function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: Services): boolean {
-  const overlay = SHOWS.find((one) => one.key === key.toUpperCase());
+  const overlay = OVERLAYS.find((one) => one.key === key.toUpperCase());
   const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
   const state = store.getState();
   if (overlay) toggleShow(store, overlay.what);
@@ -138,9 +138,9 @@ function toggleCamera(store: Store, camera: Camera): void {
 }
 
 /** A coarse ghost that can't be seen opens the menu, which says why and what to do. */
-function toggleShow(store: Store, what: keyof Shown): void {
-  apply(store, shownToggled(what));
-  const { shown, open, visiting } = store.getState();
-  const isMissing = what === 'ghost' && shown.ghost && coarseIsMissing(store.getState());
-  if (isMissing && open === null && !visiting) apply(store, opened('show'));
+function toggleShow(store: Store, what: keyof Overlays): void {
+  apply(store, overlayToggled(what));
+  const { overlays, openPanel, firstVisit } = store.getState();
+  const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());
+  if (isMissing && openPanel === null && !firstVisit) apply(store, panelToggled('overlays'));
 }

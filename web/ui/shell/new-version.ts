@@ -16,7 +16,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
       attributes: { type: 'button' },
       on: {
         click: () => {
-          services.takeUpdate();
+          services.loadUpdate();
         },
       },
     }),

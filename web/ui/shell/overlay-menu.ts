@@ -1,11 +1,11 @@
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
 import { el, setAttribute, setText, together } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
-import { SHOWS, type ShowWords } from '../store/overlays';
+import { OVERLAYS, type Overlay } from '../store/overlays';
 import type { AppState, Reaction } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { mountTakesDoor } from '../takes/takes-button';
-import { opened, shownToggled } from '../store/actions/view';
+import { panelToggled, overlayToggled } from '../store/actions/view';
 
 interface Elements {
   readonly corner: HTMLElement;
@@ -22,26 +22,26 @@ interface Elements {
 }
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
-export const mountShowMenu: Mount = (root, store, services) => {
+export const mountOverlayMenu: Mount = (root, store, services) => {
   const elements = build(store, services);
   const { corner, menu } = elements;
   root.append(corner);
   const takes = mountTakesDoor(corner, store, services);
   const closeOutside = (event: PointerEvent): void => {
-    if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, opened('show'));
+    if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, panelToggled('overlays'));
   };
   document.addEventListener('pointerdown', closeOutside);
   return together(
     watchAll(
       store,
-      (state) => [state.shown, state.coarse, state.reaction, besideStage(state), state.job === null],
+      (state) => [state.overlays, state.coarse, state.reaction, besideStage(state), state.job === null],
       (state) => {
         showState(elements, state);
       },
     ),
     watch(
       store,
-      (state) => state.open === 'show',
+      (state) => state.openPanel === 'overlays',
       (open) => {
         showOpen(elements, open);
       },
@@ -57,7 +57,7 @@ export const mountShowMenu: Mount = (root, store, services) => {
 function build(store: Store, services: Services): Elements {
   const count = el('span', { class: 'count-on' });
   const toggleMenu = (): void => {
-    apply(store, opened('show'));
+    apply(store, panelToggled('overlays'));
   };
   const button = el(
     'button',
@@ -65,9 +65,9 @@ function build(store: Store, services: Services): Elements {
     'Show',
     count,
   );
-  const toggles = SHOWS.map((overlay) =>
+  const toggles = OVERLAYS.map((overlay) =>
     overlayToggle(overlay, () => {
-      apply(store, shownToggled(overlay.what));
+      apply(store, overlayToggled(overlay.what));
     }),
   );
   const generate = el('button', {
@@ -95,7 +95,7 @@ function build(store: Store, services: Services): Elements {
   return { corner, button, count, menu, toggles, note, noteText, generate };
 }
 
-function overlayToggle({ label, key, hint }: ShowWords, toggle: () => void): HTMLButtonElement {
+function overlayToggle({ label, key, hint }: Overlay, toggle: () => void): HTMLButtonElement {
   return el(
     'button',
     {
@@ -110,13 +110,13 @@ function overlayToggle({ label, key, hint }: ShowWords, toggle: () => void): HTM
 }
 
 function showState({ button, count, toggles, note, noteText, generate }: Elements, state: AppState): void {
-  const { shown, coarse, job } = state;
-  SHOWS.forEach(({ what }, i) => {
+  const { overlays, coarse, job } = state;
+  OVERLAYS.forEach(({ what }, i) => {
     const toggle = toggles[i]!;
-    setAttribute(toggle, 'aria-pressed', String(shown[what]));
+    setAttribute(toggle, 'aria-pressed', String(overlays[what]));
     if (what === 'ghost') setAttribute(toggle, 'aria-busy', coarse.decoding ? 'true' : undefined);
   });
-  const on = SHOWS.filter(({ what }) => shown[what]).length;
+  const on = OVERLAYS.filter(({ what }) => overlays[what]).length;
   setText(count, on > 0 ? String(on) : '');
   button.setAttribute('aria-label', on > 0 ? `Show, ${on} on` : 'Show');
   const words = noteWords(state);

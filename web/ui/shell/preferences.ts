@@ -1,6 +1,6 @@
 import * as v from 'valibot';
 import { together } from '../widgets/dom';
-import { NOTHING_SHOWN } from '../store/overlays';
+import { NO_OVERLAYS } from '../store/overlays';
 import type { AppState, Theme } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
 import { SPEEDS, themeSet } from '../store/actions/view';
@@ -27,7 +27,7 @@ const schema = v.object({
       hands: v.boolean(),
       ghost: v.boolean(),
     }),
-    NOTHING_SHOWN,
+    NO_OVERLAYS,
   ),
 });
 
@@ -35,18 +35,18 @@ const schema = v.object({
 export type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
-  ({ theme, camera, speed, loop, footLock, seedLocked, shown }: Preferences): Change =>
+  ({ theme, camera, speed, loop, footLock, seedLocked, shown: overlays }: Preferences): Change =>
   (state) => ({
     theme: theme ?? state.theme,
     camera,
     footLock,
     seedLocked,
-    shown,
+    overlays,
     playback: { ...state.playback, speed, loop },
   });
 
 const chosen = (
-  { camera, footLock, seedLocked, shown, playback: { speed, loop } }: AppState,
+  { camera, footLock, seedLocked, overlays, playback: { speed, loop } }: AppState,
   theme: Theme | null,
 ): Preferences => ({
   theme,
@@ -55,7 +55,7 @@ const chosen = (
   loop,
   footLock,
   seedLocked,
-  shown,
+  shown: overlays,
 });
 
 /** The part of localStorage that is needed. */
@@ -69,7 +69,7 @@ export type WatchTheme = (change: (theme: Theme) => void) => () => void;
  * @param storage gives the place to keep them; may throw or give nothing, as browsers do in private windows
  * @param watchSystem follows the system's theme, which counts as long as the visitor has chosen none
  */
-export function keepPreferences(
+export function syncPreferences(
   store: Store,
   storage: () => PreferenceStorage | null,
   watchSystem: WatchTheme,

@@ -1,7 +1,7 @@
 import { el, together } from '../widgets/dom';
 import { coarseMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
-import { mountShowMenu } from './overlay-menu';
+import { mountOverlayMenu } from './overlay-menu';
 import { icon } from '../widgets/icons';
 import { mountUndo } from '../takes/undo';
 import type { Camera } from '../store/state';
@@ -96,7 +96,7 @@ export const mountStageControls: Mount = (root, store, services) => {
   root.append(legend, views);
 
   return together(
-    mountShowMenu(root, store, services),
+    mountOverlayMenu(root, store, services),
     mountStageTools(root, store, services),
     watch(
       store,

@@ -13,10 +13,10 @@ export interface Stamp {
  * While guidance is being dragged, reactions follow each other this fast, milliseconds. A longer rest means that the
  * visitor has looked at the one before.
  */
-const FOLD_WITHIN = 4000;
+const SAME_DRAG_MS = 4000;
 
 /** Takes that are kept; beyond it the oldest that nobody starred or named leave. */
-export const MOST_TAKES = 40;
+export const MAX_TAKES = 40;
 
 export function newStamp(): Stamp {
   const at = Date.now();
@@ -24,7 +24,7 @@ export function newStamp(): Stamp {
 }
 
 /** The takes after a reaction has arrived. It is one of four things, asked in this order. */
-export function arrived(
+export function withReaction(
   state: AppState,
   reaction: Reaction,
   stamp: Stamp,
@@ -51,7 +51,7 @@ export function arrived(
   if (again) return keep({ ...again, reaction });
 
   // 3. The next moment of a drag takes the place of the one before.
-  if (before && live && foldable(before, state, stamp.at))
+  if (before && live && isReplaceable(before, state, stamp.at))
     return keep({ ...before, createdAt: stamp.at, reaction });
 
   // 4. A take of its own. What the page brings along has a name and needs no number.
@@ -68,9 +68,9 @@ export function arrived(
  * Whether the take may give way to one that differs from it only in guidance: nobody has starred it, named it or
  * chosen it for a comparison, it was made here, and not longer ago than two reactions of one drag lie apart.
  */
-function foldable(take: Take, { other }: AppState, now: number): boolean {
+function isReplaceable(take: Take, { other }: AppState, now: number): boolean {
   const ofNobody = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
-  return ofNobody && now - take.createdAt < FOLD_WITHIN;
+  return ofNobody && now - take.createdAt < SAME_DRAG_MS;
 }
 
 function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
@@ -80,7 +80,7 @@ function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
 
 /** At most `MOST_TAKES`, unless more are starred, named or in use. */
 function withoutOldest(takes: readonly Take[], inUse: readonly (string | null)[]): readonly Take[] {
-  let spare = takes.length - MOST_TAKES;
+  let spare = takes.length - MAX_TAKES;
   if (spare <= 0) return takes;
   const leaving = new Set<string>();
   for (const { id, starred, name } of takes.toReversed())

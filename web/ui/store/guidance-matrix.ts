@@ -51,7 +51,7 @@ export function withCell(
   value: number,
   range: Range,
 ): Guidance {
-  return { ...guidance, [stream]: { ...guidance[stream], [layer]: held(value, range) } };
+  return { ...guidance, [stream]: { ...guidance[stream], [layer]: clampedToStep(value, range) } };
 }
 
 /**
@@ -63,7 +63,10 @@ export function withColumn(guidance: Guidance, layer: Layer, value: number, rang
   const before = rows.map(([, row]) => row[layer] ?? 0);
   const by = shiftTo(before, Math.min(range.max, Math.max(range.min, value)), range);
   return Object.fromEntries(
-    rows.map(([stream, row], i) => [stream, { ...row, [layer]: held((before[i] ?? 0) + by, range) }]),
+    rows.map(([stream, row], i) => [
+      stream,
+      { ...row, [layer]: clampedToStep((before[i] ?? 0) + by, range) },
+    ]),
   );
 }
 
@@ -81,7 +84,7 @@ function shiftTo(values: readonly number[], mean: number, { min, max }: Range): 
 }
 
 /** The value, held to range and step. */
-export function held(value: number, { min, max, step }: Range): number {
+export function clampedToStep(value: number, { min, max, step }: Range): number {
   return toStep(Math.min(max, Math.max(min, value)), step, min);
 }
 

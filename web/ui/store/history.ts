@@ -1,7 +1,7 @@
 import { danceDuration, sameSettings } from './selectors';
 import type { AppState, Inputs, Settings, Take } from './state';
 import type { Change } from './store';
-import { presentInputs, takeOnStage, withTake } from './take';
+import { currentInputs, takeOnStage, withTake } from './take';
 
 /** A take as it was before and after a step; null where it was not there. */
 interface Edit {
@@ -32,10 +32,10 @@ export interface History {
 
 export const NO_HISTORY: History = { past: [], future: [], open: false };
 
-const MOST_STEPS = 100;
+const MAX_STEPS = 100;
 
 /** A fader that rests this long has been let go of, milliseconds. */
-const SAME_GESTURE = 1000;
+const SAME_GESTURE_MS = 1000;
 
 /** The last step is complete: whatever comes next is another one. */
 export function sealed(history: History): History {
@@ -47,7 +47,7 @@ export function sealed(history: History): History {
  * other input of a reaction, takes, or the choice of a take. Changes that set `history` have seen to it themselves;
  * reactions that arrive are among them, so that undoing leads to the take before and not to less takes.
  */
-export function remembered(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
+export function withUndo(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
   if ('history' in patch) return patch;
   const after = { ...before, ...patch };
   const inputs = changedInputs(before, after);
@@ -58,7 +58,7 @@ export function remembered(before: AppState, patch: Partial<AppState>, at: numbe
   const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
-  const goesOn = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE;
+  const goesOn = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE_MS;
   const step: Step = goesOn
     ? { ...last, at }
     : {
@@ -68,24 +68,24 @@ export function remembered(before: AppState, patch: Partial<AppState>, at: numbe
         edits,
         stage: takeOnStage(before),
       };
-  const kept = goesOn ? past.slice(0, -1) : past.slice(1 - MOST_STEPS);
+  const kept = goesOn ? past.slice(0, -1) : past.slice(1 - MAX_STEPS);
   return { ...patch, history: { past: [...kept, step], future: [], open: true } };
 }
 
 /** A change that the page makes of its own accord, such as loading its demo: nobody has to take it back. */
-export function unremembered(change: Change): Change {
+export function withoutUndo(change: Change): Change {
   return (state) => ({ history: state.history, ...change(state) });
 }
 
 const COMPARISON = ['other', 'letter', 'compare'] as const;
 
 /** A change that replaces everything at once: taking it back brings everything back. */
-export function replacing(before: AppState, patch: Partial<AppState>): Partial<AppState> {
+export function withUndoOfAll(before: AppState, patch: Partial<AppState>): Partial<AppState> {
   const nothing = before.takes.length === 0 && !before.leader && !before.song;
   if (nothing) return { ...patch, history: NO_HISTORY };
   const keys = Object.keys(patch) as (keyof AppState)[];
   const step: Step = { kind: null, at: 0, back: pick(before, keys), edits: [], stage: null };
-  const past = [...before.history.past.slice(1 - MOST_STEPS), step];
+  const past = [...before.history.past.slice(1 - MAX_STEPS), step];
   return { ...patch, history: { past, future: [], open: false } };
 }
 
@@ -96,7 +96,7 @@ export function undone(): Change {
     const step = past.at(-1);
     if (!step) return {};
     const history = { past: past.slice(0, -1), future: [...future, inverse(step, state)], open: false };
-    return { ...travelled(step, state), history };
+    return { ...withStep(step, state), history };
   };
 }
 
@@ -107,11 +107,11 @@ export function redone(): Change {
     const step = future.at(-1);
     if (!step) return {};
     const history = { past: [...past, inverse(step, state)], future: future.slice(0, -1), open: false };
-    return { ...travelled(step, state), history };
+    return { ...withStep(step, state), history };
   };
 }
 
-function travelled({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
+function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
   const after = { ...state, ...back };
   let { takes } = after;
   for (const { before, after: since } of edits)
@@ -169,7 +169,7 @@ function editsBetween(before: readonly Take[], after: readonly Take[]): Edit[] {
 
 /** The inputs of a reaction that differ, by their names, which are the same in the state. */
 function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
-  const inputs = presentInputs(before);
+  const inputs = currentInputs(before);
   // Before there is a leader there is nothing to go back to.
   if (!inputs) return [];
   return (Object.keys(inputs) as (keyof Inputs)[]).filter((key) => {

@@ -1,4 +1,4 @@
-import type { Problem, Side } from './state';
+import type { Problem, InputKind } from './state';
 
 /** What our own errors have in common: a sentence, and what to do about it. */
 interface Told {
@@ -23,15 +23,15 @@ export function isAbort(error: unknown): boolean {
 }
 
 /** A failure while a file was read. */
-export function fileProblem(error: unknown, side: Side, name: string): Problem {
-  const refused = { side, name };
+export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
+  const refused = { kind, name };
   if (isTold(error))
-    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: side, refused };
+    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
     code: 'unreadable-file',
     title: `${name} could not be read.`,
     hint: 'Choose it again, or try another file. Everything loaded before is unchanged.',
-    remedy: side,
+    remedy: kind,
     refused,
   };
 }
@@ -49,7 +49,7 @@ export function projectProblem(error: unknown, name: string, remedy: Problem['re
     title: told ? named(name, error.message) : `${name} could not be read.`,
     hint: told ? error.hint : 'Choose it again. Everything on the page is unchanged.',
     remedy,
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
@@ -171,7 +171,7 @@ export function otherMotionProblem(name: string): Problem {
     title: `${name} is a motion in a format that cannot be read here.`,
     hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
     remedy: 'leader',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
@@ -181,7 +181,7 @@ export function unknownFileProblem(name: string): Problem {
     title: `${name} is neither a song nor a motion.`,
     hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
     remedy: 'any-file',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
@@ -191,6 +191,6 @@ export function emptyFileProblem(name: string): Problem {
     title: `${name} is empty.`,
     hint: 'The file has no bytes; the copy or download may have failed. Choose it again from its source.',
     remedy: 'any-file',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }

@@ -27,19 +27,19 @@ export function reactorMotion({
 /** The motion of the coarse layer alone as it is drawn, or null while it is not to be seen. */
 export function coarseMotion({
   coarse,
-  shown,
+  overlays,
   footLock,
-}: Pick<AppState, 'coarse' | 'shown' | 'footLock'>): SolvedMotion | null {
-  return shown.ghost && coarse.motion ? asDrawn(coarse.motion, footLock) : null;
+}: Pick<AppState, 'coarse' | 'overlays' | 'footLock'>): SolvedMotion | null {
+  return overlays.ghost && coarse.motion ? asDrawn(coarse.motion, footLock) : null;
 }
 
 /** The same of the take that stands beside the one on the stage. */
 export function otherCoarseMotion({
   coarse,
-  shown,
+  overlays,
   footLock,
-}: Pick<AppState, 'coarse' | 'shown' | 'footLock'>): SolvedMotion | null {
-  return shown.ghost && coarse.other ? asDrawn(coarse.other, footLock) : null;
+}: Pick<AppState, 'coarse' | 'overlays' | 'footLock'>): SolvedMotion | null {
+  return overlays.ghost && coarse.other ? asDrawn(coarse.other, footLock) : null;
 }
 
 /** Keeps a motion whose feet were locked elsewhere, so that it is not done again. */

@@ -14,7 +14,7 @@ export function danceFps({ leader, manifest }: Pick<AppState, 'leader' | 'manife
 }
 
 /** What a reaction would be made from now, or null while something is missing or still being read. */
-export function wantedInputs(state: AppState): Inputs | null {
+export function readyInputs(state: AppState): Inputs | null {
   const { leader, song, shift, settings, reading } = state;
   if (!leader || !settings || reading.song || reading.leader) return null;
   return { leader, song, shift: song ? shift : 0, settings };
@@ -38,7 +38,7 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */
 export function upToDate(state: AppState): boolean {
-  return state.reaction !== null && sameInputs(state.reaction.inputs, wantedInputs(state));
+  return state.reaction !== null && sameInputs(state.reaction.inputs, readyInputs(state));
 }
 
 /** Guidance as the model takes it: streams x layers in the manifest's order, row-major. */
@@ -115,11 +115,11 @@ export function lengthNote({
 }
 
 /** Whether a song and whether a leader is being read; unlike the progress, this seldom changes. */
-export function beingRead({ reading }: Pick<AppState, 'reading'>): [boolean, boolean] {
+export function isReading({ reading }: Pick<AppState, 'reading'>): [boolean, boolean] {
   return [reading.song !== null, reading.leader !== null];
 }
 
-const KEEPING_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
+const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
   kept: null,
   full:
     'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
@@ -152,9 +152,9 @@ function fileNotes(state: AppState): Note[] {
 /** All that is to be said. */
 export function notes(state: AppState): Note[] {
   const list = fileNotes(state);
-  const keeping = KEEPING_NOTES[state.autosave];
+  const keeping = AUTOSAVE_NOTES[state.autosave];
   if (keeping) list.push({ text: keeping, look: true });
-  for (const remark of state.remarks) list.push({ text: remark, look: true });
+  for (const remark of state.notices) list.push({ text: remark, look: true });
   return list;
 }
 

@@ -2,11 +2,11 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderQuestion, ReadLeader } from '../../motion/client';
-import type { Kept, LoadedLeader, LoadedSong, Side } from './state';
+import type { Kept, LoadedLeader, LoadedSong, InputKind } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
-export type Choice = Side | 'any' | 'project';
+export type FileChoice = InputKind | 'any' | 'project';
 
 /** A file with the path it was dropped under: `my model/step.onnx`, or only its name. */
 export interface DroppedFile {
@@ -15,7 +15,7 @@ export interface DroppedFile {
 }
 
 /** The readers that files are read with, so that reading can be tested without a browser. */
-export interface Readers {
+export interface FileReaders {
   readonly loadSong: (
     file: Blob,
     recipe: Manifest['audio'],
@@ -50,7 +50,7 @@ export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
-  readonly choose: (what: Choice) => void;
+  readonly choose: (what: FileChoice) => void;
   /** Reads the leader again at this frame rate; null is the file's own. */
   readonly rereadLeader: (fps: number | null) => void;
   /** Plays the demo from its start. */
@@ -59,9 +59,9 @@ export interface Services {
   readonly generate: () => void;
   readonly cancel: () => void;
   /** Makes three reactions to pick from; where three are there already, three others. */
-  readonly makeChoices: () => void;
+  readonly makeVariations: () => void;
   /** Brings the one with this seed to the stage. */
-  readonly pickChoice: (seed: number) => void;
+  readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */
   readonly retryModel: () => void;
   readonly togglePlay: () => void;
@@ -83,13 +83,13 @@ export interface Services {
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
   /** Empties the page of everything that is not its own; undo brings it back. */
-  readonly startAfresh: () => void;
+  readonly clearProject: () => void;
   /** What is kept on this device for the next visit; null where the browser gives no storage. */
-  readonly measureKept: () => Promise<Kept | null>;
+  readonly measureStorage: () => Promise<Kept | null>;
   /** Removes it; false when the browser refuses. */
-  readonly clearKept: () => Promise<boolean>;
+  readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */
-  readonly takeUpdate: () => void;
+  readonly loadUpdate: () => void;
 }
 
 /** A panel puts itself into its root and returns what takes it away again. */

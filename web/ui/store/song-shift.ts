@@ -44,16 +44,21 @@ export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>)
 }
 
 /** How song and leader fit: a better shift, or why none is suggested, in a few words and in a sentence. */
-export type Fit =
+export type ShiftAdvice =
   { readonly better: BestShift } | { readonly better: null; readonly words: string; readonly reason: string };
 
-let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: Fit } | null = null;
+let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: ShiftAdvice } | null = null;
 
 /**
  * How much later the song should start than it does now so that its beats meet the leader's, where that is clearly
  * better; null without song or leader. The last answer is remembered: many parts of the page ask.
  */
-export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 'manifest'>): Fit | null {
+export function shiftAdvice({
+  song,
+  leader,
+  shift,
+  manifest,
+}: Parts & Pick<AppState, 'manifest'>): ShiftAdvice | null {
   if (!song || !leader || !manifest) return null;
   if (answered?.leader === leader && answered.song === song && answered.shift === shift)
     return answered.answer;
@@ -68,7 +73,7 @@ export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 
   return answer;
 }
 
-function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Fit {
+function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): ShiftAdvice {
   if (best === null)
     return {
       better: null,

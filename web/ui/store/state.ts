@@ -12,7 +12,7 @@ export type { Kept };
 
 export type Theme = 'dark' | 'light';
 export type Camera = 'orbit' | 'follow' | 'top' | 'side';
-export type Side = 'song' | 'leader';
+export type InputKind = 'song' | 'leader';
 export type Layer = 'coarse' | 'fine';
 export type Role = 'leader' | 'reactor';
 
@@ -128,11 +128,11 @@ export interface Job {
   /** 0 to 1 over the whole job. */
   readonly fraction: number;
   /** Frames in which the stage shows the new reaction already, nearly as it will be. */
-  readonly fresh: Fresh | null;
+  readonly previewed: FrameRange | null;
 }
 
 /** Motion frames `from` to `to`, the latter excluded. */
-export interface Fresh {
+export interface FrameRange {
   readonly from: number;
   readonly to: number;
 }
@@ -145,7 +145,7 @@ export interface Preview {
 }
 
 /** One of several reactions to pick from. */
-export interface Choice {
+export interface Variation {
   readonly seed: number;
   /** Null until it is made. */
   readonly reaction: Reaction | null;
@@ -154,10 +154,10 @@ export interface Choice {
 }
 
 /** Reactions to the same files and settings that differ in their seed. */
-export interface Choices {
+export interface Variations {
   /** What they are made from; the seed in it counts for nothing. */
   readonly inputs: Inputs;
-  readonly list: readonly Choice[];
+  readonly list: readonly Variation[];
   /** Some are still being made. */
   readonly making: boolean;
 }
@@ -170,7 +170,7 @@ export interface Problem {
   /** The way out that the dialog offers first. */
   readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
   /** The file that was refused, if it was a file. */
-  readonly refused: { readonly side: Side | null; readonly name: string } | null;
+  readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }
 
 export interface Reading {
@@ -200,16 +200,16 @@ export interface DownloadChoice {
 }
 
 /** A video that is being written. */
-export interface Filming {
+export interface VideoProgress {
   /** Pictures written. */
   readonly frame: number;
   readonly frames: number;
   /** Seconds that the rest will take; null while nobody can tell. */
-  readonly left: number | null;
+  readonly secondsLeft: number | null;
 }
 
 /** What is drawn on the stage beside the dancers; `ghost` is the coarse layer. */
-export interface Shown {
+export interface Overlays {
   readonly skeleton: boolean;
   readonly trails: boolean;
   readonly contacts: boolean;
@@ -237,12 +237,12 @@ export interface Saved {
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
-  readonly shown: Shown;
+  readonly overlays: Overlays;
   readonly coarse: CoarseLayer;
   /** The first-visit block is on the stage. */
-  readonly visiting: boolean;
+  readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly open: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'show' | null;
+  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
   /** A newer build of the page is here and waits to be taken. */
   readonly update: boolean;
   readonly model: ModelState;
@@ -253,10 +253,10 @@ export interface AppState {
   readonly leader: LoadedLeader | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
-  readonly reading: Readonly<Record<Side, Reading | null>>;
+  readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
-  readonly choices: Choices | null;
+  readonly variations: Variations | null;
   /** The seed stays as it is when a reaction is made again. */
   readonly seedLocked: boolean;
   /** The newest first; the one on the stage is the one whose reaction is `reaction`. */
@@ -280,16 +280,16 @@ export interface AppState {
   readonly download: DownloadChoice;
   /** The format in which a motion is being written. */
   readonly writing: MotionFormat | null;
-  readonly filming: Filming | null;
+  readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was being told. */
-  readonly waitingProblems: readonly Problem[];
+  readonly queuedProblems: readonly Problem[];
   /** Sentences worth knowing that stop nothing. */
-  readonly remarks: readonly string[];
+  readonly notices: readonly string[];
   /** What has just happened, told for a moment. */
-  readonly news: string | null;
+  readonly toast: string | null;
   readonly playback: Playback;
   /** The part of the dance that the lanes show, seconds; null shows all of it. */
   readonly zoom: Span | null;

@@ -1,6 +1,6 @@
-import { NOTHING_SHOWN } from './overlays';
+import { NO_OVERLAYS } from './overlays';
 import type { AppState, Theme } from './state';
-import { NO_HISTORY, remembered } from './history';
+import { NO_HISTORY, withUndo } from './history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 
 /** Everything that can happen to the state. A change is a pure function from state to what differs. */
@@ -12,11 +12,11 @@ export function initialState(theme: Theme): AppState {
   return {
     theme,
     camera: 'orbit',
-    shown: NOTHING_SHOWN,
+    overlays: NO_OVERLAYS,
     coarse: { motion: null, other: null, decoding: false },
-    visiting: true,
+    firstVisit: true,
     demo: 'loading',
-    open: null,
+    openPanel: null,
     update: false,
     model: { phase: 'loading', label: 'Model', received: 0, total: 0 },
     manifest: null,
@@ -27,7 +27,7 @@ export function initialState(theme: Theme): AppState {
     reading: { song: null, leader: null },
     reaction: null,
     preview: null,
-    choices: null,
+    variations: null,
     seedLocked: false,
     takes: [],
     takesMade: 0,
@@ -42,12 +42,12 @@ export function initialState(theme: Theme): AppState {
     job: null,
     download: { who: 'reactor', format: 'bvh', size: '1080p' },
     writing: null,
-    filming: null,
+    videoProgress: null,
     saved: null,
     problem: null,
-    waitingProblems: [],
-    remarks: [],
-    news: null,
+    queuedProblems: [],
+    notices: [],
+    toast: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
     zoom: null,
   };
@@ -60,7 +60,7 @@ export function createAppStore(theme: Theme): Store {
 
 /** Applies a change; what the visitor may want to take back is remembered. */
 export function apply(store: Store, change: Change): void {
-  store.setState((state) => remembered(state, change(state), Date.now()));
+  store.setState((state) => withUndo(state, change(state), Date.now()));
 }
 
 /** Calls back now and whenever the selected part is another value; returns the unsubscription. */

@@ -15,9 +15,9 @@ export interface TimeScale extends Span {
 }
 
 /** Shortest stretch that can be looked at, seconds. */
-const SHORTEST = 1;
+const SHORTEST_SPAN = 1;
 /** Where the playhead lands when the picture is moved to it, as a part of the picture. */
-const LANDING = 0.05;
+const LANDING_FRACTION = 0.05;
 
 /** The mapping of all lanes. An empty stretch maps every time to 0. */
 export function timeScale({ from, to }: Span, width: number): TimeScale {
@@ -38,21 +38,21 @@ export function timeScale({ from, to }: Span, width: number): TimeScale {
  * @param around the time that stays where it is
  */
 export function zoomed({ from, to }: Span, whole: number, factor: number, around: number): Span {
-  const length = Math.min(whole, Math.max(Math.min(SHORTEST, whole), (to - from) / factor));
+  const length = Math.min(whole, Math.max(Math.min(SHORTEST_SPAN, whole), (to - from) / factor));
   const part = to > from ? (around - from) / (to - from) : 0;
-  return inside(around - part * length, length, whole);
+  return clampedSpan(around - part * length, length, whole);
 }
 
 /** The stretch moved by some seconds, inside the dance. */
-export function moved({ from, to }: Span, whole: number, by: number): Span {
-  return inside(from + by, to - from, whole);
+export function scrolled({ from, to }: Span, whole: number, by: number): Span {
+  return clampedSpan(from + by, to - from, whole);
 }
 
 /** The stretch itself if it shows the time; else one as long that begins shortly before it. */
-export function showing(span: Span, whole: number, time: number): Span {
+export function spanShowing(span: Span, whole: number, time: number): Span {
   if (time >= span.from && time <= span.to) return span;
   const length = span.to - span.from;
-  return inside(time - LANDING * length, length, whole);
+  return clampedSpan(time - LANDING_FRACTION * length, length, whole);
 }
 
 /** How many times larger than the whole dance the stretch is drawn; 1 shows all of it. */
@@ -61,11 +61,11 @@ export function magnification({ from, to }: Span, whole: number): number {
 }
 
 /** Largest magnification of a dance. */
-export function largest(whole: number): number {
-  return Math.max(1, whole / SHORTEST);
+export function largestMagnification(whole: number): number {
+  return Math.max(1, whole / SHORTEST_SPAN);
 }
 
-function inside(from: number, length: number, whole: number): Span {
+function clampedSpan(from: number, length: number, whole: number): Span {
   const start = Math.max(0, Math.min(whole - length, from));
   return { from: start, to: Math.min(whole, start + length) };
 }

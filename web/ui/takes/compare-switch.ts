@@ -2,7 +2,7 @@ import { el, listen, setAttribute, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { Compare, Letter } from '../store/state';
 import { apply, watchAll } from '../store/store';
-import { compareSet, flipped } from '../store/actions/takes';
+import { compareSet, takesSwapped } from '../store/actions/takes';
 import { otherTake } from '../store/take';
 
 /** A key that is held this long is a look at the other take, not a change to it, milliseconds. */
@@ -28,13 +28,13 @@ export const mountCompareSwitch =
         attributes: { type: 'button', role: 'radio', title: 'Flip (B)' },
         on: {
           click: () => {
-            if (store.getState().letter !== letter) apply(store, flipped());
+            if (store.getState().letter !== letter) apply(store, takesSwapped());
           },
           keydown: (event) => {
             if (!/^Arrow/.test(event.key)) return;
             event.preventDefault();
             event.stopPropagation();
-            apply(store, flipped());
+            apply(store, takesSwapped());
             letters[LETTERS.indexOf(store.getState().letter)]?.focus();
           },
         },
@@ -74,12 +74,12 @@ export const mountCompareSwitch =
         if (event.key.toLowerCase() !== 'b' || event.ctrlKey || event.metaKey || event.altKey) return;
         if (event.repeat || pressed !== null || types(event)) return;
         const before = store.getState().reaction;
-        apply(store, flipped());
+        apply(store, takesSwapped());
         if (store.getState().reaction !== before) pressed = event.timeStamp;
       }),
       listen(window, 'keyup', (event) => {
         if (event.key.toLowerCase() !== 'b' || pressed === null) return;
-        if (event.timeStamp - pressed >= HELD) apply(store, flipped());
+        if (event.timeStamp - pressed >= HELD) apply(store, takesSwapped());
         pressed = null;
       }),
       listen(window, 'blur', () => {

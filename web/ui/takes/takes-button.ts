@@ -1,7 +1,7 @@
 import { el, setText, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 /** On the phone, the button that opens the sheet of takes, with how many there are. */
 export const mountTakesDoor: Mount = (root, store) => {
@@ -13,7 +13,7 @@ export const mountTakesDoor: Mount = (root, store) => {
       attributes: { type: 'button', 'aria-haspopup': 'dialog' },
       on: {
         click: () => {
-          apply(store, opened('takes'));
+          apply(store, panelToggled('takes'));
         },
       },
     },
@@ -24,10 +24,10 @@ export const mountTakesDoor: Mount = (root, store) => {
   return together(
     watchAll(
       store,
-      ({ takes, open }) => [takes.length, open === 'takes'],
-      ({ takes, open }) => {
+      ({ takes, openPanel }) => [takes.length, openPanel === 'takes'],
+      ({ takes, openPanel }) => {
         setText(count, takes.length > 0 ? String(takes.length) : '');
-        door.setAttribute('aria-expanded', String(open === 'takes'));
+        door.setAttribute('aria-expanded', String(openPanel === 'takes'));
       },
     ),
     () => {

@@ -3,7 +3,7 @@ import { el, listen, setText, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 import { takeChosen, takeDeleted, takeStarred } from '../store/actions/takes';
 import { createTakeRow, type TakeRow } from './take-row';
 import { takeOnStage } from '../store/take';
@@ -40,7 +40,7 @@ export const mountTakes: Mount = (root, store, services) => {
   });
   const count = el('span', { class: 'muted' });
   const close = closeButton(() => {
-    apply(store, opened('takes'));
+    apply(store, panelToggled('takes'));
   });
   close.classList.add('phone-only');
   const project = el('button', {
@@ -49,7 +49,7 @@ export const mountTakes: Mount = (root, store, services) => {
     attributes: { type: 'button', 'aria-haspopup': 'dialog' },
     on: {
       click: () => {
-        apply(store, opened('project'));
+        apply(store, panelToggled('project'));
       },
     },
   });
@@ -166,7 +166,7 @@ export const mountTakes: Mount = (root, store, services) => {
     ),
     watch(
       store,
-      (state) => state.open === 'takes',
+      (state) => state.openPanel === 'takes',
       (open) => {
         section.classList.toggle('open', open);
         if (open) close.focus();
@@ -175,7 +175,7 @@ export const mountTakes: Mount = (root, store, services) => {
     listen(window, 'pointerdown', ({ target }) => {
       const outside =
         target instanceof Element && !section.contains(target) && !target.closest('.takes-door');
-      if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
+      if (outside && store.getState().openPanel === 'takes') apply(store, panelToggled('takes'));
     }),
     fadeEnds(list),
     undo,

@@ -2,8 +2,8 @@ import { el, setVariable, together } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { brought, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
-import { moved, type TimeScale, zoomed } from '../store/time-scale';
+import { scrolledTo, visibleSpan, zoomedBy, zoomSet } from '../store/actions/timeline';
+import { scrolled, type TimeScale, zoomed } from '../store/time-scale';
 
 /** Zoom of one wheel pixel; a wheel's notch is about 100 of them, a pinch on a pad a few. */
 const PER_PIXEL = 0.01;
@@ -22,7 +22,7 @@ export function mountLaneZoom(
   const whole = (): number => danceDuration(store.getState());
   const scroll = (pixels: number): void => {
     const { from, to, width } = scale();
-    apply(store, zoomSet(moved({ from, to }, whole(), (pixels / width) * (to - from))));
+    apply(store, zoomSet(scrolled({ from, to }, whole(), (pixels / width) * (to - from))));
   };
 
   const onWheel = (event: WheelEvent): void => {
@@ -42,9 +42,9 @@ export function mountLaneZoom(
 
   const undoPinch = onPinch(lanes, (middle, factor, by) => {
     if (whole() === 0) return;
-    const larger = zoomed(shown(store.getState()), whole(), factor, timeAt(middle));
+    const larger = zoomed(visibleSpan(store.getState()), whole(), factor, timeAt(middle));
     const { width } = scale();
-    apply(store, zoomSet(moved(larger, whole(), (-by / width) * (larger.to - larger.from))));
+    apply(store, zoomSet(scrolled(larger, whole(), (-by / width) * (larger.to - larger.from))));
   });
 
   const thumb = el('div', { class: 'thumb' });
@@ -53,11 +53,11 @@ export function mountLaneZoom(
   let before = { from: 0, to: 0 };
   const undoThumb = draggable(thumb, {
     begin: () => {
-      before = shown(store.getState());
+      before = visibleSpan(store.getState());
       return true;
     },
     move: (distance) => {
-      apply(store, zoomSet(moved(before, whole(), (distance / bar.clientWidth) * whole())));
+      apply(store, zoomSet(scrolled(before, whole(), (distance / bar.clientWidth) * whole())));
     },
     drop: () => undefined,
     click: () => undefined,
@@ -75,14 +75,14 @@ export function mountLaneZoom(
         // Who looked elsewhere while it plays goes on looking there.
         const wasSeen = zoom && last >= zoom.from && last <= zoom.to;
         last = time;
-        if (wasSeen || !playback.playing) apply(store, brought(time));
+        if (wasSeen || !playback.playing) apply(store, scrolledTo(time));
       },
     ),
     watchAll(
       store,
       (state) => [state.zoom, state.leader, state.song],
       (state) => {
-        const { from, to } = shown(state);
+        const { from, to } = visibleSpan(state);
         bar.hidden = state.zoom === null;
         setVariable(thumb, '--from', whole() > 0 ? from / whole() : 0);
         setVariable(thumb, '--span', whole() > 0 ? (to - from) / whole() : 1);

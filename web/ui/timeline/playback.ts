@@ -3,9 +3,9 @@ import { isAbort, playbackProblem } from '../store/problems';
 import { danceDuration } from '../store/selectors';
 import { songStart } from '../store/song-shift';
 import type { AppState } from '../store/state';
-import { visitEnded } from '../store/actions/files';
+import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 import { together } from '../widgets/dom';
 import type { Span } from '../store/time-scale';
@@ -40,7 +40,7 @@ export function createPlayback(store: Store, player: Player): PlaybackControl {
     if (danceDuration(state) === 0) return;
     const part = loopOf(state) ?? { from: 0, to: danceDuration(state) };
     if (state.playback.time >= part.to - 1e-3) seek(part.from);
-    apply(store, visitEnded());
+    apply(store, firstVisitEnded());
     apply(store, playbackSet({ playing: true }));
   };
 
@@ -81,7 +81,7 @@ export function createPlayback(store: Store, player: Player): PlaybackControl {
           },
           (error: unknown) => {
             apply(store, playbackSet({ playing: false }));
-            if (!isAbort(error)) apply(store, told(playbackProblem(error)));
+            if (!isAbort(error)) apply(store, problemShown(playbackProblem(error)));
           },
         );
       },

@@ -1,5 +1,5 @@
 import { el, setVariable, together } from '../widgets/dom';
-import { SLOP } from '../widgets/drag';
+import { DRAG_THRESHOLD_PX } from '../widgets/drag';
 import { barAt, danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
 import { musicBeats } from '../store/song-shift';
@@ -47,7 +47,7 @@ export function createPlayhead(
   const move = (event: PointerEvent): void => {
     if (event.pointerId !== pointer) return;
     const along = waiting ? Math.abs(event.clientX - waiting.x) : Infinity;
-    if (along < SLOP || (waiting && along < Math.abs(event.clientY - waiting.y))) return;
+    if (along < DRAG_THRESHOLD_PX || (waiting && along < Math.abs(event.clientY - waiting.y))) return;
     waiting = null;
     toPointer(event);
   };

@@ -1,19 +1,19 @@
 import { createBlockRow } from './block-row';
-import { couple, madeRole } from '../store/roles';
+import { dancers, generatedRole } from '../store/roles';
 import { el, setText, setVariable, together } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { mountLoopRegion } from './loop-region';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } from './motion-lane';
 import { createPlayhead } from './playhead';
 import { rulerMarks } from './ruler';
-import { beingRead, danceFps, jobWords, upToDate } from '../store/selectors';
+import { isReading, danceFps, jobWords, upToDate } from '../store/selectors';
 import type { Services } from '../store/services';
 import { createSongLabel } from './song-label';
 import { createSongLane } from './song-lane';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { type Store, watch, watchAll } from '../store/store';
-import { shown } from '../store/actions/timeline';
+import { visibleSpan } from '../store/actions/timeline';
 import { type Span, timeScale, type TimeScale } from '../store/time-scale';
 
 /** Speed that a lane's upper edge stands for at least, m/s, so that standing still looks still. */
@@ -41,7 +41,7 @@ export const mountTimeline = (
   const rulerMarksRoot = el('div', { class: 'marks', attributes: { 'aria-hidden': 'true' } });
   ruler.append(rulerMarksRoot);
   const rulerName = el('div', { class: 'lab ruler' });
-  const scale = (): TimeScale => timeScale(shown(store.getState()), reactorLane.root.clientWidth);
+  const scale = (): TimeScale => timeScale(visibleSpan(store.getState()), reactorLane.root.clientWidth);
 
   /** The shift of the song while it is being dragged, frames. */
   let tried: number | null = null;
@@ -69,7 +69,7 @@ export const mountTimeline = (
     reactorLane.root,
   );
   root.append(lanes);
-  const moreLanes = mountMoreLanes(lanes, store, services, shown);
+  const moreLanes = mountMoreLanes(lanes, store, services, visibleSpan);
   const playhead = createPlayhead(lanes, store, services, scale);
   lanes.append(playhead.root);
   const loop = mountLoopRegion(store, services, { ruler, overlay: playhead.root, scale });
@@ -95,7 +95,7 @@ export const mountTimeline = (
     );
   };
   const drawWords = (state: AppState): void => {
-    const leads = madeRole(state) === 'leader';
+    const leads = generatedRole(state) === 'leader';
     const [made, loaded] = leads ? [leaderLane, reactorLane] : [reactorLane, leaderLane];
     const waiting = state.leader && !state.reaction;
     loaded.say(state.leader ? '' : state.reading.leader ? 'Reading the leader' : 'No leader yet');
@@ -117,9 +117,9 @@ export const mountTimeline = (
     const made: MotionPicture = {
       ...still,
       stale: job !== null && !upToDate(state),
-      fresh: job?.fresh ? { from: job.fresh.from / fps, to: job.fresh.to / fps } : null,
+      fresh: job?.previewed ? { from: job.previewed.from / fps, to: job.previewed.to / fps } : null,
     };
-    const leads = madeRole(state) === 'leader';
+    const leads = generatedRole(state) === 'leader';
     leaderLane.draw(leader, leads ? made : still);
     reactorLane.draw(reactor, leads ? still : made);
     const lane = leads ? leaderLane : reactorLane;
@@ -141,18 +141,18 @@ export const mountTimeline = (
   return together(
     watchAll(
       store,
-      (state) => [couple(state).leader, state.manifest],
+      (state) => [dancers(state).leader, state.manifest],
       (state) => {
-        const motion = couple(state).leader;
+        const motion = dancers(state).leader;
         leader = motion && drawnMotion(motion, state.manifest);
         measure();
       },
     ),
     watchAll(
       store,
-      (state) => [couple(state).reactor, state.manifest],
+      (state) => [dancers(state).reactor, state.manifest],
       (state) => {
-        const motion = couple(state).reactor;
+        const motion = dancers(state).reactor;
         reactor = motion && drawnMotion(motion, state.manifest);
         measure();
       },
@@ -160,9 +160,9 @@ export const mountTimeline = (
     watchAll(
       store,
       (state) => [
-        ...[state.leader, state.song, state.shift, ...Object.values(couple(state)), state.manifest],
-        ...[state.zoom, state.theme, madeRole(state), ...beingRead(state)],
-        ...[state.job !== null, state.job?.fresh?.from, state.job?.fresh?.to, upToDate(state)],
+        ...[state.leader, state.song, state.shift, ...Object.values(dancers(state)), state.manifest],
+        ...[state.zoom, state.theme, generatedRole(state), ...isReading(state)],
+        ...[state.job !== null, state.job?.previewed?.from, state.job?.previewed?.to, upToDate(state)],
       ],
       redrawSoon,
     ),

@@ -1,7 +1,7 @@
 import { el, setText, together } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { icon, type IconName } from '../widgets/icons';
-import { barAt, beingRead, danceDuration, firstNote } from '../store/selectors';
+import { barAt, isReading, danceDuration, firstNote } from '../store/selectors';
 import type { Mount } from '../store/services';
 import { musicBeats } from '../store/song-shift';
 import { apply, watch, watchAll } from '../store/store';
@@ -72,7 +72,7 @@ export const mountTransport: Mount = (root, store, services) => {
   return together(
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.shift, ...beingRead(state)],
+      (state) => [state.leader, state.song, state.shift, ...isReading(state)],
       (state) => {
         const whole = danceDuration(state);
         for (const control of [start, play, end, loop]) control.disabled = whole === 0;

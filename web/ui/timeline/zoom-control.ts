@@ -2,8 +2,8 @@ import { el, together } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watchAll } from '../store/store';
-import { magnified, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
-import { largest, magnification } from '../store/time-scale';
+import { magnificationSet, visibleSpan, zoomedBy, zoomSet } from '../store/actions/timeline';
+import { largestMagnification, magnification } from '../store/time-scale';
 
 /** Zoom of one press of a button or key. */
 export const ZOOM_STEP = 1.5;
@@ -29,8 +29,8 @@ export function createZoomControl(store: Store): {
     attributes: { type: 'range', min: 0, max: STEPS, step: 1, value: 0, 'aria-label': 'Timeline zoom' },
     on: {
       input: () => {
-        const most = largest(danceDuration(store.getState()));
-        apply(store, magnified(most ** (Number(slider.value) / STEPS)));
+        const most = largestMagnification(danceDuration(store.getState()));
+        apply(store, magnificationSet(most ** (Number(slider.value) / STEPS)));
       },
     },
   });
@@ -43,8 +43,8 @@ export function createZoomControl(store: Store): {
         (state) => [state.zoom, state.leader, state.song],
         (state) => {
           const whole = danceDuration(state);
-          const most = largest(whole);
-          const times = magnification(shown(state), whole);
+          const most = largestMagnification(whole);
+          const times = magnification(visibleSpan(state), whole);
           const part = most > 1 ? Math.log(times) / Math.log(most) : 0;
           slider.value = String(Math.round(part * STEPS));
           slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);

@@ -14,7 +14,7 @@ export interface Drag {
 }
 
 /** Way that a pointer makes before a press is a drag, CSS pixels. */
-export const SLOP = 4;
+export const DRAG_THRESHOLD_PX = 4;
 
 /** Makes an element draggable to the left and right; returns the undo. */
 export function draggable(element: HTMLElement, drag: Drag): () => void {
@@ -40,7 +40,7 @@ export function draggable(element: HTMLElement, drag: Drag): () => void {
   const move = (event: PointerEvent): void => {
     if (event.pointerId !== from?.pointer) return;
     const distance = event.clientX - from.x;
-    if (!moving && Math.abs(distance) < SLOP) return;
+    if (!moving && Math.abs(distance) < DRAG_THRESHOLD_PX) return;
     moving = true;
     drag.move(distance, event);
   };

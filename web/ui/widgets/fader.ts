@@ -7,7 +7,7 @@ export interface FaderEvents {
   readonly reset: () => void;
   /** It is taken in hand; all changes until it is let go belong together. */
   readonly grab?: () => void;
-  readonly letGo?: () => void;
+  readonly release?: () => void;
 }
 
 /** A fader's range, from the manifest. */
@@ -67,7 +67,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
       disabled: true,
     },
   });
-  steer(input, on);
+  connectFaderInput(input, on);
   const scale = el('div', { class: 'scale', attributes: { 'aria-hidden': 'true' } });
   const root = el(
     'div',
@@ -130,10 +130,13 @@ function closeness(value: number): string {
 }
 
 /** Ties a range input to what it does: drag, keys, double click for the default, Shift to drag finely. */
-export function steer(input: HTMLInputElement, { change, reset, grab, letGo }: FaderEvents): void {
+export function connectFaderInput(
+  input: HTMLInputElement,
+  { change, reset, grab, release }: FaderEvents,
+): void {
   input.addEventListener('pointerdown', () => grab?.());
   for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
-    input.addEventListener(type, () => letGo?.());
+    input.addEventListener(type, () => release?.());
   input.addEventListener('input', () => {
     change(input.valueAsNumber);
   });

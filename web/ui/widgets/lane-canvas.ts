@@ -31,9 +31,9 @@ export function token(element: Element, name: `--${string}`): string {
 }
 
 /** Height under the waveform that the beat marks take, CSS pixels. */
-const BEATS = 9;
+const BEATS_HEIGHT_PX = 9;
 /** Room that a beat mark needs, CSS pixels. */
-const BEAT_ROOM = 4;
+const BEAT_SPACING_PX = 4;
 
 /** A waveform, mirrored about its middle; `loudest` is the sample that takes all of the height. */
 export function drawWave(
@@ -42,7 +42,7 @@ export function drawWave(
   loudest: number,
   colour: string,
 ): void {
-  const middle = (height - BEATS) / 2;
+  const middle = (height - BEATS_HEIGHT_PX) / 2;
   const columns = high.length;
   context.fillStyle = colour;
   for (let column = 0; column < columns; column++) {
@@ -65,7 +65,7 @@ export function drawBeats(
   scale: TimeScale,
   colours: { readonly bar: string; readonly beat: string; readonly line: string },
 ): void {
-  const tooDense = within(beats, scale).length > width / BEAT_ROOM;
+  const tooDense = within(beats, scale).length > width / BEAT_SPACING_PX;
   beats.forEach((beat, index) => {
     const first = index % 4 === 0;
     if (beat < scale.from || beat > scale.to || (tooDense && !first)) return;
@@ -125,7 +125,7 @@ export function drawCurve(
 }
 
 /** Room that a dot needs, CSS pixels. */
-const DOT_ROOM = 7;
+const DOT_SPACING_PX = 7;
 
 /** Motion beats as dots on the curve: full where a music beat is, rings elsewhere, left out where there is no room. */
 export function drawDots(
@@ -136,7 +136,7 @@ export function drawDots(
   colours: { readonly line: string; readonly ground: string },
 ): void {
   const seen = beats.filter(({ time }) => time >= scale.from && time <= scale.to);
-  const tooDense = seen.length > width / DOT_ROOM;
+  const tooDense = seen.length > width / DOT_SPACING_PX;
   for (const { time, onMusic } of seen) {
     if (tooDense && !onMusic) continue;
     const radius = tooDense ? 1.5 : onMusic ? 3 : 1.9;

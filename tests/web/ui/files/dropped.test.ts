@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { modelAmong } from '../../../../web/ui/files/dropped';
+import { modelFolder } from '../../../../web/ui/files/dropped';
 
 const dropped = (...paths: string[]) => paths.map((path) => ({ path, file: new File([path], path) }));
 
@@ -8,19 +8,19 @@ describe('what was dropped', () => {
     for (const root of ['', 'tango/', 'my models/tango/'])
       expect(
         Object.keys(
-          modelAmong(dropped(`${root}step.onnx`, `${root}manifest.json`, `${root}parts/a.onnx`)) ?? {},
+          modelFolder(dropped(`${root}step.onnx`, `${root}manifest.json`, `${root}parts/a.onnx`)) ?? {},
         ),
       ).toEqual(['step.onnx', 'manifest.json', 'parts/a.onnx']);
   });
 
   it('leaves out what lies beside the model', () => {
-    const model = modelAmong(
+    const model = modelFolder(
       dropped('song.mp3', 'tango/manifest.json', 'tango/step.onnx', 'salsa/step.onnx'),
     );
     expect(Object.keys(model ?? {})).toEqual(['manifest.json', 'step.onnx']);
   });
 
   it('is no model without one', () => {
-    expect(modelAmong(dropped('song.mp3', 'leader.bvh', 'not-a-manifest.json'))).toBeNull();
+    expect(modelFolder(dropped('song.mp3', 'leader.bvh', 'not-a-manifest.json'))).toBeNull();
   });
 });

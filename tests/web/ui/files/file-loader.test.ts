@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { MotionError } from '../../../../web/motion/error';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
-import type { Files, Readers } from '../../../../web/ui/store/services';
+import type { Files, FileReaders } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { heard, leaderFile, still } from '../../support/made-state';
@@ -13,11 +13,11 @@ const SONG = 'ID3 and so on';
 describe('files', () => {
   let store: change.Store;
   let files: Files;
-  let readers: { -readonly [K in keyof Readers]: Readers[K] };
+  let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     readers = {
       loadSong: (_file, _recipe, { onProgress }) => {
         onProgress({ fraction: 0.5 });
@@ -38,10 +38,10 @@ describe('files', () => {
 
   it('are told apart by content and read together', async () => {
     await files.open([file('a', SONG), file('b', BVH)]);
-    const { song, leader, reading, visiting, problem } = store.getState();
+    const { song, leader, reading, firstVisit, problem } = store.getState();
     expect([song?.name, leader?.name]).toEqual(['a', 'b']);
     expect(reading).toEqual({ song: null, leader: null });
-    expect(visiting).toBe(false);
+    expect(firstVisit).toBe(false);
     expect(problem).toBeNull();
   });
 
@@ -56,7 +56,7 @@ describe('files', () => {
       title: 'arms.bvh: The legs are missing.',
       hint: 'Export the whole body.',
       remedy: 'leader',
-      refused: { side: 'leader', name: 'arms.bvh' },
+      refused: { kind: 'leader', name: 'arms.bvh' },
     });
     expect(store.getState().leader).toBe(before);
     expect(store.getState().reading.leader).toBeNull();
@@ -69,7 +69,7 @@ describe('files', () => {
   ])('refuses %s without reading it', async (name, content, code) => {
     await files.open([file(name, content)]);
     expect(store.getState().problem?.code).toBe(code);
-    expect(store.getState().visiting).toBe(true);
+    expect(store.getState().firstVisit).toBe(true);
   });
 
   it('the newest of a kind wins, even if an older one is ready later', async () => {

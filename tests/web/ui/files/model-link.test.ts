@@ -81,7 +81,7 @@ describe('loading the model', () => {
   it('keeps what is worth knowing as a remark', () => {
     const { store, attempts } = loading();
     attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
-    expect(store.getState().remarks).toEqual(['Not kept. Free some space.']);
+    expect(store.getState().notices).toEqual(['Not kept. Free some space.']);
     expect(store.getState().problem).toBeNull();
   });
 });
@@ -116,7 +116,7 @@ describe('opening a model of the visitor', () => {
     expect(await link.manifest()).toBe(other);
     expect(await link.generator()).toBe(made);
     expect(isDisposed()).toBe(true);
-    expect(store.getState().remarks.join()).toContain('Tango');
+    expect(store.getState().notices.join()).toContain('Tango');
   });
 
   it('leaves everything as it was when it fails, and says why', async () => {
@@ -144,7 +144,7 @@ describe('opening a model of the visitor', () => {
       attempts[1]?.succeed({ manifest: { ...other, audio } } as Generator);
       await opened;
       expect(store.getState().song !== null).toBe(kept);
-      expect(store.getState().remarks.join().includes('a.mp3')).toBe(!kept);
+      expect(store.getState().notices.join().includes('a.mp3')).toBe(!kept);
     }
   });
 });

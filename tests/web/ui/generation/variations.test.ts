@@ -19,12 +19,12 @@ describe('three reactions', () => {
   };
   const seeds = (): number[] => hand.calls.map(({ request }) => request.seed);
   const there = (): boolean[] =>
-    store.getState().choices?.list.map(({ reaction }) => reaction !== null) ?? [];
+    store.getState().variations?.list.map(({ reaction }) => reaction !== null) ?? [];
 
   beforeEach(async () => {
     vi.useFakeTimers();
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     hand = new Hand();
     const model = (): Promise<typeof hand.generator> => Promise.resolve(hand.generator);
     generation = createGeneration(store, model);
@@ -45,12 +45,12 @@ describe('three reactions', () => {
     expect(seeds()).toEqual([7, 8]);
     expect(there()).toEqual([true, false, false]);
     hand.calls[1]?.options.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
-    expect(store.getState().choices?.list[1]?.fraction).toBe(0.5);
+    expect(store.getState().variations?.list[1]?.fraction).toBe(0.5);
     await answer(1);
     expect(seeds()).toEqual([7, 8, 9]);
     await answer(2);
     expect(there()).toEqual([true, true, true]);
-    expect(store.getState().choices?.making).toBe(false);
+    expect(store.getState().variations?.making).toBe(false);
   });
 
   it('wait for the one that is just being made', async () => {
@@ -95,7 +95,7 @@ describe('three reactions', () => {
     await pass();
     change.apply(store, change.guidanceSet('coarse', 1));
     await pass();
-    expect(store.getState().choices).toBeNull();
+    expect(store.getState().variations).toBeNull();
     expect(hand.calls[1]?.options.signal?.aborted).toBe(true);
     expect(seeds()).toEqual([7, 8, 7]);
   });
@@ -109,7 +109,7 @@ describe('three reactions', () => {
     vi.spyOn(Math, 'random').mockReturnValue(0.5);
     choices.make();
     await pass();
-    expect(store.getState().choices?.list.map(({ seed }) => seed)).toEqual([5000, 5001, 5002]);
+    expect(store.getState().variations?.list.map(({ seed }) => seed)).toEqual([5000, 5001, 5002]);
     await answer(3);
     expect(store.getState().reaction?.inputs.settings.seed).toBe(5000);
     expect(seeds().slice(3)).toEqual([5000, 5001]);

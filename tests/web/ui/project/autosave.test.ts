@@ -1,17 +1,17 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
-import type { Readers } from '../../../../web/ui/store/services';
+import type { FileReaders } from '../../../../web/ui/store/services';
 import type { StoredProject } from '../../../../web/ui/project/schema';
 import { Project } from '../../../../web/ui/project/project';
 import { notes } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
-import { presentInputs } from '../../../../web/ui/store/take';
+import { currentInputs } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { leader, still } from '../../support/made-state';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));
-const readers: Readers = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
+const readers: FileReaders = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
 
 describe('autosave', () => {
   let store: change.Store;
@@ -22,10 +22,10 @@ describe('autosave', () => {
   let room: number;
   let failure: Error;
   const made = (id: string): void => {
-    const inputs = presentInputs(store.getState())!;
+    const inputs = currentInputs(store.getState())!;
     const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
     change.apply(store, change.seedSet(writes.length + id.length));
-    change.apply(store, change.reacted(reaction, { id, at: 1e6 * id.length }));
+    change.apply(store, change.reactionAdded(reaction, { id, at: 1e6 * id.length }));
   };
   const pass = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
   const warnings = () => notes(store.getState()).filter(({ look }) => look);
@@ -36,7 +36,7 @@ describe('autosave', () => {
     room = takes;
     failure = new DOMException('No room.', 'QuotaExceededError');
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
     project = new Project(store, new FileLoader(store, readers), readers, {
       read: () => Promise.resolve(null),
@@ -78,7 +78,7 @@ describe('autosave', () => {
     await pass(1000);
     expect(store.getState().problem).toMatchObject({ code: 'storage-full', remedy: 'project' });
     expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
-    change.apply(store, change.dismissed());
+    change.apply(store, change.problemClosed());
     change.apply(store, takeRenamed('a', 'One'));
     await pass(30_000);
     expect(store.getState().problem).toBeNull();

@@ -15,7 +15,7 @@ import type { AppState } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
 import { redone, undone } from '../../../../web/ui/store/history';
-import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
+import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { alike, heard, leader, leaderFile, song, still } from '../../support/made-state';
 
@@ -36,18 +36,18 @@ const latents = (frames: number, from: number): Float32Array =>
 function filled(): change.Store {
   const store = change.createAppStore('dark');
   const react = (at: number): void => {
-    const inputs = presentInputs(store.getState());
+    const inputs = currentInputs(store.getState());
     if (!inputs) throw new Error('no inputs');
     const motion = numbered(inputs.leader.motion.frames, at);
     change.apply(
       store,
-      change.reacted(
+      change.reactionAdded(
         { motion, latents: at === 1 ? null : latents(60, at), inputs, label: null, seconds: 2 },
         { id: `t${at}`, at: at * 1e6 },
       ),
     );
   };
-  change.apply(store, change.manifestArrived(small, 7));
+  change.apply(store, change.manifestLoaded(small, 7));
   change.apply(store, change.leaderLoaded(leader(30, 'früher.bvh')));
   react(1);
   change.apply(
@@ -75,7 +75,7 @@ const readers: StoredFileReaders = {
 
 function empty(): change.Store {
   const store = change.createAppStore('dark');
-  change.apply(store, change.manifestArrived(small, 5));
+  change.apply(store, change.manifestLoaded(small, 5));
   return store;
 }
 
@@ -115,7 +115,7 @@ describe('a project', () => {
     expect(await store.getState().song?.file.text()).toBe('ID3 song');
     expect(store.getState().song?.file.type).toBe('audio/mpeg');
     // The same files are the same objects, so that nothing is made anew.
-    expect(store.getState().reaction?.inputs).toEqual(presentInputs(store.getState()));
+    expect(store.getState().reaction?.inputs).toEqual(currentInputs(store.getState()));
     expect(store.getState().reaction?.inputs.leader).toBe(store.getState().leader);
   });
 
@@ -160,7 +160,7 @@ describe('a project', () => {
       leader: null,
       song: null,
       reaction: null,
-      visiting: true,
+      firstVisit: true,
     });
     expect(store.getState().settings?.seed).toBe(3);
     expect(hasVisitorContent(store.getState())).toBe(false);
@@ -179,7 +179,7 @@ describe('latents', () => {
     const { wasm, webgpu } = decode.files;
     const tuned = { ...decode, files: { wasm: { ...wasm, sha256: '1'.repeat(64) }, webgpu } };
     const store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
+    change.apply(store, change.manifestLoaded({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
     expect(decoderOf(store.getState().manifest!)).not.toBe(decoderOf(small));
     expect(await latentsIn(kept, store.getState())).toEqual([null, null, null]);
     expect(await latentsIn(kept, empty().getState())).toEqual([latents(60, 3), latents(60, 2), null]);

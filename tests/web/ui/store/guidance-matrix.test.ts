@@ -50,7 +50,7 @@ describe('a big fader', () => {
 describe('changes of the guidance', () => {
   const ready = (): change.Store => {
     const store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     return store;
   };
   const guidance = (store: change.Store): Guidance => store.getState().settings?.guidance ?? {};

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { reactorMotion } from '../../../../web/ui/store/reactor-motion';
-import { footLockSet, reacted } from '../../../../web/ui/store/actions/reaction';
+import { footLockSet, reactionAdded } from '../../../../web/ui/store/actions/reaction';
 import { createAppStore, apply } from '../../../../web/ui/store/store';
 import { madeStander } from '../../support/made-stander';
 import { alike, leader } from '../../support/made-state';
@@ -15,7 +15,7 @@ test('the foot lock is on at first, and switching it changes the motion shown, n
 
   const settings = { guidance: alike(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
   const inputs = { leader: leader(90), song: null, shift: 0, settings };
-  apply(store, reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
+  apply(store, reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();
   const ankles = locked!.positions.filter((_, i) => i % (JOINT_COUNT * 3) === J.left_ankle * 3);
   expect(Math.max(...ankles) - Math.min(...ankles)).toBeLessThan(0.04);

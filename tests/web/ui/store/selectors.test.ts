@@ -15,15 +15,15 @@ const state = (more: Partial<AppState>): AppState => ({
 
 describe('what is wanted', () => {
   it('is nothing without a leader, or while a file is still being read', () => {
-    expect(select.wantedInputs(state({ song: song(5) }))).toBeNull();
+    expect(select.readyInputs(state({ song: song(5) }))).toBeNull();
     const reading = { song: { name: 'a.mp3', fraction: 0 }, leader: null };
-    expect(select.wantedInputs(state({ leader: leader(30), reading }))).toBeNull();
-    expect(select.wantedInputs(state({ leader: leader(30), settings: null }))).toBeNull();
+    expect(select.readyInputs(state({ leader: leader(30), reading }))).toBeNull();
+    expect(select.readyInputs(state({ leader: leader(30), settings: null }))).toBeNull();
   });
 
   it('needs no song', () => {
     const one = leader(30);
-    expect(select.wantedInputs(state({ leader: one }))).toEqual({
+    expect(select.readyInputs(state({ leader: one }))).toEqual({
       leader: one,
       song: null,
       shift: 0,
@@ -103,7 +103,7 @@ describe('what is said', () => {
       { text: 'The feet slide.', look: true },
       { text: 'The first frame is left out.', look: false },
     ]);
-    expect(texts({ remarks: ['The storage is full.'] })).toEqual(['The storage is full.']);
+    expect(texts({ notices: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });
 
   it('in one sentence where there is no room for more: what may change the dance comes first', () => {
@@ -114,13 +114,13 @@ describe('what is said', () => {
     });
     expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');
     expect(
-      select.firstNote(state({ leader: leader(300), song: song(10.2), remarks: ['Elsewhere.'] })),
+      select.firstNote(state({ leader: leader(300), song: song(10.2), notices: ['Elsewhere.'] })),
     ).toBeNull();
   });
 
   it('of the job, in words', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
-    const job = { done: 2, total: 10, fraction: 0.3, fresh: null };
+    const job = { done: 2, total: 10, fraction: 0.3, previewed: null };
     const from = { model: loading, settings };
     expect(select.jobWords({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
     expect(select.jobWords({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');

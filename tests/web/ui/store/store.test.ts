@@ -6,7 +6,7 @@ import { alike, leader, song, still } from '../../support/made-state';
 
 const ready = (): change.Store => {
   const store = change.createAppStore('dark');
-  change.apply(store, change.manifestArrived(small, 7));
+  change.apply(store, change.manifestLoaded(small, 7));
   return store;
 };
 
@@ -90,7 +90,7 @@ describe('files', () => {
     if (!settings) throw new Error('no settings');
     change.apply(
       store,
-      change.reacted({
+      change.reactionAdded({
         motion: still(300),
         latents: null,
         inputs: { leader: first, song: null, shift: 0, settings },
@@ -116,7 +116,7 @@ describe('files', () => {
       label: null,
       seconds: 1,
     };
-    change.apply(store, change.reacted(reaction));
+    change.apply(store, change.reactionAdded(reaction));
     change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0.5 }));
     change.apply(store, change.songLoaded(song(5)));
     expect(store.getState().reaction).toBe(reaction);
@@ -139,11 +139,11 @@ describe('playing', () => {
 
   it('opens one floating thing at a time and closes it by the same door', () => {
     const store = ready();
-    change.apply(store, change.opened('download'));
-    change.apply(store, change.opened('keys'));
-    expect(store.getState().open).toBe('keys');
-    change.apply(store, change.opened('keys'));
-    expect(store.getState().open).toBeNull();
+    change.apply(store, change.panelToggled('download'));
+    change.apply(store, change.panelToggled('keys'));
+    expect(store.getState().openPanel).toBe('keys');
+    change.apply(store, change.panelToggled('keys'));
+    expect(store.getState().openPanel).toBeNull();
   });
 
   it('tells failures one after the other, each once', () => {
@@ -155,22 +155,22 @@ describe('playing', () => {
       remedy: 'none',
       refused: null,
     });
-    change.apply(store, change.told(problem('first')));
-    change.apply(store, change.told(problem('second')));
-    change.apply(store, change.told(problem('first')));
-    change.apply(store, change.told(problem('second')));
+    change.apply(store, change.problemShown(problem('first')));
+    change.apply(store, change.problemShown(problem('second')));
+    change.apply(store, change.problemShown(problem('first')));
+    change.apply(store, change.problemShown(problem('second')));
     expect(store.getState().problem?.code).toBe('first');
-    change.apply(store, change.dismissed());
+    change.apply(store, change.problemClosed());
     expect(store.getState().problem?.code).toBe('second');
-    change.apply(store, change.dismissed());
-    expect(store.getState()).toMatchObject({ problem: null, waitingProblems: [] });
+    change.apply(store, change.problemClosed());
+    expect(store.getState()).toMatchObject({ problem: null, queuedProblems: [] });
   });
 
   it('keeps a remark once', () => {
     const store = ready();
-    change.apply(store, change.remarked('The storage is full.'));
-    change.apply(store, change.remarked('The storage is full.'));
-    expect(store.getState().remarks).toEqual(['The storage is full.']);
+    change.apply(store, change.noticeAdded('The storage is full.'));
+    change.apply(store, change.noticeAdded('The storage is full.'));
+    expect(store.getState().notices).toEqual(['The storage is full.']);
   });
 });
 

@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import {
-  largest,
+  largestMagnification,
   magnification,
-  moved,
-  showing,
+  scrolled,
+  spanShowing,
   timeScale,
   zoomed,
 } from '../../../../web/ui/store/time-scale';
@@ -43,23 +43,23 @@ describe('zooming', () => {
 
   it('says how large it is', () => {
     expect(magnification({ from: 10, to: 20 }, 60)).toBe(6);
-    expect(largest(60)).toBe(60);
-    expect(largest(0.5)).toBe(1);
+    expect(largestMagnification(60)).toBe(60);
+    expect(largestMagnification(0.5)).toBe(1);
   });
 });
 
 describe('moving the picture', () => {
   it('stops at both ends', () => {
-    expect(moved({ from: 10, to: 20 }, 60, 5)).toEqual({ from: 15, to: 25 });
-    expect(moved({ from: 10, to: 20 }, 60, -50)).toEqual({ from: 0, to: 10 });
-    expect(moved({ from: 10, to: 20 }, 60, 50)).toEqual({ from: 50, to: 60 });
+    expect(scrolled({ from: 10, to: 20 }, 60, 5)).toEqual({ from: 15, to: 25 });
+    expect(scrolled({ from: 10, to: 20 }, 60, -50)).toEqual({ from: 0, to: 10 });
+    expect(scrolled({ from: 10, to: 20 }, 60, 50)).toEqual({ from: 50, to: 60 });
   });
 
   it('follows a time only when it is out of sight', () => {
     const span = { from: 10, to: 20 };
-    expect(showing(span, 60, 19.9)).toBe(span);
-    expect(showing(span, 60, 20.5)).toEqual({ from: 20, to: 30 });
-    expect(showing(span, 60, 59)).toEqual({ from: 50, to: 60 });
-    expect(showing(span, 60, 0)).toEqual({ from: 0, to: 10 });
+    expect(spanShowing(span, 60, 19.9)).toBe(span);
+    expect(spanShowing(span, 60, 20.5)).toEqual({ from: 20, to: 30 });
+    expect(spanShowing(span, 60, 59)).toEqual({ from: 50, to: 60 });
+    expect(spanShowing(span, 60, 0)).toEqual({ from: 0, to: 10 });
   });
 });

@@ -1,8 +1,8 @@
 /** What happens to song and leader. */
-import type { AppState, LoadedLeader, LoadedSong, Reading, Side } from '../state';
+import type { AppState, LoadedLeader, LoadedSong, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
-export function readingSet(side: Side, reading: Reading | null): Change {
+export function readingSet(side: InputKind, reading: Reading | null): Change {
   return (state) => ({ reading: { ...state.reading, [side]: reading } });
 }
 
@@ -30,8 +30,8 @@ export function leaderLoaded(leader: LoadedLeader): Change {
   });
 }
 
-export function visitEnded(): Change {
-  return (state) => (state.visiting ? { visiting: false } : {});
+export function firstVisitEnded(): Change {
+  return (state) => (state.firstVisit ? { firstVisit: false } : {});
 }
 
 export function demoChanged(demo: AppState['demo']): Change {

@@ -4,10 +4,10 @@ import { defaultGuidance } from '../guidance-matrix';
 import type { ModelState } from '../state';
 import type { Change } from '../store';
 import { NO_HISTORY } from '../history';
-import { ofAnotherModel } from '../take';
+import { takesForOtherModel } from '../take';
 
 /** The manifest brings the settings' defaults; settings made before it (a second model) start over. */
-export function manifestArrived(manifest: Manifest, seed: number): Change {
+export function manifestLoaded(manifest: Manifest, seed: number): Change {
   return () => ({
     manifest,
     settings: {
@@ -28,12 +28,12 @@ export function modelOpened(manifest: Manifest, seed: number): Change {
     const lost =
       state.song && !hearsAlike ? ` It hears songs in another way: drop ${state.song.name} again.` : '';
     return {
-      ...manifestArrived(manifest, seed)(state),
+      ...manifestLoaded(manifest, seed)(state),
       ...(!hearsAlike && { song: null, shift: 0 }),
-      ...ofAnotherModel(state, hearsAlike),
+      ...takesForOtherModel(state, hearsAlike),
       // What another model was asked for can't be asked of this one.
       history: NO_HISTORY,
-      remarks: [...state.remarks, `The partner is danced by your model “${manifest.name}”.${lost}`],
+      notices: [...state.notices, `The partner is danced by your model “${manifest.name}”.${lost}`],
     };
   };
 }

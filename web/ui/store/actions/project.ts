@@ -1,8 +1,8 @@
 import type { Manifest } from '../../../model/client';
 import type { AppState, AutosaveStatus, Take } from '../state';
-import { manifestArrived } from './model';
+import { manifestLoaded } from './model';
 import { type Change } from '../store';
-import { NO_HISTORY, replacing } from '../history';
+import { NO_HISTORY, withUndoOfAll } from '../history';
 import { withTake } from '../take';
 
 /** Whether autosave works has changed. */
@@ -12,7 +12,7 @@ export function autosaveChanged(autosave: AutosaveStatus): Change {
 
 /** What an earlier visit stored is on the page again. */
 export function visitRestored(content: Partial<AppState>): Change {
-  return () => ({ ...content, visiting: false, demo: 'ready', history: NO_HISTORY });
+  return () => ({ ...content, firstVisit: false, demo: 'ready', history: NO_HISTORY });
 }
 
 /** More takes of an earlier visit have been restored. */
@@ -29,14 +29,14 @@ export function takesRestored(more: readonly Take[]): Change {
 
 /** A project takes the place of everything; undoing brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
-  return (state) => replacing(state, { ...content, visiting: false });
+  return (state) => withUndoOfAll(state, { ...content, firstVisit: false });
 }
 
 /** The page is emptied, as if it were opened for the first time; undo brings everything back. */
 export function projectCleared(manifest: Manifest | null, seed: number): Change {
   return (state) =>
-    replacing(state, {
-      ...(manifest && manifestArrived(manifest, seed)(state)),
+    withUndoOfAll(state, {
+      ...(manifest && manifestLoaded(manifest, seed)(state)),
       song: null,
       leader: null,
       reaction: null,
@@ -46,7 +46,7 @@ export function projectCleared(manifest: Manifest | null, seed: number): Change 
       letter: 'A',
       compare: 'off',
       footLock: true,
-      visiting: true,
+      firstVisit: true,
       demo: 'loading',
       playback: { ...state.playback, playing: false, time: 0 },
     });

@@ -1,7 +1,14 @@
 /** What happens to the settings of a generation. */
 import type { Manifest } from '../../../model/client';
 import { otherRole } from '../roles';
-import { columnOf, defaultGuidance, guidanceAt, held, withCell, withColumn } from '../guidance-matrix';
+import {
+  columnOf,
+  defaultGuidance,
+  guidanceAt,
+  clampedToStep,
+  withCell,
+  withColumn,
+} from '../guidance-matrix';
 import { sameSettings } from '../selectors';
 import type { Guidance, Layer, Settings } from '../state';
 import type { Change } from '../store';
@@ -30,7 +37,7 @@ export function guidanceCellSet(stream: string, layer: string, value: number): C
 
 /** Moves the guidance of the music, held to the manifest's range and step. */
 export function musicSet(value: number): Change {
-  return guided((_, { guidance: { music, step } }) => ({ music: held(value, { ...music, step }) }));
+  return guided((_, { guidance: { music, step } }) => ({ music: clampedToStep(value, { ...music, step }) }));
 }
 
 /** Sets the whole matrix and the music, as a preset has them. */

@@ -2,13 +2,13 @@ import { danceDuration } from '../selectors';
 import { shiftRange } from '../song-shift';
 import type { AppState } from '../state';
 import type { Change } from '../store';
-import { largest, magnification, showing, type Span, zoomed } from '../time-scale';
+import { largestMagnification, magnification, spanShowing, type Span, zoomed } from '../time-scale';
 
 /** Shortest loop, seconds: two frames and a beat of a fast song are well apart. */
 export const SHORTEST_LOOP = 0.2;
 
 /** The part of the dance that the lanes show. */
-export function shown(state: Pick<AppState, 'zoom' | 'leader' | 'song'>): Span {
+export function visibleSpan(state: Pick<AppState, 'zoom' | 'leader' | 'song'>): Span {
   return state.zoom ?? { from: 0, to: danceDuration(state) };
 }
 
@@ -24,7 +24,7 @@ export function zoomSet(span: Span | null): Change {
 /** Zooms by a factor around a time; around the playhead where none is given and it is in sight. */
 export function zoomedBy(factor: number, around?: number): Change {
   return (state) => {
-    const span = shown(state);
+    const span = visibleSpan(state);
     const { time } = state.playback;
     const inSight = time >= span.from && time <= span.to;
     const middle = around ?? (inSight ? time : (span.from + span.to) / 2);
@@ -33,17 +33,17 @@ export function zoomedBy(factor: number, around?: number): Change {
 }
 
 /** Zooms so that the picture is this many times larger than the whole dance in one view. */
-export function magnified(times: number): Change {
+export function magnificationSet(times: number): Change {
   return (state) => {
     const whole = danceDuration(state);
-    const held = Math.min(largest(whole), Math.max(1, times));
-    return zoomedBy(held / magnification(shown(state), whole))(state);
+    const held = Math.min(largestMagnification(whole), Math.max(1, times));
+    return zoomedBy(held / magnification(visibleSpan(state), whole))(state);
   };
 }
 
 /** Brings a time into the picture. */
-export function brought(time: number): Change {
-  return (state) => (state.zoom ? { zoom: showing(state.zoom, danceDuration(state), time) } : {});
+export function scrolledTo(time: number): Change {
+  return (state) => (state.zoom ? { zoom: spanShowing(state.zoom, danceDuration(state), time) } : {});
 }
 
 /** Sets the region that a loop goes round in and turns looping on; null takes it away and turns it off. */

@@ -1,9 +1,9 @@
 import { sameInputs } from '../selectors';
-import type { AppState, Choices, Inputs, Reaction } from '../state';
+import type { AppState, Variations, Inputs, Reaction } from '../state';
 import type { Change } from '../store';
 
 /** How many reactions there are to pick from. */
-export const CHOICES = 3;
+export const VARIATION_COUNT = 3;
 
 /** Whether two wishes differ in nothing but the seed. */
 export function sameButSeed(a: Inputs, b: Inputs): boolean {
@@ -11,35 +11,35 @@ export function sameButSeed(a: Inputs, b: Inputs): boolean {
 }
 
 /** The wish for one of the choices. */
-export function choiceInputs({ inputs }: Choices, seed: number): Inputs {
+export function variationInputs({ inputs }: Variations, seed: number): Inputs {
   return { ...inputs, settings: { ...inputs.settings, seed } };
 }
 
 /** Seeds that follow each other, the wished one first; past the largest they begin again at 0. */
-export function choicesBegun(inputs: Inputs): Change {
-  const list = Array.from({ length: CHOICES }, (_, i) => ({
+export function variationsStarted(inputs: Inputs): Change {
+  const list = Array.from({ length: VARIATION_COUNT }, (_, i) => ({
     seed: (inputs.settings.seed + i) % 2 ** 32,
     reaction: null,
     fraction: 0,
   }));
-  return () => ({ choices: { inputs, list, making: true } });
+  return () => ({ variations: { inputs, list, making: true } });
 }
 
 /** The missing ones are made again. */
-export function choicesResumed(): Change {
+export function variationsResumed(): Change {
   return changed((choices) => ({ ...choices, making: true }));
 }
 
-export function choiceProgressed(seed: number, fraction: number): Change {
-  return changed((choices) => withChoice(choices, seed, { fraction }));
+export function variationProgressed(seed: number, fraction: number): Change {
+  return changed((choices) => withVariation(choices, seed, { fraction }));
 }
 
-export function choiceMade(seed: number, reaction: Reaction): Change {
-  return changed((choices) => withChoice(choices, seed, { reaction, fraction: 1 }));
+export function variationAdded(seed: number, reaction: Reaction): Change {
+  return changed((choices) => withVariation(choices, seed, { reaction, fraction: 1 }));
 }
 
 /** No more are made; what is made stays to pick from. */
-export function choicesStopped(): Change {
+export function variationsStopped(): Change {
   return changed((choices) => ({
     ...choices,
     making: false,
@@ -47,20 +47,24 @@ export function choicesStopped(): Change {
   }));
 }
 
-export function choicesDropped(): Change {
-  return ({ choices }) => (choices ? { choices: null } : {});
+export function variationsDropped(): Change {
+  return ({ variations }) => (variations ? { variations: null } : {});
 }
 
 /** Whether all choices are there. */
-export function complete(choices: Choices | null): boolean {
+export function allVariationsMade(choices: Variations | null): boolean {
   return choices?.list.every(({ reaction }) => reaction !== null) ?? false;
 }
 
-function changed(next: (choices: Choices) => Choices): Change {
-  return ({ choices }: AppState) => (choices ? { choices: next(choices) } : {});
+function changed(next: (choices: Variations) => Variations): Change {
+  return ({ variations }: AppState) => (variations ? { variations: next(variations) } : {});
 }
 
-function withChoice(choices: Choices, seed: number, change: Partial<Choices['list'][number]>): Choices {
+function withVariation(
+  choices: Variations,
+  seed: number,
+  change: Partial<Variations['list'][number]>,
+): Variations {
   return {
     ...choices,
     list: choices.list.map((choice) => (choice.seed === seed ? { ...choice, ...change } : choice)),

@@ -1,6 +1,6 @@
 /** What happens to playing and looking. */
 import { danceDuration } from '../selectors';
-import type { AppState, Camera, CoarseLayer, Playback, Shown, Theme } from '../state';
+import type { AppState, Camera, CoarseLayer, Playback, Overlays, Theme } from '../state';
 import type { Change } from '../store';
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;
@@ -27,8 +27,8 @@ export function updateSet(update: boolean): Change {
 }
 
 /** Shows something about the dancers, or leaves it out again. */
-export function shownToggled(what: keyof Shown): Change {
-  return ({ shown }) => ({ shown: { ...shown, [what]: !shown[what] } });
+export function overlayToggled(what: keyof Overlays): Change {
+  return ({ overlays }) => ({ overlays: { ...overlays, [what]: !overlays[what] } });
 }
 
 export function coarseChanged(change: Partial<CoarseLayer>): Change {
@@ -36,6 +36,6 @@ export function coarseChanged(change: Partial<CoarseLayer>): Change {
 }
 
 /** Opens a floating thing, or closes it when it is the one that is open. */
-export function opened(open: AppState['open']): Change {
-  return (state) => ({ open: state.open === open ? null : open });
+export function panelToggled(open: AppState['openPanel']): Change {
+  return (state) => ({ openPanel: state.openPanel === open ? null : open });
 }
