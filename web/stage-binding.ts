@@ -72,6 +72,21 @@ export function showOn(shown: Stage, store: Store): () => void {
   );
 }
 
+/** Windows that are wide enough for the dancers beside the words of the first visit. */
+const WIDE = matchMedia('(min-width: 761px)');
+const ASIDE_PX = 200;
+
+/** Moves the dancers beside the words of the first visit, where there is room; returns how to let go of it. */
+export function standAside(stage: Stage, store: Store): () => void {
+  return watch(
+    store,
+    (state) => state.firstVisit,
+    (firstVisit) => {
+      stage.standAside(firstVisit && WIDE.matches ? ASIDE_PX : 0);
+    },
+  );
+}
+
 /** A stage of its own for a video: as the stage is now, from the start of the dance; nothing disturbs it later. */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<Camera> {
   const film = from.film(size);
