@@ -14,12 +14,12 @@ import { createDownloads } from './ui/download/downloads';
 import { canShare, saveFile, shareFile } from './ui/download/save-and-share';
 import { loadDemo } from './ui/files/demo';
 import { mountDropTarget } from './ui/files/drop-target';
+import { openDropped } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
 import { isProject } from './ui/files/file-type';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
-import { openDropped } from './ui/files/open-dropped';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { mountFootLock } from './ui/generation/foot-lock';
@@ -91,7 +91,7 @@ if (stage?.byProcessor) apply(store, downloadChosen({ size: 'stage' }));
 // ---- what panels may ask for ----
 
 const services: Services = {
-  openDropped: (coming) => void openDropped(coming, store, { open: openFiles }, model, generation.generate),
+  openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   rereadLeader: (fps) => void files.rereadLeader(fps),
   playDemo: playback.playFromStart,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { loadingWords } from '../../../../web/ui/shell/loading-words';
+import { loadingWords } from '../../../../web/ui/shell/backend-badge';
 
 const loading = { phase: 'loading', label: 'Model', received: 0, total: 0 } as const;
 const part = (name: 'runtime' | 'model', loaded: number, total: number, kept = 0) => ({
