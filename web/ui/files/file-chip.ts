@@ -10,7 +10,7 @@ import { watchAll, type Store } from '../store/store';
 
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
-/** The song's or the leader's place in the bar: its name, what it is, and the way to another one. */
+/** The song's or the leader's chip in the bar: its name, what it is, and a click chooses another one. */
 export function mountFileChip(
   root: HTMLElement,
   store: Store,
@@ -55,7 +55,7 @@ export function mountFileChip(
     const role = loadedRole(state);
     sign.className = `sign ${side === 'song' ? '' : role === 'leader' ? 'lead' : 'reac'}`;
     const title = side === 'song' ? 'Song' : roleName(role);
-    // Says what can be read on it, so that it can be called by that.
+    // Contains the visible text, so that speech control finds the button by it.
     const what = words.name ? `${title}: ${words.name} ${words.short}${words.long}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${words.name ? 'another' : 'one'}`);
   };

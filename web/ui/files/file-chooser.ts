@@ -1,6 +1,6 @@
 import type { FileChoice } from '../store/services';
 
-/** What the system's file chooser offers first; the content decides in the end. */
+/** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
   leader: '.bvh',
@@ -8,7 +8,7 @@ const ACCEPT = {
   project: '.reactdance,.zip',
 } as const;
 
-/** Opens the system's file chooser through inputs that live in the page, one for each kind. */
+/** Opens the system's file chooser through hidden inputs, one for each kind of file. */
 export function createFileChooser(
   host: HTMLElement,
   open: (files: readonly File[]) => void,
@@ -23,7 +23,7 @@ export function createFileChooser(
     input.multiple = side === 'any';
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
-      // Choosing the same file again must count as a choice.
+      // So that choosing the same file again is a change.
       input.value = '';
       if (files.length > 0) open(files);
     });

@@ -9,7 +9,7 @@ import { apply, watch } from '../store/store';
 import { panelToggled, themeSet } from '../store/actions/view';
 import { mountUndo } from '../takes/undo';
 
-/** The bar: what this is, the two files, what computes, light or dark, and the way out with the motion. */
+/** The bar: name, song and leader, backend, undo, project, keys, theme and download. */
 export const mountBar: Mount = (root, store, services) => {
   const theme = el(
     'button',

@@ -1,13 +1,13 @@
 import { duration } from '../store/format';
 import { el, setText, together } from '../widgets/dom';
 import { howItWorks, opensHowItWorks, steps } from './how-it-works';
-import { icon, type IconName } from '../widgets/icons';
+import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState, InputKind } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** The block of the first minute: what this is, the demo in one click, a place for one's own files. */
+/** The block of the first visit: what the page does, a button for the demo, and buttons for one's own files. */
 export const mountFirstVisit: Mount = (root, store, services) => {
   const play = el(
     'button',
@@ -84,11 +84,10 @@ function demoWords(state: AppState): string {
 }
 
 function half(services: Services, side: InputKind, name: string, kinds: string, ask: string): HTMLElement {
-  const sign: IconName = side;
   return el(
     'div',
     {},
-    el('b', {}, el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(sign)), name),
+    el('b', {}, el('span', { class: side === 'leader' ? 'sign lead' : 'sign' }, icon(side)), name),
     el('p', { text: kinds }),
     el('button', {
       class: 'btn tint',

@@ -24,7 +24,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
     if (event.key === 'Escape') {
-      // The browser itself closes a popover, and nothing else is meant then.
+      // The browser itself closes a popover, and nothing else then.
       if (document.querySelector(':popover-open')) return;
       if (escape(store, services)) event.preventDefault();
       return;
@@ -35,7 +35,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
     if (press(event, store, services)) event.preventDefault();
   };
-  // A button that was clicked keeps the focus and would be pressed again by the release of Space.
+  // A clicked button keeps the focus, and releasing Space would press it again.
   const onRelease = (event: KeyboardEvent): void => {
     if (event.key === ' ' && byPointer && event.target instanceof HTMLButtonElement) event.preventDefault();
   };
@@ -53,7 +53,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
   );
 }
 
-/** Closes or cancels the one thing in front; true if there was one. */
+/** Closes the problem or panel in front, cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
   const { problem, openPanel, job, variations, playback } = store.getState();
   if (problem) apply(store, problemClosed());
@@ -113,7 +113,7 @@ function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: 
   const overlay = OVERLAYS.find((one) => one.key === key.toUpperCase());
   const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
   const state = store.getState();
-  if (overlay) toggleShow(store, overlay.what);
+  if (overlay) toggleOverlay(store, overlay.what);
   else action?.({ store, services, state, shift, time: state.playback.time });
   return overlay !== undefined || action !== undefined;
 }
@@ -137,8 +137,8 @@ function toggleCamera(store: Store, camera: Camera): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
 }
 
-/** A coarse ghost that can't be seen opens the menu, which says why and what to do. */
-function toggleShow(store: Store, what: keyof Overlays): void {
+/** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
+function toggleOverlay(store: Store, what: keyof Overlays): void {
   apply(store, overlayToggled(what));
   const { overlays, openPanel, firstVisit } = store.getState();
   const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());

@@ -9,7 +9,7 @@ const KEY = 'reactdance.preferences';
 
 const isSpeed = (value: number): boolean => SPEEDS.some((speed) => speed === value);
 
-/** Each value stands for itself: one that is missing, old or broken takes its default and leaves the others. */
+/** A value that is missing or invalid takes its default and leaves the others. */
 const schema = v.object({
   /** Null follows the system. */
   theme: v.fallback(v.nullable(v.picklist(['dark', 'light'])), null),
@@ -31,7 +31,7 @@ const schema = v.object({
   ),
 });
 
-/** How the visitor likes the page. What was made on it is kept elsewhere. */
+/** Theme, camera and other choices in localStorage; takes and settings are stored by `Project`. */
 export type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
@@ -61,12 +61,12 @@ const chosen = (
 /** The part of localStorage that is needed. */
 export type PreferenceStorage = Pick<Storage, 'getItem' | 'setItem'>;
 
-/** The system's theme: tells when it changes, returns how to stop. */
+/** Calls back when the system changes its theme; returns the unsubscription. */
 export type WatchTheme = (change: (theme: Theme) => void) => () => void;
 
 /**
- * Takes the preferences of earlier visits and keeps those of this one.
- * @param storage gives the place to keep them; may throw or give nothing, as browsers do in private windows
+ * Restores the preferences of earlier visits and stores those of this one.
+ * @param storage returns the storage; may throw or return null, as browsers do in private windows
  * @param watchSystem follows the system's theme, which counts as long as the visitor has chosen none
  */
 export function syncPreferences(
@@ -113,12 +113,12 @@ export function syncPreferences(
 }
 
 function read(storage: () => PreferenceStorage | null): Preferences {
-  let kept: unknown = null;
+  let stored: unknown = null;
   try {
-    kept = JSON.parse(storage()?.getItem(KEY) ?? 'null');
+    stored = JSON.parse(storage()?.getItem(KEY) ?? 'null');
   } catch {
-    // Forbidden storage, or no JSON.
+    // No storage, or no JSON.
   }
-  const result = v.safeParse(schema, kept);
+  const result = v.safeParse(schema, stored);
   return result.success ? result.output : v.parse(schema, {});
 }

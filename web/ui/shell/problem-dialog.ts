@@ -4,7 +4,7 @@ import type { AppState, Problem } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
 import { problemClosed } from '../store/actions/notices';
 
-/** A failure in words over the stage: what is wrong, what to do. Everything loaded before stays loaded. */
+/** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {
   let dialog: HTMLElement | null = null;
   let before: Element | null = null;
@@ -102,7 +102,7 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
   }
 }
 
-/** The way back names what stays: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+/** Names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
 export function keepWords(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
   if (!problem.refused) return 'Close';
   const { kind } = problem.refused;

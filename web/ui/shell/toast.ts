@@ -3,10 +3,10 @@ import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { toastShown } from '../store/actions/notices';
 
-/** How long news stay, milliseconds; a click puts them away sooner. */
+/** How long a toast stays; a click closes it sooner. */
 const TOAST_MS = 7000;
 
-/** What has just happened that is not to be seen at once, in a pill at the stage's upper edge. */
+/** Toasts: a sentence about what has just happened, at the stage's upper edge. */
 export const mountToast: Mount = (root, store) => {
   const words = el('span');
   const pill = el(
@@ -28,12 +28,12 @@ export const mountToast: Mount = (root, store) => {
     watch(
       store,
       (state) => state.toast,
-      (news) => {
+      (toast) => {
         clearTimeout(timer);
-        pill.hidden = news === null;
-        setText(words, news ?? '');
-        setText(spoken, news ?? '');
-        if (news !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
+        pill.hidden = toast === null;
+        setText(words, toast ?? '');
+        setText(spoken, toast ?? '');
+        if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
       },
     ),
     () => {

@@ -9,20 +9,20 @@ interface Edit {
   readonly after: Take | null;
 }
 
-/** One step that can be taken back. It holds only what differed, so that whatever else has come since then stays. */
+/** One step that can be undone. It holds only what differed, so that undoing leaves later changes elsewhere alone. */
 interface Step {
-  /** What was changed; steps of the same kind that follow each other at once are one. Null is like nothing else. */
+  /** What was changed; steps of the same kind in quick succession are one step. Null is never the same kind. */
   readonly kind: string | null;
   /** When it was last added to, milliseconds since 1970. */
   readonly at: number;
   /** The parts of the state as they were. */
   readonly back: Partial<AppState>;
   readonly edits: readonly Edit[];
-  /** The take that was on the stage, which a fold may have replaced since. */
+  /** The take that was on the stage; a newer reaction of the same drag may have replaced it since. */
   readonly stage: Take | null;
 }
 
-/** What can be undone and redone, each with the nearest step last. */
+/** What can be undone and redone; the last step of each is next. */
 export interface History {
   readonly past: readonly Step[];
   readonly future: readonly Step[];
@@ -34,18 +34,18 @@ export const NO_HISTORY: History = { past: [], future: [], open: false };
 
 const MAX_STEPS = 100;
 
-/** A fader that rests this long has been let go of, milliseconds. */
+/** A fader that rests this long has been released. */
 const SAME_GESTURE_MS = 1000;
 
-/** The last step is complete: whatever comes next is another one. */
+/** Completes the last step: the next change is a step of its own. */
 export function sealed(history: History): History {
   return history.open ? { ...history, open: false } : history;
 }
 
 /**
- * Adds to a change the step that takes it back, if it is one that visitors take back: of settings, song, leader, any
- * other input of a reaction, takes, or the choice of a take. Changes that set `history` have seen to it themselves;
- * reactions that arrive are among them, so that undoing leads to the take before and not to less takes.
+ * Adds to a change the step that undoes it, if it is one that visitors undo: of settings, song, leader, any other
+ * input of a reaction, takes, or the choice of a take. Changes that set `history` themselves are left as they are;
+ * new reactions are among them, so that undoing shows the take before and removes none.
  */
 export function withUndo(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
   if ('history' in patch) return patch;
@@ -58,8 +58,8 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
   const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
-  const goesOn = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE_MS;
-  const step: Step = goesOn
+  const continues = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE_MS;
+  const step: Step = continues
     ? { ...last, at }
     : {
         kind,
@@ -68,18 +68,18 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
         edits,
         stage: takeOnStage(before),
       };
-  const kept = goesOn ? past.slice(0, -1) : past.slice(1 - MAX_STEPS);
+  const kept = continues ? past.slice(0, -1) : past.slice(1 - MAX_STEPS);
   return { ...patch, history: { past: [...kept, step], future: [], open: true } };
 }
 
-/** A change that the page makes of its own accord, such as loading its demo: nobody has to take it back. */
+/** A change that the page makes by itself, such as loading its demo, and that is no step of undo. */
 export function withoutUndo(change: Change): Change {
   return (state) => ({ history: state.history, ...change(state) });
 }
 
 const COMPARISON = ['other', 'letter', 'compare'] as const;
 
-/** A change that replaces everything at once: taking it back brings everything back. */
+/** A change that replaces everything at once, with the one step that undoes it. */
 export function withUndoOfAll(before: AppState, patch: Partial<AppState>): Partial<AppState> {
   const nothing = before.takes.length === 0 && !before.leader && !before.song;
   if (nothing) return { ...patch, history: NO_HISTORY };
@@ -100,7 +100,7 @@ export function undone(): Change {
   };
 }
 
-/** Takes the last step back that was undone. */
+/** Redoes the last step that was undone. */
 export function redone(): Change {
   return (state) => {
     const { past, future } = state.history;
@@ -179,7 +179,7 @@ function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
   });
 }
 
-/** `leader`, or `settings.guidance`: what a change is about. */
+/** The names of the inputs that changed: `leader`, or `settings.guidance`. */
 function kindOf(inputs: readonly (keyof Inputs)[], before: AppState, after: AppState): string {
   return inputs
     .map((key) => {

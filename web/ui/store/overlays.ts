@@ -1,6 +1,6 @@
 import type { Overlays } from './state';
 
-/** What the stage can show beside the dancers: its name on the page, the key that switches it, what it tells. */
+/** Something the stage can draw in addition to the dancers: its name on the page, the key that toggles it, a hint. */
 export interface Overlay {
   readonly what: keyof Overlays;
   readonly label: string;
@@ -8,7 +8,7 @@ export interface Overlay {
   readonly hint: string;
 }
 
-/** As the page opens for the first time. */
+/** The overlays of a first visit. */
 export const NO_OVERLAYS: Overlays = {
   skeleton: false,
   trails: false,

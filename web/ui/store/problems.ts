@@ -1,6 +1,6 @@
 import type { Problem, InputKind } from './state';
 
-/** What our own errors have in common: a sentence, and what to do about it. */
+/** What the project's own errors have in common: a sentence, and what to do about it. */
 interface Told {
   readonly code: string;
   readonly message: string;
@@ -17,7 +17,7 @@ function isTold(error: unknown): error is Told {
   );
 }
 
-/** True for the error that an abort signal leaves behind, which is nobody's problem. */
+/** True for the error of an abort signal, which is not shown. */
 export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
@@ -36,7 +36,7 @@ export function fileProblem(error: unknown, kind: InputKind, name: string): Prob
   };
 }
 
-/** Error sentences speak of "the file" or not at all of it; the page's names it. */
+/** Puts the file's name before a sentence that does not contain it. */
 function named(name: string, sentence: string): string {
   return sentence.includes(name) ? sentence : `${name}: ${sentence}`;
 }
@@ -53,7 +53,7 @@ export function projectProblem(error: unknown, name: string, remedy: Problem['re
   };
 }
 
-/** The browser has no more space for what is made here. */
+/** The browser has no more space for autosave. */
 export function fullProblem(): Problem {
   return {
     code: 'storage-full',
@@ -78,7 +78,7 @@ export function modelProblem(error: unknown): Problem {
   };
 }
 
-/** A failure while a reaction was made. */
+/** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
   const told = isTold(error);
   return {
@@ -114,7 +114,7 @@ export function playbackProblem(error: unknown): Problem {
   };
 }
 
-/** A failure to write a file to take home. */
+/** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
   const told = isTold(error);
   return {
@@ -126,7 +126,7 @@ export function savingProblem(error: unknown): Problem {
   };
 }
 
-/** A failure of the picture; all else goes on working. */
+/** A failure of the 3D picture; everything else goes on working. */
 export function stageProblem(error: unknown): Problem {
   const told = isTold(error);
   return {
@@ -140,7 +140,7 @@ export function stageProblem(error: unknown): Problem {
   };
 }
 
-/** What was dropped could not be opened at all: moved meanwhile, forbidden, or on a disk that is gone. */
+/** What was dropped could not be opened at all: moved in the meantime, forbidden, or on a disk that was removed. */
 export function dropProblem(error: unknown): Problem {
   const forbidden =
     error instanceof DOMException && (error.name === 'NotReadableError' || error.name === 'SecurityError');

@@ -3,7 +3,7 @@ import type { AppState, Theme } from './state';
 import { NO_HISTORY, withUndo } from './history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 
-/** Everything that can happen to the state. A change is a pure function from state to what differs. */
+/** A pure function from the state to the fields that change. */
 export type Change = (state: AppState) => Partial<AppState>;
 export type Store = StoreApi<AppState>;
 
@@ -58,12 +58,12 @@ export function createAppStore(theme: Theme): Store {
   return createStore<AppState>()(() => initialState(theme));
 }
 
-/** Applies a change; what the visitor may want to take back is remembered. */
+/** Applies a change and adds it to the undo history, where it is one that visitors undo. */
 export function apply(store: Store, change: Change): void {
   store.setState((state) => withUndo(state, change(state), Date.now()));
 }
 
-/** Calls back now and whenever the selected part is another value; returns the unsubscription. */
+/** Calls back now and whenever the selected value changes; returns the unsubscription. */
 export function watch<T>(
   store: Store,
   select: (state: AppState) => T,
@@ -79,7 +79,7 @@ export function watch<T>(
   });
 }
 
-/** `watch` for several parts at once. */
+/** `watch` for several values at once. */
 export function watchAll(
   store: Store,
   select: (state: AppState) => readonly unknown[],

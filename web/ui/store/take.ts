@@ -1,7 +1,7 @@
 import { readyInputs } from './selectors';
 import type { AppState, Inputs, Letter, Reaction, Take } from './state';
 
-/** What a reaction would be made from, also while a file is being read; null without a leader or settings. */
+/** What a reaction would be generated from, also while a file is being read; null without a leader or settings. */
 export function currentInputs(state: AppState): Inputs | null {
   return readyInputs({ ...state, reading: { song: null, leader: null } });
 }
@@ -52,23 +52,23 @@ export function takeTitle({ name, number, reaction }: Take): string {
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
 }
 
-/** Puts a take in the place of the one with its id, or where its age puts it: the newest first. */
+/** Replaces the take with the same id, or adds the take in order of age, the newest first. */
 export function withTake(takes: readonly Take[], take: Take): readonly Take[] {
   if (takes.some(({ id }) => id === take.id)) return takes.map((old) => (old.id === take.id ? take : old));
   return [...takes, take].sort((a, b) => b.createdAt - a.createdAt || b.number - a.number);
 }
 
 /**
- * The takes as another model can go on with: they forget their latents, which mean nothing to it, and their songs
- * if it hears in another way.
+ * The takes for another model: without their latents, which it can't decode, and without their songs if its audio
+ * recipe differs.
  */
-export function takesForOtherModel({ takes, reaction }: AppState, hearsAlike: boolean): Partial<AppState> {
-  const strange = (made: Reaction): Reaction => ({
+export function takesForOtherModel({ takes, reaction }: AppState, sameRecipe: boolean): Partial<AppState> {
+  const forget = (made: Reaction): Reaction => ({
     ...made,
     latents: null,
-    inputs: hearsAlike ? made.inputs : { ...made.inputs, song: null },
+    inputs: sameRecipe ? made.inputs : { ...made.inputs, song: null },
   });
-  const kept = takes.map((take) => ({ ...take, reaction: strange(take.reaction) }));
+  const kept = takes.map((take) => ({ ...take, reaction: forget(take.reaction) }));
   const shown = takes.findIndex((take) => take.reaction === reaction);
-  return { takes: kept, reaction: kept[shown]?.reaction ?? (reaction && strange(reaction)) };
+  return { takes: kept, reaction: kept[shown]?.reaction ?? (reaction && forget(reaction)) };
 }

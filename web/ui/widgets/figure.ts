@@ -1,6 +1,6 @@
 import { PARENTS, SMPL22 } from '../../motion/skeleton/skeleton';
 
-/** Half the thickness of the body at a joint, metres; a limb runs from its parent's to its own. */
+/** Radius of the body at a joint, metres; a limb tapers from its parent joint's radius to its own. */
 const BODY_RADIUS: Readonly<Record<string, number>> = {
   pelvis: 0.125,
   spine1: 0.125,
@@ -25,7 +25,7 @@ const BODY_RADIUS: Readonly<Record<string, number>> = {
   right_wrist: 0.033,
 };
 const HEAD = { radius: 0.1, above: 0.05 };
-/** Metres of height that the picture shows, and how much of it is below the floor line. */
+/** Height that the picture shows and how much of it is below the floor, metres. */
 const VIEW_HEIGHT = 1.85;
 const FLOOR_MARGIN = 0.08;
 
@@ -37,13 +37,13 @@ const [LEFT, RIGHT, PELVIS, HEAD_JOINT] = ['left_hip', 'right_hip', 'pelvis', 'h
   number,
 ];
 
-/** Heading that a pose faces, radians about y, as its hips say. */
+/** Heading of a pose from its hips, radians about y. */
 export function headingOf(pose: Float32Array): number {
   const across = (axis: number): number => (pose[LEFT * 3 + axis] ?? 0) - (pose[RIGHT * 3 + axis] ?? 0);
   return Math.atan2(across(2), across(0));
 }
 
-/** A stroke of the figure: two ends on the picture in pixels with their radii, and its depth, nearer is larger. */
+/** A limb of the figure: two ends in pixels with their radii, and its depth, larger is nearer. */
 interface Limb {
   readonly ends: readonly [Dot, Dot];
   readonly depth: number;
@@ -55,10 +55,10 @@ interface Dot {
 }
 
 /**
- * Draws one pose as a little mannequin, as large as the canvas is high.
+ * Draws one pose as a small figure that fills the canvas's height.
  * @param pose 22 x 3 joints, metres
- * @param heading seen from where a dancer with this heading faces a little past the eye
- * @param colour CSS colour; what is farther away is dimmer
+ * @param heading turns the pose so that a dancer with this heading faces the viewer, a little to the side
+ * @param colour CSS colour; farther limbs are darker
  */
 export function drawFigure(
   context: CanvasRenderingContext2D,

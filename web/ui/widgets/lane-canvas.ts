@@ -1,6 +1,6 @@
 import type { TimeScale } from '../store/time-scale';
 
-/** Loudness of a song as seen: per column the lowest and the highest sample. */
+/** A waveform: the lowest and the highest sample per column. */
 export interface Peaks {
   readonly low: Float32Array;
   readonly high: Float32Array;
@@ -30,12 +30,12 @@ export function token(element: Element, name: `--${string}`): string {
   return getComputedStyle(element).getPropertyValue(name).trim();
 }
 
-/** Height under the waveform that the beat marks take, CSS pixels. */
+/** Height of the beat marks under the waveform. */
 const BEATS_HEIGHT_PX = 9;
-/** Room that a beat mark needs, CSS pixels. */
+/** Least distance of beat marks; where they are denser, only bars are marked. */
 const BEAT_SPACING_PX = 4;
 
-/** A waveform, mirrored about its middle; `loudest` is the sample that takes all of the height. */
+/** Draws a waveform around its middle line; `loudest` is the sample value that fills the height. */
 export function drawWave(
   { context, width, height }: Surface,
   { low, high }: Peaks,
@@ -58,7 +58,7 @@ export function drawWave(
   }
 }
 
-/** Beat marks under the waveform, each fourth one taller, with its hairline through the waveform. */
+/** Draws beat marks under the waveform; each fourth one is taller, with a line through the waveform. */
 export function drawBeats(
   { context, width, height }: Surface,
   beats: readonly number[],
@@ -97,7 +97,7 @@ function heightAt({ speed, fps, top }: Curve, time: number, height: number): num
   return height - 1.5 - Math.min(1, value / top) * (height - 5);
 }
 
-/** A dancer's speed over time as a filled line. */
+/** Draws a dancer's speed over time as a filled line. */
 export function drawCurve(
   { context, width, height }: Surface,
   curve: Curve,
@@ -124,10 +124,10 @@ export function drawCurve(
   context.fill();
 }
 
-/** Room that a dot needs, CSS pixels. */
+/** Least distance of dots; where they are denser, only those on a music beat are drawn. */
 const DOT_SPACING_PX = 7;
 
-/** Motion beats as dots on the curve: full where a music beat is, rings elsewhere, left out where there is no room. */
+/** Draws motion beats as dots on the curve: filled on a music beat, hollow elsewhere. */
 export function drawDots(
   { context, width, height }: Surface,
   curve: Curve,

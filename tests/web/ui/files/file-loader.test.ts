@@ -10,7 +10,7 @@ const file = (name: string, content: string): File => new File([content], name);
 const BVH = 'HIERARCHY\nROOT Hips\n';
 const SONG = 'ID3 and so on';
 
-describe('files', () => {
+describe('reading files', () => {
   let store: change.Store;
   let files: Files;
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
@@ -36,7 +36,7 @@ describe('files', () => {
     });
   });
 
-  it('are told apart by content and read together', async () => {
+  it('tells songs and leaders apart by content and reads them together', async () => {
     await files.open([file('a', SONG), file('b', BVH)]);
     const { song, leader, reading, firstVisit, problem } = store.getState();
     expect([song?.name, leader?.name]).toEqual(['a', 'b']);
@@ -45,7 +45,7 @@ describe('files', () => {
     expect(problem).toBeNull();
   });
 
-  it('become a sentence that names them when they cannot be read, and change nothing else', async () => {
+  it('shows a problem with the file’s name when it cannot be read, and changes nothing else', async () => {
     await files.open([file('good.bvh', BVH)]);
     const before = store.getState().leader;
     readers.readLeader = () =>
@@ -72,7 +72,7 @@ describe('files', () => {
     expect(store.getState().firstVisit).toBe(true);
   });
 
-  it('the newest of a kind wins, even if an older one is ready later', async () => {
+  it('the newest file of a kind wins, even if an older one is ready later', async () => {
     const answers: (() => void)[] = [];
     readers.readLeader = ({ text }) =>
       new Promise((resolve) => {
@@ -90,7 +90,7 @@ describe('files', () => {
     expect(store.getState().leader?.name).toBe('second.bvh');
   });
 
-  it('an older one that fails after a newer one came says nothing', async () => {
+  it('an older file that fails after a newer one came shows no problem', async () => {
     let fail: (error: Error) => void = () => undefined;
     readers.readLeader = () => new Promise((_, reject) => (fail = reject));
     const first = files.openLeader(BVH, 'first.bvh', null);
@@ -101,7 +101,7 @@ describe('files', () => {
     expect(store.getState()).toMatchObject({ problem: null, leader: { name: 'second.bvh' } });
   });
 
-  it('progress that comes after the result does not make it unread again', async () => {
+  it('progress that comes after the result is ignored', async () => {
     let late: (progress: { fraction: number }) => void = () => undefined;
     readers.loadSong = (_file, _recipe, { onProgress }) => {
       late = onProgress;
@@ -112,7 +112,7 @@ describe('files', () => {
     expect(store.getState().reading.song).toBeNull();
   });
 
-  it('a song waits for the recipe of the model', async () => {
+  it('a song waits for the audio recipe of the model', async () => {
     let arrive: (manifest: typeof small) => void = () => undefined;
     readers.manifest = () => new Promise((resolve) => (arrive = resolve));
     const opening = files.openSong(file('a', SONG), 'a.mp3', 'demo song');
@@ -122,7 +122,7 @@ describe('files', () => {
     expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
   });
 
-  it('a leader is read again at another frame rate from what was kept of it', async () => {
+  it('a leader is read again at another frame rate from its stored text', async () => {
     expect(await files.rereadLeader(60)).toBeNull();
     await files.openLeader(BVH, 'a.bvh', 'demo leader');
     await files.rereadLeader(60);

@@ -4,7 +4,7 @@ import { fileKind } from '../../../../web/ui/files/file-type';
 const bytes = (text: string, ...more: number[]): Uint8Array =>
   Uint8Array.from([...[...text].map((letter) => letter.charCodeAt(0)), ...more]);
 
-describe('what a file is', () => {
+describe('the type of a file', () => {
   it.each([
     ['a BVH', bytes('HIERARCHY\nROOT Hips\n')],
     ['a BVH after a byte order mark', bytes('\u00ef\u00bb\u00bfHIERARCHY\n')],
@@ -27,13 +27,13 @@ describe('what a file is', () => {
     expect(fileKind(head, 'dance.bvh', '')).toBe('song');
   });
 
-  it('asks the reader of the named kind to explain bytes that say nothing', () => {
+  it('is that of the name where the bytes do not tell', () => {
     expect(fileKind(bytes('not a hierarchy'), 'dance.BVH', '')).toBe('leader');
     expect(fileKind(bytes('just words'), 'song.mp3', '')).toBe('song');
     expect(fileKind(bytes('just words'), 'song', 'audio/x-unheard-of')).toBe('song');
   });
 
-  it('does not take a UTF-16 text for mp3', () => {
+  it('is not mp3 for a UTF-16 text', () => {
     expect(fileKind(Uint8Array.of(0xff, 0xfe, 0x48, 0), 'notes.txt', 'text/plain')).toBe('unknown');
   });
 
@@ -44,7 +44,7 @@ describe('what a file is', () => {
     expect(fileKind(head, 'dance.bin', '')).toBe('other-motion');
   });
 
-  it('knows nothing of the rest', () => {
+  it('is unknown for the rest', () => {
     expect(fileKind(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
     expect(fileKind(new Uint8Array(0), 'nothing', '')).toBe('unknown');
   });

@@ -24,7 +24,7 @@ function loading() {
 }
 
 describe('loading the model', () => {
-  it('shows bytes, then what it prepares, then where it computes', async () => {
+  it('shows bytes, then what is prepared, then the backend', async () => {
     const { store, link, attempts } = loading();
     const [attempt] = attempts;
     attempt?.tell({ kind: 'manifest', manifest: small });
@@ -55,7 +55,7 @@ describe('loading the model', () => {
     expect(await link.generator()).toBe(generator);
   });
 
-  it('tells a failure in words and can try again, keeping settings', async () => {
+  it('shows a failure and can try again, keeping settings', async () => {
     const { store, link, attempts } = loading();
     attempts[0]?.tell({ kind: 'manifest', manifest: small });
     const { settings } = store.getState();
@@ -78,7 +78,7 @@ describe('loading the model', () => {
     expect(attempts).toHaveLength(1);
   });
 
-  it('keeps what is worth knowing as a remark', () => {
+  it('adds what is worth knowing to the notices', () => {
     const { store, attempts } = loading();
     attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
     expect(store.getState().notices).toEqual(['Not kept. Free some space.']);
@@ -101,7 +101,7 @@ describe('opening a model of the visitor', () => {
     return { ...all, present, isDisposed: () => disposed };
   }
 
-  it('takes over when it can dance, and not before', async () => {
+  it('replaces the present one when it is ready, and not before', async () => {
     const { store, link, attempts, present, isDisposed } = await danced();
     const opened = link.open(folder);
     expect(attempts[1]?.folder).toBe(folder);
@@ -133,7 +133,7 @@ describe('opening a model of the visitor', () => {
     expect(isDisposed()).toBe(false);
   });
 
-  it('lets go of a song that it would hear in another way', async () => {
+  it('removes a song that its audio recipe would analyse differently', async () => {
     for (const [audio, kept] of [
       [small.audio, true],
       [{ ...small.audio, hop: 2 * small.audio.hop }, false],

@@ -103,7 +103,7 @@ describe('autosave', () => {
     expect(store.getState().autosave).toBe('kept');
   });
 
-  it('says only in the notes that there never was any room', async () => {
+  it('only adds a note when there never was any room', async () => {
     project.dispose();
     await visit(-1);
     made('a');
@@ -113,7 +113,7 @@ describe('autosave', () => {
     expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
   });
 
-  it('says only in the notes that the browser keeps nothing at all', async () => {
+  it('only adds a note when the browser stores nothing at all', async () => {
     room = 0;
     failure = new DOMException('Not in this window.', 'SecurityError');
     made('a');

@@ -104,7 +104,7 @@ const summary = (state: AppState) => ({
 });
 
 describe('a project', () => {
-  it('brings everything back through its file, to the bit', async () => {
+  it('restores everything from its file, bit by bit', async () => {
     const before = filled().getState();
     const kept = readProject(await writeProject(storedProject(before)));
     const store = empty();
@@ -136,7 +136,7 @@ describe('a project', () => {
     expect(files['takes/1-latents.f32']?.byteLength).toBe(4 * 15 * 6);
   });
 
-  it('takes the place of what is there, and undoing brings that back', async () => {
+  it('replaces what is there, and undo brings that back', async () => {
     const kept = readProject(await writeProject(storedProject(filled().getState())));
     const store = filled();
     const before = store.getState();
@@ -151,7 +151,7 @@ describe('a project', () => {
     expect(summary(store.getState())).toEqual(opened);
   });
 
-  it('starting afresh empties the page, and undoing brings it back', () => {
+  it('clearing it empties the page, and undo brings it back', () => {
     const store = filled();
     const before = store.getState();
     change.apply(store, projectCleared(small, 3));
@@ -173,7 +173,7 @@ describe('latents', () => {
   const latentsIn = async (kept: StoredProject, state: AppState) =>
     (await contentOf(kept, state)).content.takes?.map(({ reaction }) => reaction.latents);
 
-  it('are left out where another decoder would read them, whatever its model is called', async () => {
+  it('are left out where the model has another decoder, whatever its name', async () => {
     const kept = storedProject(filled().getState());
     const { decode, ...graphs } = small.graphs;
     const { wasm, webgpu } = decode.files;
@@ -185,7 +185,7 @@ describe('latents', () => {
     expect(await latentsIn(kept, empty().getState())).toEqual([latents(60, 3), latents(60, 2), null]);
   });
 
-  it('are missing from takes that were kept without them, which open all the same', async () => {
+  it('are missing from takes that were stored without them, which open all the same', async () => {
     const files = unzipSync(await writeProject(storedProject(filled().getState())));
     const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as {
       motions: Record<string, unknown>[];
@@ -196,10 +196,10 @@ describe('latents', () => {
   });
 });
 
-describe('what cannot be read any more', () => {
+describe('a part that cannot be read any more', () => {
   const kept = () => storedProject(filled().getState());
 
-  it('takes only its own takes with it when it is a leader', async () => {
+  it('removes only its own takes when it is a leader', async () => {
     const { content, losses } = await contentOf(kept(), empty().getState(), {
       ...readers,
       leader: (one) => (one.name === 'früher.bvh' ? Promise.resolve(null) : readers.leader(one)),
@@ -209,7 +209,7 @@ describe('what cannot be read any more', () => {
     expect(content.leader?.name).toBe('lead_0412.bvh');
   });
 
-  it('leaves the takes when it is a song', async () => {
+  it('leaves its takes when it is a song', async () => {
     const { content, losses } = await contentOf(kept(), empty().getState(), {
       ...readers,
       song: () => Promise.resolve(null),

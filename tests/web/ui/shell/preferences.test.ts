@@ -34,7 +34,7 @@ function browser(kept?: string) {
 }
 
 describe('preferences', () => {
-  it('are those of the last visit', () => {
+  it('are restored from the last visit', () => {
     const { visit } = browser();
     const { store, stop } = visit();
     apply(store, themeSet('light'));
@@ -73,7 +73,7 @@ describe('preferences', () => {
     expect(browser(kept).visit().store.getState()).toEqual(fresh);
   });
 
-  it('keep what is good beside what is broken', () => {
+  it('keep valid values beside invalid ones', () => {
     const { camera, playback } = browser('{"camera":"side","speed":"fast"}').visit().store.getState();
     expect([camera, playback.speed]).toEqual(['side', 1]);
   });

@@ -6,7 +6,7 @@ import { leader, song } from '../../support/made-state';
 const both = { song: song(3), leader: leader(30) };
 const [songName, leaderName] = [both.song.name, both.leader.name];
 
-it('the way back from a refused file names what stays', () => {
+it('the button that closes the dialog names the files that stay', () => {
   const refused = fileProblem(new Error('x'), 'leader', 'bad.bvh');
   expect(keepWords(refused, both)).toBe(`Keep ${leaderName}`);
   expect(keepWords(refused, { ...both, leader: null })).toBe('Close');

@@ -6,7 +6,7 @@ import { createAppStore, apply } from '../../../../web/ui/store/store';
 import { madeStander } from '../../support/made-stander';
 import { alike, leader } from '../../support/made-state';
 
-test('the foot lock is on at first, and switching it changes the motion shown, not the one that was made', () => {
+test('the foot lock is on at first, and switching it changes the motion that is drawn, not the generated one', () => {
   const motion = madeStander({ frames: 90, path: (frame) => [0.05 * Math.sin(frame / 4.8), 0] });
   const made = motion.positions.slice();
   const store = createAppStore('dark');

@@ -30,7 +30,7 @@ describe('settings', () => {
     expect(store.getState().settings).toBeNull();
   });
 
-  it('hold guidance to range and step, each layer for itself', () => {
+  it('clamp guidance to range and step, layer by layer', () => {
     const store = ready();
     change.apply(store, change.guidanceSet('coarse', 9));
     change.apply(store, change.guidanceSet('fine', 0.33));
@@ -41,7 +41,7 @@ describe('settings', () => {
     expect(store.getState().settings?.guidance).toEqual(alike(0, 0));
   });
 
-  it('hold the guidance of the music to its own range, and reset it with the rest', () => {
+  it('clamp the guidance of the music to its own range, and reset it with the rest', () => {
     const store = ready();
     const music = () => store.getState().settings?.music;
     change.apply(store, change.musicSet(9));
@@ -59,7 +59,7 @@ describe('settings', () => {
     expect(store.getState().settings).toMatchObject({ guidance: alike(1, 1.2), music: 0 });
   });
 
-  it('are the same object while nothing changes, so that nothing is made anew', () => {
+  it('are the same object while nothing changes, so that nothing is generated again', () => {
     const store = ready();
     const before = store.getState().settings;
     change.apply(store, change.guidanceSet('coarse', 0.01));
@@ -68,7 +68,7 @@ describe('settings', () => {
     expect(store.getState().settings).toBe(before);
   });
 
-  it('hold steps and seed to what the model takes', () => {
+  it('clamp steps and seed to the range of the model', () => {
     const store = ready();
     change.apply(store, change.stepsSet(0));
     change.apply(store, change.seedSet(-3));
@@ -103,7 +103,7 @@ describe('files', () => {
     expect(store.getState()).toMatchObject({ reaction: null, playback: { time: 0, playing: false } });
   });
 
-  it('a new song leaves the reaction where it is until the next one is ready', () => {
+  it('a new song leaves the reaction on the stage until the next one is ready', () => {
     const store = ready();
     const first = leader(300);
     change.apply(store, change.leaderLoaded(first));
@@ -125,7 +125,7 @@ describe('files', () => {
 });
 
 describe('playing', () => {
-  it('stays inside the dance, whose length the leader rules', () => {
+  it('stays inside the dance, whose length is the leader’s', () => {
     const store = ready();
     change.apply(store, change.songLoaded(song(20)));
     change.apply(store, change.playbackSet({ time: 99 }));
@@ -137,7 +137,7 @@ describe('playing', () => {
     expect(store.getState().playback.time).toBe(0);
   });
 
-  it('opens one floating thing at a time and closes it by the same door', () => {
+  it('opens one floating panel at a time and closes it by the same button', () => {
     const store = ready();
     change.apply(store, change.panelToggled('download'));
     change.apply(store, change.panelToggled('keys'));
@@ -146,7 +146,7 @@ describe('playing', () => {
     expect(store.getState().openPanel).toBeNull();
   });
 
-  it('tells failures one after the other, each once', () => {
+  it('shows failures one after the other, each once', () => {
     const store = ready();
     const problem = (code: string): Problem => ({
       code,
@@ -166,7 +166,7 @@ describe('playing', () => {
     expect(store.getState()).toMatchObject({ problem: null, queuedProblems: [] });
   });
 
-  it('keeps a remark once', () => {
+  it('adds a notice once', () => {
     const store = ready();
     change.apply(store, change.noticeAdded('The storage is full.'));
     change.apply(store, change.noticeAdded('The storage is full.'));
@@ -175,7 +175,7 @@ describe('playing', () => {
 });
 
 describe('watching', () => {
-  it('calls at once and then only when the selected part changes', () => {
+  it('calls at once and then only when the selected value changes', () => {
     const store = ready();
     const seen: number[] = [];
     const stop = change.watch(

@@ -40,7 +40,7 @@ describe('timeline changes', () => {
     expect(now().playback.region).toEqual({ from: 8, to: 10 });
   });
 
-  it('zooms around the playhead, and all of the dance is no zoom', () => {
+  it('zooms around the playhead, and the whole dance ends the zoom', () => {
     does(store.playbackSet({ time: 5 }));
     does(change.zoomedBy(2));
     expect(now().zoom).toEqual({ from: 2.5, to: 7.5 });
@@ -85,7 +85,7 @@ describe('timeline changes', () => {
     expect(now()).toMatchObject({ shift: 0, zoom: null, playback: { region: null } });
   });
 
-  it('without a leader another song is another length', () => {
+  it('without a leader another song changes the length', () => {
     page = store.createAppStore('dark');
     does(store.songLoaded(song(6)));
     does(change.regionSet({ from: 4, to: 5 }));

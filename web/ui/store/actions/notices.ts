@@ -1,18 +1,18 @@
-/** What is told to the visitor. */
+/** Problems, notices and toasts. */
 import type { Problem } from '../state';
 import type { Change } from '../store';
 
-/** Keeps something worth knowing that stops nothing. */
-export function noticeAdded(remark: string): Change {
-  return ({ notices }) => (notices.includes(remark) ? {} : { notices: [...notices, remark] });
+/** Adds a sentence to know about that stops nothing. */
+export function noticeAdded(notice: string): Change {
+  return ({ notices }) => (notices.includes(notice) ? {} : { notices: [...notices, notice] });
 }
 
-/** Tells for a moment what has just happened; null ends that. */
+/** Shows for a few seconds what has just happened; null ends that. */
 export function toastShown(toast: string | null): Change {
   return () => ({ toast });
 }
 
-/** Tells of a failure; while another one is being told, it waits its turn. */
+/** Shows a failure; while another one is shown, it is queued. */
 export function problemShown(problem: Problem): Change {
   return (state) => {
     if (!state.problem) return { problem };
@@ -23,7 +23,7 @@ export function problemShown(problem: Problem): Change {
   };
 }
 
-/** Closes the failure in front; the next one, if any, is told. */
+/** Closes the failure that is shown; the next one in the queue, if any, is shown. */
 export function problemClosed(): Change {
   return ({ queuedProblems: [next, ...rest] }) => ({ problem: next ?? null, queuedProblems: rest });
 }

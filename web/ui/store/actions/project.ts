@@ -27,7 +27,7 @@ export function takesRestored(more: readonly Take[]): Change {
   });
 }
 
-/** A project takes the place of everything; undoing brings back what was there. */
+/** A project replaces everything on the page; undo brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
   return (state) => withUndoOfAll(state, { ...content, firstVisit: false });
 }

@@ -1,19 +1,19 @@
-/** What happens to the reaction and to what is known of it. */
+/** The reaction, its progress and its measures. */
 import type { FrameRange, Job, Preview, Quality, Reaction, Reference } from '../state';
 import type { Change } from '../store';
 import { withReaction, newStamp, type Stamp } from '../add-take';
 
-/** How far a job is; with null it is over, and what it had shown early leaves the stage. */
+/** Progress of a job; null ends it and removes its preview from the stage. */
 export function jobChanged(job: Job | null): Change {
   return () => (job ? { job } : { job, preview: null });
 }
 
-/** Part of the coming reaction is on the stage. */
+/** Puts a part of the next reaction on the stage. */
 export function previewShown(preview: Preview, previewed: FrameRange): Change {
   return ({ job }) => (job ? { preview, job: { ...job, previewed } } : {});
 }
 
-/** A reaction is ready: it is shown and becomes a take. */
+/** Shows a finished reaction and makes it a take. */
 export function reactionAdded(reaction: Reaction, stamp: Stamp = newStamp()): Change {
   return (state) => ({ ...withReaction(state, reaction, stamp), reaction, job: null, preview: null });
 }

@@ -6,21 +6,21 @@ import { comparable, whyNotComparable, otherLetter, otherTake, stageLetter, take
 /** Longest name of a take, characters. */
 export const LONGEST_NAME = 60;
 
-/** What shows a take, with files and settings set back to what it was made from, so that nothing is made anew. */
+/** Shows a take and restores the files and settings that it was generated from, so that nothing is generated anew. */
 function withTakeShown(state: AppState, { id, reaction }: Take): Partial<AppState> {
   const { inputs } = reaction;
   const time = Math.min(state.playback.time, danceDuration(inputs));
   const other = otherTake(state);
-  const alone = other ? whyNotComparable(other.reaction, reaction) !== null : id === state.other;
+  const endsComparison = other ? whyNotComparable(other.reaction, reaction) !== null : id === state.other;
   return {
     ...inputs,
     reaction,
     ...(time !== state.playback.time && { playback: { ...state.playback, time } }),
-    ...(alone && { other: null, compare: 'off' }),
+    ...(endsComparison && { other: null, compare: 'off' }),
   };
 }
 
-/** Shows a take at the same playhead. The take of the other letter is flipped to; any other gets the letter shown. */
+/** Shows a take at the same playhead, under its own letter if it is the compared one, else under the present letter. */
 export function takeChosen(id: string): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
@@ -61,7 +61,7 @@ export function whyNoLetter(take: Take, letter: Letter, state: AppState): string
   return comparisonTake(state) ? null : 'There is no other take to compare it with.';
 }
 
-/** Gives a letter of the comparison to a take, or takes that of the other take away again. */
+/** Gives a letter of the comparison to a take; given again to the compared take, ends the comparison. */
 export function letterGiven(id: string, letter: Letter): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
@@ -82,7 +82,7 @@ export function letterGiven(id: string, letter: Letter): Change {
   };
 }
 
-/** Shows the other take beside or behind the one on the stage; asked for again, alone. */
+/** Shows the compared take beside the one on the stage or as a ghost; chosen again, hides it. */
 export function compareSet(compare: Exclude<Compare, 'off'>): Change {
   return (state) => {
     if (state.compare === compare) return { compare: 'off' };
@@ -90,7 +90,7 @@ export function compareSet(compare: Exclude<Compare, 'off'>): Change {
   };
 }
 
-/** Names a take; an empty name gives it its number back. */
+/** Names a take; an empty name restores its number as its name. */
 export function takeRenamed(id: string, name: string): Change {
   const clean = name.replace(/\s+/g, ' ').trim().slice(0, LONGEST_NAME) || null;
   return ({ takes }) =>

@@ -2,20 +2,20 @@ import { sameInputs } from '../selectors';
 import type { AppState, Variations, Inputs, Reaction } from '../state';
 import type { Change } from '../store';
 
-/** How many reactions there are to pick from. */
+/** How many reactions there are to choose from. */
 export const VARIATION_COUNT = 3;
 
-/** Whether two wishes differ in nothing but the seed. */
+/** Whether two inputs differ in nothing but the seed. */
 export function sameButSeed(a: Inputs, b: Inputs): boolean {
   return sameInputs(a, { ...b, settings: { ...b.settings, seed: a.settings.seed } });
 }
 
-/** The wish for one of the choices. */
+/** The inputs of one variation. */
 export function variationInputs({ inputs }: Variations, seed: number): Inputs {
   return { ...inputs, settings: { ...inputs.settings, seed } };
 }
 
-/** Seeds that follow each other, the wished one first; past the largest they begin again at 0. */
+/** Consecutive seeds from that of the inputs; after the largest comes 0. */
 export function variationsStarted(inputs: Inputs): Change {
   const list = Array.from({ length: VARIATION_COUNT }, (_, i) => ({
     seed: (inputs.settings.seed + i) % 2 ** 32,
@@ -25,25 +25,27 @@ export function variationsStarted(inputs: Inputs): Change {
   return () => ({ variations: { inputs, list, making: true } });
 }
 
-/** The missing ones are made again. */
+/** Generating the missing ones goes on. */
 export function variationsResumed(): Change {
-  return changed((choices) => ({ ...choices, making: true }));
+  return changed((variations) => ({ ...variations, making: true }));
 }
 
 export function variationProgressed(seed: number, fraction: number): Change {
-  return changed((choices) => withVariation(choices, seed, { fraction }));
+  return changed((variations) => withVariation(variations, seed, { fraction }));
 }
 
 export function variationAdded(seed: number, reaction: Reaction): Change {
-  return changed((choices) => withVariation(choices, seed, { reaction, fraction: 1 }));
+  return changed((variations) => withVariation(variations, seed, { reaction, fraction: 1 }));
 }
 
-/** No more are made; what is made stays to pick from. */
+/** Generating stops; those that are there stay. */
 export function variationsStopped(): Change {
-  return changed((choices) => ({
-    ...choices,
+  return changed((variations) => ({
+    ...variations,
     making: false,
-    list: choices.list.map((choice) => (choice.reaction ? choice : { ...choice, fraction: 0 })),
+    list: variations.list.map((variation) =>
+      variation.reaction ? variation : { ...variation, fraction: 0 },
+    ),
   }));
 }
 
@@ -51,22 +53,24 @@ export function variationsDropped(): Change {
   return ({ variations }) => (variations ? { variations: null } : {});
 }
 
-/** Whether all choices are there. */
-export function allVariationsMade(choices: Variations | null): boolean {
-  return choices?.list.every(({ reaction }) => reaction !== null) ?? false;
+/** Whether all variations are there. */
+export function allVariationsMade(variations: Variations | null): boolean {
+  return variations?.list.every(({ reaction }) => reaction !== null) ?? false;
 }
 
-function changed(next: (choices: Variations) => Variations): Change {
+function changed(next: (variations: Variations) => Variations): Change {
   return ({ variations }: AppState) => (variations ? { variations: next(variations) } : {});
 }
 
 function withVariation(
-  choices: Variations,
+  variations: Variations,
   seed: number,
   change: Partial<Variations['list'][number]>,
 ): Variations {
   return {
-    ...choices,
-    list: choices.list.map((choice) => (choice.seed === seed ? { ...choice, ...change } : choice)),
+    ...variations,
+    list: variations.list.map((variation) =>
+      variation.seed === seed ? { ...variation, ...change } : variation,
+    ),
   };
 }
