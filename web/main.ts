@@ -1,133 +1,98 @@
+/**
+ * Puts the page together, from top to bottom: the store, the features that change it, the stage, what panels may ask
+ * for, the panels, and what is loaded at the start.
+ */
 import { createPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
-import { clearKept, measureKept } from './offline/storage-usage';
+import { readLeader } from './motion/client';
 import { keepPage } from './offline/register';
-import { bindStage, openCamera } from './stage-binding';
+import { clearKept, measureKept } from './offline/storage-usage';
 import { measureDance } from './quality/client';
-import { mountBar } from './ui/shell/bar';
-import { VariationMaker } from './ui/generation/variations';
-import { createChooser } from './ui/files/file-chooser';
-import { createCoarseLayer } from './ui/generation/coarse-layer';
-import { loadDemo } from './ui/files/demo';
-import { downloadChosen } from './ui/store/actions/download';
+import { bindStage, openCamera, standAside } from './stage-binding';
+import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
+import { saveFile } from './ui/download/save-and-share';
+import { loadDemo } from './ui/files/demo';
 import { mountDropTarget } from './ui/files/drop-target';
-import { createFiles } from './ui/files/files';
-import { mountFirstVisit } from './ui/shell/first-visit';
+import { openDropped } from './ui/files/dropped';
+import { createFileChooser } from './ui/files/file-chooser';
+import { FileLoader } from './ui/files/file-loader';
+import { isProject } from './ui/files/file-type';
+import { mountImportReport } from './ui/files/import-report';
+import { createModelLink } from './ui/files/model-link';
+import { readParameters } from './ui/files/parameters';
+import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { mountFootLock } from './ui/generation/foot-lock';
 import { Generation } from './ui/generation/generation';
+import { mountOptions } from './ui/generation/options';
+import { mountProgress } from './ui/generation/progress';
+import { VariationMaker } from './ui/generation/variations';
 import { mountGuidance } from './ui/guidance/guidance';
-import { createKeeping } from './ui/project/autosave';
-import { openStorage } from './ui/project/storage';
+import { Project } from './ui/project/project';
+import { ProjectDatabase } from './ui/project/storage';
+import { createQuality } from './ui/quality/quality';
+import { readReference } from './ui/quality/quality-reference';
+import { mountQualityStrip } from './ui/quality/quality-strip';
+import { mountBar } from './ui/shell/bar';
+import { mountFirstVisit } from './ui/shell/first-visit';
 import { mountKeyboard } from './ui/shell/keyboard';
 import { mountKeysDialog } from './ui/shell/keys-dialog';
-import { readLeader } from './motion/client';
-import { createModelLink } from './ui/files/model-link';
 import { mountNewVersion } from './ui/shell/new-version';
-import { mountNews } from './ui/shell/toast';
-import { openDropped } from './ui/files/open-dropped';
-import { mountOptions } from './ui/generation/options';
-import { readParameters } from './ui/files/parameters';
-import { PlaybackControl } from './ui/timeline/playback';
-import { keepPreferences } from './ui/shell/preferences';
+import { syncPreferences } from './ui/shell/preferences';
 import { mountProblemDialog } from './ui/shell/problem-dialog';
-import { stageProblem } from './ui/store/problems';
-import { mountProgress } from './ui/generation/progress';
-import { madeRole } from './ui/store/roles';
-import { createQuality } from './ui/quality/quality';
-import { mountQualityStrip } from './ui/quality/quality-strip';
-import { readReference } from './ui/quality/quality-reference';
-import { saveFile } from './ui/download/save-and-share';
-import type { Services } from './ui/store/services';
-import { isProject } from './ui/files/file-type';
 import { mountStageControls } from './ui/shell/stage-controls';
-import { referenceKnown } from './ui/store/actions/reaction';
-import { apply, createAppStore, watch } from './ui/store/store';
-import { told } from './ui/store/actions/notices';
+import { mountTheme, systemTheme, watchSystemTheme } from './ui/shell/theme';
+import { mountToast } from './ui/shell/toast';
+import { downloadChosen } from './ui/store/actions/download';
+import { problemShown } from './ui/store/actions/notices';
+import { referenceLoaded } from './ui/store/actions/reaction';
 import { updateSet } from './ui/store/actions/view';
+import { stageProblem } from './ui/store/problems';
+import type { Services } from './ui/store/services';
+import { apply, createAppStore } from './ui/store/store';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
-import { mountUndoKeys } from './ui/takes/undo';
 import { mountTakes } from './ui/takes/takes-panel';
-import { showTheme, systemTheme, watchSystemTheme } from './ui/shell/theme';
+import { mountUndoKeys } from './ui/takes/undo';
+import { PlaybackControl } from './ui/timeline/playback';
 import { mountTimeline } from './ui/timeline/timeline';
 import { mountTransport } from './ui/timeline/transport';
-import { mountUnderstood } from './ui/files/import-report';
-import { createStage, type Stage } from './view/stage';
 
-/** The places that index.html leaves for the panels. */
-function place(id: string): HTMLElement {
-  const element = document.getElementById(id);
-  if (!element) throw new Error(`index.html has no element "${id}".`);
-  return element;
-}
-
-// ---- state and the four machines: model, files, generation, playback ----
+// ---- the store and the features that change it ----
 
 const store = createAppStore(systemTheme());
-keepPreferences(store, () => localStorage, watchSystemTheme);
+syncPreferences(store, () => localStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
 const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
 );
 const readers = { loadSong, readLeader, manifest: model.manifest };
-const files = createFiles(store, readers);
-const keeping = createKeeping(store, files, readers, openStorage());
+const files = new FileLoader(store, readers);
+const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
 const playback = new PlaybackControl(store, createPlayer());
 createQuality(store, measureDance);
-
-// ---- the stage, which the rest can do without ----
-
-const stageHost = place('stage');
-const picture = document.createElement('div');
-picture.className = 'picture';
-picture.setAttribute('role', 'img');
-picture.setAttribute('aria-label', 'Leader in blue and reactor in orange, dancing');
-stageHost.append(picture);
-
-function openStage(): Stage | null {
-  try {
-    return createStage(picture);
-  } catch (error) {
-    apply(store, told(stageProblem(error)));
-    return null;
-  }
-}
-const stage = openStage();
-// A minute and a half for half a minute of film is not what anybody expects: there, large pictures are to be asked for.
-if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
-
-// ---- the theme, before panels draw with its colours ----
-
-watch(
-  store,
-  (state) => state.theme,
-  (theme) => {
-    showTheme(theme);
-  },
-);
-
-// Style sheets colour what acts on the made dancer as the stage does.
-watch(store, madeRole, (role) => {
-  document.documentElement.dataset['made'] = role;
-});
-
-// ---- the page on this device, for the next visit ----
-
 const offline = import.meta.env.PROD
   ? keepPage(new URL('service-worker.js', document.baseURI), () => {
       apply(store, updateSet(true));
     })
   : null;
 
+// ---- the stage; the page works without one ----
+
+// Before anything is drawn in the theme's colours.
+mountTheme(store);
+const stageHost = place('stage');
+const stage = openStage(stageHost);
+// A processor needs about 90 s for 30 s of video at full size: there the visitor has to ask for a large one.
+if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
+
 // ---- what panels may ask for ----
 
-const choose = createChooser(document.body, (chosen) => void openFiles(chosen));
 const services: Services = {
-  openDropped: (coming) => void openDropped(coming, store, { open: openFiles }, model, generation.generate),
-  choose,
+  openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
+  choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   rereadLeader: (fps) => void files.rereadLeader(fps),
   playDemo: playback.playFromStart,
   generate: generation.generate,
@@ -146,94 +111,102 @@ const services: Services = {
     stageSize: () => stage?.pictureSize() ?? null,
   }),
   saveProject: () => void saveProject(),
-  startAfresh: () => {
+  clearProject: () => {
     generation.cancel();
-    keeping.startAfresh();
-    void showDemo();
+    project.clear();
+    void openDemo();
   },
-  measureKept: () => measureKept(globalThis),
-  clearKept: () =>
+  measureStorage: () => measureKept(globalThis),
+  clearStorage: () =>
     clearKept(globalThis).then(
       () => true,
       () => false,
     ),
-  takeUpdate: () => offline?.takeUpdate(),
+  loadUpdate: () => offline?.takeUpdate(),
 };
-
-async function saveProject(): Promise<void> {
-  const project = await keeping.project();
-  if (project) saveFile(new Blob([project.bytes], { type: 'application/zip' }), project.name);
-}
-
-/** A project holds song and leader of its own, so nothing that comes along with it is read. */
-async function openFiles(chosen: readonly File[]): Promise<void> {
-  const project = chosen.find(({ name }) => isProject(name));
-  if (project) await keeping.openProject(project);
-  else await files.open(chosen);
-}
 
 // ---- panels ----
 
 mountBar(place('bar'), store, services);
-mountStageControls(stageHost, store, services);
-mountCompareSwitch(stage !== null)(stageHost, store, services);
-mountFirstVisit(stageHost, store, services);
-mountProgress(stageHost, store, services);
-mountNews(stageHost, store, services);
-mountNewVersion(stageHost, store, services);
-mountProblemDialog(stageHost, store, services);
-mountDropTarget(stageHost, store, services);
+for (const mount of [
+  mountStageControls,
+  mountCompareSwitch(stage !== null),
+  mountFirstVisit,
+  mountProgress,
+  mountToast,
+  mountNewVersion,
+  mountProblemDialog,
+  mountDropTarget,
+])
+  mount(stageHost, store, services);
 mountTransport(place('time'), store, services);
 mountTimeline(place('time'), store, services, mountQualityStrip);
-mountGuidance(place('panel'), store, services);
-mountOptions(place('panel'), store, services);
-mountFootLock(place('panel'), store, services);
-mountTakes(place('panel'), store, services);
-mountUnderstood(place('panel'), store, services);
+for (const mount of [mountGuidance, mountOptions, mountFootLock, mountTakes, mountImportReport])
+  mount(place('panel'), store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
 mountUndoKeys(store);
-
-// ---- state to stage and page ----
-
-if (stage) bindStage(stage, store);
-
-/** The couple stands beside the words of the first visit, where there is room beside them. */
-const roomBeside = matchMedia('(min-width: 761px)');
-const ASIDE = 200;
-watch(
-  store,
-  (state) => state.visiting,
-  (visiting) => stage?.shiftRight(visiting && roomBeside.matches ? ASIDE : 0),
-);
-
-// ---- what is there from the start ----
-
-function showDemo(): Promise<void> {
-  return loadDemo(store, files, new URL('demo/', document.baseURI), {
-    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
-    settled: model.manifest,
-  });
+if (stage) {
+  bindStage(stage, store);
+  standAside(stage, store);
 }
 
-/** The demo is for those who have nothing here yet. */
-async function begin(): Promise<void> {
-  if (!(await keeping.restore())) await showDemo();
-}
-void begin();
+// ---- what is loaded at the start ----
 
-// What recorded dances score is only said, so it may come last and may be missing.
+void project.restore().then((restored) => (restored ? undefined : openDemo()));
+// The scores of recorded dances are only shown beside others, so they may come last and may be missing.
 void model
   .manifest()
   .then(() => readReference(manifestUrl))
   .then(
-    (reference) => apply(store, referenceKnown(reference)),
+    (reference) => apply(store, referenceLoaded(reference)),
     () => undefined,
   );
 
+/** An element of index.html that panels are mounted in. */
+function place(id: string): HTMLElement {
+  const element = document.getElementById(id);
+  if (!element) throw new Error(`index.html has no element "${id}".`);
+  return element;
+}
+
+/** Null, and a problem on the page, where the browser can draw no 3D picture. */
+function openStage(host: HTMLElement): Stage | null {
+  const picture = document.createElement('div');
+  picture.className = 'picture';
+  picture.setAttribute('role', 'img');
+  picture.setAttribute('aria-label', 'Leader in blue and reactor in orange, dancing');
+  host.append(picture);
+  try {
+    return createStage(picture);
+  } catch (error) {
+    apply(store, problemShown(stageProblem(error)));
+    return null;
+  }
+}
+
+/** A project has its own song and leader, so other files beside it are not read. */
+async function openFiles(chosen: readonly File[]): Promise<void> {
+  const projectFile = chosen.find(({ name }) => isProject(name));
+  if (projectFile) await project.open(projectFile);
+  else await files.open(chosen);
+}
+
+async function saveProject(): Promise<void> {
+  const file = await project.toFile();
+  if (file) saveFile(new Blob([file.bytes], { type: 'application/zip' }), file.name);
+}
+
+function openDemo(): Promise<void> {
+  return loadDemo(store, files, new URL('demo/', document.baseURI), {
+    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
+    manifest: model.manifest,
+  });
+}
+
 declare global {
   interface Window {
-    /** What browser tests look at; nothing here changes anything. */
+    /** Read by browser tests; nothing here changes anything. */
     readonly reactdance: {
       readonly stage: Stage | null;
       readonly store: { readonly getState: typeof store.getState };

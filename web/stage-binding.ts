@@ -1,5 +1,5 @@
 /** Binds a stage to the state: which dancers and overlays it shows, and when. Opens stages for videos. */
-import { couple, madeRole } from './ui/store/roles';
+import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { together } from './ui/widgets/dom';
 import type { VideoStage } from './ui/download/downloads';
@@ -30,7 +30,7 @@ export function bindStage(stage: Stage, store: Store): () => void {
     ),
     watch(
       store,
-      (state) => state.shown,
+      (state) => state.overlays,
       (overlays) => stage.setOverlays(overlays),
     ),
     showOther(store, stage),
@@ -49,19 +49,19 @@ export function bindStage(stage: Stage, store: Store): () => void {
 }
 
 /**
- * Shows the couple. One reaction crossfades to the next; switching the made role, the foot lock or the takes of a split
+ * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a split
  * view is shown at once.
  */
 function bindDancers(stage: Stage, store: Store): () => void {
   let before = '';
   return watchAll(
     store,
-    (state) => Object.values(couple(state)),
+    (state) => Object.values(dancers(state)),
     (state) => {
       const half = besideStage(state) && state.letter;
-      const now = `${madeRole(state)} ${state.footLock} ${half}`;
+      const now = `${generatedRole(state)} ${state.footLock} ${half}`;
       const crossfade = now === before && !reducedMotion.matches;
-      stage.setDancers(couple(state), { made: madeRole(state), crossfade });
+      stage.setDancers(dancers(state), { made: generatedRole(state), crossfade });
       before = now;
     },
   );
@@ -81,6 +81,19 @@ function bindBusy(stage: Stage, store: Store): () => void {
       },
     ),
     () => clearTimeout(timer),
+  );
+}
+
+/** Windows that are wide enough for the dancers beside the words of the first visit. */
+const WIDE = matchMedia('(min-width: 761px)');
+const ASIDE_PX = 200;
+
+/** Moves the dancers beside the words of the first visit, where there is room; returns how to stop that. */
+export function standAside(stage: Stage, store: Store): () => void {
+  return watch(
+    store,
+    (state) => state.firstVisit,
+    (firstVisit) => stage.shiftRight(firstVisit && WIDE.matches ? ASIDE_PX : 0),
   );
 }
 

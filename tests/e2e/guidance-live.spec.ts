@@ -29,7 +29,7 @@ test('a change shows under the playhead first, then everywhere, and nothing stop
             preview = state.preview;
             seen.previews += 1;
             seen.first ??= performance.now() - since;
-            seen.fresh.push([state.job.fresh.from, state.playback.time * 30, state.job.fresh.to]);
+            seen.fresh.push([state.job.previewed.from, state.playback.time * 30, state.job.previewed.to]);
             window.early = Array.from(preview.motion.positions.slice(240 * 66, 480 * 66));
           }
           if (seen.first && !state.job) resolve({ ...seen, whole: performance.now() - since });

@@ -10,7 +10,7 @@ const take = (page: Page, name: string): Locator => takes(page).filter({ hasText
 /** The numbers of the coarse ghost, decoded from what the take on the stage was kept with. */
 async function coarseGhost(app: App): Promise<number[]> {
   await app.page.keyboard.press('g');
-  await app.until(({ coarse, shown }) => shown.ghost && coarse.motion && !coarse.decoding);
+  await app.until(({ coarse, overlays }) => overlays.ghost && coarse.motion && !coarse.decoding);
   const positions = await app.read(({ coarse }) => Array.from(coarse.motion?.positions ?? []));
   await app.page.keyboard.press('g');
   return positions;
@@ -252,7 +252,7 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
     await page.keyboard.press('Enter');
   };
   const oldest = (await titles(page)).at(-1) ?? '';
-  const isFull = () => app.read(({ keeping }) => keeping === 'full');
+  const isFull = () => app.read(({ autosave }) => autosave === 'full');
   let count = 2;
   for (; !(await isFull()) && count < 12; count++) {
     await expect.poll(async () => (await keptNames(page)).length).toBe(count);

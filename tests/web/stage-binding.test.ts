@@ -3,7 +3,7 @@ import type { Role } from '../../web/view/theme';
 import type { DancerOptions, Stage } from '../../web/view/stage';
 import type { AppState, Inputs, Take } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
-import { compareSet, flipped, takeChosen } from '../../web/ui/store/actions/takes';
+import { compareSet, takesSwapped, takeChosen } from '../../web/ui/store/actions/takes';
 import * as change from './support/actions';
 import { uniformGuidance, leader, still } from './support/made-state';
 
@@ -43,9 +43,9 @@ it('crossfades from one take to the next, but not in a split view', () => {
     for (const one of changes) change.apply(store, one);
     return crossfades.at(-1);
   };
-  expect(crossfadeAfter(flipped())).toBe(true);
-  expect(crossfadeAfter(compareSet('side'), flipped())).toBe(false);
-  expect(crossfadeAfter(flipped())).toBe(false);
+  expect(crossfadeAfter(takesSwapped())).toBe(true);
+  expect(crossfadeAfter(compareSet('side'), takesSwapped())).toBe(false);
+  expect(crossfadeAfter(takesSwapped())).toBe(false);
   expect(crossfadeAfter(takeChosen('c'))).toBe(true);
   expect(crossfadeAfter(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
   stop();

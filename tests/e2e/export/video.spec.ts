@@ -155,14 +155,14 @@ test('a video shows its progress, with the menu closed too, and is cancelled at 
   const button = page.getByRole('button', { name: 'Download', exact: true });
   await page.getByRole('radio', { name: /As on stage/ }).click();
   await page.getByRole('button', { name: 'Save video' }).click();
-  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await app.until(({ videoProgress }) => videoProgress && videoProgress.frame >= 2);
   await expect(page.getByRole('progressbar', { name: 'Video' })).toBeVisible();
   await expect(page.getByRole('region', { name: 'Video' })).toContainText(/Frame \d+ of 1,800/);
   await page.keyboard.press('Escape');
   await expect(button).toHaveAttribute('title', /Writing the video, \d+ %/);
   await button.click();
   await page.getByRole('button', { name: 'Cancel the video' }).click();
-  const left = await app.read(({ filming, problem, saved }) => [filming, problem, saved]);
+  const left = await app.read(({ videoProgress, problem, saved }) => [videoProgress, problem, saved]);
   expect(left).toEqual([null, null, null]);
   await expect(page.getByRole('progressbar', { name: 'Video' })).toBeHidden();
   await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
@@ -202,7 +202,7 @@ test('while a video is written, the stage on the page rests and progress is show
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();
   await page.getByRole('button', { name: 'Save video' }).click();
-  await app.until(({ filming }) => filming && filming.frame >= 2);
+  await app.until(({ videoProgress }) => videoProgress && videoProgress.frame >= 2);
   await page.evaluate(`
     const { counts } = window;
     Object.assign(counts, { encoded: 0, since: performance.now() });

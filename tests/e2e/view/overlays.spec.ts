@@ -100,7 +100,7 @@ test('every overlay changes the picture and back, by key and by button', async (
     await toggle.click();
     await expect(toggle).toHaveAttribute('aria-pressed', 'true');
   }
-  expect(Object.values(await app.read(({ shown }) => shown))).toEqual(OVERLAYS.map(() => true));
+  expect(Object.values(await app.read(({ overlays }) => overlays))).toEqual(OVERLAYS.map(() => true));
   await page.keyboard.press('Escape');
   await expect(menu).toBeHidden();
   await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeFocused();

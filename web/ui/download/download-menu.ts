@@ -6,7 +6,7 @@ import { icon, type IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 /** A Download button; its icon becomes a ring of progress while a video is written. */
 interface MenuButton {
@@ -21,7 +21,7 @@ interface MenuButton {
  */
 export const mountDownloadMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
-    apply(store, opened('download'));
+    apply(store, panelToggled('download'));
   };
   const wide = createButton('btn primary desk', 'download', 'Download', toggle);
   const narrow = createButton('icon phone-only', 'share', null, toggle);
@@ -29,7 +29,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   const motion = createDownloadMotion(store, services);
   const video = createDownloadVideo(store, services);
   const project = textButton('btn tint project-button', 'Open or save a project', () => {
-    apply(store, opened('project'));
+    apply(store, panelToggled('project'));
   });
   const menu = el(
     'div',
@@ -60,13 +60,13 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
   return together(
     watchAll(
       store,
-      (state) => [state.reaction, state.filming, state.saved],
+      (state) => [state.reaction, state.videoProgress, state.saved],
       (state) => {
         for (const button of buttons) showButton(button, state);
         setText(spoken, spokenWords(state));
       },
     ),
-    watch(store, (state) => state.open === 'download', showOpen),
+    watch(store, (state) => state.openPanel === 'download', showOpen),
     motion.dispose,
     video.dispose,
     () => {
@@ -89,21 +89,23 @@ function createButton(
   return { element, ring, sign };
 }
 
-function showButton({ element, ring, sign }: MenuButton, { reaction, filming }: AppState): void {
-  const share = filming ? filming.frame / filming.frames : 0;
-  element.disabled = reaction === null && !filming;
-  element.title = filming
+function showButton({ element, ring, sign }: MenuButton, { reaction, videoProgress }: AppState): void {
+  const share = videoProgress ? videoProgress.frame / videoProgress.frames : 0;
+  element.disabled = reaction === null && !videoProgress;
+  element.title = videoProgress
     ? `Writing the video, ${Math.round(100 * share)} %`
     : reaction
       ? ''
       : 'Ready when a reactor is on the stage';
-  ring.hidden = !filming;
-  sign.toggleAttribute('hidden', filming !== null);
+  ring.hidden = !videoProgress;
+  sign.toggleAttribute('hidden', videoProgress !== null);
   setVariable(ring, '--part', share);
 }
 
 /** What is announced: the start, the middle and the end of a video, not every frame. */
-function spokenWords({ filming, saved }: AppState): string {
-  if (!filming) return saved ? `Saved ${saved.name}.` : '';
-  return filming.frame / filming.frames < 0.5 ? 'The video is being written.' : 'The video is half done.';
+function spokenWords({ videoProgress, saved }: AppState): string {
+  if (!videoProgress) return saved ? `Saved ${saved.name}.` : '';
+  return videoProgress.frame / videoProgress.frames < 0.5
+    ? 'The video is being written.'
+    : 'The video is half done.';
 }

@@ -59,7 +59,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
   );
   /** Sizes take time to estimate, so they are only shown while the menu is open. */
   const showSizes = (state: AppState): void => {
-    if (state.open !== 'download') return;
+    if (state.openPanel !== 'download') return;
     const dance = danceOf(state, state.download.who);
     for (const { format, showSize } of rows) {
       const size = dance ? byteSize(estimateBytes(format, dance)) : '';
@@ -89,7 +89,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
       ),
       watch(
         store,
-        (state) => state.open,
+        (state) => state.openPanel,
         (_, state) => {
           showSizes(state);
         },

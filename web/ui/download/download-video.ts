@@ -8,7 +8,7 @@ import { byteSize, duration } from '../store/format';
 import { radioGroup } from '../widgets/radio-group';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
-import type { AppState, Filming, Saved } from '../store/state';
+import type { AppState, VideoProgress, Saved } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** Part of the download menu: the video of the stage, its size and its progress. */
@@ -39,15 +39,15 @@ export function createDownloadVideo(
   const show = (state: AppState): void => {
     const focused = part.contains(document.activeElement) ? document.activeElement : null;
     head.show(state, plan);
-    sizeRow.hidden = state.filming !== null;
+    sizeRow.hidden = state.videoProgress !== null;
     sizes.show(state.download.size);
-    progress.show(state.filming);
+    progress.show(state.videoProgress);
     if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
   };
   let lastQuestion = 0;
   /** Asks the browser how it can write the video, while the menu is open; only the latest answer counts. */
   const ask = async (state: AppState): Promise<void> => {
-    if (state.open !== 'download') return;
+    if (state.openPanel !== 'download') return;
     const pixels = services.stageSize();
     sizes.label('stage', pixels ? `As on stage, ${pixels.width} × ${pixels.height}` : 'As on stage');
     const question = ++lastQuestion;
@@ -62,12 +62,12 @@ export function createDownloadVideo(
     dispose: together(
       watchAll(
         store,
-        (state) => [state.filming, state.reaction, state.footLock, state.download, state.saved],
+        (state) => [state.videoProgress, state.reaction, state.footLock, state.download, state.saved],
         show,
       ),
       watchAll(
         store,
-        (state) => [state.open, state.download.size, state.reaction?.inputs.song],
+        (state) => [state.openPanel, state.download.size, state.reaction?.inputs.song],
         (state) => void ask(state),
       ),
     ),
@@ -93,7 +93,7 @@ function createHead(services: Services): {
   return {
     root: el('div', { class: 'row' }, title, about, share, save, cancel),
     show: (state, plan) => {
-      const running = state.filming !== null;
+      const running = state.videoProgress !== null;
       save.hidden = running;
       cancel.hidden = !running;
       share.hidden = running || !savedVideo(plan, state)?.shareable;
@@ -102,14 +102,17 @@ function createHead(services: Services): {
       const named = namedAfter(state);
       save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
     },
-    focus: ({ filming }) => {
-      (filming ? cancel : save).focus();
+    focus: ({ videoProgress }) => {
+      (videoProgress ? cancel : save).focus();
     },
   };
 }
 
 /** Frames written and time left. */
-function createProgress(): { readonly root: HTMLElement; readonly show: (filming: Filming | null) => void } {
+function createProgress(): {
+  readonly root: HTMLElement;
+  readonly show: (videoProgress: VideoProgress | null) => void;
+} {
   const fill = el('i');
   const attributes = { role: 'progressbar', 'aria-label': 'Video', 'aria-valuemin': 0, 'aria-valuemax': 100 };
   const meter = el('span', { class: 'meter', attributes }, fill);
@@ -118,14 +121,14 @@ function createProgress(): { readonly root: HTMLElement; readonly show: (filming
   const root = el('div', { class: 'row progress-row' }, meter, count, left);
   return {
     root,
-    show: (filming) => {
-      root.hidden = filming === null;
-      if (!filming) return;
-      const { frame, frames } = filming;
+    show: (videoProgress) => {
+      root.hidden = videoProgress === null;
+      if (!videoProgress) return;
+      const { frame, frames } = videoProgress;
       setVariable(fill, '--part', frame / frames);
       meter.setAttribute('aria-valuenow', String(Math.round((100 * frame) / frames)));
       setText(count, `Frame ${frame.toLocaleString('en')} of ${frames.toLocaleString('en')}`);
-      setText(left, filming.left === null ? '' : timeLeft(filming.left));
+      setText(left, videoProgress.secondsLeft === null ? '' : timeLeft(videoProgress.secondsLeft));
     },
   };
 }
@@ -140,7 +143,7 @@ function aboutWords(plan: Plan, state: AppState): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);
-  if (saved && !state.filming) return `Saved, ${byteSize(saved.bytes)}`;
+  if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
   const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as framed';
   return `${container}${pace}`;

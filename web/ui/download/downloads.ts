@@ -8,14 +8,19 @@ import {
   writeVideo,
 } from '../../export/client';
 import { danceOf, namedAfter } from './dance';
-import { downloadChosen, filmingChanged, savedChanged, writingChanged } from '../store/actions/download';
+import {
+  downloadChosen,
+  videoProgressChanged,
+  savedChanged,
+  writingChanged,
+} from '../store/actions/download';
 import { motionFileName, videoFileName } from './file-name';
 import { isAbort, savingProblem } from '../store/problems';
 import { canShare, saveFile, shareFile } from './save-and-share';
 import { songStart } from '../store/song-shift';
 import type { Services } from '../store/services';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 import { AppError } from '../../common/error';
 
@@ -67,7 +72,7 @@ export function createDownloads(store: Store, tools: DownloadTools): Downloads {
     shareSaved: () => {
       if (!lastSaved) return;
       shareFile(lastSaved).catch((error: unknown) => {
-        if (!isAbort(error)) apply(store, told(savingProblem(error)));
+        if (!isAbort(error)) apply(store, problemShown(savingProblem(error)));
       });
     },
   };
@@ -85,7 +90,7 @@ async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): P
     const nameOf = (role: typeof who): string => motionFileName(named, role, format);
     save(await writeMotion(format, dance, state.theme, nameOf), nameOf(who));
   } catch (error) {
-    apply(store, told(savingProblem(error)));
+    apply(store, problemShown(savingProblem(error)));
   } finally {
     apply(store, writingChanged(null));
   }
@@ -106,7 +111,7 @@ function createVideoJob(
       const end = (): void => {
         if (running !== controller) return;
         running = null;
-        apply(store, filmingChanged(null));
+        apply(store, videoProgressChanged(null));
       };
       // A cancelled video has ended for the visitor at once; its resources are freed later.
       controller.signal.addEventListener('abort', end, { once: true });
@@ -115,7 +120,7 @@ function createVideoJob(
       apply(store, playbackSet({ playing: false }));
       writeDance(store, tools, save, controller.signal)
         .catch((error: unknown) => {
-          if (!controller.signal.aborted && !isAbort(error)) apply(store, told(savingProblem(error)));
+          if (!controller.signal.aborted && !isAbort(error)) apply(store, problemShown(savingProblem(error)));
         })
         .finally(end);
     },
@@ -138,7 +143,7 @@ async function writeDance(
   const size = videoSize(store, tools);
   const sound = soundOf(store);
   const { fps, frames } = named.inputs.leader.file.clip;
-  apply(store, filmingChanged({ frame: 0, frames, left: null }));
+  apply(store, videoProgressChanged({ frame: 0, frames, secondsLeft: null }));
   const plan = await planVideo(size, sound !== null);
   signal.throwIfAborted();
   if (!plan) throw unsupported();
@@ -177,7 +182,10 @@ function videoProgress(
     const now = performance.now();
     if (signal.aborted || now - updated < PROGRESS_INTERVAL_MS) return;
     updated = now;
-    apply(store, filmingChanged({ frame, frames, left: secondsLeft((now - begin) / 1000, frame, frames) }));
+    apply(
+      store,
+      videoProgressChanged({ frame, frames, secondsLeft: secondsLeft((now - begin) / 1000, frame, frames) }),
+    );
   };
 }
 

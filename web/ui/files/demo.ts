@@ -3,11 +3,11 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
 import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/state';
 import { demoChanged } from '../store/actions/files';
-import { reacted } from '../store/actions/reaction';
+import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { playbackSet } from '../store/actions/view';
-import { unremembered } from '../store/history';
+import { withoutUndo } from '../store/history';
 
 const text = v.pipe(v.string(), v.minLength(1));
 const named = { file: text, name: text, label: text };
@@ -18,7 +18,7 @@ const schema = v.object({
   leader: v.object(named),
   /** Moment that is shown before anything plays, seconds; the start when it is left out. */
   poster: v.optional(v.pipe(v.number(), v.minValue(0)), 0),
-  /** A reaction made beforehand, so that the first click plays while the model is still coming. */
+  /** A reaction made beforehand, so that the first click plays while the model is still being loaded. */
   reactor: v.optional(
     v.object({
       file: text,
@@ -36,15 +36,15 @@ const schema = v.object({
 });
 
 export interface DemoReaders {
-  /** The motion in a BVH of ours. */
+  /** The motion in a BVH file that this page wrote. */
   readonly readReactor: (bvh: string) => Promise<SolvedMotion>;
-  /** Resolves when the settings have their defaults. */
-  readonly settled: () => Promise<unknown>;
+  /** Resolves when the manifest has given the settings their defaults. */
+  readonly manifest: () => Promise<unknown>;
 }
 
 /**
- * Loads the demo as if its files had been dropped, except that they say what they are. A visitor who was quicker
- * with files of their own keeps them.
+ * Loads the demo as if its files had been dropped, with labels that say they are the demo's. A visitor who has opened
+ * files in the meantime keeps them.
  * @param folder address of the demo's folder
  */
 export async function loadDemo(store: Store, files: Files, folder: URL, readers: DemoReaders): Promise<void> {
@@ -74,12 +74,12 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
     }
     apply(store, demoChanged('ready'));
   } catch {
-    // Without its demo the page still does all it is for; the first-visit block says so.
+    // The page works without its demo; the first-visit block says that it is missing.
     apply(store, demoChanged('missing'));
   }
 }
 
-/** Shows the ready-made reaction at once and ties it to the song as soon as that is heard. */
+/** Shows the ready-made reaction at once, and again with the song among its inputs once that is analysed. */
 async function showReaction(
   store: Store,
   made: { motion: SolvedMotion; leader: LoadedLeader; label: string; settings: Settings },
@@ -95,11 +95,11 @@ async function showReaction(
     seconds: null,
   });
   if (store.getState().leader !== leader) return;
-  apply(store, reacted(shown(null)));
-  await readers.settled();
-  if (store.getState().leader === leader) apply(store, unremembered(settingsSet(settings)));
+  apply(store, reactionAdded(shown(null)));
+  await readers.manifest();
+  if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await coming;
-  if (song && store.getState().leader === leader) apply(store, reacted(shown(song)));
+  if (song && store.getState().leader === leader) apply(store, reactionAdded(shown(song)));
 }
 
 function isUntouched(store: Store): boolean {
@@ -107,7 +107,7 @@ function isUntouched(store: Store): boolean {
   return !song && !leader && !reading.song && !reading.leader;
 }
 
-/** A file of the demo; servers of single-page apps answer for missing files with a page. */
+/** A file of the demo. A server of single-page apps answers with a page where a file is missing. */
 async function get(file: string, folder: URL): Promise<Response> {
   const response = await fetch(new URL(file, folder));
   const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;

@@ -2,23 +2,23 @@ import { el, listen, together } from '../widgets/dom';
 import { droppedFiles } from './dropped';
 import type { Mount } from '../store/services';
 
-/** The whole page takes files; while one hovers, the stage says so. */
+/** Takes files that are dropped anywhere on the page; while they hover, the stage says so. */
 export const mountDropTarget: Mount = (root, _store, services) => {
-  const landing = el(
+  const overlay = el(
     'div',
     { class: 'landing', attributes: { 'aria-hidden': 'true' } },
     el('b', { text: 'Drop it anywhere' }),
     el('span', { text: 'A song, a leader as BVH, or both at once; a project; a model as a folder' }),
   );
-  landing.hidden = true;
-  root.append(landing);
+  overlay.hidden = true;
+  root.append(overlay);
 
-  // Leaving is judged by what fires next: moving between two elements leaves one and enters the other.
-  let inside = 0;
+  // Moving between two elements enters one and leaves the other, so enters minus leaves tell whether files hover.
+  let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
   const show = (change: number): void => {
-    inside = Math.max(0, inside + change);
-    landing.hidden = inside === 0;
+    depth = Math.max(0, depth + change);
+    overlay.hidden = depth === 0;
   };
   return together(
     listen(window, 'dragenter', (event) => {
@@ -33,11 +33,11 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     listen(window, 'drop', (event) => {
       if (!carriesFiles(event)) return;
       event.preventDefault();
-      show(-inside);
+      show(-depth);
       if (event.dataTransfer) services.openDropped(droppedFiles(event.dataTransfer));
     }),
     () => {
-      landing.remove();
+      overlay.remove();
     },
   );
 };

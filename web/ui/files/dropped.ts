@@ -1,7 +1,11 @@
-import type { DroppedFile } from '../store/services';
 import type { ModelFolder } from '../../model/client';
+import { problemShown } from '../store/actions/notices';
+import { dropProblem, emptyDropProblem } from '../store/problems';
+import type { DroppedFile, Files } from '../store/services';
+import { apply, type Store } from '../store/store';
+import type { ModelLink } from './model-link';
 
-/** Everything that was dropped, folders opened. Call it while the drop is handled: later the list is empty. */
+/** All files that were dropped, also those in folders. To be called in the event's handler: later the list is empty. */
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry());
   const plain = [...transfer.files].map((file) => ({ path: file.name, file }));
@@ -19,21 +23,45 @@ async function filesBelow(entry: FileSystemEntry): Promise<DroppedFile[]> {
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const files: DroppedFile[] = [];
-  // A reader hands out a folder in portions and an empty one at its end.
+  // A reader returns the entries in batches, and an empty batch at the end.
   for (;;) {
-    const portion = await new Promise<FileSystemEntry[]>((resolve, reject) => {
+    const batch = await new Promise<FileSystemEntry[]>((resolve, reject) => {
       reader.readEntries(resolve, reject);
     });
-    if (portion.length === 0) return files;
-    files.push(...(await Promise.all(portion.map(filesBelow))).flat());
+    if (batch.length === 0) return files;
+    files.push(...(await Promise.all(batch.map(filesBelow))).flat());
   }
 }
 
 /** The model among dropped files: what lies beside and below a manifest.json; null without one. */
-export function modelAmong(dropped: readonly DroppedFile[]): ModelFolder | null {
+export function modelFolder(dropped: readonly DroppedFile[]): ModelFolder | null {
   const manifest = dropped.find(({ path }) => /(^|\/)manifest\.json$/.test(path));
   if (!manifest) return null;
   const root = manifest.path.slice(0, -'manifest.json'.length);
   const inside = dropped.filter(({ path }) => path.startsWith(root));
   return Object.fromEntries(inside.map(({ path, file }) => [path.slice(root.length), file]));
+}
+
+/**
+ * Opens what was dropped: the folder of a model, or songs and leaders. What can't be read is reported in the store.
+ * @param generate generates a reaction with the model that was opened
+ */
+export async function openDropped(
+  reading: Promise<readonly DroppedFile[]>,
+  store: Store,
+  files: Pick<Files, 'open'>,
+  model: Pick<ModelLink, 'open'>,
+  generate: () => void,
+): Promise<void> {
+  let dropped: readonly DroppedFile[];
+  try {
+    dropped = await reading;
+  } catch (error) {
+    apply(store, problemShown(dropProblem(error)));
+    return;
+  }
+  const folder = modelFolder(dropped);
+  if (dropped.length === 0) apply(store, problemShown(emptyDropProblem()));
+  else if (!folder) await files.open(dropped.map(({ file }) => file));
+  else if (await model.open(folder)) generate();
 }

@@ -5,13 +5,18 @@ import { el, setText, setVariable, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { rateWords } from '../store/selectors';
 import type { Services } from '../store/services';
-import type { AppState, Side } from '../store/state';
+import type { AppState, InputKind } from '../store/state';
 import { watchAll, type Store } from '../store/store';
 
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
-/** The song's or the leader's place in the bar: its name, what it is, and the way to another one. */
-export function mountChip(root: HTMLElement, store: Store, services: Services, side: Side): () => void {
+/** The song's or the leader's chip in the bar: its name, what it is, and a click chooses another one. */
+export function mountFileChip(
+  root: HTMLElement,
+  store: Store,
+  services: Services,
+  side: InputKind,
+): () => void {
   const name = el('b');
   const short = el('span');
   const long = el('span', { class: 'long' });
@@ -50,7 +55,7 @@ export function mountChip(root: HTMLElement, store: Store, services: Services, s
     const role = loadedRole(state);
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
-    // Says what can be read on it, so that it can be called by that.
+    // Contains the visible text, so that speech control finds the button by it.
     const what = words.name ? `${title}: ${words.name} ${words.short}${words.long}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${words.name ? 'another' : 'one'}`);
   };
@@ -70,12 +75,12 @@ interface Words {
   readonly fraction: number | null;
 }
 
-function describe(state: AppState, side: Side): Words {
+function describe(state: AppState, side: InputKind): Words {
   const reading = state.reading[side];
   if (reading)
     return { name: reading.name, short: 'reading', long: '', refused: false, fraction: reading.fraction };
   const refused = state.problem?.refused;
-  if (refused?.side === side)
+  if (refused?.kind === side)
     return { name: refused.name, short: 'not used', long: '', refused: true, fraction: null };
   const plain = { refused: false, fraction: null };
   if (side === 'song' && state.song) {

@@ -1,6 +1,6 @@
-import type { Choice } from '../store/services';
+import type { FileChoice } from '../store/services';
 
-/** What the system's file chooser offers first; the content decides in the end. */
+/** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
   leader: '.bvh',
@@ -8,12 +8,12 @@ const ACCEPT = {
   project: '.reactdance,.zip',
 } as const;
 
-/** Opens the system's file chooser through inputs that live in the page, one for each kind. */
-export function createChooser(
+/** Opens the system's file chooser through hidden inputs, one for each kind of file. */
+export function createFileChooser(
   host: HTMLElement,
   open: (files: readonly File[]) => void,
-): (what: Choice) => void {
-  const inputs = new Map<Choice, HTMLInputElement>();
+): (what: FileChoice) => void {
+  const inputs = new Map<FileChoice, HTMLInputElement>();
   for (const side of ['song', 'leader', 'any', 'project'] as const) {
     const input = document.createElement('input');
     input.type = 'file';
@@ -23,7 +23,7 @@ export function createChooser(
     input.multiple = side === 'any';
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
-      // Choosing the same file again must count as a choice.
+      // So that choosing the same file again is a change.
       input.value = '';
       if (files.length > 0) open(files);
     });

@@ -1,14 +1,14 @@
-/** What a file is, judged by its first bytes; the name decides only where the bytes do not. */
+/** The type of a file, from its first bytes; from its name only where they do not tell. */
 export type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
 
-/** Bytes that `kindOf` wants to see. */
+/** Bytes that that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
 const BVH_NAME = /\.bvh$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
-/** Whether a file is a project, as its name alone says: other things are zip archives too. */
+/** Whether a file is a project, from its name alone: other files are zip archives too. */
 export function isProject(name: string): boolean {
   return PROJECT_NAME.test(name);
 }
@@ -18,18 +18,18 @@ export function isProject(name: string): boolean {
  * @param name the file's name
  * @param type the browser's guess of its media type
  */
-export function kindOf(head: Uint8Array, name: string, type: string): FileKind {
+export function fileKind(head: Uint8Array, name: string, type: string): FileKind {
   const text = String.fromCharCode(...head);
   if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
-  if (isMotionWeCannotRead(text)) return 'other-motion';
+  if (isUnsupportedMotion(text)) return 'other-motion';
   if (isSound(text, head)) return 'song';
-  // The bytes say nothing: let the reader that the name asks for explain what is wrong with them.
+  // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
   if (BVH_NAME.test(name)) return 'leader';
   if (type.startsWith('audio/') || AUDIO_NAME.test(name)) return 'song';
   return 'unknown';
 }
 
-function isMotionWeCannotRead(text: string): boolean {
+function isUnsupportedMotion(text: string): boolean {
   return text.startsWith('Kaydara FBX Binary') || text.startsWith('glTF') || text.startsWith('; FBX');
 }
 

@@ -4,16 +4,16 @@ import { el, together } from '../widgets/dom';
 import { clockTime, rate, tempo } from '../store/format';
 import { guidanceWords } from '../store/guidance-matrix';
 import { jointWords } from './joint-words';
-import { beingRead, notes } from '../store/selectors';
+import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** Frame rates that motion is recorded at; a file without a true one can be told. */
+/** Common frame rates of motion capture, for files whose own is wrong. */
 const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
 
-/** What the page understood of the files, so that a wrong guess is seen before it is danced. */
-export const mountUnderstood: Mount = (root, store, services) => {
+/** What was read from the files, so that a wrong guess is seen before a partner is generated. */
+export const mountImportReport: Mount = (root, store, services) => {
   const facts = el('dl', { class: 'facts' });
   const list = el('ul', { class: 'notes', attributes: { 'aria-label': 'Notes' } });
   const section = el(
@@ -48,12 +48,12 @@ export const mountUnderstood: Mount = (root, store, services) => {
       (state) => [
         state.song,
         state.leader,
-        ...beingRead(state),
+        ...isReading(state),
         state.reaction,
         state.manifest,
         state.model,
-        state.remarks,
-        state.keeping,
+        state.notices,
+        state.autosave,
         state.settings?.role,
       ],
       show,
@@ -98,7 +98,7 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
   ];
 }
 
-/** The file's frame rate, open to correction: the file is then read again. */
+/** The file's frame rate; choosing another one reads the file again. */
 function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
   const { clip, report } = leader.file;
   const select = el(
@@ -150,7 +150,7 @@ function modelFacts(manifest: Manifest, model: ModelState): HTMLElement[] {
   ];
 }
 
-/** The build writes the file: licence texts of all software in the page. */
+/** Licence texts of all software in the page, in a file that the build writes. */
 function licencesLink(): HTMLElement {
   return el('a', {
     text: 'Licences',

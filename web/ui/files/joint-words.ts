@@ -2,17 +2,17 @@ import type { LeaderReport } from '../../motion/bvh/read';
 
 type Joints = Pick<LeaderReport, 'joints' | 'filled' | 'recut'>;
 
-/** Joints that a file lacks. The back cut into other pieces is not lacking. */
+/** Joints that a file lacks. A spine with another number of joints lacks none. */
 function missing({ filled, recut }: Joints): string[] {
   return filled.filter((joint) => !recut.includes(joint)).map((joint) => joint.replaceAll('_', ' '));
 }
 
-/** How many of our joints a file has, be it under another cut. */
+/** How many of the 22 joints a file has, a spine with another number of joints included. */
 export function jointCount(report: Joints): number {
   return Object.keys(report.joints).length - missing(report).length;
 }
 
-/** What was found of the body in a file: `all found; pelvis and spine placed along its back`. */
+/** Which joints were found in a file: `all found; pelvis and spine placed along its back`. */
 export function jointWords(report: Joints): string {
   const lacking = missing(report);
   const all = Object.keys(report.joints).length;

@@ -2,9 +2,9 @@ import { rolledSeed } from '../store/actions/settings';
 import type { Generator, Manifest, ModelFolder, Status } from '../../model/client';
 import { modelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
-import { manifestArrived, modelChanged, modelOpened } from '../store/actions/model';
+import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/model';
 import { apply, type Store } from '../store/store';
-import { told, remarked } from '../store/actions/notices';
+import { problemShown, noticeAdded } from '../store/actions/notices';
 
 export interface ModelLink {
   /** The model when it is ready; rejects when this attempt to load it has failed. */
@@ -13,33 +13,33 @@ export interface ModelLink {
   readonly manifest: () => Promise<Manifest>;
   /** Loads again after a failure. */
   readonly retry: () => void;
-  /** Takes the visitor's own model instead; when it can't be had, that is told and the present one stays. */
+  /** Replaces the model by the visitor's own; false when that fails, which is reported, and the present one stays. */
   readonly open: (folder: ModelFolder) => Promise<boolean>;
 }
 
 /**
- * Loads the page's model, or one that the visitor opens, and tells the store how that goes.
- * @param create begins to load, from a folder or from where the page's model lies; told about everything that happens
+ * Loads the page's model, or one that the visitor opens, with its progress in the store.
+ * @param create loads a model, from a folder or from the page's own address, and reports each status
  */
 export function createModelLink(
   store: Store,
   create: (onStatus: (status: Status) => void, folder: ModelFolder | null) => Promise<Generator>,
 ): ModelLink {
-  let tell: (manifest: Manifest) => void = () => undefined;
+  let resolveManifest: (manifest: Manifest) => void = () => undefined;
   const manifest = new Promise<Manifest>((resolve) => {
-    tell = resolve;
+    resolveManifest = resolve;
   });
 
   const onStatus = (status: Status): void => {
     if (status.kind === 'manifest') {
-      if (!store.getState().manifest) apply(store, manifestArrived(status.manifest, rolledSeed()));
-      tell(status.manifest);
-    } else if (status.kind === 'notice') apply(store, remarked(`${status.message} ${status.hint}`));
+      if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, rolledSeed()));
+      resolveManifest(status.manifest);
+    } else if (status.kind === 'notice') apply(store, noticeAdded(`${status.message} ${status.hint}`));
     else apply(store, modelChanged(stateOf(status)));
   };
   const load = async (): Promise<Generator> => {
     apply(store, modelChanged({ phase: 'loading', label: 'Asking for the model', received: 0, total: 0 }));
-    // Downloads beside the one that failed may still tell how far they are.
+    // Other downloads may still report progress after one has failed.
     let failed = false;
     try {
       return await create((status) => {
@@ -49,13 +49,13 @@ export function createModelLink(
       failed = true;
       const problem = modelProblem(error);
       apply(store, modelChanged({ phase: 'failed', problem }));
-      apply(store, told(problem));
+      apply(store, problemShown(problem));
       throw error;
     }
   };
   const begin = (): Promise<Generator> => {
     const loading = load();
-    // The failure is told above; who asks for the generator hears of it again.
+    // The failure is reported above, and again to each caller of `generator`.
     loading.catch(() => undefined);
     return loading;
   };
@@ -71,11 +71,11 @@ export function createModelLink(
       const before = current;
       const shown = store.getState().model;
       try {
-        // The present model's manifest stays until the other one can dance.
+        // The present model's manifest stays until the other one is ready.
         const made = await create((status) => status.kind !== 'manifest' && onStatus(status), folder);
         current = Promise.resolve(made);
         apply(store, modelOpened(made.manifest, rolledSeed()));
-        tell(made.manifest);
+        resolveManifest(made.manifest);
         before.then(
           (old) => old.dispose(),
           () => undefined,
@@ -83,7 +83,7 @@ export function createModelLink(
         return true;
       } catch (error) {
         apply(store, modelChanged(shown));
-        apply(store, told(modelProblem(error)));
+        apply(store, problemShown(modelProblem(error)));
         return false;
       }
     },

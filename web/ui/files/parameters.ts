@@ -1,4 +1,4 @@
-/** What the page's address may ask for. */
+/** What the page's address can set. */
 export interface Parameters {
   /** Absolute address of the model's manifest; always of this page's own origin. */
   readonly manifestUrl: string;
@@ -10,7 +10,7 @@ const SHIPPED_MODEL = 'models/salsa/manifest.json';
 
 /**
  * Reads `?model=<path to a manifest.json>` and `?backend=webgpu|wasm`. A model of another origin is ignored: the
- * page promises to talk to nobody else.
+ * page connects to no other origin.
  * @param search the query, with its question mark
  * @param base the page's address
  */

@@ -3,8 +3,8 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { coarseProblem, isAbort } from '../store/problems';
 import type { AppState, Reaction } from '../store/state';
 import { apply, watchAll, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
-import { coarseChanged, shownToggled } from '../store/actions/view';
+import { problemShown } from '../store/actions/notices';
+import { coarseChanged, overlayToggled } from '../store/actions/view';
 import { otherTake } from '../store/take';
 
 /** Whether the reaction on the stage has no latents to decode the coarse layer from, since it was not made here. */
@@ -59,22 +59,22 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
       if (signal.aborted) return;
       show(false);
       if (isAbort(error)) return;
-      apply(store, told(coarseProblem(error)));
+      apply(store, problemShown(coarseProblem(error)));
       // The visitor may switch it on again; it is not tried again by itself.
-      if (store.getState().shown.ghost) apply(store, shownToggled('ghost'));
+      if (store.getState().overlays.ghost) apply(store, overlayToggled('ghost'));
     }
   };
 
   const stop = watchAll(
     store,
-    (state) => [state.reaction?.latents, besideStage(state)?.latents, state.shown.ghost],
+    (state) => [state.reaction?.latents, besideStage(state)?.latents, state.overlays.ghost],
     (state) => {
       running?.abort();
       running = null;
       const missing = [state.reaction, besideStage(state)].filter(
         (reaction): reaction is Layered => Boolean(reaction?.latents) && !decoded(reaction),
       );
-      if (state.shown.ghost && missing.length > 0) void decode(missing);
+      if (state.overlays.ghost && missing.length > 0) void decode(missing);
       else show(false);
     },
   );

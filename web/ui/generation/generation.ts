@@ -8,12 +8,12 @@ import type {
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, rememberLocked } from '../store/reactor-motion';
-import { guidanceMatrix, sameInputs, wantedInputs } from '../store/selectors';
+import { guidanceMatrix, sameInputs, readyInputs } from '../store/selectors';
 import { splice } from './splice';
 import type { Inputs, Reaction } from '../store/state';
-import { jobChanged, previewed, reacted } from '../store/actions/reaction';
+import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 
 /** Time without a change after which a new reaction is begun. */
 const DEBOUNCE_MS = 60;
@@ -43,7 +43,7 @@ export class Generation {
 
   /** Makes the reaction now, whether or not anything has changed. */
   readonly generate = (): void => {
-    const inputs = wantedInputs(this.#store.getState());
+    const inputs = readyInputs(this.#store.getState());
     if (inputs) void this.#run(inputs);
   };
 
@@ -66,7 +66,7 @@ export class Generation {
 
   #followInputs(): void {
     const state = this.#store.getState();
-    const inputs = wantedInputs(state);
+    const inputs = readyInputs(state);
     if (!inputs) return;
     if (state.reaction && sameInputs(inputs, state.reaction.inputs)) {
       this.#keepOnStage(inputs);
@@ -94,17 +94,17 @@ export class Generation {
     this.#running = { controller, inputs };
     const { signal } = controller;
     try {
-      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, fresh: null }));
+      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, previewed: null }));
       const result = await this.#request(inputs, signal);
       if (signal.aborted) return;
       this.#running = null;
-      apply(this.#store, reacted(reactionOf(result, inputs)));
+      apply(this.#store, reactionAdded(reactionOf(result, inputs)));
     } catch (error) {
       if (signal.aborted) return;
       this.#running = null;
       apply(this.#store, jobChanged(null));
       const failedToLoad = this.#store.getState().model.phase === 'failed';
-      if (!isAbort(error) && !failedToLoad) apply(this.#store, told(generationProblem(error)));
+      if (!isAbort(error) && !failedToLoad) apply(this.#store, problemShown(generationProblem(error)));
     }
   }
 
@@ -116,8 +116,8 @@ export class Generation {
     return generator.generate(requestFor(inputs, generator.manifest), {
       signal,
       onProgress: (progress) => {
-        const fresh = this.#store.getState().job?.fresh ?? null;
-        if (!signal.aborted) apply(this.#store, jobChanged({ ...progress, fresh }));
+        const previewed = this.#store.getState().job?.previewed ?? null;
+        if (!signal.aborted) apply(this.#store, jobChanged({ ...progress, previewed }));
       },
       at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
       onPreview: (preview) => {
@@ -156,5 +156,5 @@ function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): voi
     motion: into(reaction?.motion ?? null, motion),
     locked: into(reactorMotion({ reaction, footLock: true }), locked),
   };
-  apply(store, previewed(preview, fresh));
+  apply(store, previewShown(preview, fresh));
 }

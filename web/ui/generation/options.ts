@@ -1,11 +1,11 @@
 import { mountVariationCards } from './variation-cards';
-import { allMade } from '../store/actions/variations';
-import { loadedRole, madeRole } from '../store/roles';
+import { allVariationsMade } from '../store/actions/variations';
+import { loadedRole, generatedRole } from '../store/roles';
 import { iconButton, textButton } from '../widgets/button';
 import { el, setText, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountSeedBox } from './seed-box';
-import { beingRead, upToDate } from '../store/selectors';
+import { isReading, upToDate } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { rolesSwapped, seedRolled, stepsSet, rolledSeed } from '../store/actions/settings';
@@ -53,7 +53,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.reaction,
         state.variations,
         state.seedLocked,
-        ...beingRead(state),
+        ...isReading(state),
         state.job !== null,
       ],
       (state) => {
@@ -107,9 +107,9 @@ function createSwapButton(store: Store): Controls {
     elements: [swap],
     show: (state) => {
       swap.disabled = !state.settings;
-      swap.setAttribute('aria-pressed', String(madeRole(state) === 'leader'));
+      swap.setAttribute('aria-pressed', String(generatedRole(state) === 'leader'));
       swap.title =
-        `Your dancer is the ${loadedRole(state)} and the model dances the ${madeRole(state)}. ` +
+        `Your dancer is the ${loadedRole(state)} and the model dances the ${generatedRole(state)}. ` +
         'Press to swap the roles.';
     },
   };
@@ -142,7 +142,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
     elements: [button],
     show: (state) => {
       const making = state.variations?.making ?? false;
-      const locked = allMade(state.variations) && state.seedLocked;
+      const locked = allVariationsMade(state.variations) && state.seedLocked;
       button.disabled = !making && (!canGenerate(state) || locked);
       setText(button, making ? 'Cancel' : 'Three reactions');
       button.title = making
@@ -156,7 +156,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
 
 /** Whether leader and settings are there and no file is being read. */
 function canGenerate(state: AppState): boolean {
-  return state.leader !== null && state.settings !== null && !beingRead(state).some(Boolean);
+  return state.leader !== null && state.settings !== null && !isReading(state).some(Boolean);
 }
 
 function generateTitle(state: AppState): string {

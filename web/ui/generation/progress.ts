@@ -1,4 +1,4 @@
-import { madeRole } from '../store/roles';
+import { generatedRole } from '../store/roles';
 import { el, setText, setVariable, together } from '../widgets/dom';
 import { jobWords } from '../store/selectors';
 import type { Mount } from '../store/services';
@@ -52,16 +52,16 @@ export const mountProgress: Mount = (root, store, services) => {
     if (!job) {
       if (timer !== null) clearTimeout(timer);
       timer = null;
-      if (spoken.textContent) setText(spoken, state.reaction ? `The ${madeRole(state)} is ready.` : '');
+      if (spoken.textContent) setText(spoken, state.reaction ? `The ${generatedRole(state)} is ready.` : '');
       box.hidden = true;
       return;
     }
     timer ??= setTimeout(() => {
       box.hidden = false;
-      setText(spoken, `The ${madeRole(state)} is being made.`);
+      setText(spoken, `The ${generatedRole(state)} is being made.`);
     }, SHOW_AFTER_MS);
-    if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${madeRole(state)} is half made.`);
-    setText(title, madeRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
+    if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${generatedRole(state)} is half made.`);
+    setText(title, generatedRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
     setText(words, jobWords(job, state));
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));

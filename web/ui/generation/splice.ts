@@ -1,7 +1,7 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { forwardKinematics } from '../../motion/skeleton/kinematics';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
-import type { Fresh } from '../store/state';
+import type { FrameRange } from '../store/state';
 
 /** Frames of the crossfade between the two motions, about a quarter of a second. */
 const CROSSFADE_FRAMES = 8;
@@ -12,7 +12,7 @@ const CROSSFADE_FRAMES = 8;
  * @param made a motion of the same number of frames
  * @param fresh the frames taken from `made`; at both ends, unless the dance ends there, the two are crossfaded
  */
-export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: Fresh): SolvedMotion {
+export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: FrameRange): SolvedMotion {
   const root = shown.root.slice();
   const rotations = shown.rotations.slice();
   const positions = shown.positions.slice();

@@ -1,7 +1,7 @@
 import { VARIATION_COUNT } from '../store/actions/variations';
-import { madeRole } from '../store/roles';
+import { generatedRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
-import { drawFigure, facing } from '../widgets/figure';
+import { drawFigure, headingOf } from '../widgets/figure';
 import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';
@@ -178,8 +178,8 @@ function isOnStage(state: AppState, reaction: Reaction | null): boolean {
 /** Draws each card's dancer at the playhead, all seen from the same direction. */
 function drawFigures(root: HTMLElement, cards: readonly Card[], state: AppState): void {
   const poses = cardContents(state).map(({ reaction }) => reaction && poseAt(reaction, state.playback.time));
-  const direction = facing(poses.find((pose) => pose !== null) ?? new Float32Array(66));
-  const colour = token(root, `--figure-${madeRole(state)}`);
+  const direction = headingOf(poses.find((pose) => pose !== null) ?? new Float32Array(66));
+  const colour = token(root, `--figure-${generatedRole(state)}`);
   poses.forEach((pose, index) => {
     const context = cards[index]?.canvas.getContext('2d');
     if (!context || !fitCanvas(context.canvas)) return;

@@ -1,23 +1,23 @@
 import type { Generator } from '../../model/client';
 import {
-  allMade,
-  sameExceptSeed,
+  allVariationsMade,
+  sameButSeed,
   variationInputs,
-  variationMade,
+  variationAdded,
   variationProgressed,
-  variationsBegun,
+  variationsStarted,
   variationsDropped,
   variationsResumed,
   variationsStopped,
 } from '../store/actions/variations';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
-import { sameInputs, upToDate, wantedInputs } from '../store/selectors';
+import { sameInputs, upToDate, readyInputs } from '../store/selectors';
 import type { Variation } from '../store/state';
-import { reacted } from '../store/actions/reaction';
+import { reactionAdded } from '../store/actions/reaction';
 import { rolledSeed, seedRolled, settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 
 /**
  * Makes several reactions to pick from. The first is the one that `Generation` makes anyway; the others follow one
@@ -42,14 +42,14 @@ export class VariationMaker {
 
   /** Makes three reactions that differ in their seed; where three are made already, three others. */
   readonly make = (): void => {
-    const others = allMade(this.#store.getState().variations);
+    const others = allVariationsMade(this.#store.getState().variations);
     if (others) {
       apply(this.#store, variationsDropped());
       apply(this.#store, seedRolled(rolledSeed()));
     }
-    const inputs = wantedInputs(this.#store.getState());
+    const inputs = readyInputs(this.#store.getState());
     if (!inputs) return;
-    apply(this.#store, this.#store.getState().variations ? variationsResumed() : variationsBegun(inputs));
+    apply(this.#store, this.#store.getState().variations ? variationsResumed() : variationsStarted(inputs));
     const state = this.#store.getState();
     if (!upToDate(state) && (others || !state.job)) this.#generate();
     this.#follow();
@@ -62,7 +62,7 @@ export class VariationMaker {
     const reaction = variations?.list.find((variation) => variation.seed === seed)?.reaction;
     if (!reaction || reaction === shown) return;
     apply(this.#store, settingsSet(reaction.inputs.settings));
-    apply(this.#store, reacted(reaction));
+    apply(this.#store, reactionAdded(reaction));
   };
 
   readonly cancel = (): void => {
@@ -85,13 +85,13 @@ export class VariationMaker {
     const state = this.#store.getState();
     const { variations, reaction, job } = state;
     if (!variations) return;
-    const inputs = wantedInputs(state);
+    const inputs = readyInputs(state);
     const known = variations.list.find(({ seed }) => seed === inputs?.settings.seed);
-    if (!inputs || !known || !sameExceptSeed(inputs, variations.inputs)) {
+    if (!inputs || !known || !sameButSeed(inputs, variations.inputs)) {
       this.#abort();
       apply(this.#store, variationsDropped());
     } else if (reaction && !known.reaction && sameInputs(reaction.inputs, inputs))
-      apply(this.#store, variationMade(known.seed, reaction));
+      apply(this.#store, variationAdded(known.seed, reaction));
     else if (job && !known.reaction && known.fraction !== job.fraction && variations.making)
       apply(this.#store, variationProgressed(known.seed, job.fraction));
   }
@@ -109,7 +109,7 @@ export class VariationMaker {
         else if (!(await this.#madeByGeneration(variation.seed, signal))) break;
       }
     } catch (error) {
-      if (!signal.aborted && !isAbort(error)) apply(this.#store, told(generationProblem(error)));
+      if (!signal.aborted && !isAbort(error)) apply(this.#store, problemShown(generationProblem(error)));
     }
     if (this.#controller === controller) {
       this.#controller = null;
@@ -130,7 +130,7 @@ export class VariationMaker {
       },
     });
     signal.throwIfAborted();
-    apply(this.#store, variationMade(seed, reactionOf(result, inputs)));
+    apply(this.#store, variationAdded(seed, reactionOf(result, inputs)));
   }
 
   /** Resolves once `Generation` has made the reaction with this seed (true) or has given it up (false). */

@@ -85,7 +85,7 @@ function createLayerFaders(store: Store): {
       grab: () => {
         beforeDrag = store.getState().settings?.guidance ?? null;
       },
-      letGo: () => {
+      release: () => {
         beforeDrag = null;
       },
     }),
@@ -93,7 +93,7 @@ function createLayerFaders(store: Store): {
   return {
     elements: faders.map(({ fader }) => fader.root),
     show: ({ settings, manifest, job }) => {
-      // The job begins a moment after the fader was moved, so only its end counts.
+      // The job begins a moment after the fader was scrolled, so only its end counts.
       if (hadJob && !job) changed = null;
       hadJob = job !== null;
       for (const { layer, fader } of faders) {

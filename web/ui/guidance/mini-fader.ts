@@ -1,5 +1,5 @@
 import { el, setText, setVariable } from '../widgets/dom';
-import { type FaderEvents, type FaderRange, steer, valueWords } from '../widgets/fader';
+import { type FaderEvents, type FaderRange, connectFaderInput, valueWords } from '../widgets/fader';
 
 export interface MiniFader {
   readonly root: HTMLElement;
@@ -29,7 +29,7 @@ export function createMiniFader(
       disabled: true,
     },
   });
-  steer(input, on);
+  connectFaderInput(input, on);
   const root = el('div', { class: 'mini' }, el('span', { class: 'fill' }), value, input);
   return {
     root,

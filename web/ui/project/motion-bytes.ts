@@ -1,12 +1,14 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 
-/** Numbers of one skeleton, and of one frame: root, rotations, positions. */
-const SKELETON = JOINT_COUNT * 3;
-const FRAME = 3 + JOINT_COUNT * 4 + JOINT_COUNT * 3;
+/** Floats of one skeleton, and of one frame: root, rotations, positions. */
+const SKELETON_FLOATS = JOINT_COUNT * 3;
+const FRAME_FLOATS = 3 + JOINT_COUNT * 4 + JOINT_COUNT * 3;
 
-/** Bytes of a packed motion of so many frames. */
-export const MOTION_BYTES = (frames: number): number => 4 * (SKELETON + frames * FRAME);
+/** Bytes of a packed motion. */
+export function motionBytes(frames: number): number {
+  return 4 * (SKELETON_FLOATS + frames * FRAME_FLOATS);
+}
 
 /** A motion as float32, little-endian: offsets, root, rotations, positions, each as in `SolvedMotion`. */
 export function packMotion({ offsets, root, rotations, positions }: SolvedMotion): Uint8Array<ArrayBuffer> {
@@ -25,13 +27,13 @@ export function packFloats(...parts: readonly Float32Array[]): Uint8Array<ArrayB
   return new Uint8Array(view.buffer);
 }
 
-/** All that `packFloats` has packed, in one. */
+/** The values of packed floats, all parts in one array. */
 export function unpackFloats({ buffer, byteOffset, byteLength }: Uint8Array): Float32Array {
   const view = new DataView(buffer, byteOffset, byteLength);
   return Float32Array.from({ length: byteLength / 4 }, (_, index) => view.getFloat32(4 * index, true));
 }
 
-/** @param bytes as many as `MOTION_BYTES(frames)` */
+/** Reads a packed motion. @param bytes `motionBytes(frames)` of them */
 export function unpackMotion(
   bytes: Uint8Array,
   { fps, frames, fitError }: Pick<SolvedMotion, 'fps' | 'frames' | 'fitError'>,
@@ -43,7 +45,7 @@ export function unpackMotion(
     fps,
     frames,
     fitError,
-    offsets: take(SKELETON),
+    offsets: take(SKELETON_FLOATS),
     root: take(frames * 3),
     rotations: take(frames * JOINT_COUNT * 4),
     positions: take(frames * JOINT_COUNT * 3),

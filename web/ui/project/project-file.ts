@@ -1,11 +1,11 @@
 import { strFromU8, strToU8, type Unzipped, unzipSync, type Zippable, zipSync } from 'fflate';
 import * as v from 'valibot';
 import { slug } from '../store/format';
+import type { StoredProject, StoredInputs } from './schema';
+import { motionBytes, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 import { AppError } from '../../common/error';
-import type { Kept, KeptInputs } from './schema';
-import { MOTION_BYTES, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 
-/** Counted up when an older page could not read the file any more. */
+/** Raised when older pages can no longer read the file. */
 const VERSION = 1;
 const FORMAT = 'reactdance-project';
 const MANIFEST = 'project.json';
@@ -13,7 +13,7 @@ const MANIFEST = 'project.json';
 const text = v.pipe(v.string(), v.minLength(1));
 const label = v.nullable(v.string());
 const count = v.pipe(v.number(), v.integer(), v.minValue(0));
-const inputs = v.custom<KeptInputs>(
+const inputs = v.custom<StoredInputs>(
   (value) => value !== null && typeof value === 'object' && !Array.isArray(value),
 );
 const shape = {
@@ -22,10 +22,10 @@ const shape = {
   fitError: v.number(),
 };
 
-/** Latents lie beside their motion where it has any. */
+/** The latents of a motion, in a file of their own. */
 const latents = v.object({ decoder: text, count, file: text });
 
-/** project.json: what is on the page and in the list, and which file of the archive holds what. */
+/** project.json: the page, the takes, and which file of the archive holds what. */
 const schema = v.object({
   format: v.literal(FORMAT),
   version: v.number(),
@@ -63,27 +63,30 @@ const schema = v.object({
 
 type Manifest = v.InferOutput<typeof schema>;
 
-/** Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, motion and latents of takes as float32. */
-export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>> {
+/**
+ * Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, motion and latents
+ * of takes as float32.
+ */
+export async function writeProject(project: StoredProject): Promise<Uint8Array<ArrayBuffer>> {
   const files: Zippable = {};
-  // Songs are compressed already and motion hardly can be.
+  // Songs are compressed already, and motion hardly shrinks.
   const add = (file: string, bytes: Uint8Array, level: 0 | 1): string => {
     files[file] = [bytes, { level }];
     return file;
   };
   const songs: Manifest['songs'] = [];
-  for (const [index, { id, name, label, file }] of kept.songs.entries()) {
+  for (const [index, { id, name, label, file }] of project.songs.entries()) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const ending = /\.[a-z0-9]{1,5}$/i.exec(name)?.[0] ?? '';
     const path = `songs/${index + 1}-${slug(name, 'song')}${ending}`;
     songs.push({ id, name, label, type: file.type, file: add(path, bytes, 0) });
   }
-  const leaders = kept.leaders.map(({ id, name, label, fps, text }, index) => {
+  const leaders = project.leaders.map(({ id, name, label, fps, text }, index) => {
     const path =
-      kept.leaders.length === 1 ? 'leader.bvh' : `leaders/${index + 1}-${slug(name, 'leader')}.bvh`;
+      project.leaders.length === 1 ? 'leader.bvh' : `leaders/${index + 1}-${slug(name, 'leader')}.bvh`;
     return { id, name, label, fps, file: add(path, strToU8(text), 1) };
   });
-  const motions = kept.motions.map(({ id, motion, latents }, index) => {
+  const motions = project.motions.map(({ id, motion, latents }, index) => {
     const { fps, frames, fitError } = motion;
     const path = `takes/${index + 1}`;
     return {
@@ -101,8 +104,8 @@ export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>>
     songs,
     leaders,
     motions,
-    takes: kept.takes,
-    page: kept.page,
+    takes: project.takes,
+    page: project.page,
   };
   add(MANIFEST, strToU8(JSON.stringify(manifest, null, 2)), 1);
   return zipSync(files);
@@ -112,7 +115,7 @@ export async function writeProject(kept: Kept): Promise<Uint8Array<ArrayBuffer>>
  * Reads a project.
  * @throws {AppError} what is wrong with the file, and which part of it
  */
-export function readProject(bytes: Uint8Array): Kept {
+export function readProject(bytes: Uint8Array): StoredProject {
   const files = unzip(bytes);
   const manifest = readManifest(files);
   const part = (file: string): Uint8Array<ArrayBuffer> => {
@@ -144,7 +147,7 @@ export function readProject(bytes: Uint8Array): Kept {
       text: strFromU8(part(file)),
     })),
     motions: manifest.motions.map(({ id, fps, frames, fitError, file, latents }) => {
-      const content = partOf(file, MOTION_BYTES(frames), `${frames} frames`);
+      const content = partOf(file, motionBytes(frames), `${frames} frames`);
       const motion = unpackMotion(content, { fps, frames, fitError });
       if (!latents) return { id, motion };
       const { decoder, count } = latents;
@@ -180,8 +183,8 @@ function readManifest(files: Unzipped): Manifest {
   } catch {
     throw new AppError('damaged-project', `${MANIFEST} in the project is no JSON.`, HINT_AGAIN);
   }
-  const told = v.safeParse(v.object({ format: v.literal(FORMAT), version: v.number() }), json);
-  if (told.success && told.output.version > VERSION)
+  const header = v.safeParse(v.object({ format: v.literal(FORMAT), version: v.number() }), json);
+  if (header.success && header.output.version > VERSION)
     throw new AppError(
       'newer-project',
       'The project was saved by a newer version of this page.',

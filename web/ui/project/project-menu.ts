@@ -1,92 +1,48 @@
 import { closeButton } from '../widgets/close-button';
 import { el, listen, setAttribute, setText, together } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
-import type { Mount } from '../store/services';
-import type { KeepingState } from '../store/state';
+import type { Mount, Services } from '../store/services';
+import type { AutosaveStatus } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
-import { worthKeeping } from './schema';
+import { panelToggled } from '../store/actions/view';
+import { hasVisitorContent } from './schema';
 
-const HEADS: Readonly<Record<KeepingState, string>> = {
+const HEADS: Readonly<Record<AutosaveStatus, string>> = {
   kept: 'Kept in this browser until you start afresh',
   full: 'Not all of it is kept: this browser’s space is full',
   refused: 'This browser keeps nothing for the page',
 };
 
-/** The project in the bar: saving and opening all of it as one file, and starting afresh. */
+interface Elements {
+  readonly opener: HTMLButtonElement;
+  readonly menu: HTMLElement;
+  readonly head: HTMLElement;
+  readonly save: HTMLButtonElement;
+  readonly open: HTMLButtonElement;
+  readonly clear: HTMLButtonElement;
+}
+
+/** The project menu in the bar: saving and opening everything as one file, and starting afresh. */
 export const mountProjectMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
-    apply(store, opened('project'));
+    apply(store, panelToggled('project'));
   };
-  const door = el(
-    'button',
-    {
-      class: 'icon desk',
-      attributes: { type: 'button', 'aria-label': 'Project', 'aria-haspopup': 'dialog', title: 'Project' },
-      on: { click: toggle },
-    },
-    icon('folder'),
-  );
-  const entry = (sign: IconName, name: string, words: string, run: () => void): HTMLButtonElement =>
-    el(
-      'button',
-      {
-        class: 'it',
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            toggle();
-            run();
-          },
-        },
-      },
-      icon(sign),
-      el('span', {}, el('b', { text: name }), el('small', { text: words })),
-    );
-  const save = entry(
-    'save',
-    'Save project',
-    'Song, leader, takes and settings in one file',
-    services.saveProject,
-  );
-  const open = entry('folder', 'Open a project', 'In the place of what is here; undo brings it back', () => {
-    services.choose('project');
-  });
-  const afresh = entry(
-    'remove',
-    'Start afresh',
-    'Empties the page; undo brings it back',
-    services.startAfresh,
-  );
-  const head = el('h2');
-  const menu = el(
-    'div',
-    { class: 'float menu project', attributes: { role: 'dialog', 'aria-label': 'Project' } },
-    el('div', { class: 'row' }, head, closeButton(toggle)),
-    save,
-    open,
-    afresh,
-  );
-  menu.hidden = true;
-  root.append(door, menu);
-
+  const elements = build(services, toggle);
+  const { opener, menu, head, save, clear } = elements;
+  root.append(opener, menu);
   return together(
     watch(
       store,
-      (state) => state.open === 'project',
+      (state) => state.openPanel === 'project',
       (isOpen) => {
-        const inside = menu.contains(document.activeElement);
-        menu.hidden = !isOpen;
-        setAttribute(door, 'aria-expanded', isOpen ? 'true' : 'false');
-        if (isOpen) (save.disabled ? open : save).focus();
-        else if (inside) door.focus();
+        showOpen(elements, isOpen);
       },
     ),
     watch(
       store,
-      (state) => state.keeping,
-      (keeping) => {
-        setText(head, HEADS[keeping]);
+      (state) => state.autosave,
+      (status) => {
+        setText(head, HEADS[status]);
       },
     ),
     watchAll(
@@ -94,12 +50,12 @@ export const mountProjectMenu: Mount = (root, store, services) => {
       (state) => [state.leader, state.song, state.takes],
       (state) => {
         save.disabled = !state.leader && !state.song;
-        afresh.disabled = !worthKeeping(state);
+        clear.disabled = !hasVisitorContent(state);
       },
     ),
     listen(window, 'pointerdown', ({ target }) => {
-      if (!menu.hidden && target instanceof Node && ![menu, door].some((part) => part.contains(target)))
-        toggle();
+      const outside = target instanceof Node && ![menu, opener].some((part) => part.contains(target));
+      if (!menu.hidden && outside) toggle();
     }),
     listen(window, 'keydown', (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
@@ -109,8 +65,68 @@ export const mountProjectMenu: Mount = (root, store, services) => {
       if (!save.disabled) services.saveProject();
     }),
     () => {
-      door.remove();
+      opener.remove();
       menu.remove();
     },
   );
 };
+
+function build(services: Services, toggle: () => void): Elements {
+  const opener = el(
+    'button',
+    {
+      class: 'icon desk',
+      attributes: { type: 'button', 'aria-label': 'Project', 'aria-haspopup': 'dialog', title: 'Project' },
+      on: { click: toggle },
+    },
+    icon('folder'),
+  );
+  const entry = (sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement =>
+    menuEntry(sign, name, hint, () => {
+      toggle();
+      run();
+    });
+  const save = entry(
+    'save',
+    'Save project',
+    'Song, leader, takes and settings in one file',
+    services.saveProject,
+  );
+  const open = entry('folder', 'Open a project', 'In the place of what is here; undo brings it back', () => {
+    services.choose('project');
+  });
+  const clear = entry(
+    'remove',
+    'Start afresh',
+    'Empties the page; undo brings it back',
+    services.clearProject,
+  );
+  const head = el('h2');
+  const menu = el(
+    'div',
+    { class: 'float menu project', attributes: { role: 'dialog', 'aria-label': 'Project' } },
+    el('div', { class: 'row' }, head, closeButton(toggle)),
+    save,
+    open,
+    clear,
+  );
+  menu.hidden = true;
+  return { opener, menu, head, save, open, clear };
+}
+
+function menuEntry(sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement {
+  return el(
+    'button',
+    { class: 'it', attributes: { type: 'button' }, on: { click: run } },
+    icon(sign),
+    el('span', {}, el('b', { text: name }), el('small', { text: hint })),
+  );
+}
+
+function showOpen({ menu, opener, save, open }: Elements, isOpen: boolean): void {
+  const focusInside = menu.contains(document.activeElement);
+  menu.hidden = !isOpen;
+  setAttribute(opener, 'aria-expanded', isOpen ? 'true' : 'false');
+  if (isOpen) (save.disabled ? open : save).focus();
+  else if (focusInside) opener.focus();
+}

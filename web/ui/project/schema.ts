@@ -1,17 +1,17 @@
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { AppState, Compare, Inputs, Letter, LoadedLeader, LoadedSong, Reaction } from '../store/state';
-import { presentInputs, takeOnStage } from '../store/take';
+import { currentInputs, takeOnStage } from '../store/take';
 
-/** A song as it is kept: the file that it was read from. */
-export interface KeptSong {
+/** A song: the file that it was read from. */
+export interface StoredSong {
   readonly id: string;
   readonly name: string;
   readonly label: string | null;
   readonly file: Blob;
 }
 
-export interface KeptLeader {
+export interface StoredLeader {
   readonly id: string;
   readonly name: string;
   readonly label: string | null;
@@ -19,29 +19,29 @@ export interface KeptLeader {
   readonly fps: number | null;
 }
 
-export interface KeptMotion {
+export interface StoredMotion {
   readonly id: string;
   readonly motion: SolvedMotion;
-  /** Left out where the motion came ready-made, or was kept before latents were. */
-  readonly latents?: KeptLatents;
+  /** Left out where the motion came ready-made, or was stored by a page that did not store latents. */
+  readonly latents?: StoredLatents;
 }
 
 /** What a motion was decoded from, as in `Reaction`. */
-export interface KeptLatents {
-  /** The decoder to which they mean something, as `decoderOf` names it. */
+export interface StoredLatents {
+  /** The decoder they are for, as `decoderOf` names it. */
   readonly decoder: string;
   readonly values: Float32Array;
 }
 
-/** Tells decoders apart, whatever their models are called: by the hash of their graph. */
+/** Identifies a model's decoder: the SHA-256 of its graph. */
 export function decoderOf({ graphs }: Manifest): string {
   return graphs.decode.files.wasm.sha256;
 }
 
 /** What a reaction is made from besides song and leader: settings, and whatever else `Inputs` has. */
-export type KeptInputs = Readonly<Record<string, unknown>>;
+export type StoredInputs = Readonly<Record<string, unknown>>;
 
-export interface KeptTake {
+export interface StoredTake {
   readonly id: string;
   readonly number: number;
   readonly name: string | null;
@@ -53,15 +53,15 @@ export interface KeptTake {
   readonly motion: string;
   readonly leader: string;
   readonly song: string | null;
-  readonly inputs: KeptInputs;
+  readonly inputs: StoredInputs;
 }
 
 /** What is on the page, by ids. */
-export interface KeptPage {
+export interface StoredPage {
   readonly leader: string | null;
   readonly song: string | null;
   /** Null while there was no leader. */
-  readonly inputs: KeptInputs | null;
+  readonly inputs: StoredInputs | null;
   readonly shown: string | null;
   readonly other: string | null;
   readonly letter: Letter;
@@ -72,16 +72,16 @@ export interface KeptPage {
   readonly time: number;
 }
 
-/** Everything that survives a reload and that a project file holds, as plain data without analyses. */
-export interface Kept {
-  readonly songs: readonly KeptSong[];
-  readonly leaders: readonly KeptLeader[];
-  readonly motions: readonly KeptMotion[];
-  readonly takes: readonly KeptTake[];
-  readonly page: KeptPage;
+/** What storage and project files hold: plain data from which songs and leaders are read and analysed again. */
+export interface StoredProject {
+  readonly songs: readonly StoredSong[];
+  readonly leaders: readonly StoredLeader[];
+  readonly motions: readonly StoredMotion[];
+  readonly takes: readonly StoredTake[];
+  readonly page: StoredPage;
 }
 
-/** The id under which an object is kept; the same object has the same id for as long as the page lives. */
+/** Ids of songs, leaders and motions; the same object has the same id until the page is closed. */
 const ids = new WeakMap<object, string>();
 
 function idOf(part: object): string {
@@ -95,16 +95,16 @@ function idOf(part: object): string {
   return id;
 }
 
-/** Says under which id an object that was read back is kept already. */
-export function knownAs(part: object, id: string): void {
+/** Gives a restored object the id under which it is stored already. */
+export function rememberId(part: object, id: string): void {
   ids.set(part, id);
 }
 
-/** Takes the state apart into what is kept of it. */
-export function keep(state: AppState): Kept {
-  const songs = new Map<string, KeptSong>();
-  const leaders = new Map<string, KeptLeader>();
-  const motions = new Map<string, KeptMotion>();
+/** The part of the state that is stored, with songs, leaders and motions referred to by id. */
+export function storedProject(state: AppState): StoredProject {
+  const songs = new Map<string, StoredSong>();
+  const leaders = new Map<string, StoredLeader>();
+  const motions = new Map<string, StoredMotion>();
   const song = (part: LoadedSong | null): string | null => {
     if (!part) return null;
     const { name, label, file } = part;
@@ -125,22 +125,22 @@ export function keep(state: AppState): Kept {
     return id;
   };
 
-  const takes = state.takes.map(({ id, number, name, starred, createdAt, reaction }): KeptTake => {
+  const takes = state.takes.map(({ id, number, name, starred, createdAt, reaction }): StoredTake => {
     const { label, seconds, inputs } = reaction;
     const parts = {
       motion: motion(reaction),
       leader: leader(inputs.leader),
       song: song(inputs.song),
-      inputs: otherInputs(inputs),
+      inputs: storedInputs(inputs),
     };
     return { id, number, name, starred, createdAt, label, seconds, ...parts };
   });
-  const inputs = presentInputs(state);
+  const inputs = currentInputs(state);
   const { other, letter, compare, takesMade, footLock, playback } = state;
-  const page: KeptPage = {
+  const page: StoredPage = {
     leader: state.leader ? leader(state.leader) : null,
     song: song(state.song),
-    inputs: inputs ? otherInputs(inputs) : null,
+    inputs: inputs ? storedInputs(inputs) : null,
     shown: takeOnStage(state)?.id ?? null,
     other,
     letter,
@@ -159,12 +159,12 @@ export function keep(state: AppState): Kept {
 }
 
 /** The inputs besides song and leader. */
-export function otherInputs(inputs: Inputs): KeptInputs {
+export function storedInputs(inputs: Inputs): StoredInputs {
   return Object.fromEntries(Object.entries(inputs).filter(([key]) => key !== 'song' && key !== 'leader'));
 }
 
-/** Whether the page holds anything of the visitor's own; a demo that was only watched is none. */
-export function worthKeeping({ takes, leader, song }: AppState): boolean {
+/** Whether the page holds anything of the visitor's own; a demo that was only watched does not count. */
+export function hasVisitorContent({ takes, leader, song }: AppState): boolean {
   return (
     leader?.label === null ||
     song?.label === null ||

@@ -1,38 +1,40 @@
-import { type DBSchema, type IDBPDatabase, openDB } from 'idb';
-import type { Kept, KeptLeader, KeptMotion, KeptPage, KeptSong, KeptTake } from './schema';
+import { type DBSchema, type IDBPDatabase, openDB, type OpenDBCallbacks } from 'idb';
+import type { StoredProject, StoredLeader, StoredMotion, StoredPage, StoredSong, StoredTake } from './schema';
 
-/** A song in the database: its bytes, because not every browser keeps blobs in every window. */
-interface StoredSong extends Omit<KeptSong, 'file'> {
+/** A song in the database: its bytes, because not every browser can store blobs in private windows. */
+interface SongRecord extends Omit<StoredSong, 'file'> {
   readonly bytes: ArrayBuffer;
   readonly type: string;
 }
 
 interface Schema extends DBSchema {
-  songs: { key: string; value: StoredSong };
-  leaders: { key: string; value: KeptLeader };
-  motions: { key: string; value: KeptMotion };
-  takes: { key: string; value: KeptTake };
-  page: { key: 'now'; value: KeptPage };
+  songs: { key: string; value: SongRecord };
+  leaders: { key: string; value: StoredLeader };
+  motions: { key: string; value: StoredMotion };
+  takes: { key: string; value: StoredTake };
+  page: { key: 'now'; value: StoredPage };
 }
 
 const PARTS = ['songs', 'leaders', 'motions', 'takes'] as const;
 type Part = (typeof PARTS)[number];
-type Keys = Record<Part, Set<string>>;
+type Ids = Record<Part, Set<string>>;
+/** Parts to add to the database: all that are given, or none. */
+type Addition = Omit<StoredProject, 'page'>;
 
-/** Where the browser keeps songs, leaders, takes and settings between two visits. */
-export interface Storage {
-  /** Everything that is kept, or null when there is nothing. */
-  readonly read: () => Promise<Kept | null>;
+/** Songs, leaders, takes and settings in the browser between two visits. */
+export interface ProjectStorage {
+  /** Everything that is stored, or null when there is nothing. */
+  readonly read: () => Promise<StoredProject | null>;
   /**
    * Removes what an earlier call was given and this one is not, and writes what is new or has changed. Where the space
-   * is full, as much as fits is written before it rejects; no take loses what was kept of it.
+   * is full, it writes what fits and then rejects; a stored take never loses its motion, leader or song.
    */
-  readonly write: (kept: Kept) => Promise<void>;
+  readonly write: (project: StoredProject) => Promise<void>;
   readonly clear: () => Promise<void>;
 }
 
 /** Whether the browser has no more space for the page. */
-export function isFull(error: unknown): boolean {
+export function isFull(error: unknown): error is DOMException {
   return error instanceof DOMException && error.name === 'QuotaExceededError';
 }
 
@@ -40,83 +42,94 @@ export function isFull(error: unknown): boolean {
  * The page's database. Every call rejects with the browser's own error where it gives no storage, as in private
  * windows, or when its space is full (`isFull`).
  */
-export function openStorage(name = 'reactdance'): Storage {
-  let opening: Promise<IDBPDatabase<Schema>> | null = null;
-  const open = (): Promise<IDBPDatabase<Schema>> => {
-    opening ??= openDB<Schema>(name, 1, {
-      upgrade: (database) => {
-        for (const part of PARTS) database.createObjectStore(part, { keyPath: 'id' });
-        database.createObjectStore('page');
-      },
-      // Another tab has a newer page: it may go ahead, this one opens the database again when it needs it.
-      blocking: (_now, _wanted, event) => {
-        (event.target as IDBDatabase).close();
-        opening = null;
-      },
-      terminated: () => {
-        opening = null;
-      },
-    }).catch((error: unknown) => {
-      opening = null;
-      throw error;
-    });
-    return opening;
-  };
+export class ProjectDatabase implements ProjectStorage {
+  private readonly open: () => Promise<IDBPDatabase<Schema>>;
+  /** Ids in the database as far as this page knows. Parts never change under their id; takes do. */
+  private present: Ids = noIds();
+  /** Ids that this page has written. The others belong to another tab, or could not be restored in this visit. */
+  private own: Ids = noIds();
+  private storedTakes = new Map<string, StoredTake>();
+  private storedPage: StoredPage | null = null;
 
-  /** What lies in the database as far as this page knows, by id. Parts never change under their id; takes do. */
-  let there: Keys = noKeys();
-  /** What this page looks after. The rest is another tab's, or could not be brought back and may be one day. */
-  let ours: Keys = noKeys();
-  let takesThere = new Map<string, KeptTake>();
-  let pageThere: KeptPage | null = null;
+  constructor(name = 'reactdance') {
+    this.open = connection(name);
+  }
 
-  /** Parts that something in the database refers to, which is not always what the page wants to have there. */
-  const inUse = (): Keys => {
-    const keys = noKeys();
-    for (const { id, song, leader, motion } of [...takesThere.values()]) {
-      keys.takes.add(id);
-      keys.motions.add(motion);
-      keys.leaders.add(leader);
-      if (song !== null) keys.songs.add(song);
-    }
-    if (pageThere?.song) keys.songs.add(pageThere.song);
-    if (pageThere?.leader) keys.leaders.add(pageThere.leader);
-    return keys;
-  };
-  /** Removes takes that have left the page, and then what nothing in the database refers to any more. */
-  const remove = async (wanted: Keys): Promise<void> => {
-    const gone = [...ours.takes].filter((id) => !wanted.takes.has(id));
-    for (const id of gone) takesThere.delete(id);
-    const needed = inUse();
-    const leaving = PARTS.flatMap((part) =>
-      [...ours[part]]
-        .filter((id) => !wanted[part].has(id) && !needed[part].has(id))
-        .map((id) => ({ part, id })),
-    );
-    if (leaving.length === 0) return;
-    const transaction = (await open()).transaction(PARTS, 'readwrite');
-    await settled([
+  async read(): Promise<StoredProject | null> {
+    const transaction = (await this.open()).transaction([...PARTS, 'page']);
+    const [page, songs, leaders, motions, takes] = await Promise.all([
+      transaction.objectStore('page').get('now'),
+      transaction.objectStore('songs').getAll(),
+      transaction.objectStore('leaders').getAll(),
+      transaction.objectStore('motions').getAll(),
+      transaction.objectStore('takes').getAll(),
       transaction.done,
-      ...leaving.map(({ part, id }) => transaction.objectStore(part).delete(id)),
     ]);
-    for (const { part, id } of leaving) {
-      ours[part].delete(id);
-      there[part].delete(id);
-    }
-  };
-  /** Writes what is missing of these, all of it or nothing. */
-  const add = async ({ songs, leaders, motions, takes }: Omit<Kept, 'page'>): Promise<void> => {
-    const missing = <T extends { readonly id: string }>(part: Part, all: readonly T[]): T[] =>
-      all.filter(({ id }) => !there[part].has(id));
-    const newSongs: StoredSong[] = [];
+    if (!page) return null;
+    this.present = idsOf({ songs, leaders, motions, takes });
+    this.storedTakes = new Map(takes.map((take) => [take.id, take]));
+    this.storedPage = page;
+    const files = songs.map(({ bytes, type, ...song }) => ({ ...song, file: new Blob([bytes], { type }) }));
+    return { page, songs: files, leaders, motions, takes };
+  }
+
+  async write(project: StoredProject): Promise<void> {
+    const wanted = idsOf(project);
+    await this.open();
+    for (const part of PARTS) for (const id of wanted[part]) this.own[part].add(id);
+    // In a transaction of its own: a full storage frees no space for what is added in the same one.
+    await this.remove(wanted);
+    const full = await this.addWhatFits(project);
+    await this.writePage(project.page);
+    await this.remove(wanted);
+    if (full) throw full;
+  }
+
+  async clear(): Promise<void> {
+    const transaction = (await this.open()).transaction([...PARTS, 'page'], 'readwrite');
+    const clears = [...PARTS, 'page' as const].map((part) => transaction.objectStore(part).clear());
+    await settled([transaction.done, ...clears]);
+    this.present = noIds();
+    this.own = noIds();
+    this.storedTakes = new Map();
+    this.storedPage = null;
+  }
+
+  /**
+   * Adds take by take, each with its parts, so that those that still fit are stored, and the page's files last.
+   * @returns the browser's error when something did not fit
+   */
+  private async addWhatFits({ songs, leaders, motions, takes, page }: StoredProject): Promise<Error | null> {
+    const additions: Addition[] = takes.map((take) => ({
+      songs: withId(songs, take.song),
+      leaders: withId(leaders, take.leader),
+      motions: withId(motions, take.motion),
+      takes: [take],
+    }));
+    const pageFiles = { songs: withId(songs, page.song), leaders: withId(leaders, page.leader) };
+    additions.push({ ...pageFiles, motions: [], takes: [] });
+    let full: Error | null = null;
+    for (const addition of additions)
+      try {
+        await this.add(addition);
+      } catch (error) {
+        if (!isFull(error)) throw error;
+        full ??= error;
+      }
+    return full;
+  }
+
+  /** Writes what the database lacks of these, all of it or nothing. */
+  private async add({ songs, leaders, motions, takes }: Addition): Promise<void> {
+    const newSongs: SongRecord[] = [];
     // Before the transaction, which does not wait for it.
-    for (const { file, ...song } of missing('songs', songs))
+    for (const { file, ...song } of this.missing('songs', songs))
       newSongs.push({ ...song, bytes: await file.arrayBuffer(), type: file.type });
-    const newLeaders = missing('leaders', leaders);
-    const newMotions = missing('motions', motions);
-    const newTakes = takes.filter((take) => !alike(take, takesThere.get(take.id)));
+    const newLeaders = this.missing('leaders', leaders);
+    const newMotions = this.missing('motions', motions);
+    const newTakes = takes.filter((take) => !isSameTake(take, this.storedTakes.get(take.id)));
     if ([newSongs, newLeaders, newMotions, newTakes].every(({ length }) => length === 0)) return;
-    const transaction = (await open()).transaction(PARTS, 'readwrite');
+    const transaction = (await this.open()).transaction(PARTS, 'readwrite');
     await settled([
       transaction.done,
       ...newSongs.map((song) => transaction.objectStore('songs').put(song)),
@@ -124,97 +137,107 @@ export function openStorage(name = 'reactdance'): Storage {
       ...newMotions.map((motion) => transaction.objectStore('motions').put(motion)),
       ...newTakes.map((take) => transaction.objectStore('takes').put(take)),
     ]);
-    for (const { id } of newSongs) there.songs.add(id);
-    for (const { id } of newLeaders) there.leaders.add(id);
-    for (const { id } of newMotions) there.motions.add(id);
-    for (const take of newTakes) {
-      there.takes.add(take.id);
-      takesThere.set(take.id, take);
-    }
-  };
+    const added = idsOf({ songs: newSongs, leaders: newLeaders, motions: newMotions, takes: newTakes });
+    for (const part of PARTS) for (const id of added[part]) this.present[part].add(id);
+    for (const take of newTakes) this.storedTakes.set(take.id, take);
+  }
 
-  return {
-    read: async () => {
-      const transaction = (await open()).transaction([...PARTS, 'page']);
-      const [page, songs, leaders, motions, takes] = await Promise.all([
-        transaction.objectStore('page').get('now'),
-        transaction.objectStore('songs').getAll(),
-        transaction.objectStore('leaders').getAll(),
-        transaction.objectStore('motions').getAll(),
-        transaction.objectStore('takes').getAll(),
-        transaction.done,
-      ]);
-      if (!page) return null;
-      there = keysOf({ songs, leaders, motions, takes });
-      takesThere = new Map(takes.map((take) => [take.id, take]));
-      pageThere = page;
-      const files = songs.map(({ bytes, type, ...song }) => ({ ...song, file: new Blob([bytes], { type }) }));
-      return { page, songs: files, leaders, motions, takes };
+  private missing<T extends { readonly id: string }>(part: Part, all: readonly T[]): T[] {
+    return all.filter(({ id }) => !this.present[part].has(id));
+  }
+
+  /** Writes the page unless its song or its leader did not fit. */
+  private async writePage(page: StoredPage): Promise<void> {
+    const { songs, leaders } = this.present;
+    const complete =
+      (page.song === null || songs.has(page.song)) && (page.leader === null || leaders.has(page.leader));
+    if (!complete) return;
+    await (await this.open()).put('page', page, 'now');
+    this.storedPage = page;
+  }
+
+  /** Removes takes that have left the page, and then what nothing in the database refers to any more. */
+  private async remove(wanted: Ids): Promise<void> {
+    for (const id of this.own.takes) if (!wanted.takes.has(id)) this.storedTakes.delete(id);
+    const referred = this.referredIds();
+    const unused = PARTS.flatMap((part) =>
+      [...this.own[part]]
+        .filter((id) => !wanted[part].has(id) && !referred[part].has(id))
+        .map((id) => ({ part, id })),
+    );
+    if (unused.length === 0) return;
+    const transaction = (await this.open()).transaction(PARTS, 'readwrite');
+    await settled([
+      transaction.done,
+      ...unused.map(({ part, id }) => transaction.objectStore(part).delete(id)),
+    ]);
+    for (const { part, id } of unused) {
+      this.own[part].delete(id);
+      this.present[part].delete(id);
+    }
+  }
+
+  /** Ids that takes and page in the database refer to; they may differ from what the page is about to write. */
+  private referredIds(): Ids {
+    const ids = noIds();
+    for (const { id, song, leader, motion } of this.storedTakes.values()) {
+      ids.takes.add(id);
+      ids.motions.add(motion);
+      ids.leaders.add(leader);
+      if (song !== null) ids.songs.add(song);
+    }
+    if (this.storedPage?.song) ids.songs.add(this.storedPage.song);
+    if (this.storedPage?.leader) ids.leaders.add(this.storedPage.leader);
+    return ids;
+  }
+}
+
+/** Opens the database once, and again after it was closed. */
+function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
+  let opening: Promise<IDBPDatabase<Schema>> | null = null;
+  const reset = (): void => {
+    opening = null;
+  };
+  const options: OpenDBCallbacks<Schema> = {
+    upgrade: (database) => {
+      for (const part of PARTS) database.createObjectStore(part, { keyPath: 'id' });
+      database.createObjectStore('page');
     },
-    write: async (kept) => {
-      const { songs, leaders, motions, takes, page } = kept;
-      const wanted = keysOf(kept);
-      await open();
-      for (const part of PARTS) for (const id of wanted[part]) ours[part].add(id);
-      // In a transaction of its own: a full browser gives what leaves no room to what comes in the same one.
-      await remove(wanted);
-      let full: unknown = null;
-      const tryAdd = async (some: Partial<Kept>): Promise<void> => {
-        try {
-          await add({ songs: [], leaders: [], motions: [], takes: [], ...some });
-        } catch (error) {
-          if (!isFull(error)) throw error;
-          full ??= error;
-        }
-      };
-      const named = <T extends { readonly id: string }>(all: readonly T[], name: string | null): T[] =>
-        all.filter(({ id }) => id === name);
-      // Take by take, so that those that still fit are kept.
-      for (const take of takes)
-        await tryAdd({
-          songs: named(songs, take.song),
-          leaders: named(leaders, take.leader),
-          motions: named(motions, take.motion),
-          takes: [take],
-        });
-      await tryAdd({ songs: named(songs, page.song), leaders: named(leaders, page.leader) });
-      const whole =
-        (page.song === null || there.songs.has(page.song)) &&
-        (page.leader === null || there.leaders.has(page.leader));
-      if (whole) {
-        await (await open()).put('page', page, 'now');
-        pageThere = page;
-      }
-      await remove(wanted);
-      if (full) throw full as DOMException;
+    // Another tab has a newer page: it may go ahead, this one opens the database again when it needs it.
+    blocking: (_now, _wanted, event) => {
+      (event.target as IDBDatabase).close();
+      reset();
     },
-    clear: async () => {
-      const transaction = (await open()).transaction([...PARTS, 'page'], 'readwrite');
-      const clears = [...PARTS, 'page' as const].map((part) => transaction.objectStore(part).clear());
-      await settled([transaction.done, ...clears]);
-      there = noKeys();
-      ours = noKeys();
-      takesThere = new Map();
-      pageThere = null;
-    },
+    terminated: reset,
+  };
+  return () => {
+    opening ??= openDB<Schema>(name, 1, options).catch((error: unknown) => {
+      reset();
+      throw error;
+    });
+    return opening;
   };
 }
 
-/** Waits for all; the first failure is thrown, and none is left unheard. */
+/** Waits for all; throws the first failure, and leaves no rejection unhandled. */
 async function settled(all: readonly Promise<unknown>[]): Promise<void> {
   const failed = (await Promise.allSettled(all)).find((result) => result.status === 'rejected');
   if (failed) throw failed.reason;
 }
 
-function alike(take: KeptTake, other: KeptTake | undefined): boolean {
+function isSameTake(take: StoredTake, other: StoredTake | undefined): boolean {
   return JSON.stringify(take) === JSON.stringify(other);
 }
 
-function keysOf(kept: Record<Part, readonly { readonly id: string }[]>): Keys {
-  const ids = (part: Part): Set<string> => new Set(kept[part].map(({ id }) => id));
+function withId<T extends { readonly id: string }>(all: readonly T[], wanted: string | null): T[] {
+  return all.filter(({ id }) => id === wanted);
+}
+
+function idsOf(parts: Record<Part, readonly { readonly id: string }[]>): Ids {
+  const ids = (part: Part): Set<string> => new Set(parts[part].map(({ id }) => id));
   return { songs: ids('songs'), leaders: ids('leaders'), motions: ids('motions'), takes: ids('takes') };
 }
 
-function noKeys(): Keys {
+function noIds(): Ids {
   return { songs: new Set(), leaders: new Set(), motions: new Set(), takes: new Set() };
 }

@@ -1,5 +1,5 @@
 import { el, setAttribute, setText, setVariable } from '../widgets/dom';
-import type { Explainer, Explanation } from '../widgets/info-card';
+import type { InfoCard, CardContent } from '../widgets/info-card';
 import { surface, token } from '../widgets/lane-canvas';
 import type { Mark } from './quality-marks';
 import type { MeasureRow } from '../widgets/info-card';
@@ -9,7 +9,7 @@ import type { Span } from '../store/time-scale';
 export interface MarkWords {
   readonly mark: Mark;
   readonly words: string;
-  readonly explained: Explanation;
+  readonly explained: CardContent;
 }
 
 /** What a lane shows. */
@@ -44,7 +44,7 @@ export function createQualityLane(
   name: string,
   className: string,
   onMark: (mark: Mark) => void,
-  { explain }: Explainer,
+  card: InfoCard,
 ): QualityLane {
   const value = el('b');
   const label = el(
@@ -88,7 +88,7 @@ export function createQualityLane(
     draw: (picture) => {
       setText(value, picture.value);
       const { measures, sentenceInCard, sentence } = picture;
-      explain(label, { title: name, aside: '', rows: measures, text: sentenceInCard ? sentence : '' });
+      card.set(label, { title: name, aside: '', rows: measures, text: sentenceInCard ? sentence : '' });
       canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
       drawHeat(canvas, picture);
       const { from, to } = picture.shown;
@@ -99,7 +99,7 @@ export function createQualityLane(
         setText(flag, String(mark.rank));
         setAttribute(flag, 'aria-label', `${mark.rank}. ${words}`);
         setVariable(flag, '--at', at);
-        explain(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
+        card.set(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
       });
       for (const { flag } of buttons.splice(picture.marks.length)) flag.remove();
     },

@@ -36,7 +36,7 @@ export function marksInOne(marks: readonly Mark[], minDistance: number): Mark[] 
   return chosen;
 }
 
-/** The largest value of several rows in every frame; NaN where all are NaN. */
+/** The largestMagnification value of several rows in every frame; NaN where all are NaN. */
 export function worstRow(rows: readonly Float32Array[]): Float32Array {
   const worst = new Float32Array(Math.max(0, ...rows.map(({ length }) => length))).fill(NaN);
   for (const row of rows) {

@@ -1,5 +1,5 @@
 import { together } from '../widgets/dom';
-import { createExplainer } from '../widgets/info-card';
+import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LanePicture, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
@@ -27,13 +27,13 @@ function whole(state: AppState): Span {
  * The quality of the dance along the timeline: a narrow lane for each part, and one of the worst of them, which low
  * windows show instead. The worst moments are numbered; a click jumps there.
  * @param root the grid of the timeline's lanes: labels left, lanes right
- * @param shown the part of the dance that the lanes show
+ * @param visibleSpan the part of the dance that the lanes show
  */
 export function mountQualityStrip(
   root: HTMLElement,
   store: Store,
   services: Services,
-  shown: (state: AppState) => Span = whole,
+  visibleSpan: (state: AppState) => Span = whole,
 ): () => void {
   const jumpTo = ({ moment }: Mark): void => {
     const { playback, quality } = store.getState();
@@ -41,7 +41,7 @@ export function mountQualityStrip(
     const time = moment.frame / quality.reactor.fps;
     services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
   };
-  const cards = createExplainer(root.closest('section') ?? root);
+  const cards = new InfoCard(root.closest('section') ?? root);
   const partLanes = PARTS.map((part) =>
     createQualityLane(PART_NAMES[part], `quality-${part}`, jumpTo, cards),
   );
@@ -50,7 +50,7 @@ export function mountQualityStrip(
   root.append(...lanes.flatMap(({ label, lane }) => [label, lane]));
 
   const draw = (state: AppState): void => {
-    drawLanes(partLanes, worstLane, state, shown(state));
+    drawLanes(partLanes, worstLane, state, visibleSpan(state));
   };
   const sizes = new ResizeObserver(() => {
     draw(store.getState());
@@ -60,7 +60,7 @@ export function mountQualityStrip(
     watchAll(
       store,
       (state) => {
-        const { from, to } = shown(state);
+        const { from, to } = visibleSpan(state);
         return [state.quality, state.reference, state.manifest, state.theme, from, to];
       },
       draw,

@@ -1,6 +1,6 @@
 import type { Reference } from '../store/state';
 import type { Moment, MomentKind, Report, Rules } from '../../quality/client';
-import type { Explanation } from '../widgets/info-card';
+import type { CardContent } from '../widgets/info-card';
 import { clockTime } from '../store/format';
 
 export type Part = keyof Report;
@@ -132,7 +132,7 @@ export function momentWords({ kind, value, frame }: Moment, fps: number): string
 }
 
 /** The card of a mark, for a reader who does not know the measure: what happens there, and how bad that is. */
-export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): Explanation {
+export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): CardContent {
   const { kind, value, frame } = moment;
   const text = (): string => {
     switch (kind) {

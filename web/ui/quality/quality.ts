@@ -3,9 +3,9 @@ import { isAbort } from '../store/problems';
 import { reactorMotion } from '../store/reactor-motion';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
-import { measured } from '../store/actions/reaction';
+import { qualityMeasured } from '../store/actions/reaction';
 import { apply, type Store, watchAll } from '../store/store';
-import { remarked } from '../store/actions/notices';
+import { noticeAdded } from '../store/actions/notices';
 
 /** What the measures depend on; compared by identity. */
 function measuredParts(state: AppState): readonly unknown[] {
@@ -48,16 +48,16 @@ export function createQuality(
     const reactor = reactorMotion(state);
     const duet = duetOf(state);
     if (!duet || !reactor || !state.manifest) {
-      if (state.quality && !reactor) apply(store, measured(null));
+      if (state.quality && !reactor) apply(store, qualityMeasured(null));
       return;
     }
     try {
       const report = await measure({ duet, rules: state.manifest.quality }, signal);
-      if (!signal.aborted) apply(store, measured({ reactor, report }));
+      if (!signal.aborted) apply(store, qualityMeasured({ reactor, report }));
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
-      apply(store, measured(null));
-      apply(store, remarked('The quality of the dance could not be measured. All else works as before.'));
+      apply(store, qualityMeasured(null));
+      apply(store, noticeAdded('The quality of the dance could not be measured. All else works as before.'));
     }
   };
 

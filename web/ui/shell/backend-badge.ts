@@ -1,15 +1,15 @@
 import { mountDeviceCard } from './device-card';
 import { el, setText, setVariable, together } from '../widgets/dom';
 import { icon } from '../widgets/icons';
-import { loadingWords } from './loading-words';
+import { bytesOf } from '../store/format';
 import type { Mount } from '../store/services';
 import type { ModelState } from '../store/state';
 import { apply, watch } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
 
-/** What computes and why; while the model comes, how much of it is here. */
+/** What computes and why; while the model is being downloaded, how much of it is here. */
 export const mountBackendBadge: Mount = (root, store, services) => {
   const title = el('b');
   const fill = el('i');
@@ -38,7 +38,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       attributes: { type: 'button', 'aria-haspopup': 'dialog' },
       on: {
         click: () => {
-          apply(store, opened('device'));
+          apply(store, panelToggled('device'));
         },
       },
     },
@@ -86,3 +86,30 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     },
   );
 };
+
+type Loading = Extract<ModelState, { readonly phase: 'loading' }>;
+
+/** What is being downloaded and how much of it is here: `Runtime`, `12.0 of 14.2 MB, model from this device`. */
+export function loadingWords({ label, received, total, parts = [] }: Loading): {
+  readonly title: string;
+  readonly detail: string;
+} {
+  if (parts.length === 0) return { title: label, detail: total > 0 ? bytesOf(received, total) : '' };
+  const coming = parts.filter(({ kept, total }) => kept < total);
+  const here = parts.filter(({ kept, total }) => kept >= total);
+  if (coming.length === 0) return { title: capital(named(here)), detail: 'from this device' };
+  const loaded = coming.reduce((sum, part) => sum + part.loaded, 0);
+  const whole = coming.reduce((sum, part) => sum + part.total, 0);
+  return {
+    title: capital(named(coming)),
+    detail: bytesOf(loaded, whole) + (here.length > 0 ? `, ${named(here)} from this device` : ''),
+  };
+}
+
+function named(parts: readonly { readonly name: string }[]): string {
+  return parts.map(({ name }) => name).join(' and ');
+}
+
+function capital(words: string): string {
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}

@@ -1,15 +1,15 @@
 import { mountBackendBadge } from './backend-badge';
-import { mountChip } from '../files/file-chip';
+import { mountFileChip } from '../files/file-chip';
 import { el, setAttribute, together } from '../widgets/dom';
 import { mountDownloadMenu } from '../download/download-menu';
 import { brandMark, icon } from '../widgets/icons';
 import { mountProjectMenu } from '../project/project-menu';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
-import { opened, themeSet } from '../store/actions/view';
+import { panelToggled, themeSet } from '../store/actions/view';
 import { mountUndo } from '../takes/undo';
 
-/** The bar: what this is, the two files, what computes, light or dark, and the way out with the motion. */
+/** The bar: name, song and leader, backend, undo, project, keys, theme and download. */
 export const mountBar: Mount = (root, store, services) => {
   const theme = el(
     'button',
@@ -36,15 +36,15 @@ export const mountBar: Mount = (root, store, services) => {
       },
       on: {
         click: () => {
-          apply(store, opened('keys'));
+          apply(store, panelToggled('keys'));
         },
       },
     },
     icon('keyboard'),
   );
   root.append(el('div', { class: 'brand' }, brandMark(), el('h1', { text: 'ReactDance' })));
-  const song = mountChip(root, store, services, 'song');
-  const leader = mountChip(root, store, services, 'leader');
+  const song = mountFileChip(root, store, services, 'song');
+  const leader = mountFileChip(root, store, services, 'leader');
   root.append(el('span', { class: 'grow' }));
   const badge = mountBackendBadge(root, store, services);
   root.append(el('span', { class: 'vline' }));
@@ -69,7 +69,7 @@ export const mountBar: Mount = (root, store, services) => {
     ),
     watch(
       store,
-      (state) => state.open === 'keys',
+      (state) => state.openPanel === 'keys',
       (open) => {
         setAttribute(keys, 'aria-expanded', open ? 'true' : 'false');
       },

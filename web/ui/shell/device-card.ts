@@ -4,7 +4,7 @@ import { byteSize } from '../store/format';
 import type { Services } from '../store/services';
 import type { Kept, ModelState } from '../store/state';
 import { apply, watch, watchAll, type Store } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 const PARTS = [
   ['page', 'Page and demo'],
@@ -12,13 +12,60 @@ const PARTS = [
   ['model', 'Model'],
 ] as const satisfies readonly (readonly [keyof Kept, string])[];
 
-/** What computes and why, and what of it is kept on this device; it opens from the badge. */
+interface Elements {
+  readonly card: HTMLElement;
+  readonly why: HTMLElement;
+  readonly facts: HTMLElement;
+  readonly sum: HTMLElement;
+  readonly clear: HTMLButtonElement;
+  readonly close: HTMLButtonElement;
+}
+
+/** What computes and why, and what of the page is stored on this device; it opens from the badge. */
 export function mountDeviceCard(
   root: HTMLElement,
   opener: HTMLElement,
   store: Store,
   services: Services,
 ): () => void {
+  const toggle = (): void => {
+    apply(store, panelToggled('device'));
+  };
+  const elements = build(toggle, () => void empty(elements, services));
+  const { card, why } = elements;
+  root.append(card);
+  const closeOutside = ({ target }: PointerEvent): void => {
+    const inside = [card, opener].some((part) => part.contains(target as Node));
+    if (!card.hidden && !inside) toggle();
+  };
+  document.addEventListener('pointerdown', closeOutside);
+  return together(
+    watch(
+      store,
+      (state) => state.openPanel === 'device',
+      (open) => {
+        showOpen(elements, opener, open);
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [state.openPanel === 'device', state.model.phase],
+      ({ openPanel, model }) => {
+        if (openPanel !== 'device') return;
+        setText(why, reason(model));
+        void services.measureStorage().then((kept) => {
+          showStorage(elements, kept, keptWords(kept));
+        });
+      },
+    ),
+    () => {
+      document.removeEventListener('pointerdown', closeOutside);
+      card.remove();
+    },
+  );
+}
+
+function build(toggle: () => void, empty: () => void): Elements {
   const why = el('p', { class: 'reason' });
   const facts = el('dl', { class: 'facts' });
   const sum = el('p', { attributes: { role: 'status' } });
@@ -26,15 +73,9 @@ export function mountDeviceCard(
     class: 'btn tint',
     text: 'Clear',
     attributes: { type: 'button', title: 'Removes page, runtime and model from this device' },
-    on: {
-      click: () => {
-        void empty();
-      },
-    },
+    on: { click: empty },
   });
-  const close = closeButton(() => {
-    apply(store, opened('device'));
-  });
+  const close = closeButton(toggle);
   const card = el(
     'section',
     { class: 'float device', attributes: { role: 'dialog', 'aria-label': 'On this device' } },
@@ -44,65 +85,41 @@ export function mountDeviceCard(
     el('div', { class: 'sum' }, sum, clear),
   );
   card.hidden = true;
-  root.append(card);
+  return { card, why, facts, sum, clear, close };
+}
 
-  /** `after` is said instead when something was just done. */
-  const show = (kept: Kept | null, after?: string): void => {
-    facts.replaceChildren(
-      ...PARTS.flatMap(([part, name]) => [
-        el('dt', { text: name }),
-        el('dd', { text: kept && kept[part] > 0 ? byteSize(kept[part]) : 'not kept' }),
-      ]),
-    );
-    const bytes = kept ? kept.page + kept.runtime + kept.model : 0;
-    clear.disabled = bytes === 0;
-    setText(sum, after ?? keptWords(kept));
-  };
-  const measure = async (): Promise<void> => {
-    show(await services.measureKept());
-  };
-  const empty = async (): Promise<void> => {
-    clear.disabled = true;
-    const cleared = await services.clearKept();
-    show(
-      await services.measureKept(),
-      cleared
-        ? 'Cleared. The next visit downloads it again; nothing of yours was removed.'
-        : 'The browser did not let this page clear it. Its own settings for this site can.',
-    );
-    close.focus();
-  };
-  const closeOutside = (event: PointerEvent): void => {
-    const target = event.target as Node;
-    if (!card.hidden && !card.contains(target) && !opener.contains(target)) apply(store, opened('device'));
-  };
-  document.addEventListener('pointerdown', closeOutside);
-  return together(
-    watch(
-      store,
-      (state) => state.open === 'device',
-      (open) => {
-        const focusInside = card.contains(document.activeElement);
-        card.hidden = !open;
-        opener.setAttribute('aria-expanded', String(open));
-        if (open) close.focus();
-        else if (focusInside) opener.focus();
-      },
-    ),
-    watchAll(
-      store,
-      (state) => [state.open === 'device', state.model.phase],
-      ({ open, model }) => {
-        if (open !== 'device') return;
-        setText(why, reason(model));
-        void measure();
-      },
-    ),
-    () => {
-      document.removeEventListener('pointerdown', closeOutside);
-      card.remove();
-    },
+function showOpen({ card, close }: Elements, opener: HTMLElement, open: boolean): void {
+  const focusInside = card.contains(document.activeElement);
+  card.hidden = !open;
+  opener.setAttribute('aria-expanded', String(open));
+  if (open) close.focus();
+  else if (focusInside) opener.focus();
+}
+
+/** Bytes by part, and a sentence below them. */
+function showStorage({ facts, sum, clear }: Elements, kept: Kept | null, sentence: string): void {
+  facts.replaceChildren(
+    ...PARTS.flatMap(([part, name]) => [
+      el('dt', { text: name }),
+      el('dd', { text: kept && kept[part] > 0 ? byteSize(kept[part]) : 'not kept' }),
+    ]),
   );
+  clear.disabled = totalBytes(kept) === 0;
+  setText(sum, sentence);
+}
+
+/** Removes what is stored and says whether that worked. */
+async function empty(elements: Elements, services: Services): Promise<void> {
+  elements.clear.disabled = true;
+  const cleared = await services.clearStorage();
+  showStorage(
+    elements,
+    await services.measureStorage(),
+    cleared
+      ? 'Cleared. The next visit downloads it again; nothing of yours was removed.'
+      : 'The browser did not let this page clear it. Its own settings for this site can.',
+  );
+  elements.close.focus();
 }
 
 function reason(model: ModelState): string {
@@ -113,6 +130,10 @@ function reason(model: ModelState): string {
 
 function keptWords(kept: Kept | null): string {
   if (!kept) return 'This browser gives the page no storage: each visit downloads everything.';
-  const bytes = kept.page + kept.runtime + kept.model;
+  const bytes = totalBytes(kept);
   return bytes > 0 ? `${byteSize(bytes)} kept for offline use` : 'Nothing is kept for offline use.';
+}
+
+function totalBytes(kept: Kept | null): number {
+  return kept ? kept.page + kept.runtime + kept.model : 0;
 }

@@ -1,13 +1,13 @@
 import { duration } from '../store/format';
 import { el, setText, together } from '../widgets/dom';
 import { howItWorks, opensHowItWorks, steps } from './how-it-works';
-import { icon, type IconName } from '../widgets/icons';
+import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
-import type { AppState, Side } from '../store/state';
+import type { AppState, InputKind } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** The block of the first minute: what this is, the demo in one click, a place for one's own files. */
+/** The block of the first visit: what the page does, a button for the demo, and buttons for one's own files. */
 export const mountFirstVisit: Mount = (root, store, services) => {
   const play = el(
     'button',
@@ -57,14 +57,18 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   root.append(block);
 
   const show = (state: AppState): void => {
-    block.hidden = !state.visiting;
-    root.classList.toggle('visiting', state.visiting);
+    block.hidden = !state.firstVisit;
+    root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';
     setText(about, demoWords(state));
   };
   return together(
-    watchAll(store, (state) => [state.visiting, state.demo, state.reaction, state.leader, state.song], show),
+    watchAll(
+      store,
+      (state) => [state.firstVisit, state.demo, state.reaction, state.leader, state.song],
+      show,
+    ),
     () => {
       root.classList.remove('visiting');
       block.remove();
@@ -79,12 +83,11 @@ function demoWords(state: AppState): string {
   return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
 }
 
-function half(services: Services, side: Side, name: string, kinds: string, ask: string): HTMLElement {
-  const sign: IconName = side;
+function half(services: Services, side: InputKind, name: string, kinds: string, ask: string): HTMLElement {
   return el(
     'div',
     {},
-    el('b', {}, el('span', { class: side === 'leader' ? 'sign leader' : 'sign' }, icon(sign)), name),
+    el('b', {}, el('span', { class: side === 'leader' ? 'sign leader' : 'sign' }, icon(side)), name),
     el('p', { text: kinds }),
     el('button', {
       class: 'btn tint',

@@ -2,20 +2,20 @@ import { coarseIsMissing } from '../generation/coarse-layer';
 import { listen, together } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
-import { SHOWS } from '../store/overlays';
-import type { Camera, Shown } from '../store/state';
+import { OVERLAYS } from '../store/overlays';
+import type { AppState, Camera, Overlays } from '../store/state';
 import { guidanceReset, seedRolled, rolledSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
-import { dismissed } from '../store/actions/notices';
-import { cameraSet, opened, playbackSet, shownToggled, SPEEDS } from '../store/actions/view';
+import { problemClosed } from '../store/actions/notices';
+import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
 import { takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
 /**
- * The keys of the page. Letters rest while someone types; arrows, Home and End rest on sliders of their own;
- * Space on a control that was reached by keyboard presses that control.
+ * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider that has the
+ * focus; Space on a control that was reached by keyboard presses that control.
  */
 export function mountKeyboard(store: Store, services: Services): () => void {
   let byPointer = true;
@@ -24,7 +24,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
     if (event.key === 'Escape') {
-      // The browser itself closes a popover, and nothing else is meant then.
+      // The browser itself closes a popover, and nothing else then.
       if (document.querySelector(':popover-open')) return;
       if (escape(store, services)) event.preventDefault();
       return;
@@ -35,7 +35,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
     if (press(event, store, services)) event.preventDefault();
   };
-  // A button that was clicked keeps the focus and would be pressed again by the release of Space.
+  // A clicked button keeps the focus, and releasing Space would press it again.
   const onRelease = (event: KeyboardEvent): void => {
     if (event.key === ' ' && byPointer && event.target instanceof HTMLButtonElement) event.preventDefault();
   };
@@ -53,113 +53,78 @@ export function mountKeyboard(store: Store, services: Services): () => void {
   );
 }
 
-/** Closes or cancels the one thing in front; true if there was one. */
+/** Closes the problem or panel in front, cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, open, job, variations, playback } = store.getState();
-  if (problem) apply(store, dismissed());
-  else if (open) apply(store, opened(open));
+  const { problem, openPanel, job, variations, playback } = store.getState();
+  if (problem) apply(store, problemClosed());
+  else if (openPanel) apply(store, panelToggled(openPanel));
   else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));
   else return false;
   return true;
 }
 
-function press(event: KeyboardEvent, store: Store, services: Services): boolean {
+/** What keys do, by `event.key`; letters in lower case. */
+const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
+  ' ': ({ services }) => services.togglePlay(),
+  ArrowLeft: (key) => key.services.seek(key.time - arrowStep(key)),
+  ArrowRight: (key) => key.services.seek(key.time + arrowStep(key)),
+  Home: ({ services }) => services.seek(0),
+  End: ({ services, state }) => services.seek(danceDuration(state)),
+  '[': ({ store, state }) => apply(store, playbackSet({ speed: nextSpeed(state.playback.speed, -1) })),
+  ']': ({ store, state }) => apply(store, playbackSet({ speed: nextSpeed(state.playback.speed, 1) })),
+  '+': ({ store }) => apply(store, zoomedBy(ZOOM_STEP)),
+  '=': ({ store }) => apply(store, zoomedBy(ZOOM_STEP)),
+  '-': ({ store }) => apply(store, zoomedBy(1 / ZOOM_STEP)),
+  '0': ({ store }) => apply(store, zoomSet(null)),
+  '?': ({ store }) => apply(store, panelToggled('keys')),
+  l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
+  i: ({ store, time }) => apply(store, regionEndSet('from', time)),
+  o: ({ store, time }) => apply(store, regionEndSet('to', time)),
+  c: () => focusFader('Coarse guidance'),
+  v: () => focusFader('Fine guidance'),
+  m: () => focusFader('Music guidance'),
+  r: ({ store }) => apply(store, guidanceReset()),
+  d: ({ store }) => apply(store, seedRolled(rolledSeed())),
+  f: ({ store }) => toggleCamera(store, 'follow'),
+  t: ({ store }) => toggleCamera(store, 'top'),
+  x: ({ store }) => toggleCamera(store, 'side'),
+  a: ({ services }) => services.frameBoth(),
+  s: ({ store, state }) => {
+    const take = takeOnStage(state);
+    if (take) apply(store, takeStarred(take.id));
+  },
+  e: ({ store, state }) => {
+    if (state.reaction) apply(store, panelToggled('download'));
+  },
+};
+
+interface KeyPress {
+  readonly store: Store;
+  readonly services: Services;
+  readonly state: AppState;
+  readonly shift: boolean;
+  /** Of the playhead, seconds. */
+  readonly time: number;
+}
+
+/** Does what a key is for; false for a key that does nothing. */
+function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: Services): boolean {
+  const overlay = OVERLAYS.find((one) => one.key === key.toUpperCase());
+  const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
   const state = store.getState();
-  const { time, speed, loop } = state.playback;
-  const frame = 1 / danceFps(state);
-  const hop = event.shiftKey ? 1 : frame;
-  switch (event.key) {
-    case ' ':
-      services.togglePlay();
-      return true;
-    case 'ArrowLeft':
-      services.seek(time - hop);
-      return true;
-    case 'ArrowRight':
-      services.seek(time + hop);
-      return true;
-    case 'Home':
-      services.seek(0);
-      return true;
-    case 'End':
-      services.seek(danceDuration(state));
-      return true;
-    case '[':
-      apply(store, playbackSet({ speed: beside(speed, -1) }));
-      return true;
-    case ']':
-      apply(store, playbackSet({ speed: beside(speed, 1) }));
-      return true;
-    case '+':
-    case '=':
-      apply(store, zoomedBy(ZOOM_STEP));
-      return true;
-    case '-':
-      apply(store, zoomedBy(1 / ZOOM_STEP));
-      return true;
-    case '0':
-      apply(store, zoomSet(null));
-      return true;
-    case '?':
-      apply(store, opened('keys'));
-      return true;
-  }
-  const show = SHOWS.find(({ key }) => key === event.key.toUpperCase());
-  if (show) {
-    toggleShow(store, show.what);
-    return true;
-  }
-  const onStage = takeOnStage(state);
-  switch (event.key.toLowerCase()) {
-    case 'l':
-      apply(store, playbackSet({ loop: !loop }));
-      return true;
-    case 'i':
-      apply(store, regionEndSet('from', time));
-      return true;
-    case 'o':
-      apply(store, regionEndSet('to', time));
-      return true;
-    case 'c':
-      focusFader('Coarse guidance');
-      return true;
-    case 'v':
-      focusFader('Fine guidance');
-      return true;
-    case 'm':
-      focusFader('Music guidance');
-      return true;
-    case 'r':
-      apply(store, guidanceReset());
-      return true;
-    case 'd':
-      apply(store, seedRolled(rolledSeed()));
-      return true;
-    case 'f':
-      toggleCamera(store, 'follow');
-      return true;
-    case 't':
-      toggleCamera(store, 'top');
-      return true;
-    case 'x':
-      toggleCamera(store, 'side');
-      return true;
-    case 'a':
-      services.frameBoth();
-      return true;
-    case 's':
-      if (onStage) apply(store, takeStarred(onStage.id));
-      return true;
-    case 'e':
-      if (state.reaction) apply(store, opened('download'));
-      return true;
-  }
-  return false;
+  if (overlay) toggleOverlay(store, overlay.what);
+  else action?.({ store, services, state, shift, time: state.playback.time });
+  return overlay !== undefined || action !== undefined;
+}
+
+/** How far an arrow moves the playhead, seconds: one frame, with Shift one second. */
+function arrowStep({ shift, state }: KeyPress): number {
+  return shift ? 1 : 1 / danceFps(state);
 }
 
 /** The next slower or faster of the offered speeds. */
-function beside(speed: number, by: 1 | -1): number {
+function nextSpeed(speed: number, by: 1 | -1): number {
   const at = SPEEDS.findIndex((value) => value === speed);
   return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + by))] ?? 1;
 }
@@ -172,10 +137,10 @@ function toggleCamera(store: Store, camera: Camera): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
 }
 
-/** A coarse ghost that can't be seen opens the menu, which says why and what to do. */
-function toggleShow(store: Store, what: keyof Shown): void {
-  apply(store, shownToggled(what));
-  const { shown, open, visiting } = store.getState();
-  const silent = what === 'ghost' && shown.ghost && coarseIsMissing(store.getState());
-  if (silent && open === null && !visiting) apply(store, opened('show'));
+/** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
+function toggleOverlay(store: Store, what: keyof Overlays): void {
+  apply(store, overlayToggled(what));
+  const { overlays, openPanel, firstVisit } = store.getState();
+  const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());
+  if (isMissing && openPanel === null && !firstVisit) apply(store, panelToggled('overlays'));
 }

@@ -1,9 +1,9 @@
 import { closeButton } from '../widgets/close-button';
 import { el, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
-import { SHOWS } from '../store/overlays';
+import { OVERLAYS } from '../store/overlays';
 import { apply, watch } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 
 const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Space'], 'Play or pause'],
@@ -24,7 +24,7 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Ctrl S'], 'Save the project'],
   [['F', 'T', 'X'], 'Follow, top, side view; again for orbit'],
   [['A'], 'Frame both dancers'],
-  [SHOWS.map(({ key }) => key), SHOWS.map(({ label }) => label).join(', ')],
+  [OVERLAYS.map(({ key }) => key), OVERLAYS.map(({ label }) => label).join(', ')],
   [['E'], 'Download'],
   [['Esc'], 'Cancel, close what is open, or end the loop'],
   [['?'], 'This list'],
@@ -33,7 +33,7 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
 /** The list of keys. */
 export const mountKeysDialog: Mount = (root, store) => {
   const close = closeButton(() => {
-    apply(store, opened('keys'));
+    apply(store, panelToggled('keys'));
   });
   const rows = KEYS.flatMap(([keys, what]) => [
     el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
@@ -51,7 +51,7 @@ export const mountKeysDialog: Mount = (root, store) => {
   return together(
     watch(
       store,
-      (state) => state.open === 'keys',
+      (state) => state.openPanel === 'keys',
       (open) => {
         if (open) before = document.activeElement;
         dialog.hidden = !open;

@@ -3,7 +3,7 @@ import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { updateSet } from '../store/actions/view';
 
-/** Says that a newer build of the page is here; nothing reloads by itself, for work may be on the stage. */
+/** Says that a newer build of the page is ready; it is not loaded by itself, since the visitor may be at work. */
 export const mountNewVersion: Mount = (root, store, services) => {
   const words = el('span');
   const note = el(
@@ -16,7 +16,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
       attributes: { type: 'button' },
       on: {
         click: () => {
-          services.takeUpdate();
+          services.loadUpdate();
         },
       },
     }),

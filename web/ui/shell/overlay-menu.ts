@@ -1,47 +1,76 @@
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
 import { el, setAttribute, setText, together } from '../widgets/dom';
-import type { Mount } from '../store/services';
-import { SHOWS } from '../store/overlays';
+import type { Mount, Services } from '../store/services';
+import { OVERLAYS, type Overlay } from '../store/overlays';
 import type { AppState, Reaction } from '../store/state';
-import { apply, watch, watchAll } from '../store/store';
+import { apply, type Store, watch, watchAll } from '../store/store';
 import { mountTakesButton } from '../takes/takes-panel';
-import { opened, shownToggled } from '../store/actions/view';
+import { panelToggled, overlayToggled } from '../store/actions/view';
+
+interface Elements {
+  readonly corner: HTMLElement;
+  readonly button: HTMLButtonElement;
+  /** How many overlays are on. */
+  readonly count: HTMLElement;
+  readonly menu: HTMLElement;
+  /** One per overlay, in their order. */
+  readonly toggles: readonly HTMLButtonElement[];
+  /** Says why the coarse ghost can't be seen, with a button that generates it. */
+  readonly note: HTMLElement;
+  readonly noteText: HTMLElement;
+  readonly generate: HTMLButtonElement;
+}
 
 /** The button on the stage and its menu: what is drawn beside the dancers. */
-export const mountShowMenu: Mount = (root, store, services) => {
+export const mountOverlayMenu: Mount = (root, store, services) => {
+  const elements = build(store, services);
+  const { corner, menu } = elements;
+  root.append(corner);
+  const takes = mountTakesButton(corner, store, services);
+  const closeOutside = (event: PointerEvent): void => {
+    if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, panelToggled('overlays'));
+  };
+  document.addEventListener('pointerdown', closeOutside);
+  return together(
+    watchAll(
+      store,
+      (state) => [state.overlays, state.coarse, state.reaction, besideStage(state), state.job === null],
+      (state) => {
+        showState(elements, state);
+      },
+    ),
+    watch(
+      store,
+      (state) => state.openPanel === 'overlays',
+      (open) => {
+        showOpen(elements, open);
+      },
+    ),
+    takes,
+    () => {
+      document.removeEventListener('pointerdown', closeOutside);
+      corner.remove();
+    },
+  );
+};
+
+function build(store: Store, services: Services): Elements {
   const count = el('span', { class: 'count-on' });
+  const toggleMenu = (): void => {
+    apply(store, panelToggled('overlays'));
+  };
   const button = el(
     'button',
-    {
-      class: 'btn',
-      attributes: { type: 'button', 'aria-haspopup': 'dialog' },
-      on: {
-        click: () => {
-          apply(store, opened('show'));
-        },
-      },
-    },
+    { class: 'btn', attributes: { type: 'button', 'aria-haspopup': 'dialog' }, on: { click: toggleMenu } },
     'Show',
     count,
   );
-  const toggles = SHOWS.map(({ what, label, key, hint }) =>
-    el(
-      'button',
-      {
-        class: 'it',
-        attributes: { type: 'button', title: hint, 'aria-keyshortcuts': key, 'aria-label': label },
-        on: {
-          click: () => {
-            apply(store, shownToggled(what));
-          },
-        },
-      },
-      el('span', { class: 'led', attributes: { 'aria-hidden': true } }),
-      el('span', { class: 'name', text: label }),
-      el('kbd', { class: 'desk', text: key, attributes: { 'aria-hidden': true } }),
-    ),
+  const toggles = OVERLAYS.map((overlay) =>
+    overlayToggle(overlay, () => {
+      apply(store, overlayToggled(overlay.what));
+    }),
   );
-  const make = el('button', {
+  const generate = el('button', {
     class: 'btn',
     text: 'Generate it here',
     attributes: { type: 'button' },
@@ -51,8 +80,8 @@ export const mountShowMenu: Mount = (root, store, services) => {
       },
     },
   });
-  const words = el('span');
-  const note = el('div', { class: 'note' }, words, make);
+  const noteText = el('span');
+  const note = el('div', { class: 'note' }, noteText, generate);
   const [ghost, ...others] = toggles;
   const menu = el(
     'div',
@@ -63,50 +92,48 @@ export const mountShowMenu: Mount = (root, store, services) => {
   );
   menu.hidden = true;
   const corner = el('div', { class: 'over shows' }, button, menu);
-  root.append(corner);
-  const takes = mountTakesButton(corner, store, services);
+  return { corner, button, count, menu, toggles, note, noteText, generate };
+}
 
-  const showState = (state: AppState): void => {
-    const { shown, coarse, job } = state;
-    SHOWS.forEach(({ what }, i) => {
-      setAttribute(toggles[i]!, 'aria-pressed', String(shown[what]));
-    });
-    const on = SHOWS.filter(({ what }) => shown[what]).length;
-    setText(count, on > 0 ? String(on) : '');
-    button.setAttribute('aria-label', on > 0 ? `Show, ${on} on` : 'Show');
-    const missing = coarseIsMissing(state);
-    note.hidden = noteWords(state) === '';
-    make.hidden = !missing || job !== null;
-    setText(words, noteWords(state));
-    setAttribute(ghost!, 'aria-busy', coarse.decoding ? 'true' : undefined);
-  };
-  const showOpen = (open: boolean): void => {
-    const was = !menu.hidden;
-    menu.hidden = !open;
-    button.setAttribute('aria-expanded', String(open));
-    if (open) ghost?.focus();
-    else if (was && menu.contains(document.activeElement)) button.focus();
-  };
-  const closeOutside = (event: PointerEvent): void => {
-    if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, opened('show'));
-  };
-  document.addEventListener('pointerdown', closeOutside);
-  return together(
-    watchAll(
-      store,
-      (state) => [state.shown, state.coarse, state.reaction, besideStage(state), state.job === null],
-      showState,
-    ),
-    watch(store, (state) => state.open === 'show', showOpen),
-    takes,
-    () => {
-      document.removeEventListener('pointerdown', closeOutside);
-      corner.remove();
+function overlayToggle({ label, key, hint }: Overlay, toggle: () => void): HTMLButtonElement {
+  return el(
+    'button',
+    {
+      class: 'it',
+      attributes: { type: 'button', title: hint, 'aria-keyshortcuts': key, 'aria-label': label },
+      on: { click: toggle },
     },
+    el('span', { class: 'led', attributes: { 'aria-hidden': true } }),
+    el('span', { class: 'name', text: label }),
+    el('kbd', { class: 'desk', text: key, attributes: { 'aria-hidden': true } }),
   );
-};
+}
 
-/** What there is to say about the coarse ghost while it can't be seen; nothing when it can. */
+function showState({ button, count, toggles, note, noteText, generate }: Elements, state: AppState): void {
+  const { overlays, coarse, job } = state;
+  OVERLAYS.forEach(({ what }, i) => {
+    const toggle = toggles[i]!;
+    setAttribute(toggle, 'aria-pressed', String(overlays[what]));
+    if (what === 'ghost') setAttribute(toggle, 'aria-busy', coarse.decoding ? 'true' : undefined);
+  });
+  const on = OVERLAYS.filter(({ what }) => overlays[what]).length;
+  setText(count, on > 0 ? String(on) : '');
+  button.setAttribute('aria-label', on > 0 ? `Show, ${on} on` : 'Show');
+  const words = noteWords(state);
+  note.hidden = words === '';
+  setText(noteText, words);
+  generate.hidden = !coarseIsMissing(state) || job !== null;
+}
+
+function showOpen({ button, menu, toggles }: Elements, open: boolean): void {
+  const wasOpen = !menu.hidden;
+  menu.hidden = !open;
+  button.setAttribute('aria-expanded', String(open));
+  if (open) toggles[0]?.focus();
+  else if (wasOpen && menu.contains(document.activeElement)) button.focus();
+}
+
+/** Why the coarse ghost can't be seen; empty when it can. */
 function noteWords(state: AppState): string {
   const { reaction, coarse, job } = state;
   if (reaction && coarseIsMissing(state)) return job ? 'Being generated' : missingWords(reaction);

@@ -1,6 +1,6 @@
 import * as v from 'valibot';
 import { together } from '../widgets/dom';
-import { NOTHING_SHOWN } from '../store/overlays';
+import { NO_OVERLAYS } from '../store/overlays';
 import type { AppState, Theme } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
 import { SPEEDS, themeSet } from '../store/actions/view';
@@ -9,7 +9,7 @@ const KEY = 'reactdance.preferences';
 
 const isSpeed = (value: number): boolean => SPEEDS.some((speed) => speed === value);
 
-/** Each value stands for itself: one that is missing, old or broken takes its default and leaves the others. */
+/** A value that is missing or invalid takes its default and leaves the others. */
 const schema = v.object({
   /** Null follows the system. */
   theme: v.fallback(v.nullable(v.picklist(['dark', 'light'])), null),
@@ -27,26 +27,26 @@ const schema = v.object({
       hands: v.boolean(),
       ghost: v.boolean(),
     }),
-    NOTHING_SHOWN,
+    NO_OVERLAYS,
   ),
 });
 
-/** How the visitor likes the page. What was made on it is kept elsewhere. */
+/** Theme, camera and other choices in localStorage; takes and settings are stored by `Project`. */
 export type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
-  ({ theme, camera, speed, loop, footLock, seedLocked, shown }: Preferences): Change =>
+  ({ theme, camera, speed, loop, footLock, seedLocked, shown: overlays }: Preferences): Change =>
   (state) => ({
     theme: theme ?? state.theme,
     camera,
     footLock,
     seedLocked,
-    shown,
+    overlays,
     playback: { ...state.playback, speed, loop },
   });
 
 const chosen = (
-  { camera, footLock, seedLocked, shown, playback: { speed, loop } }: AppState,
+  { camera, footLock, seedLocked, overlays, playback: { speed, loop } }: AppState,
   theme: Theme | null,
 ): Preferences => ({
   theme,
@@ -55,21 +55,21 @@ const chosen = (
   loop,
   footLock,
   seedLocked,
-  shown,
+  shown: overlays,
 });
 
 /** The part of localStorage that is needed. */
 export type PreferenceStorage = Pick<Storage, 'getItem' | 'setItem'>;
 
-/** The system's theme: tells when it changes, returns how to stop. */
+/** Calls back when the system changes its theme; returns the unsubscription. */
 export type WatchTheme = (change: (theme: Theme) => void) => () => void;
 
 /**
- * Takes the preferences of earlier visits and keeps those of this one.
- * @param storage gives the place to keep them; may throw or give nothing, as browsers do in private windows
+ * Restores the preferences of earlier visits and stores those of this one.
+ * @param storage returns the storage; may throw or return null, as browsers do in private windows
  * @param watchSystem follows the system's theme, which counts as long as the visitor has chosen none
  */
-export function keepPreferences(
+export function syncPreferences(
   store: Store,
   storage: () => PreferenceStorage | null,
   watchSystem: WatchTheme,
@@ -113,12 +113,12 @@ export function keepPreferences(
 }
 
 function read(storage: () => PreferenceStorage | null): Preferences {
-  let kept: unknown = null;
+  let stored: unknown = null;
   try {
-    kept = JSON.parse(storage()?.getItem(KEY) ?? 'null');
+    stored = JSON.parse(storage()?.getItem(KEY) ?? 'null');
   } catch {
-    // Forbidden storage, or no JSON.
+    // No storage, or no JSON.
   }
-  const result = v.safeParse(schema, kept);
+  const result = v.safeParse(schema, stored);
   return result.success ? result.output : v.parse(schema, {});
 }

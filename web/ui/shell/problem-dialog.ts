@@ -2,9 +2,9 @@ import { el, together } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
-import { dismissed } from '../store/actions/notices';
+import { problemClosed } from '../store/actions/notices';
 
-/** A failure in words over the stage: what is wrong, what to do. Everything loaded before stays loaded. */
+/** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {
   let dialog: HTMLElement | null = null;
   let before: Element | null = null;
@@ -34,7 +34,7 @@ export const mountProblemDialog: Mount = (root, store, services) => {
 
 function build(problem: Problem, state: AppState, store: Store, services: Services): HTMLElement {
   const dismiss = (): void => {
-    apply(store, dismissed());
+    apply(store, problemClosed());
   };
   const action = (text: string, kind: string, run: () => void): HTMLElement =>
     el('button', {
@@ -102,11 +102,11 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
   }
 }
 
-/** The way back names what stays: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+/** Names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
 export function keepWords(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
   if (!problem.refused) return 'Close';
-  const { side } = problem.refused;
-  const kept = side ? [{ song, leader }[side]] : [song, leader];
+  const { kind } = problem.refused;
+  const kept = kind ? [{ song, leader }[kind]] : [song, leader];
   const names = kept.flatMap((file) => (file ? [file.name] : []));
   return names.length > 0 ? `Keep ${names.join(' and ')}` : 'Close';
 }

@@ -1,7 +1,7 @@
 import { el, together } from '../widgets/dom';
 import { coarseMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
-import { mountShowMenu } from './overlay-menu';
+import { mountOverlayMenu } from './overlay-menu';
 import { icon } from '../widgets/icons';
 import { mountUndo } from '../takes/undo';
 import type { Camera } from '../store/state';
@@ -15,7 +15,7 @@ const CAMERAS: readonly (readonly [Camera, string])[] = [
   ['side', 'Side'],
 ];
 
-/** On the phone, at the stage's lower edge under the thumb: back, forth, and both dancers in the picture again. */
+/** On the phone, at the stage's lower edge: undo, redo and framing both dancers. */
 const mountStageTools: Mount = (root, store, services) => {
   const tools = el('div', {
     class: 'over tools',
@@ -42,7 +42,7 @@ const mountStageTools: Mount = (root, store, services) => {
   });
 };
 
-/** Over the picture: who is who, and from where it is seen. */
+/** Over the picture: the legend, the cameras, overlays and stage tools. */
 export const mountStageControls: Mount = (root, store, services) => {
   const coarse = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Coarse only');
   const legend = el(
@@ -96,7 +96,7 @@ export const mountStageControls: Mount = (root, store, services) => {
   root.append(legend, views);
 
   return together(
-    mountShowMenu(root, store, services),
+    mountOverlayMenu(root, store, services),
     mountStageTools(root, store, services),
     watch(
       store,

@@ -1,4 +1,7 @@
+import { generatedRole } from '../store/roles';
 import type { Theme } from '../store/state';
+import { type Store, watch } from '../store/store';
+import { together } from '../widgets/dom';
 
 const system = (): MediaQueryList => matchMedia('(prefers-color-scheme: light)');
 
@@ -6,7 +9,7 @@ export function systemTheme(): Theme {
   return system().matches ? 'light' : 'dark';
 }
 
-/** Tells when the system changes its theme; returns how to stop. */
+/** Calls back when the system changes its theme; returns the unsubscription. */
 export function watchSystemTheme(change: (theme: Theme) => void): () => void {
   const query = system();
   const listener = (): void => {
@@ -18,9 +21,19 @@ export function watchSystemTheme(change: (theme: Theme) => void): () => void {
   };
 }
 
-/** Shows a theme, in the browser's own frame too. */
-export function showTheme(theme: Theme): void {
-  document.documentElement.dataset.theme = theme;
+/** Gives the style sheets the theme and the generated dancer's role, which they colour some controls by. */
+export function mountTheme(store: Store): () => void {
+  return together(
+    watch(store, (state) => state.theme, showTheme),
+    watch(store, generatedRole, (role) => {
+      document.documentElement.dataset['made'] = role;
+    }),
+  );
+}
+
+/** Shows a theme on the page and in the browser's own frame. */
+function showTheme(theme: Theme): void {
+  document.documentElement.dataset['theme'] = theme;
   const colour = getComputedStyle(document.documentElement).getPropertyValue('--panel').trim();
   document.querySelector('meta[name="theme-color"]')?.setAttribute('content', colour);
 }

@@ -1,13 +1,13 @@
 import { el, setText, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
-import { announced } from '../store/actions/notices';
+import { toastShown } from '../store/actions/notices';
 
-/** How long news stay, milliseconds; a click puts them away sooner. */
-const STAY = 7000;
+/** How long a toast stays; a click closes it sooner. */
+const TOAST_MS = 7000;
 
-/** What has just happened that is not to be seen at once, in a pill at the stage's upper edge. */
-export const mountNews: Mount = (root, store) => {
+/** Toasts: a sentence about what has just happened, at the stage's upper edge. */
+export const mountToast: Mount = (root, store) => {
   const words = el('span');
   const pill = el(
     'div',
@@ -15,7 +15,7 @@ export const mountNews: Mount = (root, store) => {
       class: 'float news',
       on: {
         click: () => {
-          apply(store, announced(null));
+          apply(store, toastShown(null));
         },
       },
     },
@@ -27,13 +27,13 @@ export const mountNews: Mount = (root, store) => {
   return together(
     watch(
       store,
-      (state) => state.news,
-      (news) => {
+      (state) => state.toast,
+      (toast) => {
         clearTimeout(timer);
-        pill.hidden = news === null;
-        setText(words, news ?? '');
-        setText(spoken, news ?? '');
-        if (news !== null) timer = setTimeout(() => void apply(store, announced(null)), STAY);
+        pill.hidden = toast === null;
+        setText(words, toast ?? '');
+        setText(spoken, toast ?? '');
+        if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
       },
     ),
     () => {

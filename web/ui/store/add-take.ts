@@ -10,21 +10,21 @@ export interface Stamp {
 }
 
 /**
- * While guidance is being dragged, reactions follow each other this fast, milliseconds. A longer rest means that the
- * visitor has looked at the one before.
+ * Most time between two reactions of one drag of a guidance fader. After a longer rest the visitor has looked at the
+ * earlier one, which therefore stays.
  */
-const FOLD_WITHIN = 4000;
+const SAME_DRAG_MS = 4000;
 
-/** Takes that are kept; beyond it the oldest that nobody starred or named leave. */
-export const MOST_TAKES = 40;
+/** Most takes in the list; beyond it the oldest that are neither starred nor named are removed. */
+export const MAX_TAKES = 40;
 
 export function newStamp(): Stamp {
   const at = Date.now();
   return { id: `${at.toString(36)}-${Math.random().toString(36).slice(2, 8)}`, at };
 }
 
-/** The takes after a reaction has arrived. It is one of four things, asked in this order. */
-export function arrived(
+/** The takes after a reaction has been generated or loaded. It is one of four things, tested in this order. */
+export function withReaction(
   state: AppState,
   reaction: Reaction,
   stamp: Stamp,
@@ -32,29 +32,29 @@ export function arrived(
   const { takes, takesMade } = state;
   const before = takeOnStage(state);
   // A drag stays one step of undo however many reactions come while it lasts.
-  const live = before !== null && differOnlyInGuidance(before.reaction.inputs, reaction.inputs);
-  const history = live ? state.history : sealed(state.history);
+  const sameDrag = before !== null && differOnlyInGuidance(before.reaction.inputs, reaction.inputs);
+  const history = sameDrag ? state.history : sealed(state.history);
   const keep = (take: Take): Pick<AppState, 'takes' | 'takesMade' | 'history'> => ({
     takes: withTake(takes, take),
     takesMade,
     history,
   });
 
-  // 1. The motion of a take, told anew what it was made from, as when the demo's song comes after its dancers.
-  const told = takes.find((take) => take.reaction.motion === reaction.motion);
-  if (told) return keep({ ...told, reaction });
+  // 1. The motion of a take with other inputs, as when the demo's song is read after its dancers.
+  const sameMotion = takes.find((take) => take.reaction.motion === reaction.motion);
+  if (sameMotion) return keep({ ...sameMotion, reaction });
 
-  // 2. The same wish as a take's: the model answers alike, so that it is that take, made again.
-  const again = takes.find(
+  // 2. The same inputs as a take's: the model generates the same motion, so it is that take again.
+  const sameInput = takes.find(
     (take) => take.reaction.label === reaction.label && sameInputs(take.reaction.inputs, reaction.inputs),
   );
-  if (again) return keep({ ...again, reaction });
+  if (sameInput) return keep({ ...sameInput, reaction });
 
-  // 3. The next moment of a drag takes the place of the one before.
-  if (before && live && foldable(before, state, stamp.at))
+  // 3. The next reaction of a drag replaces the one before.
+  if (before && sameDrag && isReplaceable(before, state, stamp.at))
     return keep({ ...before, createdAt: stamp.at, reaction });
 
-  // 4. A take of its own. What the page brings along has a name and needs no number.
+  // 4. A new take. The page's own reactions have a label and need no number.
   const number = reaction.label === null ? takesMade + 1 : 0;
   const take: Take = { id: stamp.id, number, name: null, starred: false, createdAt: stamp.at, reaction };
   return {
@@ -65,12 +65,12 @@ export function arrived(
 }
 
 /**
- * Whether the take may give way to one that differs from it only in guidance: nobody has starred it, named it or
- * chosen it for a comparison, it was made here, and not longer ago than two reactions of one drag lie apart.
+ * Whether a take may be replaced by one that differs from it only in guidance: it is not starred, named or in a
+ * comparison, it was generated here, and not longer ago than `SAME_DRAG_MS`.
  */
-function foldable(take: Take, { other }: AppState, now: number): boolean {
-  const ofNobody = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
-  return ofNobody && now - take.createdAt < FOLD_WITHIN;
+function isReplaceable(take: Take, { other }: AppState, now: number): boolean {
+  const unmarked = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
+  return unmarked && now - take.createdAt < SAME_DRAG_MS;
 }
 
 function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
@@ -80,13 +80,13 @@ function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
 
 /** At most `MOST_TAKES`, unless more are starred, named or in use. */
 function withoutOldest(takes: readonly Take[], inUse: readonly (string | null)[]): readonly Take[] {
-  let spare = takes.length - MOST_TAKES;
-  if (spare <= 0) return takes;
-  const leaving = new Set<string>();
+  let surplus = takes.length - MAX_TAKES;
+  if (surplus <= 0) return takes;
+  const removed = new Set<string>();
   for (const { id, starred, name } of takes.toReversed())
-    if (spare > 0 && !starred && name === null && !inUse.includes(id)) {
-      leaving.add(id);
-      spare--;
+    if (surplus > 0 && !starred && name === null && !inUse.includes(id)) {
+      removed.add(id);
+      surplus--;
     }
-  return takes.filter(({ id }) => !leaving.has(id));
+  return takes.filter(({ id }) => !removed.has(id));
 }

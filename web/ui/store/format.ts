@@ -32,13 +32,13 @@ export function tempo(bpm: number): string {
   return bpm > 0 ? `${Math.round(bpm)} BPM` : 'no beat found';
 }
 
-/** Rounds to what a fader with this step can show, free of binary dust (`0.15000000000000002`). */
+/** Rounds to a fader's step, without floating-point remainders (`0.15000000000000002`). */
 export function toStep(value: number, step: number, origin: number): number {
   return Number((origin + Math.round((value - origin) / step) * step).toFixed(6));
 }
 
 /** A file's name without its ending, in small letters, digits and hyphens; never empty. */
-export function slug(fileName: string, otherwise: string): string {
+export function slug(fileName: string, fallback: string): string {
   const plain = fileName
     .replace(/\.[a-z0-9]{1,5}$/i, '')
     .normalize('NFKD')
@@ -48,5 +48,5 @@ export function slug(fileName: string, otherwise: string): string {
     .replace(/^-+|-+$/g, '')
     .slice(0, 40)
     .replace(/-+$/, '');
-  return plain || otherwise;
+  return plain || fallback;
 }

@@ -4,7 +4,7 @@ import type { Guidance, Layer, Settings } from './state';
 
 type Range = Pick<Manifest['guidance'], 'min' | 'max' | 'step'>;
 
-/** The same column for every stream: how a matrix with one value per layer is written. */
+/** A matrix with the same value per layer in every stream. */
 export function uniform(
   streams: readonly string[],
   layers: readonly string[],
@@ -15,7 +15,7 @@ export function uniform(
   );
 }
 
-/** The manifest's own choice. */
+/** The manifest's default. */
 export function defaultGuidance({ latent, guidance }: Pick<Manifest, 'latent' | 'guidance'>): Guidance {
   return uniform(latent.streams, latent.layers, (layer) => guidance.default[layer] ?? 0);
 }
@@ -43,7 +43,7 @@ export function sameGuidance(a: Guidance, b: Guidance): boolean {
   return one.length === other.length && one.every((cell, i) => cell === other[i]);
 }
 
-/** With one cell set, held to range and step. */
+/** With one cell set, clamped to the range and rounded to the step. */
 export function withCell(
   guidance: Guidance,
   stream: string,
@@ -51,37 +51,40 @@ export function withCell(
   value: number,
   range: Range,
 ): Guidance {
-  return { ...guidance, [stream]: { ...guidance[stream], [layer]: held(value, range) } };
+  return { ...guidance, [stream]: { ...guidance[stream], [layer]: clampedToStep(value, range) } };
 }
 
 /**
- * With one layer moved so that its mean over the streams is `value`. Streams move together and keep their
- * differences; one that reaches an end of the range waits there for the others, so at the end all are alike.
+ * With one layer moved so that its mean over the streams is `value`. All streams move by the same amount and keep
+ * their differences, except that each is clamped to the range.
  */
 export function withColumn(guidance: Guidance, layer: Layer, value: number, range: Range): Guidance {
   const rows = Object.entries(guidance);
   const before = rows.map(([, row]) => row[layer] ?? 0);
   const by = shiftTo(before, Math.min(range.max, Math.max(range.min, value)), range);
   return Object.fromEntries(
-    rows.map(([stream, row], i) => [stream, { ...row, [layer]: held((before[i] ?? 0) + by, range) }]),
+    rows.map(([stream, row], i) => [
+      stream,
+      { ...row, [layer]: clampedToStep((before[i] ?? 0) + by, range) },
+    ]),
   );
 }
 
-/** What to add to each value so that their mean, each held to the range, is `mean`: it only grows, so halve. */
+/** The amount to add to each value so that the mean of the clamped sums is `mean`, by bisection: it is monotonic. */
 function shiftTo(values: readonly number[], mean: number, { min, max }: Range): number {
-  const reached = (by: number): number =>
+  const meanAfter = (by: number): number =>
     values.reduce((sum, value) => sum + Math.min(max, Math.max(min, value + by)), 0) / values.length;
   let [low, high] = [min - max, max - min];
-  for (let turn = 0; turn < 50; turn++) {
+  for (let iteration = 0; iteration < 50; iteration++) {
     const middle = (low + high) / 2;
-    if (reached(middle) < mean) low = middle;
+    if (meanAfter(middle) < mean) low = middle;
     else high = middle;
   }
   return Math.round(high * 1e9) / 1e9;
 }
 
-/** The value, held to range and step. */
-export function held(value: number, { min, max, step }: Range): number {
+/** The value, clamped to the range and rounded to the step. */
+export function clampedToStep(value: number, { min, max, step }: Range): number {
   return toStep(Math.min(max, Math.max(min, value)), step, min);
 }
 

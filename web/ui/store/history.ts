@@ -1,7 +1,7 @@
 import { danceDuration, sameSettings } from './selectors';
 import type { AppState, Inputs, Settings, Take } from './state';
 import type { Change } from './store';
-import { presentInputs, takeOnStage, withTake } from './take';
+import { currentInputs, takeOnStage, withTake } from './take';
 
 /** A take as it was before and after a step; null where it was not there. */
 interface Edit {
@@ -9,20 +9,20 @@ interface Edit {
   readonly after: Take | null;
 }
 
-/** One step that can be taken back. It holds only what differed, so that whatever else has come since then stays. */
+/** One step that can be undone. It holds only what differed, so that undoing leaves later changes elsewhere alone. */
 interface Step {
-  /** What was changed; steps of the same kind that follow each other at once are one. Null is like nothing else. */
+  /** What was changed; steps of the same kind in quick succession are one step. Null is never the same kind. */
   readonly kind: string | null;
   /** When it was last added to, milliseconds since 1970. */
   readonly at: number;
   /** The parts of the state as they were. */
   readonly back: Partial<AppState>;
   readonly edits: readonly Edit[];
-  /** The take that was on the stage, which a fold may have replaced since. */
+  /** The take that was on the stage; a newer reaction of the same drag may have replaced it since. */
   readonly stage: Take | null;
 }
 
-/** What can be undone and redone, each with the nearest step last. */
+/** What can be undone and redone; the last step of each is next. */
 export interface History {
   readonly past: readonly Step[];
   readonly future: readonly Step[];
@@ -32,22 +32,22 @@ export interface History {
 
 export const NO_HISTORY: History = { past: [], future: [], open: false };
 
-const MOST_STEPS = 100;
+const MAX_STEPS = 100;
 
-/** A fader that rests this long has been let go of, milliseconds. */
-const SAME_GESTURE = 1000;
+/** A fader that rests this long has been released. */
+const SAME_GESTURE_MS = 1000;
 
-/** The last step is complete: whatever comes next is another one. */
+/** Completes the last step: the next change is a step of its own. */
 export function sealed(history: History): History {
   return history.open ? { ...history, open: false } : history;
 }
 
 /**
- * Adds to a change the step that takes it back, if it is one that visitors take back: of settings, song, leader, any
- * other input of a reaction, takes, or the choice of a take. Changes that set `history` have seen to it themselves;
- * reactions that arrive are among them, so that undoing leads to the take before and not to less takes.
+ * Adds to a change the step that undoes it, if it is one that visitors undo: of settings, song, leader, any other
+ * input of a reaction, takes, or the choice of a take. Changes that set `history` themselves are left as they are;
+ * new reactions are among them, so that undoing shows the take before and removes none.
  */
-export function remembered(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
+export function withUndo(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
   if ('history' in patch) return patch;
   const after = { ...before, ...patch };
   const inputs = changedInputs(before, after);
@@ -58,8 +58,8 @@ export function remembered(before: AppState, patch: Partial<AppState>, at: numbe
   const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
-  const goesOn = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE;
-  const step: Step = goesOn
+  const continues = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE_MS;
+  const step: Step = continues
     ? { ...last, at }
     : {
         kind,
@@ -68,24 +68,24 @@ export function remembered(before: AppState, patch: Partial<AppState>, at: numbe
         edits,
         stage: takeOnStage(before),
       };
-  const kept = goesOn ? past.slice(0, -1) : past.slice(1 - MOST_STEPS);
+  const kept = continues ? past.slice(0, -1) : past.slice(1 - MAX_STEPS);
   return { ...patch, history: { past: [...kept, step], future: [], open: true } };
 }
 
-/** A change that the page makes of its own accord, such as loading its demo: nobody has to take it back. */
-export function unremembered(change: Change): Change {
+/** A change that the page makes by itself, such as loading its demo, and that is no step of undo. */
+export function withoutUndo(change: Change): Change {
   return (state) => ({ history: state.history, ...change(state) });
 }
 
 const COMPARISON = ['other', 'letter', 'compare'] as const;
 
-/** A change that replaces everything at once: taking it back brings everything back. */
-export function replacing(before: AppState, patch: Partial<AppState>): Partial<AppState> {
+/** A change that replaces everything at once, with the one step that undoes it. */
+export function withUndoOfAll(before: AppState, patch: Partial<AppState>): Partial<AppState> {
   const nothing = before.takes.length === 0 && !before.leader && !before.song;
   if (nothing) return { ...patch, history: NO_HISTORY };
   const keys = Object.keys(patch) as (keyof AppState)[];
   const step: Step = { kind: null, at: 0, back: pick(before, keys), edits: [], stage: null };
-  const past = [...before.history.past.slice(1 - MOST_STEPS), step];
+  const past = [...before.history.past.slice(1 - MAX_STEPS), step];
   return { ...patch, history: { past, future: [], open: false } };
 }
 
@@ -96,22 +96,22 @@ export function undone(): Change {
     const step = past.at(-1);
     if (!step) return {};
     const history = { past: past.slice(0, -1), future: [...future, inverse(step, state)], open: false };
-    return { ...travelled(step, state), history };
+    return { ...withStep(step, state), history };
   };
 }
 
-/** Takes the last step back that was undone. */
+/** Redoes the last step that was undone. */
 export function redone(): Change {
   return (state) => {
     const { past, future } = state.history;
     const step = future.at(-1);
     if (!step) return {};
     const history = { past: [...past, inverse(step, state)], future: future.slice(0, -1), open: false };
-    return { ...travelled(step, state), history };
+    return { ...withStep(step, state), history };
   };
 }
 
-function travelled({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
+function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
   const after = { ...state, ...back };
   let { takes } = after;
   for (const { before, after: since } of edits)
@@ -169,7 +169,7 @@ function editsBetween(before: readonly Take[], after: readonly Take[]): Edit[] {
 
 /** The inputs of a reaction that differ, by their names, which are the same in the state. */
 function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
-  const inputs = presentInputs(before);
+  const inputs = currentInputs(before);
   // Before there is a leader there is nothing to go back to.
   if (!inputs) return [];
   return (Object.keys(inputs) as (keyof Inputs)[]).filter((key) => {
@@ -179,7 +179,7 @@ function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
   });
 }
 
-/** `leader`, or `settings.guidance`: what a change is about. */
+/** The names of the inputs that changed: `leader`, or `settings.guidance`. */
 function kindOf(inputs: readonly (keyof Inputs)[], before: AppState, after: AppState): string {
   return inputs
     .map((key) => {

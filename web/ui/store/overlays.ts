@@ -1,15 +1,15 @@
-import type { Shown } from './state';
+import type { Overlays } from './state';
 
-/** What the stage can show beside the dancers: its name on the page, the key that switches it, what it tells. */
-export interface ShowWords {
-  readonly what: keyof Shown;
+/** Something the stage can draw in addition to the dancers: its name on the page, the key that toggles it, a hint. */
+export interface Overlay {
+  readonly what: keyof Overlays;
   readonly label: string;
   readonly key: string;
   readonly hint: string;
 }
 
-/** As the page opens for the first time. */
-export const NOTHING_SHOWN: Shown = {
+/** The overlays of a first visit. */
+export const NO_OVERLAYS: Overlays = {
   skeleton: false,
   trails: false,
   contacts: false,
@@ -18,7 +18,7 @@ export const NOTHING_SHOWN: Shown = {
   ghost: false,
 };
 
-export const SHOWS: readonly ShowWords[] = [
+export const OVERLAYS: readonly Overlay[] = [
   { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The partner without the fine layer' },
   { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },
   { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },

@@ -1,53 +1,59 @@
-import { AppError } from '../../common/error';
-import type { Problem, Side } from './state';
+import type { Problem, InputKind } from './state';
 
-/** True for the error that an abort signal leaves behind, which is nobody's problem. */
+/** What the project's own errors have in common: a sentence, and what to do about it. */
+interface Told {
+  readonly code: string;
+  readonly message: string;
+  readonly hint: string;
+}
+
+function isTold(error: unknown): error is Told {
+  return (
+    error instanceof Error &&
+    'code' in error &&
+    'hint' in error &&
+    typeof error.hint === 'string' &&
+    error.hint !== ''
+  );
+}
+
+/** True for the error of an abort signal, which is not shown. */
 export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
-/** The words of a foreseen error, or those given for any other. */
-function described(
-  error: unknown,
-  unforeseen: Pick<Problem, 'code' | 'title' | 'hint'>,
-): Pick<Problem, 'code' | 'title' | 'hint'> {
-  return error instanceof AppError
-    ? { code: error.code, title: error.message, hint: error.hint }
-    : unforeseen;
-}
-
 /** A failure while a file was read. */
-export function fileProblem(error: unknown, side: Side, name: string): Problem {
-  const refused = { side, name };
-  if (error instanceof AppError)
-    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: side, refused };
+export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
+  const refused = { kind, name };
+  if (isTold(error))
+    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
     code: 'unreadable-file',
     title: `${name} could not be read.`,
     hint: 'Choose it again, or try another file. Everything loaded before is unchanged.',
-    remedy: side,
+    remedy: kind,
     refused,
   };
 }
 
-/** Error sentences speak of "the file" or not at all of it; the page's names it. */
+/** Puts the file's name before a sentence that does not contain it. */
 function named(name: string, sentence: string): string {
   return sentence.includes(name) ? sentence : `${name}: ${sentence}`;
 }
 
 /** A project file that could not be opened, or written. */
 export function projectProblem(error: unknown, name: string, remedy: Problem['remedy']): Problem {
-  const told = error instanceof AppError;
+  const told = isTold(error);
   return {
     code: told ? error.code : 'unreadable-file',
     title: told ? named(name, error.message) : `${name} could not be read.`,
     hint: told ? error.hint : 'Choose it again. Everything on the page is unchanged.',
     remedy,
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
-/** The browser has no more space for what is made here. */
+/** The browser has no more space for autosave. */
 export function fullProblem(): Problem {
   return {
     code: 'storage-full',
@@ -62,25 +68,23 @@ export function fullProblem(): Problem {
 
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'model-failed',
-      title: 'The model could not be started.',
-      hint: 'Reload the page; if it happens again, try another browser.',
-    }),
+    code: told ? error.code : 'model-failed',
+    title: told ? error.message : 'The model could not be started.',
+    hint: told ? error.hint : 'Reload the page; if it happens again, try another browser.',
     remedy: 'model',
     refused: null,
   };
 }
 
-/** A failure while a reaction was made. */
+/** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'generation-failed',
-      title: 'The reactor could not be made.',
-      hint: 'Try again; fewer steps or a shorter leader need less memory.',
-    }),
+    code: told ? error.code : 'generation-failed',
+    title: told ? error.message : 'The reactor could not be made.',
+    hint: told ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
     remedy: 'generate',
     refused: null,
   };
@@ -88,12 +92,11 @@ export function generationProblem(error: unknown): Problem {
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'coarse-failed',
-      title: 'The coarse layer of this reaction could not be decoded.',
-      hint: 'Show it again, or generate the reaction again.',
-    }),
+    code: told ? error.code : 'coarse-failed',
+    title: told ? error.message : 'The coarse layer of this reaction could not be decoded.',
+    hint: told ? error.hint : 'Show it again, or generate the reaction again.',
     remedy: 'generate',
     refused: null,
   };
@@ -101,44 +104,43 @@ export function coarseProblem(error: unknown): Problem {
 
 /** A failure to play. */
 export function playbackProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'playback-failed',
-      title: 'The song could not be played.',
-      hint: 'Press play again.',
-    }),
+    code: told ? error.code : 'playback-failed',
+    title: told ? error.message : 'The song could not be played.',
+    hint: told ? error.hint : 'Press play again.',
     remedy: 'none',
     refused: null,
   };
 }
 
-/** A failure to write a file to take home. */
+/** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'saving-failed',
-      title: 'The file could not be written.',
-      hint: 'Try again, or another format. The dance and your settings are unchanged.',
-    }),
+    code: told ? error.code : 'saving-failed',
+    title: told ? error.message : 'The file could not be written.',
+    hint: told ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
     remedy: 'none',
     refused: null,
   };
 }
 
-/** A failure of the picture; all else goes on working. */
+/** A failure of the 3D picture; everything else goes on working. */
 export function stageProblem(error: unknown): Problem {
+  const told = isTold(error);
   return {
-    ...described(error, {
-      code: 'stage-failed',
-      title: 'The 3D picture could not be started.',
-      hint: 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
-    }),
+    code: told ? error.code : 'stage-failed',
+    title: told ? error.message : 'The 3D picture could not be started.',
+    hint: told
+      ? error.hint
+      : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
     remedy: 'none',
     refused: null,
   };
 }
 
-/** What was dropped could not be opened at all: moved meanwhile, forbidden, or on a disk that is gone. */
+/** What was dropped could not be opened at all: moved in the meantime, forbidden, or on a disk that was removed. */
 export function dropProblem(error: unknown): Problem {
   const forbidden =
     error instanceof DOMException && (error.name === 'NotReadableError' || error.name === 'SecurityError');
@@ -169,7 +171,7 @@ export function otherMotionProblem(name: string): Problem {
     title: `${name} is a motion in a format that cannot be read here.`,
     hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
     remedy: 'leader',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
@@ -179,7 +181,7 @@ export function unknownFileProblem(name: string): Problem {
     title: `${name} is neither a song nor a motion.`,
     hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
     remedy: 'any-file',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }
 
@@ -189,6 +191,6 @@ export function emptyFileProblem(name: string): Problem {
     title: `${name} is empty.`,
     hint: 'The file has no bytes; the copy or download may have failed. Choose it again from its source.',
     remedy: 'any-file',
-    refused: { side: null, name },
+    refused: { kind: null, name },
   };
 }

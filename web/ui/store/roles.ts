@@ -2,14 +2,14 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from './reactor-motion';
 import type { AppState, Role } from './state';
 
-/** Whose part the model dances; the loaded dancer has the other one. */
-export function madeRole({ settings }: Pick<AppState, 'settings'>): Role {
+/** The role that the model generates; the loaded dancer has the other one. */
+export function generatedRole({ settings }: Pick<AppState, 'settings'>): Role {
   return settings?.role ?? 'reactor';
 }
 
-/** Whose part the loaded dancer has. */
+/** The role of the dancer that was loaded from a file. */
 export function loadedRole(state: Pick<AppState, 'settings'>): Role {
-  return otherRole(madeRole(state));
+  return otherRole(generatedRole(state));
 }
 
 export function otherRole(role: Role): Role {
@@ -21,18 +21,18 @@ export function roleName(role: Role): string {
   return role === 'leader' ? 'Leader' : 'Reactor';
 }
 
-/** The motion of the made dancer that is drawn: what is being made, as far as it is, else what was made. */
-export function shownMotion(state: Pick<AppState, 'preview' | 'reaction' | 'footLock'>): SolvedMotion | null {
+/** The motion of the generated dancer that is drawn: the preview of the next reaction, else the present reaction. */
+export function drawnMotion(state: Pick<AppState, 'preview' | 'reaction' | 'footLock'>): SolvedMotion | null {
   const { preview, footLock } = state;
   if (preview) return footLock ? preview.locked : preview.motion;
   return reactorMotion(state);
 }
 
-/** Who dances what on the stage. */
-export function couple(state: AppState): Readonly<Record<Role, SolvedMotion | null>> {
+/** The motions on the stage by role. */
+export function dancers(state: AppState): Readonly<Record<Role, SolvedMotion | null>> {
   const loaded = state.leader?.motion ?? null;
-  const made = shownMotion(state);
-  return madeRole(state) === 'reactor'
-    ? { leader: loaded, reactor: made }
-    : { leader: made, reactor: loaded };
+  const generated = drawnMotion(state);
+  return generatedRole(state) === 'reactor'
+    ? { leader: loaded, reactor: generated }
+    : { leader: generated, reactor: loaded };
 }

@@ -1,8 +1,8 @@
 import { bytesOf, duration, rate } from './format';
 import { guidanceAt, sameGuidance } from './guidance-matrix';
-import type { AppState, Inputs, Job, KeepingState, Settings } from './state';
+import type { AppState, Inputs, Job, AutosaveStatus, Settings } from './state';
 
-/** Length of what plays, seconds: the leader rules it; a song alone plays for itself. */
+/** Length of what plays, seconds: the leader's; without a leader the song's. */
 export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number {
   if (state.leader) return state.leader.file.clip.frames / state.leader.file.clip.fps;
   return state.song?.data.duration ?? 0;
@@ -13,8 +13,8 @@ export function danceFps({ leader, manifest }: Pick<AppState, 'leader' | 'manife
   return leader?.file.clip.fps ?? manifest?.fps ?? 1; // without either nothing has a length
 }
 
-/** What a reaction would be made from now, or null while something is missing or still being read. */
-export function wantedInputs(state: AppState): Inputs | null {
+/** What a reaction would be generated from now; null while something is missing or still being read. */
+export function readyInputs(state: AppState): Inputs | null {
   const { leader, song, shift, settings, reading } = state;
   if (!leader || !settings || reading.song || reading.leader) return null;
   return { leader, song, shift: song ? shift : 0, settings };
@@ -38,7 +38,7 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */
 export function upToDate(state: AppState): boolean {
-  return state.reaction !== null && sameInputs(state.reaction.inputs, wantedInputs(state));
+  return state.reaction !== null && sameInputs(state.reaction.inputs, readyInputs(state));
 }
 
 /** Guidance as the model takes it: streams x layers in the manifest's order, row-major. */
@@ -52,15 +52,15 @@ export function guidanceMatrix(
   );
 }
 
-/** How long a beat lasts that is the only one, seconds. */
-const LONE_BEAT = 0.5;
+/** Assumed length of a beat where only one was found, seconds. */
+const ONLY_BEAT_SECONDS = 0.5;
 
 /**
  * Bar and count, both from 1, counted in four from the first beat found; null before it, without beats, and once the
  * last one has lasted as long as the one before it.
  */
 export function barAt(beats: readonly number[], time: number): { bar: number; count: number } | null {
-  const [last = 0, before = last - LONE_BEAT] = [beats.at(-1), beats.at(-2)];
+  const [last = 0, before = last - ONLY_BEAT_SECONDS] = [beats.at(-1), beats.at(-2)];
   if (time >= 2 * last - before) return null;
   let low = 0;
   let high = beats.length;
@@ -92,12 +92,12 @@ export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' |
   }
 }
 
-/** A step may run in several pieces; what is counted are the steps that were asked for. */
+/** A step may run in several pieces; only the steps of the settings are counted. */
 function stepWords({ done, total }: Job, steps: number): string {
   return `step ${Math.min(steps, Math.floor((done / Math.max(1, total)) * steps) + 1)} of ${steps}`;
 }
 
-/** How the song and the leader's length relate, said on the page; null when they match within a frame. */
+/** A sentence on how the lengths of song and leader differ; null when they match within half a second. */
 export function lengthNote({
   song,
   leader,
@@ -114,12 +114,12 @@ export function lengthNote({
   return null;
 }
 
-/** Whether a song and whether a leader is being read; unlike the progress, this seldom changes. */
-export function beingRead({ reading }: Pick<AppState, 'reading'>): [boolean, boolean] {
+/** Whether a song and whether a leader is being read; unlike the progress, this changes seldom. */
+export function isReading({ reading }: Pick<AppState, 'reading'>): [boolean, boolean] {
   return [reading.song !== null, reading.leader !== null];
 }
 
-const KEEPING_NOTES: Readonly<Record<KeepingState, string | null>> = {
+const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
   kept: null,
   full:
     'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
@@ -128,13 +128,13 @@ const KEEPING_NOTES: Readonly<Record<KeepingState, string | null>> = {
     'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
 };
 
-/** A sentence worth reading before trusting the result; `look` marks one that may change it. */
+/** A sentence worth reading before trusting the result; `look` marks one that may affect it. */
 export interface Note {
   readonly text: string;
   readonly look: boolean;
 }
 
-/** What is to be said of the song and the leader. */
+/** Notes on the song and the leader. */
 function fileNotes(state: AppState): Note[] {
   const { song, leader } = state;
   const list: Note[] = [];
@@ -149,16 +149,16 @@ function fileNotes(state: AppState): Note[] {
   return list;
 }
 
-/** All that is to be said. */
+/** All notes. */
 export function notes(state: AppState): Note[] {
   const list = fileNotes(state);
-  const keeping = KEEPING_NOTES[state.keeping];
+  const keeping = AUTOSAVE_NOTES[state.autosave];
   if (keeping) list.push({ text: keeping, look: true });
-  for (const remark of state.remarks) list.push({ text: remark, look: true });
+  for (const remark of state.notices) list.push({ text: remark, look: true });
   return list;
 }
 
-/** What is to be said of the files where there is room for one sentence: what may change the result comes first. */
+/** The first note on the files where there is room for one only: one that may affect the result, if there is any. */
 export function firstNote(state: AppState): Note | null {
   const list = fileNotes(state);
   return list.find(({ look }) => look) ?? list[0] ?? null;

@@ -2,11 +2,11 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderQuestion, ReadLeader } from '../../motion/client';
-import type { Kept, LoadedLeader, LoadedSong, Side } from './state';
+import type { Kept, LoadedLeader, LoadedSong, InputKind } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
-export type Choice = Side | 'any' | 'project';
+export type FileChoice = InputKind | 'any' | 'project';
 
 /** A file with the path it was dropped under: `my model/step.onnx`, or only its name. */
 export interface DroppedFile {
@@ -14,15 +14,15 @@ export interface DroppedFile {
   readonly file: File;
 }
 
-/** The readers that files are read with, so that reading can be tested without a browser. */
-export interface Readers {
+/** The functions that files are read with, as arguments so that reading can be tested without a browser. */
+export interface FileReaders {
   readonly loadSong: (
     file: Blob,
     recipe: Manifest['audio'],
     options: { signal: AbortSignal; onProgress: (progress: { readonly fraction: number }) => void },
   ) => Promise<Song>;
   readonly readLeader: (question: LeaderQuestion, signal: AbortSignal) => Promise<ReadLeader>;
-  /** Songs are heard as the model's recipe says. */
+  /** Songs are analysed by the audio recipe of the model's manifest. */
   readonly manifest: () => Promise<Manifest>;
 }
 
@@ -30,11 +30,11 @@ export interface Readers {
 export interface Files {
   /** Reads files that the visitor gave. */
   readonly open: (files: readonly File[]) => Promise<void>;
-  /** Reads one song; the label says where it comes from when not from the visitor. */
+  /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
   readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
-  /** Reads a song as `openSong` does without putting it on the page; null when that failed or a newer one came. */
+  /** Reads a song without putting it on the page; null when that failed or a newer song cancelled it. */
   readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   /** The same for a leader. */
   readonly readLeader: (
@@ -45,22 +45,22 @@ export interface Files {
   ) => Promise<LoadedLeader | null>;
 }
 
-/** What panels may ask for. They change settings through the store and everything with effects through here. */
+/** What panels may ask for. They change the state through the store, and do everything with effects through these. */
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
-  readonly choose: (what: Choice) => void;
+  readonly choose: (what: FileChoice) => void;
   /** Reads the leader again at this frame rate; null is the file's own. */
   readonly rereadLeader: (fps: number | null) => void;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
-  /** Makes the reaction now, even if files and settings have not changed. */
+  /** Generates the reaction now, even if files and settings have not changed. */
   readonly generate: () => void;
   readonly cancel: () => void;
-  /** Makes three reactions to pick from; where three are there already, three others. */
+  /** Generates three reactions that differ in their seed; where there are three already, three others. */
   readonly makeVariations: () => void;
-  /** Brings the one with this seed to the stage. */
+  /** Shows the one with this seed on the stage. */
   readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */
   readonly retryModel: () => void;
@@ -71,26 +71,26 @@ export interface Services {
   readonly frameBoth: () => void;
   /** Writes the chosen motion in this format and hands it to the browser's downloads. */
   readonly saveMotion: (format: MotionFormat) => void;
-  /** How a video would be written here and now; null when this browser can write none. */
+  /** How a video would be written with the present choices; null when this browser can write none. */
   readonly planVideo: () => Promise<VideoPlan | null>;
-  /** Films the dance in the chosen size and hands it to the browser's downloads. */
+  /** Renders the dance as a video of the chosen size and hands it to the browser's downloads. */
   readonly saveVideo: () => void;
   readonly cancelVideo: () => void;
-  /** Passes the file that was written last on to another app, by the system's own sheet. */
+  /** Shares the file that was written last with another app, by the system's own dialog. */
   readonly shareSaved: () => void;
   /** Size of the picture on the stage in pixels; null without a stage. */
   readonly stageSize: () => { readonly width: number; readonly height: number } | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
-  /** Empties the page of everything that is not its own; undo brings it back. */
-  readonly startAfresh: () => void;
-  /** What is kept on this device for the next visit; null where the browser gives no storage. */
-  readonly measureKept: () => Promise<Kept | null>;
-  /** Removes it; false when the browser refuses. */
-  readonly clearKept: () => Promise<boolean>;
+  /** Empties the page and loads the demo; undo brings back what was there. */
+  readonly clearProject: () => void;
+  /** Bytes of the page that are cached on this device; null where the browser gives no storage. */
+  readonly measureStorage: () => Promise<Kept | null>;
+  /** Empties that cache; false when the browser refuses. */
+  readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */
-  readonly takeUpdate: () => void;
+  readonly loadUpdate: () => void;
 }
 
-/** A panel puts itself into its root and returns what takes it away again. */
+/** Builds a panel into its root; returns its removal. */
 export type Mount = (root: HTMLElement, store: Store, services: Services) => () => void;

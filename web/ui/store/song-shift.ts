@@ -15,7 +15,7 @@ export function musicBeats(parts: Parts): number[] {
   return parts.song?.data.beats.map((beat) => beat + start) ?? [];
 }
 
-/** Shifts that leave something of the song in the dance, frames; nothing to choose without both. */
+/** Range of shifts at which at least a second of the song is heard, frames; 0 to 0 without song or leader. */
 export function shiftRange({ song, leader }: Pick<AppState, 'song' | 'leader'>): {
   readonly min: number;
   readonly max: number;
@@ -43,20 +43,24 @@ export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>)
   return `${frameWords(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
 }
 
-/** How song and leader fit: a better shift, or why none is suggested, in a few words and in a sentence. */
-export type Fit =
+/** A better shift of the song, or why none is suggested, in a few words and in a sentence. */
+export type ShiftAdvice =
   { readonly better: BestShift } | { readonly better: null; readonly words: string; readonly reason: string };
 
-let answered: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: Fit } | null = null;
+let cached: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: ShiftAdvice } | null = null;
 
 /**
- * How much later the song should start than it does now so that its beats meet the leader's, where that is clearly
- * better; null without song or leader. The last answer is remembered: many parts of the page ask.
+ * How much later than now the song should start so that its beats fall on the leader's motion beats, where that is
+ * clearly better; null without song or leader. The last result is cached, since several panels ask for it.
  */
-export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 'manifest'>): Fit | null {
+export function shiftAdvice({
+  song,
+  leader,
+  shift,
+  manifest,
+}: Parts & Pick<AppState, 'manifest'>): ShiftAdvice | null {
   if (!song || !leader || !manifest) return null;
-  if (answered?.leader === leader && answered.song === song && answered.shift === shift)
-    return answered.answer;
+  if (cached?.leader === leader && cached.song === song && cached.shift === shift) return cached.answer;
   const { fps } = leader.file.clip;
   const music = musicBeats({ song, leader, shift }).map((beat) => beat * fps);
   const { smoothing, tolerance } = manifest.quality.beats;
@@ -64,11 +68,11 @@ export function fitOf({ song, leader, shift, manifest }: Parts & Pick<AppState, 
   const { min, max } = shiftRange({ song, leader });
   const possible = best !== null && shift + best.by >= min && shift + best.by <= max;
   const answer = best?.clear && possible ? { better: best } : noBetter(best, leader);
-  answered = { leader, song, shift, answer };
+  cached = { leader, song, shift, answer };
   return answer;
 }
 
-function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Fit {
+function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): ShiftAdvice {
   if (best === null)
     return {
       better: null,

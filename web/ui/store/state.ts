@@ -12,7 +12,7 @@ export type { Kept };
 
 export type Theme = 'dark' | 'light';
 export type Camera = 'orbit' | 'follow' | 'top' | 'side';
-export type Side = 'song' | 'leader';
+export type InputKind = 'song' | 'leader';
 export type Layer = 'coarse' | 'fine';
 export type Role = 'leader' | 'reactor';
 
@@ -21,9 +21,9 @@ export type Guidance = Readonly<Record<string, Readonly<Record<string, number>>>
 
 export interface LoadedSong {
   readonly name: string;
-  /** Says where it comes from when not from the visitor: "demo song". */
+  /** Where it comes from when not from the visitor: "demo song". */
   readonly label: string | null;
-  /** The file as it was given, so that it can be kept and read again. */
+  /** The file as it was given, so that it can be stored and read again. */
   readonly file: Blob;
   readonly data: Song;
 }
@@ -42,16 +42,16 @@ export interface LoadedLeader {
 
 export interface Settings {
   readonly guidance: Guidance;
-  /** How much of what the song changes is added to Eq. 9. */
+  /** Guidance weight of the music: how much of what the song changes is added to Eq. 9. */
   readonly music: number;
   readonly steps: number;
   /** 0 to 2^32 - 1. */
   readonly seed: number;
-  /** Whose part the model dances; the loaded dancer has the other one. */
+  /** The role that the model generates; the loaded dancer has the other one. */
   readonly role: Role;
 }
 
-/** Everything a reaction follows from. Songs and leaders are compared by identity. */
+/** Everything that determines a reaction. Songs and leaders are compared by identity. */
 export interface Inputs {
   readonly leader: LoadedLeader;
   readonly song: LoadedSong | null;
@@ -61,22 +61,22 @@ export interface Inputs {
 }
 
 export interface Reaction {
-  /** As the model made it; what is drawn and taken home is `reactorMotion`. */
+  /** As the model generated it; what is drawn and downloaded is `reactorMotion`. */
   readonly motion: SolvedMotion;
-  /** What the model decoded it from, with which its coarse layer can be seen; null when it came ready-made. */
+  /** The latents it was decoded from, which its coarse layer can be decoded from; null when it came ready-made. */
   readonly latents: Float32Array | null;
-  /** What it was made from. */
+  /** What it was generated from. */
   readonly inputs: Inputs;
   /** Set when it was not computed on this page: "demo reaction". */
   readonly label: string | null;
-  /** Seconds that making it took, or null when it came ready-made. */
+  /** Seconds that generating it took, or null when it came ready-made. */
   readonly seconds: number | null;
 }
 
-/** A reaction that is kept, with what it was made from. */
+/** A reaction in the list of takes. */
 export interface Take {
   readonly id: string;
-  /** Counted up from 1; names the take until the visitor does. */
+  /** Counted from 1; the take's name until the visitor gives it one. */
   readonly number: number;
   /** Given by the visitor, or null. */
   readonly name: string | null;
@@ -86,16 +86,16 @@ export interface Take {
   readonly reaction: Reaction;
 }
 
-/** The two places of a comparison; one is on the stage. */
+/** The two takes of a comparison; one is on the stage. */
 export type Letter = 'A' | 'B';
 
-/** Whether the browser keeps what is on the page: it does, its space is full, or it gives the page none. */
-export type KeepingState = 'kept' | 'full' | 'refused';
+/** Whether autosave works: everything is stored, the browser's space is full, or it gives the page none. */
+export type AutosaveStatus = 'kept' | 'full' | 'refused';
 
-/** How the other take is seen beside the one on the stage. */
+/** How the other take is drawn: not at all, beside the one on the stage, or as a ghost in the same place. */
 export type Compare = 'off' | 'side' | 'ghost';
 
-/** Measures of a dance. */
+/** Quality measures of a dance. */
 export interface Quality {
   /** The motion that was measured, as drawn. */
   readonly reactor: SolvedMotion;
@@ -105,12 +105,12 @@ export interface Quality {
 export type ModelState =
   | {
       readonly phase: 'loading';
-      /** What is being loaded, in a word. */
+      /** What is being done. */
       readonly label: string;
       readonly received: number;
-      /** Bytes in all; 0 while unknown or when there is nothing to count. */
+      /** Bytes in all; 0 while unknown, or when nothing is being downloaded. */
       readonly total: number;
-      /** What those bytes are of, and how many were kept here since an earlier visit. */
+      /** The files that the bytes belong to, and how many of them were cached by an earlier visit. */
       readonly parts?: readonly DownloadPart[];
     }
   | {
@@ -127,50 +127,50 @@ export interface Job {
   readonly total: number;
   /** 0 to 1 over the whole job. */
   readonly fraction: number;
-  /** Frames in which the stage shows the new reaction already, nearly as it will be. */
-  readonly fresh: Fresh | null;
+  /** Frames of which the stage already shows a preview. */
+  readonly previewed: FrameRange | null;
 }
 
 /** Motion frames `from` to `to`, the latter excluded. */
-export interface Fresh {
+export interface FrameRange {
   readonly from: number;
   readonly to: number;
 }
 
-/** What is drawn while a reaction is being made: the one before, with the part under the playhead made anew. */
+/** What is drawn while a reaction is being generated: the previous one, with new frames around the playhead. */
 export interface Preview {
   readonly motion: SolvedMotion;
   /** The same with its feet locked. */
   readonly locked: SolvedMotion;
 }
 
-/** One of several reactions to pick from. */
+/** One of several reactions to choose from. */
 export interface Variation {
   readonly seed: number;
-  /** Null until it is made. */
+  /** Null until it is generated. */
   readonly reaction: Reaction | null;
-  /** How far it is made, 0 to 1. */
+  /** Progress of generating it, 0 to 1. */
   readonly fraction: number;
 }
 
 /** Reactions to the same files and settings that differ in their seed. */
 export interface Variations {
-  /** What they are made from; the seed in it counts for nothing. */
+  /** What they are generated from; its seed is not used. */
   readonly inputs: Inputs;
   readonly list: readonly Variation[];
-  /** Some are still being made. */
+  /** Some are still being generated. */
   readonly making: boolean;
 }
 
-/** A failure in words: what is wrong, and what to do about it. */
+/** A failure as the visitor reads it: what is wrong, and what to do about it. */
 export interface Problem {
   readonly code: string;
   readonly title: string;
   readonly hint: string;
-  /** The way out that the dialog offers first. */
+  /** What the dialog's first button offers. */
   readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
   /** The file that was refused, if it was a file. */
-  readonly refused: { readonly side: Side | null; readonly name: string } | null;
+  readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }
 
 export interface Reading {
@@ -186,13 +186,13 @@ export interface Playback {
   readonly speed: number;
   /** Start over at the end, of the region if there is one. */
   readonly loop: boolean;
-  /** The part of the dance that a loop goes round in, seconds. */
+  /** The part of the dance that is looped, seconds. */
   readonly region: Span | null;
 }
 
 export type Who = 'reactor' | 'leader' | 'both';
 
-/** What was last chosen in the download menu. */
+/** The choices in the download menu. */
 export interface DownloadChoice {
   readonly who: Who;
   readonly format: MotionFormat;
@@ -200,16 +200,16 @@ export interface DownloadChoice {
 }
 
 /** A video that is being written. */
-export interface Filming {
+export interface VideoProgress {
   /** Pictures written. */
   readonly frame: number;
   readonly frames: number;
-  /** Seconds that the rest will take; null while nobody can tell. */
-  readonly left: number | null;
+  /** Estimated time to the end; null while there is too little to estimate from. */
+  readonly secondsLeft: number | null;
 }
 
-/** What is drawn on the stage beside the dancers; `ghost` is the coarse layer. */
-export interface Shown {
+/** What is drawn on the stage in addition to the dancers; `ghost` is the motion of the coarse layer alone. */
+export interface Overlays {
   readonly skeleton: boolean;
   readonly trails: boolean;
   readonly contacts: boolean;
@@ -218,10 +218,10 @@ export interface Shown {
   readonly ghost: boolean;
 }
 
-/** The made dancer whom the coarse layer alone says. While another is being decoded, the one before stays. */
+/** The generated dancer decoded from the coarse layer alone. While it is being decoded, the previous one stays. */
 export interface CoarseLayer {
   readonly motion: SolvedMotion | null;
-  /** That of the other take, while it stands beside the one on the stage; null until it is decoded. */
+  /** That of the other take, while both are drawn; null until it is decoded. */
   readonly other: SolvedMotion | null;
   readonly decoding: boolean;
 }
@@ -230,72 +230,72 @@ export interface CoarseLayer {
 export interface Saved {
   readonly name: string;
   readonly bytes: number;
-  /** Whether the system can pass it on to other apps. */
+  /** Whether the system can share it with other apps. */
   readonly shareable: boolean;
 }
 
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
-  readonly shown: Shown;
+  readonly overlays: Overlays;
   readonly coarse: CoarseLayer;
   /** The first-visit block is on the stage. */
-  readonly visiting: boolean;
+  readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly open: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'show' | null;
-  /** A newer build of the page is here and waits to be taken. */
+  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
+  /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;
   readonly manifest: Manifest | null;
-  /** Null until the manifest has told the defaults. */
+  /** Null until the manifest has given the defaults. */
   readonly settings: Settings | null;
   readonly song: LoadedSong | null;
   readonly leader: LoadedLeader | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
-  readonly reading: Readonly<Record<Side, Reading | null>>;
+  readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
   readonly variations: Variations | null;
-  /** The seed stays as it is when a reaction is made again. */
+  /** Whether the seed stays when a reaction is generated again. */
   readonly seedLocked: boolean;
-  /** The newest first; the one on the stage is the one whose reaction is `reaction`. */
+  /** The newest first; the one whose reaction is `reaction` is on the stage. */
   readonly takes: readonly Take[];
-  /** Takes numbered so far. */
+  /** The highest number that a take has had. */
   readonly takesMade: number;
-  /** The take that the one on the stage is compared with, by its id. */
+  /** Id of the take that the one on the stage is compared with. */
   readonly other: string | null;
-  /** The letter of the take on the stage; the other take has the other one. */
+  /** The letter of the take on the stage; the compared take has the other letter. */
   readonly letter: Letter;
   readonly compare: Compare;
   readonly history: History;
-  readonly keeping: KeepingState;
-  /** Whether planted feet of the reactor are kept from sliding. */
+  readonly autosave: AutosaveStatus;
+  /** Whether feet in contact with the floor are kept from sliding (see `lockFeet`). */
   readonly footLock: boolean;
-  /** Of the newest reactor that was measured; that may be the one before the one on the stage. */
+  /** Of the motion that was measured last, which may be the one before the one on the stage. */
   readonly quality: Quality | null;
-  /** What recorded dances score, where a report lies beside a model. */
+  /** Scores of recorded dances, where a report lies beside the model. */
   readonly reference: Reference | null;
   readonly job: Job | null;
   readonly download: DownloadChoice;
   /** The format in which a motion is being written. */
   readonly writing: MotionFormat | null;
-  readonly filming: Filming | null;
+  readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;
   readonly problem: Problem | null;
-  /** Failures that came while another one was being told. */
-  readonly waitingProblems: readonly Problem[];
-  /** Sentences worth knowing that stop nothing. */
-  readonly remarks: readonly string[];
-  /** What has just happened, told for a moment. */
-  readonly news: string | null;
+  /** Failures that came while another one was shown. */
+  readonly queuedProblems: readonly Problem[];
+  /** Sentences to know about that stop nothing. */
+  readonly notices: readonly string[];
+  /** A sentence about what has just happened, shown for a few seconds. */
+  readonly toast: string | null;
   readonly playback: Playback;
   /** The part of the dance that the lanes show, seconds; null shows all of it. */
   readonly zoom: Span | null;
 }
 
-/** What the recorded dances score on which a model was tested: neither perfect nor zero, as people aren't. */
+/** Scores of the recorded dances on which a model was tested: people do not score perfectly either. */
 export interface Reference {
   /** The model's id. */
   readonly model: string;

@@ -1,9 +1,9 @@
-import { NOTHING_SHOWN } from './overlays';
+import { NO_OVERLAYS } from './overlays';
 import type { AppState, Theme } from './state';
-import { NO_HISTORY, remembered } from './history';
+import { NO_HISTORY, withUndo } from './history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 
-/** Everything that can happen to the state. A change is a pure function from state to what differs. */
+/** A pure function from the state to the fields that change. */
 export type Change = (state: AppState) => Partial<AppState>;
 export type Store = StoreApi<AppState>;
 
@@ -12,11 +12,11 @@ export function initialState(theme: Theme): AppState {
   return {
     theme,
     camera: 'orbit',
-    shown: NOTHING_SHOWN,
+    overlays: NO_OVERLAYS,
     coarse: { motion: null, other: null, decoding: false },
-    visiting: true,
+    firstVisit: true,
     demo: 'loading',
-    open: null,
+    openPanel: null,
     update: false,
     model: { phase: 'loading', label: 'Model', received: 0, total: 0 },
     manifest: null,
@@ -35,19 +35,19 @@ export function initialState(theme: Theme): AppState {
     letter: 'A',
     compare: 'off',
     history: NO_HISTORY,
-    keeping: 'kept',
+    autosave: 'kept',
     footLock: true,
     quality: null,
     reference: null,
     job: null,
     download: { who: 'reactor', format: 'bvh', size: '1080p' },
     writing: null,
-    filming: null,
+    videoProgress: null,
     saved: null,
     problem: null,
-    waitingProblems: [],
-    remarks: [],
-    news: null,
+    queuedProblems: [],
+    notices: [],
+    toast: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
     zoom: null,
   };
@@ -58,12 +58,12 @@ export function createAppStore(theme: Theme): Store {
   return createStore<AppState>()(() => initialState(theme));
 }
 
-/** Applies a change; what the visitor may want to take back is remembered. */
+/** Applies a change and adds it to the undo history, where it is one that visitors undo. */
 export function apply(store: Store, change: Change): void {
-  store.setState((state) => remembered(state, change(state), Date.now()));
+  store.setState((state) => withUndo(state, change(state), Date.now()));
 }
 
-/** Calls back now and whenever the selected part is another value; returns the unsubscription. */
+/** Calls back now and whenever the selected value changes; returns the unsubscription. */
 export function watch<T>(
   store: Store,
   select: (state: AppState) => T,
@@ -79,7 +79,7 @@ export function watch<T>(
   });
 }
 
-/** `watch` for several parts at once. */
+/** `watch` for several values at once. */
 export function watchAll(
   store: Store,
   select: (state: AppState) => readonly unknown[],

@@ -1,9 +1,9 @@
-import { wantedInputs } from './selectors';
+import { readyInputs } from './selectors';
 import type { AppState, Inputs, Letter, Reaction, Take } from './state';
 
-/** What a reaction would be made from, also while a file is being read; null without a leader or settings. */
-export function presentInputs(state: AppState): Inputs | null {
-  return wantedInputs({ ...state, reading: { song: null, leader: null } });
+/** What a reaction would be generated from, also while a file is being read; null without a leader or settings. */
+export function currentInputs(state: AppState): Inputs | null {
+  return readyInputs({ ...state, reading: { song: null, leader: null } });
 }
 
 /** The take whose reaction is on the stage; null for a reaction whose take was deleted. */
@@ -12,14 +12,14 @@ export function takeOnStage({ takes, reaction }: Pick<AppState, 'takes' | 'react
 }
 
 /** Why two reactions can't be compared, in a sentence; null when they can. */
-export function hindrance(one: Reaction, other: Reaction): string | null {
+export function whyNotComparable(one: Reaction, other: Reaction): string | null {
   if (one.inputs.leader !== other.inputs.leader) return 'Made for another leader.';
   return one.inputs.settings.role === other.inputs.settings.role ? null : 'Dances the other part.';
 }
 
 /** Whether a take can be compared with the one on the stage: another one, of the same part to the same leader. */
 export function comparable({ reaction }: Take, { reaction: shown }: Pick<AppState, 'reaction'>): boolean {
-  return shown !== null && reaction !== shown && hindrance(reaction, shown) === null;
+  return shown !== null && reaction !== shown && whyNotComparable(reaction, shown) === null;
 }
 
 /**
@@ -38,10 +38,10 @@ export function stageLetter(state: AppState): Letter {
 /** The letter that a take has in the comparison, if any. */
 export function letterOf(take: Take, state: AppState): Letter | null {
   if (take.reaction === state.reaction) return stageLetter(state);
-  return take === otherTake(state) ? opposite(state.letter) : null;
+  return take === otherTake(state) ? otherLetter(state.letter) : null;
 }
 
-export function opposite(letter: Letter): Letter {
+export function otherLetter(letter: Letter): Letter {
   return letter === 'A' ? 'B' : 'A';
 }
 
@@ -52,23 +52,23 @@ export function takeTitle({ name, number, reaction }: Take): string {
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
 }
 
-/** Puts a take in the place of the one with its id, or where its age puts it: the newest first. */
+/** Replaces the take with the same id, or adds the take in order of age, the newest first. */
 export function withTake(takes: readonly Take[], take: Take): readonly Take[] {
   if (takes.some(({ id }) => id === take.id)) return takes.map((old) => (old.id === take.id ? take : old));
   return [...takes, take].sort((a, b) => b.createdAt - a.createdAt || b.number - a.number);
 }
 
 /**
- * The takes as another model can go on with: they forget their latents, which mean nothing to it, and their songs
- * if it hears in another way.
+ * The takes for another model: without their latents, which it can't decode, and without their songs if its audio
+ * recipe differs.
  */
-export function ofAnotherModel({ takes, reaction }: AppState, hearsAlike: boolean): Partial<AppState> {
-  const strange = (made: Reaction): Reaction => ({
+export function takesForOtherModel({ takes, reaction }: AppState, sameRecipe: boolean): Partial<AppState> {
+  const forget = (made: Reaction): Reaction => ({
     ...made,
     latents: null,
-    inputs: hearsAlike ? made.inputs : { ...made.inputs, song: null },
+    inputs: sameRecipe ? made.inputs : { ...made.inputs, song: null },
   });
-  const kept = takes.map((take) => ({ ...take, reaction: strange(take.reaction) }));
+  const kept = takes.map((take) => ({ ...take, reaction: forget(take.reaction) }));
   const shown = takes.findIndex((take) => take.reaction === reaction);
-  return { takes: kept, reaction: kept[shown]?.reaction ?? (reaction && strange(reaction)) };
+  return { takes: kept, reaction: kept[shown]?.reaction ?? (reaction && forget(reaction)) };
 }

@@ -2,7 +2,7 @@ import { el, listen, setAttribute, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState, Compare, Letter } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
-import { compareSet, flipped } from '../store/actions/takes';
+import { compareSet, takesSwapped } from '../store/actions/takes';
 import { otherTake } from '../store/take';
 
 /** A key held at least this long flips back when it is released. */
@@ -58,13 +58,13 @@ function createLetters(store: Store): Group {
       attributes: { type: 'button', role: 'radio', title: 'Flip (B)' },
       on: {
         click: () => {
-          if (store.getState().letter !== letter) apply(store, flipped());
+          if (store.getState().letter !== letter) apply(store, takesSwapped());
         },
         keydown: (event) => {
           if (!/^Arrow/.test(event.key)) return;
           event.preventDefault();
           event.stopPropagation();
-          apply(store, flipped());
+          apply(store, takesSwapped());
           buttons[LETTERS.indexOf(store.getState().letter)]?.focus();
         },
       },
@@ -117,12 +117,12 @@ function flipByKey(store: Store): () => void {
       if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.repeat || pressedAt !== null || isTyping(event)) return;
       const before = store.getState().reaction;
-      apply(store, flipped());
+      apply(store, takesSwapped());
       if (store.getState().reaction !== before) pressedAt = event.timeStamp;
     }),
     listen(window, 'keyup', (event) => {
       if (!isB(event) || pressedAt === null) return;
-      if (event.timeStamp - pressedAt >= HOLD_MS) apply(store, flipped());
+      if (event.timeStamp - pressedAt >= HOLD_MS) apply(store, takesSwapped());
       pressedAt = null;
     }),
     listen(window, 'blur', () => {

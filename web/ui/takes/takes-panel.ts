@@ -3,7 +3,7 @@ import { el, listen, setText, together } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { opened } from '../store/actions/view';
+import { panelToggled } from '../store/actions/view';
 import { TakeList } from './take-list';
 import { takeOnStage } from '../store/take';
 import { mountUndo } from './undo';
@@ -17,7 +17,7 @@ export const mountTakes: Mount = (root, store, services) => {
   });
   const count = el('span', { class: 'muted' });
   const close = closeButton(() => {
-    apply(store, opened('takes'));
+    apply(store, panelToggled('takes'));
   });
   close.classList.add('phone-only');
   const head = el(
@@ -67,7 +67,7 @@ export const mountTakes: Mount = (root, store, services) => {
     ),
     watch(
       store,
-      (state) => state.open === 'takes',
+      (state) => state.openPanel === 'takes',
       (open) => {
         section.classList.toggle('open', open);
         if (open) close.focus();
@@ -92,7 +92,7 @@ export const mountTakesButton: Mount = (root, store) => {
       attributes: { type: 'button', 'aria-haspopup': 'dialog' },
       on: {
         click: () => {
-          apply(store, opened('takes'));
+          apply(store, panelToggled('takes'));
         },
       },
     },
@@ -103,10 +103,10 @@ export const mountTakesButton: Mount = (root, store) => {
   return together(
     watchAll(
       store,
-      ({ takes, open }) => [takes.length, open === 'takes'],
-      ({ takes, open }) => {
+      ({ takes, openPanel }) => [takes.length, openPanel === 'takes'],
+      ({ takes, openPanel }) => {
         setText(count, takes.length > 0 ? String(takes.length) : '');
-        button.setAttribute('aria-expanded', String(open === 'takes'));
+        button.setAttribute('aria-expanded', String(openPanel === 'takes'));
       },
     ),
     () => {
@@ -123,7 +123,7 @@ function createProjectButton(store: Store): HTMLElement {
     attributes: { type: 'button', 'aria-haspopup': 'dialog' },
     on: {
       click: () => {
-        apply(store, opened('project'));
+        apply(store, panelToggled('project'));
       },
     },
   });
@@ -134,6 +134,6 @@ function closeOutside(section: HTMLElement, store: Store): () => void {
   return listen(window, 'pointerdown', ({ target }) => {
     const outside =
       target instanceof Element && !section.contains(target) && !target.closest('.takes-button');
-    if (outside && store.getState().open === 'takes') apply(store, opened('takes'));
+    if (outside && store.getState().openPanel === 'takes') apply(store, panelToggled('takes'));
   });
 }

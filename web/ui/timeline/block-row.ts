@@ -76,9 +76,9 @@ export function blocksOf(frames: number, length: number): Span[] {
 export function doneOf(block: Span, blocks: readonly Span[], job: Job | null): Span {
   if (!job) return { from: 0, to: 0 };
   const length = block.to - block.from;
-  if (job.fresh) {
-    const from = Math.max(block.from, job.fresh.from);
-    const to = Math.min(block.to, job.fresh.to);
+  if (job.previewed) {
+    const from = Math.max(block.from, job.previewed.from);
+    const to = Math.min(block.to, job.previewed.to);
     if (to <= from) return { from: 0, to: 0 };
     return { from: (from - block.from) / length, to: (to - block.from) / length };
   }

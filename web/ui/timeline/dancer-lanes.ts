@@ -2,7 +2,7 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Manifest } from '../../model/client';
 import { createBlockRow } from './block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } from './motion-lane';
-import { madeRole, otherRole } from '../store/roles';
+import { generatedRole, otherRole } from '../store/roles';
 import { danceFps, jobWords, upToDate } from '../store/selectors';
 import type { AppState, Role } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
@@ -51,7 +51,7 @@ export class DancerLanes {
   draw(state: AppState, scale: TimeScale, musicBeats: readonly number[]): void {
     const { job } = state;
     const fps = danceFps(state);
-    const made = madeRole(state);
+    const made = generatedRole(state);
     const loadedPicture: MotionPicture = {
       scale,
       musicBeats,
@@ -63,7 +63,7 @@ export class DancerLanes {
     const madePicture: MotionPicture = {
       ...loadedPicture,
       stale: job !== null && !upToDate(state),
-      fresh: job?.fresh ? { from: job.fresh.from / fps, to: job.fresh.to / fps } : null,
+      fresh: job?.previewed ? { from: job.previewed.from / fps, to: job.previewed.to / fps } : null,
     };
     for (const role of ['leader', 'reactor'] as const)
       this.#lanes[role].draw(this.#motions[role], role === made ? madePicture : loadedPicture);
@@ -82,14 +82,14 @@ export class DancerLanes {
   /** What a lane without a motion says. */
   #showWords(state: AppState): void {
     const { leader, reading, reaction, job } = state;
-    const made = madeRole(state);
+    const made = generatedRole(state);
     this.#lanes[otherRole(made)].say(leader ? '' : reading.leader ? 'Reading the leader' : 'No leader yet');
     const waiting = job ? capitalised(jobWords(job, state)) : 'Not made yet';
     this.#lanes[made].say(leader && !reaction ? waiting : '');
   }
 }
 
-/** The largest of the usual speeds; `speeds` are sorted in place. */
+/** The largestMagnification of the usual speeds; `speeds` are sorted in place. */
 function usualTopSpeed(speeds: number[]): number {
   return speeds.sort((a, b) => a - b)[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
 }

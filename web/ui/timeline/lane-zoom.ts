@@ -3,8 +3,8 @@ import { draggable } from '../widgets/drag';
 import { onPinch } from '../widgets/pinch';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { brought, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
-import { moved, type TimeScale, zoomed } from '../store/time-scale';
+import { scrolledTo, visibleSpan, zoomedBy, zoomSet } from '../store/actions/timeline';
+import { scrolled, type TimeScale, zoomed } from '../store/time-scale';
 
 /** Logarithm of the zoom of one wheel pixel; a wheel's notch is about 100 pixels, a pinch on a touchpad a few. */
 const ZOOM_PER_PIXEL = 0.01;
@@ -28,13 +28,13 @@ export function mountLaneZoom(
     followPlayhead(store),
     onWheel(store, lanes, timeAt, (pixels) => {
       const { from, to, width } = scale();
-      apply(store, zoomSet(moved({ from, to }, duration(store), (pixels / width) * (to - from))));
+      apply(store, zoomSet(scrolled({ from, to }, duration(store), (pixels / width) * (to - from))));
     }),
     onPinch(lanes, (middle, factor, by) => {
       if (duration(store) === 0) return;
-      const larger = zoomed(shown(store.getState()), duration(store), factor, timeAt(middle));
+      const larger = zoomed(visibleSpan(store.getState()), duration(store), factor, timeAt(middle));
       const { width } = scale();
-      apply(store, zoomSet(moved(larger, duration(store), (-by / width) * (larger.to - larger.from))));
+      apply(store, zoomSet(scrolled(larger, duration(store), (-by / width) * (larger.to - larger.from))));
     }),
     mountScrollBar(store, lanes),
   );
@@ -79,12 +79,12 @@ function mountScrollBar(store: Store, lanes: HTMLElement): () => void {
   return together(
     draggable(thumb, {
       begin: () => {
-        before = shown(store.getState());
+        before = visibleSpan(store.getState());
         return true;
       },
       move: (distance) => {
         const whole = duration(store);
-        apply(store, zoomSet(moved(before, whole, (distance / bar.clientWidth) * whole)));
+        apply(store, zoomSet(scrolled(before, whole, (distance / bar.clientWidth) * whole)));
       },
       drop: () => undefined,
       click: () => undefined,
@@ -96,7 +96,7 @@ function mountScrollBar(store: Store, lanes: HTMLElement): () => void {
       store,
       (state) => [state.zoom, state.leader, state.song],
       (state) => {
-        const { from, to } = shown(state);
+        const { from, to } = visibleSpan(state);
         const whole = danceDuration(state);
         bar.hidden = state.zoom === null;
         setVariable(thumb, '--from', whole > 0 ? from / whole : 0);
@@ -115,7 +115,7 @@ function followPlayhead(store: Store): () => void {
     (time, { zoom, playback }) => {
       const wasShown = zoom && last >= zoom.from && last <= zoom.to;
       last = time;
-      if (wasShown || !playback.playing) apply(store, brought(time));
+      if (wasShown || !playback.playing) apply(store, scrolledTo(time));
     },
   );
 }

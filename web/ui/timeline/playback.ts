@@ -3,9 +3,9 @@ import { isAbort, playbackProblem } from '../store/problems';
 import { danceDuration } from '../store/selectors';
 import { songStart } from '../store/song-shift';
 import type { AppState } from '../store/state';
-import { visitEnded } from '../store/actions/files';
+import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { told } from '../store/actions/notices';
+import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 import { together } from '../widgets/dom';
 import type { Span } from '../store/time-scale';
@@ -84,7 +84,7 @@ export class PlaybackControl {
     if (duration === 0) return;
     const part = loopedPart(state) ?? { from: 0, to: duration };
     if (state.playback.time >= part.to - 1e-3) this.seek(part.from);
-    apply(this.#store, visitEnded());
+    apply(this.#store, firstVisitEnded());
     apply(this.#store, playbackSet({ playing: true }));
   }
 
@@ -100,7 +100,7 @@ export class PlaybackControl {
       },
       (error: unknown) => {
         apply(this.#store, playbackSet({ playing: false }));
-        if (!isAbort(error)) apply(this.#store, told(playbackProblem(error)));
+        if (!isAbort(error)) apply(this.#store, problemShown(playbackProblem(error)));
       },
     );
   }

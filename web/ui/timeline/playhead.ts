@@ -1,5 +1,5 @@
 import { el, setVariable, together } from '../widgets/dom';
-import { SLOP } from '../widgets/drag';
+import { DRAG_THRESHOLD_PX } from '../widgets/drag';
 import { barAt, danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
 import { musicBeats } from '../store/song-shift';
@@ -108,7 +108,7 @@ export class Playhead {
     if (event.pointerId !== this.#pointer) return;
     if (this.#undecided) {
       const across = Math.abs(event.clientX - this.#undecided.x);
-      if (across < SLOP || across < Math.abs(event.clientY - this.#undecided.y)) return;
+      if (across < DRAG_THRESHOLD_PX || across < Math.abs(event.clientY - this.#undecided.y)) return;
     }
     this.#undecided = null;
     this.#seekTo(event);

@@ -1,5 +1,5 @@
 import { el, setText } from '../widgets/dom';
-import { fitOf, frameWords, percent, shiftWords, signed } from '../store/song-shift';
+import { shiftAdvice, frameWords, percent, shiftWords, signed } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
@@ -26,7 +26,7 @@ export function createSongLabel(store: Store): SongLabel {
     on: {
       click: () => {
         const state = store.getState();
-        const better = fitOf(state)?.better;
+        const better = shiftAdvice(state)?.better;
         if (better) apply(store, shiftSet(state.shift + better.by));
       },
     },
@@ -47,7 +47,7 @@ export function createSongLabel(store: Store): SongLabel {
       setText(back, `${signed(shift)} ×`);
       back.setAttribute('aria-label', `Song shift ${frameWords(shift)}: put it back`);
       back.title = `The song is shifted by ${shiftWords(shift, state)}. Click to put it back.`;
-      const fit = fitOf(state);
+      const fit = shiftAdvice(state);
       align.hidden = !fit?.better;
       none.hidden = !fit || fit.better !== null;
       if (!fit) return;

@@ -1,18 +1,18 @@
 import { DancerLanes } from './dancer-lanes';
-import { couple, madeRole } from '../store/roles';
+import { dancers, generatedRole } from '../store/roles';
 import { el, together } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { LoopRegion } from './loop-region';
 import { Playhead } from './playhead';
 import { createRulerLane } from './ruler';
-import { beingRead, upToDate } from '../store/selectors';
+import { isReading, upToDate } from '../store/selectors';
 import type { Services } from '../store/services';
 import { createSongLabel } from './song-label';
 import { SongLane } from './song-lane';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { type Store, watch, watchAll } from '../store/store';
-import { shown } from '../store/actions/timeline';
+import { visibleSpan } from '../store/actions/timeline';
 import { type Span, timeScale, type TimeScale } from '../store/time-scale';
 
 /** Puts lanes of its own below the others; `shown` is the part of the dance that the lanes show, seconds. */
@@ -33,7 +33,7 @@ export function mountTimeline(
   services: Services,
   mountMoreLanes: MountLanes,
 ): () => void {
-  const scale = (): TimeScale => timeScale(shown(store.getState()), dancers.width);
+  const scale = (): TimeScale => timeScale(visibleSpan(store.getState()), dancers.width);
   /** The shift of the song while it is being dragged, frames. */
   let draggedShift: number | null = null;
   const ruler = createRulerLane();
@@ -52,7 +52,7 @@ export function mountTimeline(
     ...[ruler.label, ruler.root, songLabel.root, songLane.root, ...dancers.elements],
   );
   root.append(lanes);
-  const moreLanes = mountMoreLanes(lanes, store, services, shown);
+  const moreLanes = mountMoreLanes(lanes, store, services, visibleSpan);
   const playhead = new Playhead(lanes, store, services, scale);
   lanes.append(playhead.root);
   const loop = new LoopRegion(store, services, { ruler: ruler.root, overlay: playhead.root, scale });
@@ -104,13 +104,13 @@ export function mountTimeline(
 }
 
 /** Hands the motions of both dancers to their lanes. */
-function followMotions(store: Store, dancers: DancerLanes): (() => void)[] {
+function followMotions(store: Store, lanes: DancerLanes): (() => void)[] {
   return (['leader', 'reactor'] as const).map((role) =>
     watchAll(
       store,
-      (state) => [couple(state)[role], state.manifest],
+      (state) => [dancers(state)[role], state.manifest],
       (state) => {
-        dancers.setMotion(role, couple(state)[role], state.manifest);
+        lanes.setMotion(role, dancers(state)[role], state.manifest);
       },
     ),
   );
@@ -119,9 +119,9 @@ function followMotions(store: Store, dancers: DancerLanes): (() => void)[] {
 /** The parts of the state that the drawn lanes depend on. */
 function drawnParts(state: AppState): readonly unknown[] {
   return [
-    ...[state.leader, state.song, state.shift, ...Object.values(couple(state)), state.manifest],
-    ...[state.zoom, state.theme, madeRole(state), ...beingRead(state)],
-    ...[state.job !== null, state.job?.fresh?.from, state.job?.fresh?.to, upToDate(state)],
+    ...[state.leader, state.song, state.shift, ...Object.values(dancers(state)), state.manifest],
+    ...[state.zoom, state.theme, generatedRole(state), ...isReading(state)],
+    ...[state.job !== null, state.job?.previewed?.from, state.job?.previewed?.to, upToDate(state)],
   ];
 }
 

@@ -2,7 +2,7 @@ import { iconButton } from '../widgets/button';
 import { el, setText, together } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { icon } from '../widgets/icons';
-import { barAt, beingRead, danceDuration, firstNote } from '../store/selectors';
+import { barAt, isReading, danceDuration, firstNote } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
@@ -54,7 +54,7 @@ export const mountTransport: Mount = (root, store, services) => {
   return together(
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.shift, ...beingRead(state)],
+      (state) => [state.leader, state.song, state.shift, ...isReading(state)],
       (state) => {
         const empty = danceDuration(state) === 0;
         for (const button of [start, play.element, end, loop.element]) button.disabled = empty;

@@ -2,12 +2,12 @@ import { iconButton } from '../widgets/button';
 import { el } from '../widgets/dom';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watchAll } from '../store/store';
-import { magnified, shown, zoomedBy, zoomSet } from '../store/actions/timeline';
-import { largest, magnification } from '../store/time-scale';
+import { magnificationSet, visibleSpan, zoomedBy, zoomSet } from '../store/actions/timeline';
+import { largestMagnification, magnification } from '../store/time-scale';
 
 /** Factor of one press of a button or key. */
 export const ZOOM_STEP = 1.5;
-/** Steps of the slider from the whole dance to the largest zoom; the zoom grows exponentially along it. */
+/** Steps of the slider from the whole dance to the largestMagnification zoom; the zoom grows exponentially along it. */
 const SLIDER_STEPS = 100;
 
 /** Buttons and a slider for the zoom of the lanes, and one that shows the whole dance. */
@@ -41,8 +41,8 @@ export function createZoomControl(store: Store): {
     },
     on: {
       input: () => {
-        const max = largest(danceDuration(store.getState()));
-        apply(store, magnified(max ** (Number(slider.value) / SLIDER_STEPS)));
+        const max = largestMagnification(danceDuration(store.getState()));
+        apply(store, magnificationSet(max ** (Number(slider.value) / SLIDER_STEPS)));
       },
     },
   });
@@ -54,8 +54,8 @@ export function createZoomControl(store: Store): {
       (state) => [state.zoom, state.leader, state.song],
       (state) => {
         const whole = danceDuration(state);
-        const max = largest(whole);
-        const times = magnification(shown(state), whole);
+        const max = largestMagnification(whole);
+        const times = magnification(visibleSpan(state), whole);
         const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
         slider.value = String(Math.round(part * SLIDER_STEPS));
         slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);

@@ -1,7 +1,7 @@
 import { el } from './dom';
 import { icon } from './icons';
 
-/** The cross at the head of a floating card. */
+/** The button that closes a floating panel. */
 export function closeButton(close: () => void): HTMLButtonElement {
   return el(
     'button',

@@ -34,7 +34,7 @@ export function setAttribute(
   else element.setAttribute(name, value === true ? '' : String(value));
 }
 
-/** Sets the text only when it differs, so that a clock does not make work sixty times a second. */
+/** Sets the text only when it differs, so that a running clock does not cause layout with every frame. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -44,7 +44,7 @@ export function setVariable(element: HTMLElement, name: `--${string}`, value: nu
   element.style.setProperty(name, String(Math.round(value * 1e5) / 1e5));
 }
 
-/** A group of undo functions that is itself one. */
+/** Combines several disposers into one. */
 export function together(...disposers: (() => void)[]): () => void {
   return () => {
     for (const dispose of disposers) dispose();

@@ -1,22 +1,22 @@
 import { listen, together } from './dom';
 
-/** What a drag does. Distances are CSS pixels from where it began. */
+/** Callbacks of a drag. Distances are CSS pixels from where it began. */
 export interface Drag {
   /** The pointer is down; false declines. */
   readonly begin?: (event: PointerEvent) => boolean;
-  /** The pointer has left the place where it went down. */
+  /** The pointer has moved by more than the threshold. */
   readonly move: (distance: number, event: PointerEvent) => void;
   /** The pointer is up again: after a drag, or without one. */
   readonly drop: (event: PointerEvent) => void;
   readonly click: (event: PointerEvent) => void;
-  /** Escape was pressed, or the system took the pointer away. */
+  /** Escape was pressed, or the system cancelled the pointer. */
   readonly cancel: () => void;
 }
 
-/** Way that a pointer makes before a press is a drag, CSS pixels. */
-export const SLOP = 4;
+/** Distance from which a press is a drag. */
+export const DRAG_THRESHOLD_PX = 4;
 
-/** Makes an element draggable to the left and right; returns the undo. */
+/** Makes an element draggable to the left and right; returns the removal. */
 export function draggable(element: HTMLElement, drag: Drag): () => void {
   let from: { readonly pointer: number; readonly x: number } | null = null;
   let moving = false;
@@ -40,7 +40,7 @@ export function draggable(element: HTMLElement, drag: Drag): () => void {
   const move = (event: PointerEvent): void => {
     if (event.pointerId !== from?.pointer) return;
     const distance = event.clientX - from.x;
-    if (!moving && Math.abs(distance) < SLOP) return;
+    if (!moving && Math.abs(distance) < DRAG_THRESHOLD_PX) return;
     moving = true;
     drag.move(distance, event);
   };

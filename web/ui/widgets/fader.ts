@@ -5,9 +5,9 @@ import type { Layer } from '../store/state';
 export interface FaderEvents {
   readonly change: (value: number) => void;
   readonly reset: () => void;
-  /** It is taken in hand; all changes until it is let go belong together. */
+  /** The pointer has grabbed it; all changes until its release belong together. */
   readonly grab?: () => void;
-  readonly letGo?: () => void;
+  readonly release?: () => void;
 }
 
 /** A fader's range, from the manifest. */
@@ -20,16 +20,16 @@ export interface FaderRange {
 export interface Fader {
   readonly root: HTMLElement;
   readonly input: HTMLInputElement;
-  /** Sets range and value, the mean where the body parts are mixed; null draws it asleep. */
+  /** Sets range and value, the mean where the body parts are mixed; without a range it is disabled. */
   readonly show: (range: FaderRange | null, value: number, mixed?: boolean) => void;
-  /** The warm outline: this one is being applied. */
+  /** Outlines it while its change is being applied. */
   readonly setApplying: (applying: boolean) => void;
 }
 
-/** Width and height of the drawn curve. */
+/** Size of the drawn curve, in its own units. */
 const WAVE = { width: 112, height: 26 };
 
-/** What the layer is, drawn: a slow wave, and the same wave with ripples. */
+/** A picture of the layer: a slow wave for coarse, the same wave with ripples for fine. */
 function wavePath(layer: Layer): string {
   const ripple = layer === 'fine' ? 4 : 0;
   const points: string[] = [];
@@ -41,8 +41,8 @@ function wavePath(layer: Layer): string {
 }
 
 /**
- * A native range input laid over a drawn well, so that keyboard, touch and screen readers work by themselves.
- * Shift drags at a tenth; a double click asks for the default.
+ * A native range input over a drawn track, so that keyboard, touch and screen readers work by themselves. Dragging
+ * with Shift is ten times finer; a double click resets to the default.
  */
 export function createFader(layer: Layer, name: string, hint: string, on: FaderEvents): Fader {
   const hintId = `hint-${layer}`;
@@ -67,7 +67,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
       disabled: true,
     },
   });
-  steer(input, on);
+  connectFaderInput(input, on);
   const scale = el('div', { class: 'scale', attributes: { 'aria-hidden': 'true' } });
   const root = el(
     'div',
@@ -104,7 +104,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
   };
 }
 
-/** One mark per whole number; the ends say in a word what they do. */
+/** One mark per whole number, with a word at each end. */
 function marks({ min, max }: FaderRange): HTMLElement[] {
   const list: HTMLElement[] = [];
   for (let at = Math.ceil(min); at <= max; at++) {
@@ -129,11 +129,14 @@ function closeness(value: number): string {
   return value < 1.75 ? 'follows closely' : 'follows very closely';
 }
 
-/** Ties a range input to what it does: drag, keys, double click for the default, Shift to drag finely. */
-export function steer(input: HTMLInputElement, { change, reset, grab, letGo }: FaderEvents): void {
+/** Connects a range input to callbacks: drag, keys, double click for the default, Shift for a finer drag. */
+export function connectFaderInput(
+  input: HTMLInputElement,
+  { change, reset, grab, release }: FaderEvents,
+): void {
   input.addEventListener('pointerdown', () => grab?.());
   for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
-    input.addEventListener(type, () => letGo?.());
+    input.addEventListener(type, () => release?.());
   input.addEventListener('input', () => {
     change(input.valueAsNumber);
   });

@@ -1,7 +1,7 @@
 import { PARENTS, SMPL22 } from '../../motion/skeleton/skeleton';
 
-/** Half the thickness of the body at a joint, metres; a limb runs from its parent's to its own. */
-const THICK: Readonly<Record<string, number>> = {
+/** Radius of the body at a joint, metres; a limb tapers from its parent joint's radius to its own. */
+const BODY_RADIUS: Readonly<Record<string, number>> = {
   pelvis: 0.125,
   spine1: 0.125,
   spine2: 0.13,
@@ -25,9 +25,9 @@ const THICK: Readonly<Record<string, number>> = {
   right_wrist: 0.033,
 };
 const HEAD = { radius: 0.1, above: 0.05 };
-/** Metres of height that the picture shows, and how much of it is below the floor line. */
-const TALL = 1.85;
-const BELOW = 0.08;
+/** Height that the picture shows and how much of it is below the floor, metres. */
+const VIEW_HEIGHT = 1.85;
+const FLOOR_MARGIN = 0.08;
 
 const joint = (name: string): number => SMPL22.findIndex((known) => known === name);
 const [LEFT, RIGHT, PELVIS, HEAD_JOINT] = ['left_hip', 'right_hip', 'pelvis', 'head'].map(joint) as [
@@ -37,13 +37,13 @@ const [LEFT, RIGHT, PELVIS, HEAD_JOINT] = ['left_hip', 'right_hip', 'pelvis', 'h
   number,
 ];
 
-/** Heading that a pose faces, radians about y, as its hips say. */
-export function facing(pose: Float32Array): number {
+/** Heading of a pose from its hips, radians about y. */
+export function headingOf(pose: Float32Array): number {
   const across = (axis: number): number => (pose[LEFT * 3 + axis] ?? 0) - (pose[RIGHT * 3 + axis] ?? 0);
   return Math.atan2(across(2), across(0));
 }
 
-/** A stroke of the figure: two ends on the picture in pixels with their radii, and its depth, nearer is larger. */
+/** A limb of the figure: two ends in pixels with their radii, and its depth, larger is nearer. */
 interface Limb {
   readonly ends: readonly [Dot, Dot];
   readonly depth: number;
@@ -55,10 +55,10 @@ interface Dot {
 }
 
 /**
- * Draws one pose as a little mannequin, as large as the canvas is high.
+ * Draws one pose as a small figure that fills the canvas's height.
  * @param pose 22 x 3 joints, metres
- * @param heading seen from where a dancer with this heading faces a little past the eye
- * @param colour CSS colour; what is farther away is dimmer
+ * @param heading turns the pose so that a dancer with this heading faces the viewer, a little to the side
+ * @param colour CSS colour; farther limbs are darker
  */
 export function drawFigure(
   context: CanvasRenderingContext2D,
@@ -67,7 +67,7 @@ export function drawFigure(
   colour: string,
 ): void {
   const { width, height } = context.canvas;
-  const scale = height / TALL;
+  const scale = height / VIEW_HEIGHT;
   const angle = heading + 0.45;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   const [ox, oz] = [pose[PELVIS * 3] ?? 0, pose[PELVIS * 3 + 2] ?? 0];
@@ -76,14 +76,14 @@ export function drawFigure(
     const [dx, dz] = [x - ox, z - oz];
     return {
       x: width / 2 + (dx * cos + dz * sin) * scale,
-      y: height - (y + BELOW) * scale,
+      y: height - (y + FLOOR_MARGIN) * scale,
       depth: dz * cos - dx * sin,
     };
   };
   const limbs = PARENTS.flatMap((parent, child): Limb[] => {
     if (parent < 0 || child === HEAD_JOINT) return [];
     const [a, b] = [place(parent), place(child)];
-    const radius = (index: number): number => (THICK[SMPL22[index] ?? ''] ?? 0.03) * scale;
+    const radius = (index: number): number => (BODY_RADIUS[SMPL22[index] ?? ''] ?? 0.03) * scale;
     const thin = Math.min(radius(parent), radius(child) * 1.5);
     return [
       {

@@ -1,4 +1,4 @@
-/** The drawn signs, each a list of paths in a box of 16; a leading `f ` fills, a leading `b ` is bolder. */
+/** Icons, each a list of paths in a box of 16; a leading `f ` fills, a leading `b ` is bolder. */
 const PATHS = {
   song: [
     'M6 12V3.5l7-1.3v8.3',
@@ -83,7 +83,7 @@ export function drawing(
   return svg;
 }
 
-/** One sign of the set. Signs are decoration: the button around them carries the label. */
+/** One icon of the set. Icons are decoration: the button around them has the label. */
 export function icon(name: IconName): SVGSVGElement {
   const paths = PATHS[name].map((path): [string, string?] => {
     if (path.startsWith('f ')) return [path.slice(2), 'f'];

@@ -1,6 +1,6 @@
-import { el, setText, setVariable, together } from './dom';
+import { el, setText, setVariable } from './dom';
 
-/** How a number stands beside its reference. */
+/** How a number compares with its reference. */
 export type Verdict = 'good' | 'so-so' | 'poor';
 
 /** One measure at a glance. */
@@ -9,150 +9,159 @@ export interface MeasureRow {
   /** A few words on what the number is. */
   readonly hint: string;
   readonly value: string;
-  /** What it is held against: `recorded 33 %`; empty when nothing is known. */
+  /** What it is compared with: `recorded 33 %`; empty when nothing is known. */
   readonly beside: string;
-  /** Null where there is nothing to hold it against. */
+  /** Null where there is nothing to compare it with. */
   readonly verdict: Verdict | null;
 }
 
-/** What a card says: what it is about, a number or a moment beside it, measures, and what that means in sentences. */
-export interface Explanation {
+/** What a card says: what it is about, a number or a time beside it, measures, and what that means in sentences. */
+export interface CardContent {
   readonly title: string;
   readonly aside: string;
   readonly rows?: readonly MeasureRow[];
   readonly text: string;
 }
 
-export interface Explainer {
-  /**
-   * Explains a button while the pointer rests on it, while it has the focus, and after a tap; Escape or a tap elsewhere
-   * puts the card away. Called again, the words change.
-   */
-  readonly explain: (button: HTMLElement, words: Explanation) => void;
-  readonly dispose: () => void;
-}
-
-/** Rest of the pointer before the card comes, and time to move over to the card before it goes, milliseconds. */
-const REST = 150;
-/** Room between button and card, and between card and the window's edge, CSS pixels. */
-const GAP = 8;
+/** Rest of the pointer before the card opens, and time to move over to the card before it closes. */
+const HOVER_DELAY_MS = 150;
+/** Room between button and card, and between card and the window's edge. */
+const GAP_PX = 8;
 
 /**
- * One card for many small things, floating beside the one it explains, so that nothing on the page moves.
- * @param clear what a card with measures is about: it leaves that in sight where there is room above it
+ * One card for many small buttons, floating beside the one it is about, so that nothing on the page moves. It opens
+ * while the pointer rests on a button, while the button has the focus, and after a tap; Escape or a tap elsewhere
+ * closes it.
  */
-export function createExplainer(clear: HTMLElement): Explainer {
-  const title = el('b');
-  const aside = el('span');
-  const measures = el('ul', { class: 'measures' });
-  const text = el('p');
-  const card = el(
+export class InfoCard {
+  private readonly title = el('b');
+  private readonly aside = el('span');
+  private readonly measures = el('ul', { class: 'measures' });
+  private readonly text = el('p');
+  private readonly card = el(
     'div',
     { class: 'explained', attributes: { id: 'explained', role: 'tooltip', popover: 'auto' } },
-    el('div', { class: 'top' }, title, aside),
-    measures,
-    text,
+    el('div', { class: 'top' }, this.title, this.aside),
+    this.measures,
+    this.text,
   );
-  document.body.append(card);
-
-  const words = new WeakMap<HTMLElement, Explanation>();
-  let about: HTMLElement | null = null;
-  let timer: ReturnType<typeof setTimeout> | undefined;
-
-  const place = (): void => {
-    if (!about) return;
-    const at = about.getBoundingClientRect();
-    const { offsetWidth: width, offsetHeight: height } = card;
-    const middle = at.left + Math.min(at.width, width) / 2;
-    const left = Math.min(document.documentElement.clientWidth - GAP - width, middle - width / 2);
-    const top = measures.hidden ? at.top : clear.getBoundingClientRect().top;
-    const above = (top - GAP - height >= GAP ? top : at.top) - GAP - height;
-    const below = Math.min(at.bottom + GAP, document.documentElement.clientHeight - GAP - height);
-    setVariable(card, '--x', Math.round(Math.max(GAP, left)));
-    setVariable(card, '--y', Math.round(Math.max(GAP, above >= GAP ? above : below)));
-  };
-  const fill = (button: HTMLElement): void => {
-    const explanation = words.get(button);
-    setText(title, explanation?.title ?? '');
-    setText(aside, explanation?.aside ?? '');
-    const rows = explanation?.rows ?? [];
-    measures.hidden = rows.length === 0;
-    measures.replaceChildren(...rows.map(measureLine));
-    setText(text, explanation?.text ?? '');
-    text.hidden = text.textContent === '';
-  };
-  const show = (button: HTMLElement): void => {
-    clearTimeout(timer);
-    if (about !== button) about?.removeAttribute('aria-describedby');
-    about = button;
-    fill(button);
-    button.setAttribute('aria-describedby', card.id);
-    if (!card.matches(':popover-open')) card.showPopover();
-    place();
-  };
-  const hide = (): void => {
-    clearTimeout(timer);
-    if (card.matches(':popover-open')) card.hidePopover();
-  };
-  /** The pointer has left button and card: the one that the keyboard is on keeps its card. */
-  const leave = ({ pointerType }: PointerEvent): void => {
-    if (pointerType !== 'mouse') return;
-    clearTimeout(timer);
-    if (!about?.matches(':focus-visible')) timer = setTimeout(hide, REST);
-  };
-  card.addEventListener('pointerenter', () => {
-    clearTimeout(timer);
+  private readonly contents = new WeakMap<HTMLElement, CardContent>();
+  /** The button whose card is open. */
+  private current: HTMLElement | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private readonly resized = new ResizeObserver(() => {
+    this.close();
   });
-  card.addEventListener('pointerleave', leave);
-  card.addEventListener('toggle', ({ newState }) => {
-    if (newState !== 'closed') return;
-    about?.removeAttribute('aria-describedby');
-    about = null;
-  });
-  const listenTo = (button: HTMLElement): void => {
+
+  /** @param keepClear the element that a card with measures is about: the card goes above it where there is room */
+  constructor(private readonly keepClear: HTMLElement) {
+    document.body.append(this.card);
+    this.listenToCard();
+    this.resized.observe(document.documentElement);
+  }
+
+  /** Gives a button a card with this content, or new content for the card that it has. */
+  set(button: HTMLElement, content: CardContent): void {
+    if (!this.contents.has(button)) this.listenTo(button);
+    this.contents.set(button, content);
+    if (this.current !== button) return;
+    this.fill(button);
+    this.place();
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
+    this.resized.disconnect();
+    this.card.remove();
+  }
+
+  private listenTo(button: HTMLElement): void {
+    const open = (): void => {
+      this.open(button);
+    };
     button.addEventListener('pointerenter', ({ pointerType }) => {
       if (pointerType !== 'mouse') return;
-      clearTimeout(timer);
-      timer = setTimeout(() => {
-        if (button.isConnected) show(button);
-      }, REST);
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => {
+        if (button.isConnected) open();
+      }, HOVER_DELAY_MS);
     });
-    button.addEventListener('pointerleave', leave);
-    button.addEventListener('focus', () => {
-      show(button);
+    button.addEventListener('pointerleave', this.closeSoon);
+    button.addEventListener('focus', open);
+    // A tap need not give the focus, and the press itself has closed an open card.
+    button.addEventListener('click', open);
+    button.addEventListener('blur', () => {
+      this.close();
     });
-    // A tap need not give the focus, and the press itself has put an open card away.
-    button.addEventListener('click', () => {
-      show(button);
-    });
-    button.addEventListener('blur', hide);
-  };
-  const resized = new ResizeObserver(hide);
-  resized.observe(document.documentElement);
+  }
 
-  return {
-    explain: (button, explanation) => {
-      if (!words.has(button)) listenTo(button);
-      words.set(button, explanation);
-      if (about !== button) return;
-      fill(button);
-      place();
-    },
-    dispose: together(
-      () => {
-        clearTimeout(timer);
-        resized.disconnect();
-      },
-      () => {
-        card.remove();
-      },
-    ),
+  private listenToCard(): void {
+    this.card.addEventListener('pointerenter', () => {
+      clearTimeout(this.timer);
+    });
+    this.card.addEventListener('pointerleave', this.closeSoon);
+    this.card.addEventListener('toggle', ({ newState }) => {
+      if (newState !== 'closed') return;
+      this.current?.removeAttribute('aria-describedby');
+      this.current = null;
+    });
+  }
+
+  private open(button: HTMLElement): void {
+    clearTimeout(this.timer);
+    if (this.current !== button) this.current?.removeAttribute('aria-describedby');
+    this.current = button;
+    this.fill(button);
+    button.setAttribute('aria-describedby', this.card.id);
+    if (!this.card.matches(':popover-open')) this.card.showPopover();
+    this.place();
+  }
+
+  private close(): void {
+    clearTimeout(this.timer);
+    if (this.card.matches(':popover-open')) this.card.hidePopover();
+  }
+
+  /** The pointer has left button or card: a button that has the keyboard's focus keeps its card. */
+  private readonly closeSoon = ({ pointerType }: PointerEvent): void => {
+    if (pointerType !== 'mouse') return;
+    clearTimeout(this.timer);
+    if (this.current?.matches(':focus-visible')) return;
+    this.timer = setTimeout(() => {
+      this.close();
+    }, HOVER_DELAY_MS);
   };
+
+  private fill(button: HTMLElement): void {
+    const content = this.contents.get(button);
+    setText(this.title, content?.title ?? '');
+    setText(this.aside, content?.aside ?? '');
+    const rows = content?.rows ?? [];
+    this.measures.hidden = rows.length === 0;
+    this.measures.replaceChildren(...rows.map(measureLine));
+    setText(this.text, content?.text ?? '');
+    this.text.hidden = this.text.textContent === '';
+  }
+
+  /** Above the button, or above what is to be kept clear; below the button where there is no room. */
+  private place(): void {
+    if (!this.current) return;
+    const { clientWidth, clientHeight } = document.documentElement;
+    const at = this.current.getBoundingClientRect();
+    const { offsetWidth: width, offsetHeight: height } = this.card;
+    const middle = at.left + Math.min(at.width, width) / 2;
+    const left = Math.min(clientWidth - GAP_PX - width, middle - width / 2);
+    const top = this.measures.hidden ? at.top : this.keepClear.getBoundingClientRect().top;
+    const above = (top - GAP_PX - height >= GAP_PX ? top : at.top) - GAP_PX - height;
+    const below = Math.min(at.bottom + GAP_PX, clientHeight - GAP_PX - height);
+    setVariable(this.card, '--x', Math.round(Math.max(GAP_PX, left)));
+    setVariable(this.card, '--y', Math.round(Math.max(GAP_PX, above >= GAP_PX ? above : below)));
+  }
 }
 
 const PIPS = { good: 3, 'so-so': 2, poor: 1 } as const;
 
-/** One measure: its name over what it is, the number, what it is held against, and a word on that with three pips. */
+/** One measure: its name over its hint, the number, what it is compared with, and the verdict with up to three pips. */
 function measureLine({ name, hint, value, beside, verdict }: MeasureRow): HTMLElement {
   return el(
     'li',

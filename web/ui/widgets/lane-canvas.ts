@@ -1,6 +1,6 @@
 import type { TimeScale } from '../store/time-scale';
 
-/** Loudness of a song as seen: per column the lowest and the highest sample. */
+/** A waveform: the lowest and the highest sample per column. */
 export interface Peaks {
   readonly low: Float32Array;
   readonly high: Float32Array;
@@ -30,19 +30,19 @@ export function token(element: Element, name: `--${string}`): string {
   return getComputedStyle(element).getPropertyValue(name).trim();
 }
 
-/** Height under the waveform that the beat marks take, CSS pixels. */
-const BEATS = 9;
-/** Room that a beat mark needs, CSS pixels. */
-const BEAT_ROOM = 4;
+/** Height of the beat marks under the waveform. */
+const BEATS_HEIGHT_PX = 9;
+/** Least distance of beat marks; where they are denser, only bars are marked. */
+const BEAT_SPACING_PX = 4;
 
-/** A waveform, mirrored about its middle; `loudest` is the sample that takes all of the height. */
+/** Draws a waveform around its middle line; `loudest` is the sample value that fills the height. */
 export function drawWave(
   { context, width, height }: Surface,
   { low, high }: Peaks,
   loudest: number,
   colour: string,
 ): void {
-  const middle = (height - BEATS) / 2;
+  const middle = (height - BEATS_HEIGHT_PX) / 2;
   const columns = high.length;
   context.fillStyle = colour;
   for (let column = 0; column < columns; column++) {
@@ -58,14 +58,14 @@ export function drawWave(
   }
 }
 
-/** Beat marks under the waveform, each fourth one taller, with its hairline through the waveform. */
+/** Draws beat marks under the waveform; each fourth one is taller, with a line through the waveform. */
 export function drawBeats(
   { context, width, height }: Surface,
   beats: readonly number[],
   scale: TimeScale,
   colours: { readonly bar: string; readonly beat: string; readonly line: string },
 ): void {
-  const tooDense = within(beats, scale).length > width / BEAT_ROOM;
+  const tooDense = within(beats, scale).length > width / BEAT_SPACING_PX;
   beats.forEach((beat, index) => {
     const first = index % 4 === 0;
     if (beat < scale.from || beat > scale.to || (tooDense && !first)) return;
@@ -97,7 +97,7 @@ function heightAt({ speed, fps, top }: Curve, time: number, height: number): num
   return height - 1.5 - Math.min(1, value / top) * (height - 5);
 }
 
-/** A dancer's speed over time as a filled line. */
+/** Draws a dancer's speed over time as a filled line. */
 export function drawCurve(
   { context, width, height }: Surface,
   curve: Curve,
@@ -124,10 +124,10 @@ export function drawCurve(
   context.fill();
 }
 
-/** Room that a dot needs, CSS pixels. */
-const DOT_ROOM = 7;
+/** Least distance of dots; where they are denser, only those on a music beat are drawn. */
+const DOT_SPACING_PX = 7;
 
-/** Motion beats as dots on the curve: full where a music beat is, rings elsewhere, left out where there is no room. */
+/** Draws motion beats as dots on the curve: filled on a music beat, hollow elsewhere. */
 export function drawDots(
   { context, width, height }: Surface,
   curve: Curve,
@@ -136,7 +136,7 @@ export function drawDots(
   colours: { readonly line: string; readonly ground: string },
 ): void {
   const seen = beats.filter(({ time }) => time >= scale.from && time <= scale.to);
-  const tooDense = seen.length > width / DOT_ROOM;
+  const tooDense = seen.length > width / DOT_SPACING_PX;
   for (const { time, onMusic } of seen) {
     if (tooDense && !onMusic) continue;
     const radius = tooDense ? 1.5 : onMusic ? 3 : 1.9;

@@ -1,6 +1,6 @@
 import { el, setText } from './dom';
 
-/** A row of buttons of which one is chosen; arrows move the choice as in every radio group. */
+/** A row of buttons of which one is chosen; arrow keys move the choice. */
 export interface RadioGroup<T extends string> {
   readonly element: HTMLElement;
   /** Shows which one is chosen. */
@@ -11,7 +11,7 @@ export interface RadioGroup<T extends string> {
 
 const MOVES: Readonly<Record<string, 1 | -1>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
-/** @param choose is told what the visitor chooses; the group itself shows only what it is told to. */
+/** @param choose called with the visitor's choice; the group changes only by `show` */
 export function radioGroup<T extends string>(
   label: string,
   options: readonly (readonly [T, string])[],

@@ -1,26 +1,81 @@
 import { describe, expect, it } from 'vitest';
-import { modelAmong } from '../../../../web/ui/files/dropped';
+import type { DroppedFile } from '../../../../web/ui/store/services';
+import { modelFolder, openDropped } from '../../../../web/ui/files/dropped';
+import { createAppStore } from '../../../../web/ui/store/store';
 
 const dropped = (...paths: string[]) => paths.map((path) => ({ path, file: new File([path], path) }));
 
-describe('what was dropped', () => {
-  it('is a model where a manifest is among it, wherever its folder lies', () => {
+describe('the model among dropped files', () => {
+  it('is the folder of the manifest, wherever it lies', () => {
     for (const root of ['', 'tango/', 'my models/tango/'])
       expect(
         Object.keys(
-          modelAmong(dropped(`${root}step.onnx`, `${root}manifest.json`, `${root}parts/a.onnx`)) ?? {},
+          modelFolder(dropped(`${root}step.onnx`, `${root}manifest.json`, `${root}parts/a.onnx`)) ?? {},
         ),
       ).toEqual(['step.onnx', 'manifest.json', 'parts/a.onnx']);
   });
 
   it('leaves out what lies beside the model', () => {
-    const model = modelAmong(
+    const model = modelFolder(
       dropped('song.mp3', 'tango/manifest.json', 'tango/step.onnx', 'salsa/step.onnx'),
     );
     expect(Object.keys(model ?? {})).toEqual(['manifest.json', 'step.onnx']);
   });
 
-  it('is no model without one', () => {
-    expect(modelAmong(dropped('song.mp3', 'leader.bvh', 'not-a-manifest.json'))).toBeNull();
+  it('is missing without a manifest', () => {
+    expect(modelFolder(dropped('song.mp3', 'leader.bvh', 'not-a-manifest.json'))).toBeNull();
+  });
+});
+
+function page(modelOpens = true) {
+  const store = createAppStore('dark');
+  const happened: string[] = [];
+  const open = (coming: Promise<readonly DroppedFile[]>): Promise<void> =>
+    openDropped(
+      coming,
+      store,
+      { open: (files) => Promise.resolve(void happened.push(...files.map(({ name }) => name))) },
+      {
+        open: (folder) => {
+          happened.push(`model of ${Object.keys(folder).join(', ')}`);
+          return Promise.resolve(modelOpens);
+        },
+      },
+      () => happened.push('generate'),
+    );
+  return { store, happened, open };
+}
+
+const file = (path: string): DroppedFile => ({ path, file: new File(['x'], path.split('/').at(-1) ?? '') });
+
+describe('opening dropped files', () => {
+  it('opens songs and leaders, or the folder of a model', async () => {
+    const { happened, open } = page();
+    await open(Promise.resolve([file('a.mp3'), file('b.bvh')]));
+    await open(Promise.resolve([file('m/manifest.json'), file('m/step.onnx')]));
+    expect(happened).toEqual(['a.mp3', 'b.bvh', 'model of manifest.json, step.onnx', 'generate']);
+  });
+
+  it('generates nothing when the model did not open', async () => {
+    const { happened, open } = page(false);
+    await open(Promise.resolve([file('m/manifest.json')]));
+    expect(happened).toEqual(['model of manifest.json']);
+  });
+
+  it.each([
+    ['NotFoundError', /could not be read/],
+    ['NotReadableError', /may not read/],
+  ])('reports a drop that fails with %s', async (name, title) => {
+    const { store, happened, open } = page();
+    await open(Promise.reject(new DOMException('gone', name)));
+    expect(store.getState().problem?.title).toMatch(title);
+    expect(store.getState().problem?.hint).toMatch(/drop it again/);
+    expect(happened).toEqual([]);
+  });
+
+  it('reports an empty drop', async () => {
+    const { store, open } = page();
+    await open(Promise.resolve([]));
+    expect(store.getState().problem?.code).toBe('drop-empty');
   });
 });

@@ -1,16 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import { kindOf } from '../../../../web/ui/files/file-type';
+import { fileKind } from '../../../../web/ui/files/file-type';
 
 const bytes = (text: string, ...more: number[]): Uint8Array =>
   Uint8Array.from([...[...text].map((letter) => letter.charCodeAt(0)), ...more]);
 
-describe('what a file is', () => {
+describe('the type of a file', () => {
   it.each([
     ['a BVH', bytes('HIERARCHY\nROOT Hips\n')],
     ['a BVH after a byte order mark', bytes('\u00ef\u00bb\u00bfHIERARCHY\n')],
     ['a BVH after blank lines', bytes('\r\n  HIERARCHY\n')],
   ])('sees %s as a leader, whatever its name', (_, head) => {
-    expect(kindOf(head, 'song.mp3', 'audio/mpeg')).toBe('leader');
+    expect(fileKind(head, 'song.mp3', 'audio/mpeg')).toBe('leader');
   });
 
   it.each([
@@ -24,28 +24,28 @@ describe('what a file is', () => {
     ['m4a', bytes('\u0000\u0000\u0000\u0020ftypM4A ')],
     ['webm', Uint8Array.of(0x1a, 0x45, 0xdf, 0xa3)],
   ])('sees %s as a song, whatever its name', (_, head) => {
-    expect(kindOf(head, 'dance.bvh', '')).toBe('song');
+    expect(fileKind(head, 'dance.bvh', '')).toBe('song');
   });
 
-  it('asks the reader of the named kind to explain bytes that say nothing', () => {
-    expect(kindOf(bytes('not a hierarchy'), 'dance.BVH', '')).toBe('leader');
-    expect(kindOf(bytes('just words'), 'song.mp3', '')).toBe('song');
-    expect(kindOf(bytes('just words'), 'song', 'audio/x-unheard-of')).toBe('song');
+  it('is that of the name where the bytes do not tell', () => {
+    expect(fileKind(bytes('not a hierarchy'), 'dance.BVH', '')).toBe('leader');
+    expect(fileKind(bytes('just words'), 'song.mp3', '')).toBe('song');
+    expect(fileKind(bytes('just words'), 'song', 'audio/x-unheard-of')).toBe('song');
   });
 
-  it('does not take a UTF-16 text for mp3', () => {
-    expect(kindOf(Uint8Array.of(0xff, 0xfe, 0x48, 0), 'notes.txt', 'text/plain')).toBe('unknown');
+  it('is not mp3 for a UTF-16 text', () => {
+    expect(fileKind(Uint8Array.of(0xff, 0xfe, 0x48, 0), 'notes.txt', 'text/plain')).toBe('unknown');
   });
 
   it.each([
     ['FBX', bytes('Kaydara FBX Binary  ')],
     ['GLB', bytes('glTF\u0002')],
   ])('knows %s as motion of another format', (_, head) => {
-    expect(kindOf(head, 'dance.bin', '')).toBe('other-motion');
+    expect(fileKind(head, 'dance.bin', '')).toBe('other-motion');
   });
 
-  it('knows nothing of the rest', () => {
-    expect(kindOf(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
-    expect(kindOf(new Uint8Array(0), 'nothing', '')).toBe('unknown');
+  it('is unknown for the rest', () => {
+    expect(fileKind(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
+    expect(fileKind(new Uint8Array(0), 'nothing', '')).toBe('unknown');
   });
 });

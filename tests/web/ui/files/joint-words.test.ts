@@ -10,7 +10,7 @@ const withoutToes: BodyNames = Object.fromEntries(
 ) as unknown as BodyNames;
 const report = (names: BodyNames) => readBvh(madeBvh({ joints: madeBody(names) }).text).report;
 
-test('a whole body whose back is cut otherwise lacks nothing', () => {
+test('a whole body with another number of spine joints lacks nothing', () => {
   for (const count of [1, 3, 5]) {
     const spine = Array.from({ length: count }, (_, i) => `mixamorig:Spine${i}`);
     const other = report({ ...MIXAMO, spine });
@@ -29,7 +29,7 @@ test('joints that are missing are named', () => {
   expect(jointWords(stiff)).toBe('18 of 22 found; filled in: pelvis, spine1, spine2, spine3');
 });
 
-test('a file of our own has all', () => {
+test('a file that this page wrote has all joints', () => {
   const { clip } = readBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
   const own = readBvh(writeBvh(solve(clip))).report;
   expect(jointWords(own)).toBe('all 22 found');

@@ -25,7 +25,7 @@ function loading() {
 }
 
 describe('loading the model', () => {
-  it('shows bytes, then what it prepares, then where it computes', async () => {
+  it('shows bytes, then what is prepared, then the backend', async () => {
     const { store, link, attempts } = loading();
     const [attempt] = attempts;
     attempt?.tell({ kind: 'manifest', manifest: small });
@@ -56,7 +56,7 @@ describe('loading the model', () => {
     expect(await link.generator()).toBe(generator);
   });
 
-  it('tells a failure in words and can try again, keeping settings', async () => {
+  it('shows a failure and can try again, keeping settings', async () => {
     const { store, link, attempts } = loading();
     attempts[0]?.tell({ kind: 'manifest', manifest: small });
     const { settings } = store.getState();
@@ -79,10 +79,10 @@ describe('loading the model', () => {
     expect(attempts).toHaveLength(1);
   });
 
-  it('keeps what is worth knowing as a remark', () => {
+  it('adds what is worth knowing to the notices', () => {
     const { store, attempts } = loading();
     attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
-    expect(store.getState().remarks).toEqual(['Not kept. Free some space.']);
+    expect(store.getState().notices).toEqual(['Not kept. Free some space.']);
     expect(store.getState().problem).toBeNull();
   });
 });
@@ -102,7 +102,7 @@ describe('opening a model of the visitor', () => {
     return { ...all, present, isDisposed: () => disposed };
   }
 
-  it('takes over when it can dance, and not before', async () => {
+  it('replaces the present one when it is ready, and not before', async () => {
     const { store, link, attempts, present, isDisposed } = await danced();
     const opened = link.open(folder);
     expect(attempts[1]?.folder).toBe(folder);
@@ -117,7 +117,7 @@ describe('opening a model of the visitor', () => {
     expect(await link.manifest()).toBe(other);
     expect(await link.generator()).toBe(made);
     expect(isDisposed()).toBe(true);
-    expect(store.getState().remarks.join()).toContain('Tango');
+    expect(store.getState().notices.join()).toContain('Tango');
   });
 
   it('leaves everything as it was when it fails, and says why', async () => {
@@ -134,7 +134,7 @@ describe('opening a model of the visitor', () => {
     expect(isDisposed()).toBe(false);
   });
 
-  it('lets go of a song that it would hear in another way', async () => {
+  it('removes a song that its audio recipe would analyse differently', async () => {
     for (const [audio, kept] of [
       [small.audio, true],
       [{ ...small.audio, hop: 2 * small.audio.hop }, false],
@@ -145,7 +145,7 @@ describe('opening a model of the visitor', () => {
       attempts[1]?.succeed({ manifest: { ...other, audio } } as Generator);
       await opened;
       expect(store.getState().song !== null).toBe(kept);
-      expect(store.getState().remarks.join().includes('a.mp3')).toBe(!kept);
+      expect(store.getState().notices.join().includes('a.mp3')).toBe(!kept);
     }
   });
 });

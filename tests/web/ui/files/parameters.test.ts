@@ -4,12 +4,12 @@ import { readParameters } from '../../../../web/ui/files/parameters';
 const BASE = 'https://dance.example/app/';
 const SHIPPED = 'https://dance.example/app/models/salsa/manifest.json';
 
-describe('what the address may ask for', () => {
-  it('is the shipped model on whatever computes best', () => {
+describe('parameters of the page’s address', () => {
+  it('default to the shipped model and the best backend', () => {
     expect(readParameters('', BASE)).toEqual({ manifestUrl: SHIPPED, backend: 'auto' });
   });
 
-  it('takes a model of the same origin', () => {
+  it('take a model of the same origin', () => {
     expect(readParameters('?model=/tiny/manifest.json', BASE).manifestUrl).toBe(
       'https://dance.example/tiny/manifest.json',
     );
@@ -29,7 +29,7 @@ describe('what the address may ask for', () => {
     expect(readParameters(`?model=${encodeURIComponent(model)}`, BASE).manifestUrl).toBe(SHIPPED);
   });
 
-  it('ignores a backend that does not exist', () => {
+  it('ignore a backend that does not exist', () => {
     expect(readParameters('?backend=cuda', BASE).backend).toBe('auto');
   });
 });

@@ -5,7 +5,7 @@ import { coarseIsMissing, createCoarseLayer } from '../../../../web/ui/generatio
 import { coarseMotion, otherCoarseMotion } from '../../../../web/ui/store/reactor-motion';
 import type { Reaction } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
-import { compareSet, flipped, letterGiven } from '../../../../web/ui/store/actions/takes';
+import { compareSet, takesSwapped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, still } from '../../support/made-state';
 
@@ -50,8 +50,8 @@ describe('the coarse layer', () => {
     const inputs = { leader: leader(60), song: null, shift: 0, settings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
   };
-  const show = (shown: Reaction) => change.apply(store, change.reacted(shown));
-  const toggle = () => change.apply(store, change.shownToggled('ghost'));
+  const show = (shown: Reaction) => change.apply(store, change.reactionAdded(shown));
+  const toggle = () => change.apply(store, change.overlayToggled('ghost'));
 
   beforeEach(() => {
     store = change.createAppStore('dark');
@@ -113,10 +113,10 @@ describe('the coarse layer', () => {
       const { inputs, ...rest } = reaction(new Float32Array([seed]));
       return { ...rest, inputs: { ...inputs, leader: dancer, settings: { ...inputs.settings, seed } } };
     };
-    change.apply(store, change.manifestArrived(small, 1));
+    change.apply(store, change.manifestLoaded(small, 1));
     change.apply(store, change.leaderLoaded(dancer));
-    change.apply(store, change.reacted(made(1), { id: 'one', at: 1 }));
-    change.apply(store, change.reacted(made(2), { id: 'two', at: 2 }));
+    change.apply(store, change.reactionAdded(made(1), { id: 'one', at: 1 }));
+    change.apply(store, change.reactionAdded(made(2), { id: 'two', at: 2 }));
     change.apply(store, letterGiven('one', 'B'));
     toggle();
     change.apply(store, compareSet('ghost'));
@@ -135,7 +135,7 @@ describe('the coarse layer', () => {
     await turn();
     expect(state().coarse).toEqual({ motion: two, other: one, decoding: false });
     expect(otherCoarseMotion(state())).toBe(one);
-    change.apply(store, flipped());
+    change.apply(store, takesSwapped());
     expect(state().coarse).toEqual({ motion: one, other: two, decoding: false });
     change.apply(store, compareSet('side'));
     expect(state().coarse).toEqual({ motion: one, other: null, decoding: false });
@@ -185,7 +185,7 @@ describe('the coarse layer', () => {
     model.calls[0]?.fail(new Error('boom'));
     await turn();
     expect(state().problem).toMatchObject({ code: 'coarse-failed', remedy: 'generate' });
-    expect(state().shown.ghost).toBe(false);
+    expect(state().overlays.ghost).toBe(false);
     expect(state().coarse).toEqual({ motion: null, other: null, decoding: false });
     await turn();
     expect(model.calls).toHaveLength(1);

@@ -15,7 +15,7 @@ describe('generation', () => {
   beforeEach(() => {
     vi.useFakeTimers();
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     model = new ManualGenerator();
     generation = new Generation(store, () => Promise.resolve(model.generator));
     stop = generation.dispose;
@@ -137,13 +137,13 @@ describe('generation', () => {
     await debounced();
     const { options } = model.calls[1] ?? {};
     expect(options?.at).toBe(30);
-    const moved = { ...still(60), root: new Float32Array(180).fill(1) };
-    options?.onPreview?.({ motion: moved, locked: moved, fresh: { from: 24, to: 48 } });
+    const other = { ...still(60), root: new Float32Array(180).fill(1) };
+    options?.onPreview?.({ motion: other, locked: other, fresh: { from: 24, to: 48 } });
     const { preview, job } = store.getState();
-    expect(job?.fresh).toEqual({ from: 24, to: 48 });
+    expect(job?.previewed).toEqual({ from: 24, to: 48 });
     expect([0, 36, 59].map((frame) => preview?.motion.root[frame * 3])).toEqual([0, 1, 0]);
     options?.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
-    expect(store.getState().job?.fresh).toEqual({ from: 24, to: 48 });
+    expect(store.getState().job?.previewed).toEqual({ from: 24, to: 48 });
     // What was made before is still what is taken home.
     expect(store.getState().reaction).toBe(reaction);
     model.calls[1]?.answer(result());
@@ -186,7 +186,13 @@ describe('generation', () => {
     const inputs = { leader: one, song: null, shift: 0, settings };
     change.apply(
       store,
-      change.reacted({ motion: still(60), latents: null, inputs, label: 'demo reaction', seconds: null }),
+      change.reactionAdded({
+        motion: still(60),
+        latents: null,
+        inputs,
+        label: 'demo reaction',
+        seconds: null,
+      }),
     );
     await debounced();
     expect(model.calls).toHaveLength(0);

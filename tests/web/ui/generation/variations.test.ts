@@ -24,7 +24,7 @@ describe('three variations', () => {
   beforeEach(async () => {
     vi.useFakeTimers();
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     model = new ManualGenerator();
     const load = (): Promise<typeof model.generator> => Promise.resolve(model.generator);
     generation = new Generation(store, load);

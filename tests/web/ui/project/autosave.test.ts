@@ -1,31 +1,31 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { createFiles } from '../../../../web/ui/files/files';
-import type { Readers } from '../../../../web/ui/store/services';
-import type { Kept } from '../../../../web/ui/project/schema';
-import { createKeeping, type Keeping } from '../../../../web/ui/project/autosave';
+import { FileLoader } from '../../../../web/ui/files/file-loader';
+import type { FileReaders } from '../../../../web/ui/store/services';
+import type { StoredProject } from '../../../../web/ui/project/schema';
+import { Project } from '../../../../web/ui/project/project';
 import { notes } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
-import { presentInputs } from '../../../../web/ui/store/take';
+import { currentInputs } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { leader, still } from '../../support/made-state';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));
-const readers: Readers = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
+const readers: FileReaders = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
 
-describe('keeping what is on the page', () => {
+describe('autosave', () => {
   let store: change.Store;
-  let keeping: Keeping;
+  let project: Project;
   /** Titles of the takes as they were written, one write after the other. */
   let writes: (readonly (string | null)[])[];
   /** Takes that the browser has room for, and what it says when they are more. */
   let room: number;
   let failure: Error;
   const made = (id: string): void => {
-    const inputs = presentInputs(store.getState())!;
+    const inputs = currentInputs(store.getState())!;
     const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
     change.apply(store, change.seedSet(writes.length + id.length));
-    change.apply(store, change.reacted(reaction, { id, at: 1e6 * id.length }));
+    change.apply(store, change.reactionAdded(reaction, { id, at: 1e6 * id.length }));
   };
   const pass = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
   const warnings = () => notes(store.getState()).filter(({ look }) => look);
@@ -36,18 +36,18 @@ describe('keeping what is on the page', () => {
     room = takes;
     failure = new DOMException('No room.', 'QuotaExceededError');
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
-    keeping = createKeeping(store, createFiles(store, readers), readers, {
+    project = new Project(store, new FileLoader(store, readers), readers, {
       read: () => Promise.resolve(null),
-      write: ({ takes }: Kept) => {
+      write: ({ takes }: StoredProject) => {
         if (takes.length > room) return Promise.reject(failure);
         writes.push(takes.map(({ name }) => name));
         return Promise.resolve();
       },
       clear: () => Promise.resolve(),
     });
-    await keeping.restore();
+    await project.restore();
     await pass(1000);
     writes = [];
   };
@@ -57,11 +57,11 @@ describe('keeping what is on the page', () => {
     await visit(9);
   });
   afterEach(() => {
-    keeping.dispose();
+    project.dispose();
     vi.useRealTimers();
   });
 
-  it('writes a change once it rests, also while the playhead never does', async () => {
+  it('writes a change once it has stopped for a moment, also while the playhead moves all the time', async () => {
     made('a');
     change.apply(store, takeRenamed('a', 'One'));
     for (let frame = 0; frame < 60; frame++) {
@@ -71,14 +71,14 @@ describe('keeping what is on the page', () => {
     expect(writes).toEqual([['One']]);
   });
 
-  it('tells once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
+  it('reports once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
     room = 1;
     made('a');
     made('bb');
     await pass(1000);
     expect(store.getState().problem).toMatchObject({ code: 'storage-full', remedy: 'project' });
     expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
-    change.apply(store, change.dismissed());
+    change.apply(store, change.problemClosed());
     change.apply(store, takeRenamed('a', 'One'));
     await pass(30_000);
     expect(store.getState().problem).toBeNull();
@@ -92,7 +92,7 @@ describe('keeping what is on the page', () => {
     expect(writes).toHaveLength(1);
   });
 
-  it('keeps on as soon as the visitor has made room', async () => {
+  it('goes on as soon as the visitor has made room', async () => {
     room = 1;
     made('a');
     made('bb');
@@ -100,20 +100,20 @@ describe('keeping what is on the page', () => {
     change.apply(store, takeDeleted('a'));
     await pass(1000);
     expect(writes).toEqual([[null]]);
-    expect(store.getState().keeping).toBe('kept');
+    expect(store.getState().autosave).toBe('kept');
   });
 
-  it('says only in the notes that there never was any room', async () => {
-    keeping.dispose();
+  it('only adds a note when there never was any room', async () => {
+    project.dispose();
     await visit(-1);
     made('a');
     await pass(1000);
-    expect(store.getState().keeping).toBe('full');
+    expect(store.getState().autosave).toBe('full');
     expect(store.getState().problem).toBeNull();
     expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
   });
 
-  it('says only in the notes that the browser keeps nothing at all', async () => {
+  it('only adds a note when the browser stores nothing at all', async () => {
     room = 0;
     failure = new DOMException('Not in this window.', 'SecurityError');
     made('a');

@@ -1,18 +1,23 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
-import { projectOpened, startedAfresh } from '../../../../web/ui/store/actions/project';
-import { AppError } from '../../../../web/common/error';
-import { decoderOf, type Kept, keep, worthKeeping } from '../../../../web/ui/project/schema';
+import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
+import {
+  decoderOf,
+  type StoredProject,
+  storedProject,
+  hasVisitorContent,
+} from '../../../../web/ui/project/schema';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
-import { type Rereaders, reviving } from '../../../../web/ui/project/restore';
+import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
 import type { AppState } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
 import { redone, undone } from '../../../../web/ui/store/history';
-import { presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
+import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, songData, leader, leaderFile, song, still } from '../../support/made-state';
+import { AppError } from '../../../../web/common/error';
 
 /** A motion in which every number is another one. */
 function numbered(frames: number, from: number): SolvedMotion {
@@ -31,18 +36,18 @@ const latents = (frames: number, from: number): Float32Array =>
 function filled(): change.Store {
   const store = change.createAppStore('dark');
   const react = (at: number): void => {
-    const inputs = presentInputs(store.getState());
+    const inputs = currentInputs(store.getState());
     if (!inputs) throw new Error('no inputs');
     const motion = numbered(inputs.leader.motion.frames, at);
     change.apply(
       store,
-      change.reacted(
+      change.reactionAdded(
         { motion, latents: at === 1 ? null : latents(60, at), inputs, label: null, seconds: 2 },
         { id: `t${at}`, at: at * 1e6 },
       ),
     );
   };
-  change.apply(store, change.manifestArrived(small, 7));
+  change.apply(store, change.manifestLoaded(small, 7));
   change.apply(store, change.leaderLoaded(leader(30, 'früher.bvh')));
   react(1);
   change.apply(
@@ -62,7 +67,7 @@ function filled(): change.Store {
   return store;
 }
 
-const readers: Rereaders = {
+const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
   leader: ({ name, label, text, fps }) =>
     Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
@@ -70,15 +75,15 @@ const readers: Rereaders = {
 
 function empty(): change.Store {
   const store = change.createAppStore('dark');
-  change.apply(store, change.manifestArrived(small, 5));
+  change.apply(store, change.manifestLoaded(small, 5));
   return store;
 }
 
-async function contentOf(kept: Kept, state: AppState, how = readers) {
-  const revival = reviving(kept);
-  await revival.readPage(how);
-  await revival.readRest(how);
-  return { content: revival.content(state), losses: revival.losses() };
+async function contentOf(kept: StoredProject, state: AppState, how = readers) {
+  const restorer = new Restorer(kept);
+  await restorer.readPage(how);
+  await restorer.readRest(how);
+  return { content: restorer.content(state), losses: restorer.losses() };
 }
 
 const summary = (state: AppState) => ({
@@ -99,9 +104,9 @@ const summary = (state: AppState) => ({
 });
 
 describe('a project', () => {
-  it('brings everything back through its file, to the bit', async () => {
+  it('restores everything from its file, bit by bit', async () => {
     const before = filled().getState();
-    const kept = readProject(await writeProject(keep(before)));
+    const kept = readProject(await writeProject(storedProject(before)));
     const store = empty();
     const { content, losses } = await contentOf(kept, store.getState());
     change.apply(store, projectOpened(content));
@@ -110,12 +115,12 @@ describe('a project', () => {
     expect(await store.getState().song?.file.text()).toBe('ID3 song');
     expect(store.getState().song?.file.type).toBe('audio/mpeg');
     // The same files are the same objects, so that nothing is made anew.
-    expect(store.getState().reaction?.inputs).toEqual(presentInputs(store.getState()));
+    expect(store.getState().reaction?.inputs).toEqual(currentInputs(store.getState()));
     expect(store.getState().reaction?.inputs.leader).toBe(store.getState().leader);
   });
 
   it('holds files that other programs open', async () => {
-    const files = unzipSync(await writeProject(keep(filled().getState())));
+    const files = unzipSync(await writeProject(storedProject(filled().getState())));
     expect(Object.keys(files).sort()).toEqual([
       'leaders/1-lead-0412.bvh',
       'leaders/2-fruher.bvh',
@@ -131,8 +136,8 @@ describe('a project', () => {
     expect(files['takes/1-latents.f32']?.byteLength).toBe(4 * 15 * 6);
   });
 
-  it('takes the place of what is there, and undoing brings that back', async () => {
-    const kept = readProject(await writeProject(keep(filled().getState())));
+  it('replaces what is there, and undo brings that back', async () => {
+    const kept = readProject(await writeProject(storedProject(filled().getState())));
     const store = filled();
     const before = store.getState();
     const { content } = await contentOf(kept, before);
@@ -146,42 +151,42 @@ describe('a project', () => {
     expect(summary(store.getState())).toEqual(opened);
   });
 
-  it('starting afresh empties the page, and undoing brings it back', () => {
+  it('clearing it empties the page, and undo brings it back', () => {
     const store = filled();
     const before = store.getState();
-    change.apply(store, startedAfresh(small, 3));
+    change.apply(store, projectCleared(small, 3));
     expect(store.getState()).toMatchObject({
       takes: [],
       leader: null,
       song: null,
       reaction: null,
-      visiting: true,
+      firstVisit: true,
     });
     expect(store.getState().settings?.seed).toBe(3);
-    expect(worthKeeping(store.getState())).toBe(false);
+    expect(hasVisitorContent(store.getState())).toBe(false);
     change.apply(store, undone());
     expect(summary(store.getState())).toEqual(summary(before));
   });
 });
 
 describe('latents', () => {
-  const latentsIn = async (kept: Kept, state: AppState) =>
+  const latentsIn = async (kept: StoredProject, state: AppState) =>
     (await contentOf(kept, state)).content.takes?.map(({ reaction }) => reaction.latents);
 
-  it('are left out where another decoder would read them, whatever its model is called', async () => {
-    const kept = keep(filled().getState());
+  it('are left out where the model has another decoder, whatever its name', async () => {
+    const kept = storedProject(filled().getState());
     const { decode, ...graphs } = small.graphs;
     const { wasm, webgpu } = decode.files;
     const tuned = { ...decode, files: { wasm: { ...wasm, sha256: '1'.repeat(64) }, webgpu } };
     const store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
+    change.apply(store, change.manifestLoaded({ ...small, graphs: { ...graphs, decode: tuned } }, 5));
     expect(decoderOf(store.getState().manifest!)).not.toBe(decoderOf(small));
     expect(await latentsIn(kept, store.getState())).toEqual([null, null, null]);
     expect(await latentsIn(kept, empty().getState())).toEqual([latents(60, 3), latents(60, 2), null]);
   });
 
-  it('are missing from takes that were kept without them, which open all the same', async () => {
-    const files = unzipSync(await writeProject(keep(filled().getState())));
+  it('are missing from takes that were stored without them, which open all the same', async () => {
+    const files = unzipSync(await writeProject(storedProject(filled().getState())));
     const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as {
       motions: Record<string, unknown>[];
     };
@@ -191,10 +196,10 @@ describe('latents', () => {
   });
 });
 
-describe('what cannot be read any more', () => {
-  const kept = () => keep(filled().getState());
+describe('a part that cannot be read any more', () => {
+  const kept = () => storedProject(filled().getState());
 
-  it('takes only its own takes with it when it is a leader', async () => {
+  it('removes only its own takes when it is a leader', async () => {
     const { content, losses } = await contentOf(kept(), empty().getState(), {
       ...readers,
       leader: (one) => (one.name === 'früher.bvh' ? Promise.resolve(null) : readers.leader(one)),
@@ -204,7 +209,7 @@ describe('what cannot be read any more', () => {
     expect(content.leader?.name).toBe('lead_0412.bvh');
   });
 
-  it('leaves the takes when it is a song', async () => {
+  it('leaves its takes when it is a song', async () => {
     const { content, losses } = await contentOf(kept(), empty().getState(), {
       ...readers,
       song: () => Promise.resolve(null),
@@ -232,7 +237,7 @@ describe('what cannot be read any more', () => {
 });
 
 describe('a broken project', () => {
-  const whole = writeProject(keep(filled().getState()));
+  const whole = writeProject(storedProject(filled().getState()));
   const changed = async (alter: (files: Record<string, Uint8Array>) => void): Promise<Uint8Array> => {
     const files = unzipSync(await whole);
     alter(files);

@@ -19,7 +19,7 @@ describe('measuring', () => {
   const react = (motion = stander()): void => {
     const state = store.getState();
     const inputs = { leader: state.leader!, song: state.song, shift: state.shift, settings };
-    change.apply(store, change.reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
+    change.apply(store, change.reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));
   };
   /** What promises do comes before the next task. */
   const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
@@ -27,7 +27,7 @@ describe('measuring', () => {
   beforeEach(() => {
     calls = [];
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     createQuality(
       store,
       (question, signal) =>
@@ -63,7 +63,7 @@ describe('measuring', () => {
     answer(report);
     await settled();
     expect(store.getState().quality).toEqual({ reactor: store.getState().reaction!.motion, report });
-    expect(store.getState().remarks).toEqual([]);
+    expect(store.getState().notices).toEqual([]);
   });
 
   it('keeps the numbers until new ones are there, but not for another leader', async () => {

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { keepPreferences, type PreferenceStorage } from '../../../../web/ui/shell/preferences';
+import { syncPreferences, type PreferenceStorage } from '../../../../web/ui/shell/preferences';
 import type { Theme } from '../../../../web/ui/store/state';
 import { footLockSet } from '../../../../web/ui/store/actions/reaction';
 import { seedLockSet } from '../../../../web/ui/store/actions/settings';
 import { apply, createAppStore } from '../../../../web/ui/store/store';
-import { cameraSet, playbackSet, shownToggled, themeSet } from '../../../../web/ui/store/actions/view';
+import { cameraSet, playbackSet, overlayToggled, themeSet } from '../../../../web/ui/store/actions/view';
 
 const KEY = 'reactdance.preferences';
 
@@ -24,7 +24,7 @@ function browser(kept?: string) {
     /** A visit to the page on a dark system. */
     visit: (place: () => PreferenceStorage | null = () => storage) => {
       const store = createAppStore('dark');
-      const stop = keepPreferences(store, place, (change) => {
+      const stop = syncPreferences(store, place, (change) => {
         tell = change;
         return () => undefined;
       });
@@ -34,19 +34,19 @@ function browser(kept?: string) {
 }
 
 describe('preferences', () => {
-  it('are those of the last visit', () => {
+  it('are restored from the last visit', () => {
     const { visit } = browser();
     const { store, stop } = visit();
     apply(store, themeSet('light'));
     apply(store, cameraSet('top'));
     apply(store, footLockSet(false));
     apply(store, seedLockSet(true));
-    apply(store, shownToggled('trails'));
+    apply(store, overlayToggled('trails'));
     apply(store, playbackSet({ speed: 0.5, loop: true }));
     stop();
-    const { theme, camera, footLock, seedLocked, shown, playback } = visit().store.getState();
+    const { theme, camera, footLock, seedLocked, overlays, playback } = visit().store.getState();
     expect(seedLocked).toBe(true);
-    expect(shown).toMatchObject({ trails: true, skeleton: false });
+    expect(overlays).toMatchObject({ trails: true, skeleton: false });
     expect({ theme, camera, footLock, speed: playback.speed, loop: playback.loop }).toEqual({
       theme: 'light',
       camera: 'top',
@@ -73,7 +73,7 @@ describe('preferences', () => {
     expect(browser(kept).visit().store.getState()).toEqual(fresh);
   });
 
-  it('keep what is good beside what is broken', () => {
+  it('keep valid values beside invalid ones', () => {
     const { camera, playback } = browser('{"camera":"side","speed":"fast"}').visit().store.getState();
     expect([camera, playback.speed]).toEqual(['side', 1]);
   });

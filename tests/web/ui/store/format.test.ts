@@ -43,7 +43,7 @@ describe('words and numbers on the page', () => {
     expect(tempo(0)).toBe('no beat found');
   });
 
-  it('snaps to fader steps without binary dust', () => {
+  it('rounds to fader steps without floating-point remainders', () => {
     expect(toStep(0.151, 0.05, -1)).toBe(0.15);
     expect(toStep(-0.999, 0.05, -1)).toBe(-1);
     expect(toStep(0.6000000001, 0.05, -1)).toBe(0.6);

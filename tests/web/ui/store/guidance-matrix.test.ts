@@ -15,13 +15,13 @@ const rows = (upper: number, lower: number, placement: number): Guidance => ({
 const coarse = (guidance: Guidance): (number | undefined)[] =>
   Object.values(guidance).map((row) => row['coarse']);
 
-describe('a big fader', () => {
+describe('the fader of a layer', () => {
   it('moves the body parts together and keeps their differences', () => {
     expect(coarse(matrix.withColumn(rows(1, 1.5, 0.5), 'coarse', 2, range))).toEqual([2, 2.5, 1.5]);
     expect(matrix.columnOf(rows(1, 1.5, 0.5), 'coarse')).toEqual({ value: 1, mixed: true });
   });
 
-  it('lets a part that reaches the end wait there, until all are alike at the end', () => {
+  it('clamps each body part to the range, so that all are uniformGuidance at its end', () => {
     const near = matrix.withColumn(rows(1, 2, 3), 'coarse', 2.5, range);
     expect(coarse(near)).toEqual([1.75, 2.75, 3]);
     for (const end of [range.min, range.max])
@@ -31,7 +31,7 @@ describe('a big fader', () => {
       });
   });
 
-  it('leaves the other layer and parts that are alike as one does', () => {
+  it('leaves the other layer, and parts that are uniformGuidance stay uniformGuidance', () => {
     const moved = matrix.withColumn(uniformGuidance(0.5, 0.2), 'fine', 1.23, range);
     expect(moved).toEqual(uniformGuidance(0.5, 1.25));
   });
@@ -50,12 +50,12 @@ describe('a big fader', () => {
 describe('changes of the guidance', () => {
   const ready = (): change.Store => {
     const store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     return store;
   };
   const guidance = (store: change.Store): Guidance => store.getState().settings?.guidance ?? {};
 
-  it('set and reset one cell, held to range and step', () => {
+  it('set and reset one cell, clamped to range and step', () => {
     const store = ready();
     change.apply(store, change.guidanceCellSet('lower', 'fine', 7.33));
     expect(guidance(store)).toEqual({ ...uniformGuidance(0, 0), lower: { coarse: 0, fine: 3 } });
@@ -65,7 +65,7 @@ describe('changes of the guidance', () => {
     expect(guidance(store)).toEqual(uniformGuidance(0, 0));
   });
 
-  it('while a fader is held, bring back the differences that the end of the range took', () => {
+  it('restore differences that the range clamped, while the same drag goes on', () => {
     const store = ready();
     change.apply(store, change.guidanceCellSet('upper', 'coarse', 2));
     const held = guidance(store);
@@ -92,7 +92,7 @@ describe('changes of the guidance', () => {
 describe('presets', () => {
   const list = presets(small);
 
-  it('are the model’s own choice and the six rows of Table 4', () => {
+  it('are the model’s default and the six rows of Table 4', () => {
     expect(list.map(({ guidance }) => Object.values(guidance['placement'] ?? {}))).toEqual([
       [0, 0],
       [1, 1],

@@ -1,12 +1,12 @@
 import { expect, test } from 'vitest';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { reactorMotion } from '../../../../web/ui/store/reactor-motion';
-import { footLockSet, reacted } from '../../../../web/ui/store/actions/reaction';
+import { footLockSet, reactionAdded } from '../../../../web/ui/store/actions/reaction';
 import { createAppStore, apply } from '../../../../web/ui/store/store';
 import { madeStander } from '../../support/made-stander';
 import { uniformGuidance, leader } from '../../support/made-state';
 
-test('the foot lock is on at first, and switching it changes the motion shown, not the one that was made', () => {
+test('the foot lock is on at first, and switching it changes the motion that is drawn, not the generated one', () => {
   const motion = madeStander({ frames: 90, path: (frame) => [0.05 * Math.sin(frame / 4.8), 0] });
   const made = motion.positions.slice();
   const store = createAppStore('dark');
@@ -21,7 +21,7 @@ test('the foot lock is on at first, and switching it changes the motion shown, n
     role: 'reactor' as const,
   };
   const inputs = { leader: leader(90), song: null, shift: 0, settings };
-  apply(store, reacted({ motion, latents: null, inputs, label: null, seconds: 1 }));
+  apply(store, reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();
   const ankles = locked!.positions.filter((_, i) => i % (JOINT_COUNT * 3) === J.left_ankle * 3);
   expect(Math.max(...ankles) - Math.min(...ankles)).toBeLessThan(0.04);

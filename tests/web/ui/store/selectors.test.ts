@@ -19,17 +19,17 @@ const state = (more: Partial<AppState>): AppState => ({
   ...more,
 });
 
-describe('what is wanted', () => {
-  it('is nothing without a leader, or while a file is still being read', () => {
-    expect(select.wantedInputs(state({ song: song(5) }))).toBeNull();
+describe('the inputs of the next reaction', () => {
+  it('are null without a leader, or while a file is still being read', () => {
+    expect(select.readyInputs(state({ song: song(5) }))).toBeNull();
     const reading = { song: { name: 'a.mp3', fraction: 0 }, leader: null };
-    expect(select.wantedInputs(state({ leader: leader(30), reading }))).toBeNull();
-    expect(select.wantedInputs(state({ leader: leader(30), settings: null }))).toBeNull();
+    expect(select.readyInputs(state({ leader: leader(30), reading }))).toBeNull();
+    expect(select.readyInputs(state({ leader: leader(30), settings: null }))).toBeNull();
   });
 
-  it('needs no song', () => {
+  it('need no song', () => {
     const one = leader(30);
-    expect(select.wantedInputs(state({ leader: one }))).toEqual({
+    expect(select.readyInputs(state({ leader: one }))).toEqual({
       leader: one,
       song: null,
       shift: 0,
@@ -37,7 +37,7 @@ describe('what is wanted', () => {
     });
   });
 
-  it('is up to date exactly while the reaction was made from the same', () => {
+  it('are up to date exactly while the reaction was generated from the same', () => {
     const one = leader(30);
     const inputs = { leader: one, song: null, shift: 0, settings };
     const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
@@ -86,8 +86,8 @@ describe('bar and count', () => {
   });
 });
 
-describe('what is said', () => {
-  it('of lengths: the leader rules, silence is named', () => {
+describe('notes', () => {
+  it('on lengths: the dance is as long as the leader, and silence is mentioned', () => {
     expect(select.lengthNote(state({}))).toBeNull();
     expect(select.lengthNote(state({ leader: leader(300) }))).toContain('No song');
     expect(select.lengthNote(state({ leader: leader(300), song: song(10.2) }))).toBeNull();
@@ -95,7 +95,7 @@ describe('what is said', () => {
     expect(select.lengthNote(state({ leader: leader(300), song: song(60) }))).toContain('not used');
   });
 
-  it('of silent songs, missing beats, file warnings and remarks', () => {
+  it('on silent songs, missing beats, file warnings and notices', () => {
     const texts = (more: Partial<AppState>): string[] => select.notes(state(more)).map(({ text }) => text);
     expect(texts({ song: song(5, { silent: true, beats: [] }) })).toEqual([
       'The song is silent: it carries no beat to dance to.',
@@ -109,10 +109,10 @@ describe('what is said', () => {
       { text: 'The feet slide.', look: true },
       { text: 'The first frame is left out.', look: false },
     ]);
-    expect(texts({ remarks: ['The storage is full.'] })).toEqual(['The storage is full.']);
+    expect(texts({ notices: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });
 
-  it('in one sentence where there is no room for more: what may change the dance comes first', () => {
+  it('one of them where there is no room for more: what may affect the dance comes first', () => {
     const silent = song(3, { silent: true, beats: [] });
     expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
       text: 'The song is silent: it carries no beat to dance to.',
@@ -120,13 +120,13 @@ describe('what is said', () => {
     });
     expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');
     expect(
-      select.firstNote(state({ leader: leader(300), song: song(10.2), remarks: ['Elsewhere.'] })),
+      select.firstNote(state({ leader: leader(300), song: song(10.2), notices: ['Elsewhere.'] })),
     ).toBeNull();
   });
 
-  it('of the job, in words', () => {
+  it('on the job', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
-    const job = { done: 2, total: 10, fraction: 0.3, fresh: null };
+    const job = { done: 2, total: 10, fraction: 0.3, previewed: null };
     const from = { model: loading, settings };
     expect(select.jobWords({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
     expect(select.jobWords({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');

@@ -6,7 +6,7 @@ import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
 const ready = (): change.Store => {
   const store = change.createAppStore('dark');
-  change.apply(store, change.manifestArrived(small, 7));
+  change.apply(store, change.manifestLoaded(small, 7));
   return store;
 };
 
@@ -30,7 +30,7 @@ describe('settings', () => {
     expect(store.getState().settings).toBeNull();
   });
 
-  it('hold guidance to range and step, each layer for itself', () => {
+  it('clamp guidance to range and step, layer by layer', () => {
     const store = ready();
     change.apply(store, change.guidanceSet('coarse', 9));
     change.apply(store, change.guidanceSet('fine', 0.33));
@@ -41,7 +41,7 @@ describe('settings', () => {
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0));
   });
 
-  it('hold the guidance of the music to its own range, and reset it with the rest', () => {
+  it('clamp the guidance of the music to its own range, and reset it with the rest', () => {
     const store = ready();
     const music = () => store.getState().settings?.music;
     change.apply(store, change.musicSet(9));
@@ -59,7 +59,7 @@ describe('settings', () => {
     expect(store.getState().settings).toMatchObject({ guidance: uniformGuidance(1, 1.2), music: 0 });
   });
 
-  it('are the same object while nothing changes, so that nothing is made anew', () => {
+  it('are the same object while nothing changes, so that nothing is generated again', () => {
     const store = ready();
     const before = store.getState().settings;
     change.apply(store, change.guidanceSet('coarse', 0.01));
@@ -68,7 +68,7 @@ describe('settings', () => {
     expect(store.getState().settings).toBe(before);
   });
 
-  it('hold steps and seed to what the model takes', () => {
+  it('clamp steps and seed to the range of the model', () => {
     const store = ready();
     change.apply(store, change.stepsSet(0));
     change.apply(store, change.seedSet(-3));
@@ -90,7 +90,7 @@ describe('files', () => {
     if (!settings) throw new Error('no settings');
     change.apply(
       store,
-      change.reacted({
+      change.reactionAdded({
         motion: still(300),
         latents: null,
         inputs: { leader: first, song: null, shift: 0, settings },
@@ -103,7 +103,7 @@ describe('files', () => {
     expect(store.getState()).toMatchObject({ reaction: null, playback: { time: 0, playing: false } });
   });
 
-  it('a new song leaves the reaction where it is until the next one is ready', () => {
+  it('a new song leaves the reaction on the stage until the next one is ready', () => {
     const store = ready();
     const first = leader(300);
     change.apply(store, change.leaderLoaded(first));
@@ -116,7 +116,7 @@ describe('files', () => {
       label: null,
       seconds: 1,
     };
-    change.apply(store, change.reacted(reaction));
+    change.apply(store, change.reactionAdded(reaction));
     change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0.5 }));
     change.apply(store, change.songLoaded(song(5)));
     expect(store.getState().reaction).toBe(reaction);
@@ -125,7 +125,7 @@ describe('files', () => {
 });
 
 describe('playing', () => {
-  it('stays inside the dance, whose length the leader rules', () => {
+  it('stays inside the dance, whose length is the leader’s', () => {
     const store = ready();
     change.apply(store, change.songLoaded(song(20)));
     change.apply(store, change.playbackSet({ time: 99 }));
@@ -137,16 +137,16 @@ describe('playing', () => {
     expect(store.getState().playback.time).toBe(0);
   });
 
-  it('opens one floating thing at a time and closes it by the same door', () => {
+  it('opens one floating panel at a time and closes it by the same button', () => {
     const store = ready();
-    change.apply(store, change.opened('download'));
-    change.apply(store, change.opened('keys'));
-    expect(store.getState().open).toBe('keys');
-    change.apply(store, change.opened('keys'));
-    expect(store.getState().open).toBeNull();
+    change.apply(store, change.panelToggled('download'));
+    change.apply(store, change.panelToggled('keys'));
+    expect(store.getState().openPanel).toBe('keys');
+    change.apply(store, change.panelToggled('keys'));
+    expect(store.getState().openPanel).toBeNull();
   });
 
-  it('tells failures one after the other, each once', () => {
+  it('shows failures one after the other, each once', () => {
     const store = ready();
     const problem = (code: string): Problem => ({
       code,
@@ -155,27 +155,27 @@ describe('playing', () => {
       remedy: 'none',
       refused: null,
     });
-    change.apply(store, change.told(problem('first')));
-    change.apply(store, change.told(problem('second')));
-    change.apply(store, change.told(problem('first')));
-    change.apply(store, change.told(problem('second')));
+    change.apply(store, change.problemShown(problem('first')));
+    change.apply(store, change.problemShown(problem('second')));
+    change.apply(store, change.problemShown(problem('first')));
+    change.apply(store, change.problemShown(problem('second')));
     expect(store.getState().problem?.code).toBe('first');
-    change.apply(store, change.dismissed());
+    change.apply(store, change.problemClosed());
     expect(store.getState().problem?.code).toBe('second');
-    change.apply(store, change.dismissed());
-    expect(store.getState()).toMatchObject({ problem: null, waitingProblems: [] });
+    change.apply(store, change.problemClosed());
+    expect(store.getState()).toMatchObject({ problem: null, queuedProblems: [] });
   });
 
-  it('keeps a remark once', () => {
+  it('adds a notice once', () => {
     const store = ready();
-    change.apply(store, change.remarked('The storage is full.'));
-    change.apply(store, change.remarked('The storage is full.'));
-    expect(store.getState().remarks).toEqual(['The storage is full.']);
+    change.apply(store, change.noticeAdded('The storage is full.'));
+    change.apply(store, change.noticeAdded('The storage is full.'));
+    expect(store.getState().notices).toEqual(['The storage is full.']);
   });
 });
 
 describe('watching', () => {
-  it('calls at once and then only when the selected part changes', () => {
+  it('calls at once and then only when the selected value changes', () => {
     const store = ready();
     const seen: number[] = [];
     const stop = change.watch(

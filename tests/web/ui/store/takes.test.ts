@@ -2,11 +2,11 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { AppState, LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
-import { MOST_TAKES } from '../../../../web/ui/store/add-take';
+import { MAX_TAKES } from '../../../../web/ui/store/add-take';
 import * as edit from '../../../../web/ui/store/actions/takes';
-import { redone, undone, unremembered } from '../../../../web/ui/store/history';
+import { redone, undone, withoutUndo } from '../../../../web/ui/store/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
-import { letterOf, presentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
+import { letterOf, currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { leader, song, still } from '../../support/made-state';
 
@@ -17,7 +17,7 @@ class Page {
   private made = 0;
 
   constructor(readonly dancer: LoadedLeader = leader(300)) {
-    change.apply(this.store, change.manifestArrived(small, 7));
+    change.apply(this.store, change.manifestLoaded(small, 7));
     change.apply(this.store, change.leaderLoaded(dancer));
   }
 
@@ -40,7 +40,7 @@ class Page {
   }
   /** The reaction to what is asked for now arrives. */
   arrive({ label = null, after = 60_000 }: { label?: string | null; after?: number } = {}): Reaction {
-    const inputs = presentInputs(this.state);
+    const inputs = currentInputs(this.state);
     if (!inputs) throw new Error('nothing to react to');
     this.now += after;
     const frames = inputs.leader.motion.frames;
@@ -51,7 +51,7 @@ class Page {
       label,
       seconds: label === null ? 1 : null,
     };
-    this.do(change.reacted(reaction, { id: `id-${++this.made}`, at: this.now }));
+    this.do(change.reactionAdded(reaction, { id: `id-${++this.made}`, at: this.now }));
     return reaction;
   }
   id(title: string): string {
@@ -69,8 +69,8 @@ beforeEach(() => {
   page = new Page();
 });
 
-describe('a reaction that arrives', () => {
-  it('becomes a take with what it was made from, the newest first', () => {
+describe('a new reaction', () => {
+  it('becomes a take with its inputs, the newest first', () => {
     const first = page.arrive();
     page.seed(8);
     const second = page.arrive();
@@ -80,23 +80,23 @@ describe('a reaction that arrives', () => {
     expect(page.state.takes[0]).toMatchObject({ starred: false, name: null, createdAt: page.now });
   });
 
-  it('is called what the page calls it when it came ready-made, and takes no number', () => {
+  it('is named by its label when it came ready-made, and gets no number', () => {
     page.arrive({ label: 'demo reaction' });
     page.seed(8);
     page.arrive();
     expect(page.titles).toEqual(['Take 1', 'Demo reaction']);
   });
 
-  it('is the same take when the same motion is told anew what it was made from', () => {
+  it('is the same take when the same motion comes with other inputs', () => {
     const before = page.arrive({ label: 'demo reaction' });
-    page.do(unremembered(change.songLoaded(song(10))));
+    page.do(withoutUndo(change.songLoaded(song(10))));
     const inputs = { ...before.inputs, song: page.state.song };
-    page.do(change.reacted({ ...before, inputs }, { id: 'later', at: page.now }));
+    page.do(change.reactionAdded({ ...before, inputs }, { id: 'later', at: page.now }));
     expect(page.titles).toEqual(['Demo reaction']);
     expect(takeOnStage(page.state)?.reaction.inputs.song).toBe(page.state.song);
   });
 
-  it('is the same take when the same is asked for again', () => {
+  it('is the same take when the inputs are the same', () => {
     page.arrive();
     page.seed(8);
     page.arrive();
@@ -143,7 +143,7 @@ describe('a drag of guidance', () => {
   it('leaves a take that is compared as it is', () => {
     beginAtRest();
     drag(0.5);
-    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.flipped());
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.takesSwapped());
     // Take 1 is on the stage now and takes the drag up; Take 2 is what it is compared with.
     page.do(change.guidanceSet('coarse', 0.55));
     page.arrive({ after: 300 });
@@ -154,7 +154,7 @@ describe('a drag of guidance', () => {
     expect(page.id('Take 2')).toBe(page.state.other);
   });
 
-  it('does not swallow another seed, a ready-made reaction or another leader', () => {
+  it('does not replace another seed, a ready-made reaction or another leader', () => {
     page.arrive({ label: 'demo reaction' });
     drag(0.5);
     page.seed(9);
@@ -165,7 +165,7 @@ describe('a drag of guidance', () => {
     expect(page.titles).toHaveLength(4);
   });
 
-  it('is one step of undo, however many reactions came, and the last can be had again', () => {
+  it('is one step of undo, however many reactions came, and the last can be restored', () => {
     beginAtRest();
     drag(0.5, 0.6, 0.7);
     page.do(undone());
@@ -176,23 +176,23 @@ describe('a drag of guidance', () => {
   });
 });
 
-describe('the oldest takes', () => {
-  it('make room, unless they are starred, named or in use', () => {
+describe('the limit of takes', () => {
+  it('removes the oldest, unless they are starred, named or in use', () => {
     page.arrive();
     page.do(edit.takeStarred(page.id('Take 1')));
-    for (let seed = 100; seed < 100 + MOST_TAKES + 3; seed++) {
+    for (let seed = 100; seed < 100 + MAX_TAKES + 3; seed++) {
       page.seed(seed);
       page.arrive();
       if (seed === 100) page.do(edit.takeRenamed(page.id('Take 2'), 'Mine'));
       if (seed === 101) page.do(edit.letterGiven(page.id('Mine'), 'B'));
     }
-    expect(page.titles).toHaveLength(MOST_TAKES);
+    expect(page.titles).toHaveLength(MAX_TAKES);
     expect(page.titles.slice(-3)).toEqual(['Take 7', 'Mine', 'Take 1']);
   });
 });
 
 describe('choosing a take', () => {
-  it('shows it at the same playhead with files and settings as they were, so that nothing is made anew', () => {
+  it('shows it at the same playhead with files and settings as they were, so that nothing is generated again', () => {
     const first = page.arrive();
     page.do(change.songLoaded(song(10)));
     page.seed(8);
@@ -200,7 +200,7 @@ describe('choosing a take', () => {
     page.do(change.playbackSet({ time: 4 }));
     page.do(edit.takeChosen(page.id('Take 1')));
     expect(page.state.reaction).toBe(first);
-    expect(presentInputs(page.state)).toEqual(first.inputs);
+    expect(currentInputs(page.state)).toEqual(first.inputs);
     expect(page.state.song).toBeNull();
     expect(page.state.playback.time).toBe(4);
   });
@@ -227,25 +227,25 @@ describe('A and B', () => {
     }
   });
 
-  it('flip on the stage and stay with their takes', () => {
+  it('swap on the stage and stay with their takes', () => {
     page.do(edit.letterGiven(page.id('Take 1'), 'B'));
     expect(letters()).toBe('Take 3 A, Take 2 -, Take 1 B');
-    page.do(edit.flipped());
+    page.do(edit.takesSwapped());
     expect([page.onStage, letters()]).toEqual(['Take 1', 'Take 3 A, Take 2 -, Take 1 B']);
     expect(page.state.settings?.seed).toBe(1);
-    page.do(edit.flipped());
+    page.do(edit.takesSwapped());
     expect([page.onStage, letters()]).toEqual(['Take 3', 'Take 3 A, Take 2 -, Take 1 B']);
   });
 
-  it('are nothing to undo when looked at in turn', () => {
+  it('swap without a step of undo', () => {
     page.do(edit.letterGiven(page.id('Take 1'), 'B'));
     const { history } = page.state;
-    page.do(edit.flipped(), edit.flipped());
+    page.do(edit.takesSwapped(), edit.takesSwapped());
     expect(page.state.history).toBe(history);
   });
 
   it('without a B, B is the newest other take', () => {
-    page.do(edit.flipped());
+    page.do(edit.takesSwapped());
     expect(letters()).toBe('Take 3 A, Take 2 B, Take 1 -');
     expect(page.onStage).toBe('Take 2');
   });
@@ -290,7 +290,7 @@ describe('A and B', () => {
     page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
     const labels = { left: 'A Take 3', right: 'B Take 1' };
     expect(seen).toMatchObject({ mode: 'right', labels });
-    page.do(edit.flipped());
+    page.do(edit.takesSwapped());
     expect(seen).toMatchObject({ mode: 'left', labels });
     page.do(edit.compareSet('ghost'));
     expect(seen).toMatchObject({ mode: 'ghost' });
@@ -309,7 +309,7 @@ describe('A and B', () => {
     expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
   });
 
-  it('wait while another leader is there, and never stand beside a dance to it', () => {
+  it('are not drawn while another leader is there', () => {
     let seen: OtherDancer | null = null;
     const stop = showOther(page.store, { setOther: (other) => (seen = other) });
     page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'));
@@ -329,7 +329,7 @@ describe('A and B', () => {
     expect([page.state.compare, letters()]).toEqual(['off', 'Take 3 -, Take 2 -, Take 1 A']);
   });
 
-  it('are over when the one that waits is shown itself', () => {
+  it('end when the compared take is shown itself', () => {
     page.do(edit.letterGiven(page.id('Take 1'), 'B'), change.leaderLoaded(leader(90, 'other.bvh')));
     page.arrive();
     page.do(edit.takeChosen(page.id('Take 1')), edit.takeChosen(page.id('Take 2')));
@@ -339,7 +339,7 @@ describe('A and B', () => {
   it('do not compare dances to different leaders', () => {
     page.do(change.leaderLoaded(leader(90, 'other.bvh')));
     page.arrive();
-    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.flipped());
+    page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.takesSwapped());
     expect([page.state.other, page.onStage]).toEqual([null, 'Take 4']);
   });
 });
@@ -367,7 +367,7 @@ describe('undo and redo', () => {
     expect(page.state.history.future).toHaveLength(0);
   });
 
-  it('lead to the take before and leave the one that arrived in the list', () => {
+  it('show the take before and leave the new one in the list', () => {
     page.do(undone());
     expect([page.onStage, page.state.settings?.seed]).toEqual(['Take 1', 7]);
     expect(page.titles).toEqual(['Take 2', 'Take 1']);
@@ -375,7 +375,7 @@ describe('undo and redo', () => {
     expect([page.onStage, page.state.settings?.seed]).toEqual(['Take 2', 8]);
   });
 
-  it('keep takes that arrived after what is undone', () => {
+  it('keep takes that are newer than what is undone', () => {
     page.do(edit.takeDeleted(page.id('Take 1')));
     page.seed(9);
     page.arrive();
@@ -394,7 +394,7 @@ describe('undo and redo', () => {
     expect([page.onStage, page.titles]).toEqual(['Take 2', ['Take 2', 'Take 1']]);
   });
 
-  it('bring back a take that a later drag has taken the place of', () => {
+  it('restore a take that a later reaction of the drag has replaced', () => {
     page.do(change.guidanceSet('fine', 1));
     const kept = page.arrive();
     // A step of its own, but within the time of folding.
@@ -409,7 +409,7 @@ describe('undo and redo', () => {
     expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(2);
   });
 
-  it('a new change ends what could be redone; what comes to the same is no change', () => {
+  it('a new change removes what could be redone; an equal value is no change', () => {
     page.do(undone());
     const settings = { ...(page.state.settings as Settings) };
     page.do(change.settingsSet(settings));
@@ -425,9 +425,9 @@ describe('undo and redo', () => {
     expect([page.state.leader, page.onStage]).toEqual([page.dancer, 'Take 2']);
   });
 
-  it('do not go over what the page does of its own accord', () => {
+  it('do not include what the page does by itself', () => {
     const fresh = new Page();
-    fresh.do(unremembered(change.songLoaded(song(10))), change.playbackSet({ time: 3 }));
+    fresh.do(withoutUndo(change.songLoaded(song(10))), change.playbackSet({ time: 3 }));
     fresh.arrive();
     expect(fresh.state.history.past).toEqual([]);
   });

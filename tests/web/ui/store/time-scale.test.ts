@@ -1,15 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import {
-  largest,
+  largestMagnification,
   magnification,
-  moved,
-  showing,
+  scrolled,
+  spanShowing,
   timeScale,
   zoomed,
 } from '../../../../web/ui/store/time-scale';
 
-describe('time and place', () => {
-  it('are each other turned round', () => {
+describe('time and x', () => {
+  it('are inverse to each other', () => {
     const scale = timeScale({ from: 4, to: 14 }, 500);
     expect(scale.x(4)).toBe(0);
     expect(scale.x(14)).toBe(500);
@@ -17,7 +17,7 @@ describe('time and place', () => {
     for (const time of [-2, 4, 7.3, 20]) expect(scale.time(scale.x(time))).toBeCloseTo(time, 9);
   });
 
-  it('are harmless where there is nothing to show', () => {
+  it('are finite where there is nothing to show', () => {
     expect(timeScale({ from: 0, to: 0 }, 500).x(3)).toBe(0);
     expect(timeScale({ from: 2, to: 4 }, 0).time(10)).toBe(2);
   });
@@ -41,25 +41,25 @@ describe('zooming', () => {
     expect(zoomed({ from: 0, to: 0.4 }, 0.4, 2, 0.2)).toEqual({ from: 0, to: 0.4 });
   });
 
-  it('says how large it is', () => {
+  it('has a magnification', () => {
     expect(magnification({ from: 10, to: 20 }, 60)).toBe(6);
-    expect(largest(60)).toBe(60);
-    expect(largest(0.5)).toBe(1);
+    expect(largestMagnification(60)).toBe(60);
+    expect(largestMagnification(0.5)).toBe(1);
   });
 });
 
-describe('moving the picture', () => {
+describe('scrolling', () => {
   it('stops at both ends', () => {
-    expect(moved({ from: 10, to: 20 }, 60, 5)).toEqual({ from: 15, to: 25 });
-    expect(moved({ from: 10, to: 20 }, 60, -50)).toEqual({ from: 0, to: 10 });
-    expect(moved({ from: 10, to: 20 }, 60, 50)).toEqual({ from: 50, to: 60 });
+    expect(scrolled({ from: 10, to: 20 }, 60, 5)).toEqual({ from: 15, to: 25 });
+    expect(scrolled({ from: 10, to: 20 }, 60, -50)).toEqual({ from: 0, to: 10 });
+    expect(scrolled({ from: 10, to: 20 }, 60, 50)).toEqual({ from: 50, to: 60 });
   });
 
-  it('follows a time only when it is out of sight', () => {
+  it('scrolls to a time only when it is not shown', () => {
     const span = { from: 10, to: 20 };
-    expect(showing(span, 60, 19.9)).toBe(span);
-    expect(showing(span, 60, 20.5)).toEqual({ from: 20, to: 30 });
-    expect(showing(span, 60, 59)).toEqual({ from: 50, to: 60 });
-    expect(showing(span, 60, 0)).toEqual({ from: 0, to: 10 });
+    expect(spanShowing(span, 60, 19.9)).toBe(span);
+    expect(spanShowing(span, 60, 20.5)).toEqual({ from: 20, to: 30 });
+    expect(spanShowing(span, 60, 59)).toEqual({ from: 50, to: 60 });
+    expect(spanShowing(span, 60, 0)).toEqual({ from: 0, to: 10 });
   });
 });

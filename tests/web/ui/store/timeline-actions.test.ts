@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import * as store from '../../support/actions';
 import * as shift from '../../../../web/ui/store/song-shift';
 import * as change from '../../../../web/ui/store/actions/timeline';
-import { wantedInputs, sameInputs } from '../../../../web/ui/store/selectors';
+import { readyInputs, sameInputs } from '../../../../web/ui/store/selectors';
 import { small } from '../../support/small-manifest';
 import { leader, song } from '../../support/made-state';
 
@@ -13,7 +13,7 @@ describe('timeline changes', () => {
 
   beforeEach(() => {
     page = store.createAppStore('dark');
-    does(store.manifestArrived(small, 7));
+    does(store.manifestLoaded(small, 7));
     does(store.leaderLoaded(leader(300)));
     does(store.songLoaded(song(6)));
   });
@@ -40,15 +40,15 @@ describe('timeline changes', () => {
     expect(now().playback.region).toEqual({ from: 8, to: 10 });
   });
 
-  it('zooms around the playhead, and all of the dance is no zoom', () => {
+  it('zooms around the playhead, and the whole dance ends the zoom', () => {
     does(store.playbackSet({ time: 5 }));
     does(change.zoomedBy(2));
     expect(now().zoom).toEqual({ from: 2.5, to: 7.5 });
-    does(change.brought(9));
+    does(change.scrolledTo(9));
     expect(now().zoom?.to).toBe(10);
-    does(change.magnified(1));
+    does(change.magnificationSet(1));
     expect(now().zoom).toBeNull();
-    expect(change.shown(now())).toEqual({ from: 0, to: 10 });
+    expect(change.visibleSpan(now())).toEqual({ from: 0, to: 10 });
   });
 
   it('shifts by whole frames while a second of the song is heard', () => {
@@ -63,16 +63,16 @@ describe('timeline changes', () => {
   });
 
   it('a shift asks for another reaction; without a song there is none', () => {
-    const before = wantedInputs(now());
+    const before = readyInputs(now());
     does(change.shiftSet(7));
-    const after = wantedInputs(now());
+    const after = readyInputs(now());
     expect(after?.shift).toBe(7);
     expect(sameInputs(before, after)).toBe(false);
     page = store.createAppStore('dark');
-    does(store.manifestArrived(small, 7));
+    does(store.manifestLoaded(small, 7));
     does(store.leaderLoaded(leader(300)));
     does(change.shiftSet(7));
-    expect(wantedInputs(now())?.shift).toBe(0);
+    expect(readyInputs(now())?.shift).toBe(0);
   });
 
   it('another leader or song comes unshifted, another leader without region and zoom', () => {
@@ -85,7 +85,7 @@ describe('timeline changes', () => {
     expect(now()).toMatchObject({ shift: 0, zoom: null, playback: { region: null } });
   });
 
-  it('without a leader another song is another length', () => {
+  it('without a leader another song changes the length', () => {
     page = store.createAppStore('dark');
     does(store.songLoaded(song(6)));
     does(change.regionSet({ from: 4, to: 5 }));
@@ -102,8 +102,8 @@ describe('timeline changes', () => {
   });
 
   it('suggests the shift that brings accents and beats together, and says why it suggests none', () => {
-    expect(shift.fitOf({ ...now(), song: null })).toBeNull();
-    expect(shift.fitOf(now())).toMatchObject({ better: null, words: 'too few beats' });
+    expect(shift.shiftAdvice({ ...now(), song: null })).toBeNull();
+    expect(shift.shiftAdvice(now())).toMatchObject({ better: null, words: 'too few beats' });
     // It swings once in 30 frames and stands still every half second; the song has its beats 4 frames earlier.
     const swinging = (still: number) => {
       const made = leader(300);
@@ -117,9 +117,9 @@ describe('timeline changes', () => {
     };
     does(store.songLoaded(song(10)));
     does(store.leaderLoaded(swinging(5)));
-    expect(shift.fitOf(now())?.better?.by).toBe(4);
+    expect(shift.shiftAdvice(now())?.better?.by).toBe(4);
     does(change.shiftSet(4));
-    expect(shift.fitOf(now())).toMatchObject({
+    expect(shift.shiftAdvice(now())).toMatchObject({
       better: null,
       words: 'no better shift',
       reason: expect.stringMatching(/the best within two seconds/) as string,

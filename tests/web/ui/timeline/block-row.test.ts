@@ -2,12 +2,12 @@ import { describe, expect, it } from 'vitest';
 import { blocksOf, doneOf } from '../../../../web/ui/timeline/block-row';
 import type { Job } from '../../../../web/ui/store/state';
 
-const job = (fraction: number, fresh: Job['fresh'] = null): Job => ({
+const job = (fraction: number, previewed: Job['previewed'] = null): Job => ({
   stage: 'step',
   done: 1,
   total: 4,
   fraction,
-  fresh,
+  previewed,
 });
 
 describe('blocks', () => {

@@ -88,7 +88,7 @@ describe('playback', () => {
     load();
     playback.toggle();
     await draw(1.25);
-    expect(store.getState()).toMatchObject({ visiting: false, playback: { playing: true, time: 1.25 } });
+    expect(store.getState()).toMatchObject({ firstVisit: false, playback: { playing: true, time: 1.25 } });
     await draw(3);
     expect(store.getState().playback).toMatchObject({ playing: false, time: 3 });
     expect(player.playing).toBe(false);

@@ -1,4 +1,4 @@
-import type { DownloadChoice, Filming, AppState } from '../state';
+import type { DownloadChoice, VideoProgress, AppState } from '../state';
 import type { Change } from '../store';
 
 /** Chooses in the download menu; what is not named stays. */
@@ -10,8 +10,8 @@ export function writingChanged(writing: AppState['writing']): Change {
   return () => ({ writing });
 }
 
-export function filmingChanged(filming: Filming | null): Change {
-  return () => ({ filming });
+export function videoProgressChanged(videoProgress: VideoProgress | null): Change {
+  return () => ({ videoProgress });
 }
 
 /** A file has gone to the browser's downloads; null forgets it. */

@@ -1,23 +1,23 @@
-/** What happens to song and leader. */
-import type { AppState, LoadedLeader, LoadedSong, Reading, Side } from '../state';
+/** Song and leader. */
+import type { AppState, LoadedLeader, LoadedSong, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
-export function readingSet(side: Side, reading: Reading | null): Change {
+export function readingSet(side: InputKind, reading: Reading | null): Change {
   return (state) => ({ reading: { ...state.reading, [side]: reading } });
 }
 
-/** A song is there, unshifted: the reaction shown stays until the one that hears it is ready. */
+/** Puts a song on the page, unshifted: the present reaction stays until the one to this song is ready. */
 export function songLoaded(song: LoadedSong): Change {
   return (state) => ({
     song,
     shift: 0,
     reading: { ...state.reading, song: null },
-    // Without a leader the song alone is what plays: another one is another length.
+    // Without a leader the song sets the length of what plays.
     ...(!state.leader && { zoom: null, playback: { ...state.playback, region: null } }),
   });
 }
 
-/** A leader is there: what answered another leader makes no sense beside this one and leaves. */
+/** Puts a leader on the page: the reaction to another leader is removed from the stage. */
 export function leaderLoaded(leader: LoadedLeader): Change {
   return (state) => ({
     leader,
@@ -30,8 +30,8 @@ export function leaderLoaded(leader: LoadedLeader): Change {
   });
 }
 
-export function visitEnded(): Change {
-  return (state) => (state.visiting ? { visiting: false } : {});
+export function firstVisitEnded(): Change {
+  return (state) => (state.firstVisit ? { firstVisit: false } : {});
 }
 
 export function demoChanged(demo: AppState['demo']): Change {

@@ -1,13 +1,13 @@
-/** What happens to the model that dances. */
+/** The model. */
 import type { Manifest } from '../../../model/client';
 import { defaultGuidance } from '../guidance-matrix';
 import type { ModelState } from '../state';
 import type { Change } from '../store';
 import { NO_HISTORY } from '../history';
-import { ofAnotherModel } from '../take';
+import { takesForOtherModel } from '../take';
 
-/** The manifest brings the settings' defaults; settings made before it (a second model) start over. */
-export function manifestArrived(manifest: Manifest, seed: number): Change {
+/** A manifest gives all settings their defaults, also where a model was there before. */
+export function manifestLoaded(manifest: Manifest, seed: number): Change {
   return () => ({
     manifest,
     settings: {
@@ -20,20 +20,20 @@ export function manifestArrived(manifest: Manifest, seed: number): Change {
   });
 }
 
-/** Another model takes over: its own defaults, and no song that was heard in a way it does not know. */
+/** Another model replaces the present one, with its defaults, and without the song if its audio recipe differs. */
 export function modelOpened(manifest: Manifest, seed: number): Change {
   return (state) => {
     const before = state.manifest;
-    const hearsAlike = before !== null && JSON.stringify(before.audio) === JSON.stringify(manifest.audio);
+    const sameRecipe = before !== null && JSON.stringify(before.audio) === JSON.stringify(manifest.audio);
     const lost =
-      state.song && !hearsAlike ? ` It hears songs in another way: drop ${state.song.name} again.` : '';
+      state.song && !sameRecipe ? ` It hears songs in another way: drop ${state.song.name} again.` : '';
     return {
-      ...manifestArrived(manifest, seed)(state),
-      ...(!hearsAlike && { song: null, shift: 0 }),
-      ...ofAnotherModel(state, hearsAlike),
-      // What another model was asked for can't be asked of this one.
+      ...manifestLoaded(manifest, seed)(state),
+      ...(!sameRecipe && { song: null, shift: 0 }),
+      ...takesForOtherModel(state, sameRecipe),
+      // Undo would bring back settings of the other model.
       history: NO_HISTORY,
-      remarks: [...state.remarks, `The partner is danced by your model “${manifest.name}”.${lost}`],
+      notices: [...state.notices, `The partner is danced by your model “${manifest.name}”.${lost}`],
     };
   };
 }

@@ -1,29 +1,29 @@
-/** What is told to the visitor. */
+/** Problems, notices and toasts. */
 import type { Problem } from '../state';
 import type { Change } from '../store';
 
-/** Keeps something worth knowing that stops nothing. */
-export function remarked(remark: string): Change {
-  return ({ remarks }) => (remarks.includes(remark) ? {} : { remarks: [...remarks, remark] });
+/** Adds a sentence to know about that stops nothing. */
+export function noticeAdded(notice: string): Change {
+  return ({ notices }) => (notices.includes(notice) ? {} : { notices: [...notices, notice] });
 }
 
-/** Tells for a moment what has just happened; null ends that. */
-export function announced(news: string | null): Change {
-  return () => ({ news });
+/** Shows for a few seconds what has just happened; null ends that. */
+export function toastShown(toast: string | null): Change {
+  return () => ({ toast });
 }
 
-/** Tells of a failure; while another one is being told, it waits its turn. */
-export function told(problem: Problem): Change {
+/** Shows a failure; while another one is shown, it is queued. */
+export function problemShown(problem: Problem): Change {
   return (state) => {
     if (!state.problem) return { problem };
-    const known = [state.problem, ...state.waitingProblems].some(
+    const known = [state.problem, ...state.queuedProblems].some(
       ({ code, title }) => code === problem.code && title === problem.title,
     );
-    return known ? {} : { waitingProblems: [...state.waitingProblems, problem] };
+    return known ? {} : { queuedProblems: [...state.queuedProblems, problem] };
   };
 }
 
-/** Closes the failure in front; the next one, if any, is told. */
-export function dismissed(): Change {
-  return ({ waitingProblems: [next, ...rest] }) => ({ problem: next ?? null, waitingProblems: rest });
+/** Closes the failure that is shown; the next one in the queue, if any, is shown. */
+export function problemClosed(): Change {
+  return ({ queuedProblems: [next, ...rest] }) => ({ problem: next ?? null, queuedProblems: rest });
 }

@@ -1,22 +1,22 @@
 import type { Manifest } from '../../../model/client';
-import type { AppState, KeepingState, Take } from '../state';
-import { manifestArrived } from './model';
+import type { AppState, AutosaveStatus, Take } from '../state';
+import { manifestLoaded } from './model';
 import { type Change } from '../store';
-import { NO_HISTORY, replacing } from '../history';
+import { NO_HISTORY, withUndoOfAll } from '../history';
 import { withTake } from '../take';
 
-/** The browser keeps what is on the page, or has stopped to. */
-export function keepingChanged(keeping: KeepingState): Change {
-  return () => ({ keeping });
+/** Whether autosave works has changed. */
+export function autosaveChanged(autosave: AutosaveStatus): Change {
+  return () => ({ autosave });
 }
 
-/** What an earlier visit left is there again. */
-export function broughtBack(content: Partial<AppState>): Change {
-  return () => ({ ...content, visiting: false, demo: 'ready', history: NO_HISTORY });
+/** What an earlier visit stored is on the page again. */
+export function visitRestored(content: Partial<AppState>): Change {
+  return () => ({ ...content, firstVisit: false, demo: 'ready', history: NO_HISTORY });
 }
 
-/** More takes of an earlier visit have come back. */
-export function takesBroughtBack(more: readonly Take[]): Change {
+/** More takes of an earlier visit have been restored. */
+export function takesRestored(more: readonly Take[]): Change {
   return ({ takes, takesMade, history }) => ({
     takes: more.reduce(
       (all, take) => (all.some(({ id }) => id === take.id) ? all : withTake(all, take)),
@@ -27,16 +27,16 @@ export function takesBroughtBack(more: readonly Take[]): Change {
   });
 }
 
-/** A project takes the place of everything; undoing brings back what was there. */
+/** A project replaces everything on the page; undo brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
-  return (state) => replacing(state, { ...content, visiting: false });
+  return (state) => withUndoOfAll(state, { ...content, firstVisit: false });
 }
 
-/** Everything of the visitor's leaves the page, as if it were opened for the first time; undo brings it back. */
-export function startedAfresh(manifest: Manifest | null, seed: number): Change {
+/** The page is emptied, as if it were opened for the first time; undo brings everything back. */
+export function projectCleared(manifest: Manifest | null, seed: number): Change {
   return (state) =>
-    replacing(state, {
-      ...(manifest && manifestArrived(manifest, seed)(state)),
+    withUndoOfAll(state, {
+      ...(manifest && manifestLoaded(manifest, seed)(state)),
       song: null,
       leader: null,
       reaction: null,
@@ -46,7 +46,7 @@ export function startedAfresh(manifest: Manifest | null, seed: number): Change {
       letter: 'A',
       compare: 'off',
       footLock: true,
-      visiting: true,
+      firstVisit: true,
       demo: 'loading',
       playback: { ...state.playback, playing: false, time: 0 },
     });

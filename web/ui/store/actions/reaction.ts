@@ -1,31 +1,31 @@
-/** What happens to the reaction and to what is known of it. */
-import type { Fresh, Job, Preview, Quality, Reaction, Reference } from '../state';
+/** The reaction, its progress and its measures. */
+import type { FrameRange, Job, Preview, Quality, Reaction, Reference } from '../state';
 import type { Change } from '../store';
-import { arrived, newStamp, type Stamp } from '../add-take';
+import { withReaction, newStamp, type Stamp } from '../add-take';
 
-/** How far a job is; with null it is over, and what it had shown early leaves the stage. */
+/** Progress of a job; null ends it and removes its preview from the stage. */
 export function jobChanged(job: Job | null): Change {
   return () => (job ? { job } : { job, preview: null });
 }
 
-/** Part of the coming reaction is on the stage. */
-export function previewed(preview: Preview, fresh: Fresh): Change {
-  return ({ job }) => (job ? { preview, job: { ...job, fresh } } : {});
+/** Puts a part of the next reaction on the stage. */
+export function previewShown(preview: Preview, previewed: FrameRange): Change {
+  return ({ job }) => (job ? { preview, job: { ...job, previewed } } : {});
 }
 
-/** A reaction is ready: it is shown and becomes a take. */
-export function reacted(reaction: Reaction, stamp: Stamp = newStamp()): Change {
-  return (state) => ({ ...arrived(state, reaction, stamp), reaction, job: null, preview: null });
+/** Shows a finished reaction and makes it a take. */
+export function reactionAdded(reaction: Reaction, stamp: Stamp = newStamp()): Change {
+  return (state) => ({ ...withReaction(state, reaction, stamp), reaction, job: null, preview: null });
 }
 
 export function footLockSet(footLock: boolean): Change {
   return () => ({ footLock });
 }
 
-export function measured(quality: Quality | null): Change {
+export function qualityMeasured(quality: Quality | null): Change {
   return () => ({ quality });
 }
 
-export function referenceKnown(reference: Reference | null): Change {
+export function referenceLoaded(reference: Reference | null): Change {
   return () => ({ reference });
 }

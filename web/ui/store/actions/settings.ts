@@ -1,19 +1,26 @@
-/** What happens to the settings of a generation. */
+/** The settings of a generation. */
 import type { Manifest } from '../../../model/client';
 import { otherRole } from '../roles';
-import { columnOf, defaultGuidance, guidanceAt, held, withCell, withColumn } from '../guidance-matrix';
+import {
+  columnOf,
+  defaultGuidance,
+  guidanceAt,
+  clampedToStep,
+  withCell,
+  withColumn,
+} from '../guidance-matrix';
 import { sameSettings } from '../selectors';
 import type { Guidance, Layer, Settings } from '../state';
 import type { Change } from '../store';
 
-/** Sets all of them, as a ready-made reaction was made with. */
+/** Sets all of them, to those of a ready-made reaction. */
 export function settingsSet(settings: Settings): Change {
   return () => ({ settings });
 }
 
 /**
- * Moves one layer of all streams together, held to the manifest's range and step (see `withColumn`).
- * @param from where the streams stood when the fader was taken in hand; where they stand now when not given
+ * Moves one layer of all streams together, clamped to the manifest's range and step (see `withColumn`).
+ * @param from the matrix when the drag of the fader began; the present one when not given
  */
 export function guidanceSet(layer: Layer, value: number, from?: Guidance): Change {
   return guided(({ guidance }, { guidance: range }) => ({
@@ -28,12 +35,12 @@ export function guidanceCellSet(stream: string, layer: string, value: number): C
   }));
 }
 
-/** Moves the guidance of the music, held to the manifest's range and step. */
+/** Sets the guidance weight of the music, clamped to the manifest's range and step. */
 export function musicSet(value: number): Change {
-  return guided((_, { guidance: { music, step } }) => ({ music: held(value, { ...music, step }) }));
+  return guided((_, { guidance: { music, step } }) => ({ music: clampedToStep(value, { ...music, step }) }));
 }
 
-/** Sets the whole matrix and the music, as a preset has them. */
+/** Sets the whole matrix and the music to those of a preset. */
 export function presetChosen({ guidance, music }: Guided): Change {
   return guided(() => ({ guidance, music }));
 }
@@ -74,8 +81,8 @@ function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided
 }
 
 /**
- * The dancers change parts. What the model danced in its old part makes no sense in the new one and leaves; who is
- * taken home is the one who is made.
+ * Swaps the roles of the loaded and the generated dancer. The present reaction is removed from the stage, and the
+ * generated dancer is the one that is downloaded.
  */
 export function rolesSwapped(): Change {
   return ({ settings, download }) => {
@@ -119,7 +126,7 @@ export function seedLockSet(seedLocked: boolean): Change {
   return () => ({ seedLocked });
 }
 
-/** A seed that nobody chose: small enough to read out and to type again. */
+/** A random seed, small enough to read out and to type again. */
 export function rolledSeed(): number {
   return 1 + Math.floor(Math.random() * 9999);
 }

@@ -1,32 +1,32 @@
 import { danceDuration, upToDate } from '../selectors';
 import type { AppState, Compare, Letter, Take } from '../state';
 import type { Change } from '../store';
-import { comparable, hindrance, opposite, otherTake, stageLetter, takeOnStage } from '../take';
+import { comparable, whyNotComparable, otherLetter, otherTake, stageLetter, takeOnStage } from '../take';
 
 /** Longest name of a take, characters. */
 export const LONGEST_NAME = 60;
 
-/** What shows a take, with files and settings set back to what it was made from, so that nothing is made anew. */
-function shown(state: AppState, { id, reaction }: Take): Partial<AppState> {
+/** Shows a take and restores the files and settings that it was generated from, so that nothing is generated anew. */
+function withTakeShown(state: AppState, { id, reaction }: Take): Partial<AppState> {
   const { inputs } = reaction;
   const time = Math.min(state.playback.time, danceDuration(inputs));
   const other = otherTake(state);
-  const alone = other ? hindrance(other.reaction, reaction) !== null : id === state.other;
+  const endsComparison = other ? whyNotComparable(other.reaction, reaction) !== null : id === state.other;
   return {
     ...inputs,
     reaction,
     ...(time !== state.playback.time && { playback: { ...state.playback, time } }),
-    ...(alone && { other: null, compare: 'off' }),
+    ...(endsComparison && { other: null, compare: 'off' }),
   };
 }
 
-/** Shows a take at the same playhead. The take of the other letter is flipped to; any other gets the letter shown. */
+/** Shows a take at the same playhead, under its own letter if it is the compared one, else under the present letter. */
 export function takeChosen(id: string): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
     if (!take || take.reaction === state.reaction) return {};
-    if (take === otherTake(state)) return flipped()(state);
-    return shown(state, take);
+    if (take === otherTake(state)) return takesSwapped()(state);
+    return withTakeShown(state, take);
   };
 }
 
@@ -34,33 +34,34 @@ export function takeChosen(id: string): Change {
  * Swaps the take on the stage and the other one. Without another one it is the newest take to the same leader.
  * Looking at one and the other is nothing to undo, unless settings that no take has yet would be lost.
  */
-export function flipped(): Change {
+export function takesSwapped(): Change {
   return (state) => {
     const stage = takeOnStage(state);
-    const other = partner(state);
+    const other = comparisonTake(state);
     if (!stage || !other) return {};
     return {
-      ...shown(state, other),
+      ...withTakeShown(state, other),
       other: stage.id,
-      letter: opposite(stageLetter(state)),
+      letter: otherLetter(stageLetter(state)),
       ...(upToDate(state) && { history: state.history }),
     };
   };
 }
 
 /** The other take of a comparison; before there is one, the newest that can be it. */
-function partner(state: AppState): Take | null {
+function comparisonTake(state: AppState): Take | null {
   return otherTake(state) ?? state.takes.find((take) => comparable(take, state)) ?? null;
 }
 
 /** Why a letter can't be given to a take, in a sentence; null when it can. */
 export function whyNoLetter(take: Take, letter: Letter, state: AppState): string | null {
   if (letter === stageLetter(state)) return null;
-  if (take.reaction !== state.reaction) return state.reaction && hindrance(take.reaction, state.reaction);
-  return partner(state) ? null : 'There is no other take to compare it with.';
+  if (take.reaction !== state.reaction)
+    return state.reaction && whyNotComparable(take.reaction, state.reaction);
+  return comparisonTake(state) ? null : 'There is no other take to compare it with.';
 }
 
-/** Gives a letter of the comparison to a take, or takes that of the other take away again. */
+/** Gives a letter of the comparison to a take; given again to the compared take, ends the comparison. */
 export function letterGiven(id: string, letter: Letter): Change {
   return (state) => {
     const take = state.takes.find((one) => one.id === id);
@@ -69,19 +70,19 @@ export function letterGiven(id: string, letter: Letter): Change {
     const other = otherTake(state);
     if (take.reaction === state.reaction) {
       // The letter that it leaves goes to the other take; without one to the newest that can be compared.
-      const left = partner(state);
+      const left = comparisonTake(state);
       return left && letter !== mine ? { letter, other: left.id } : {};
     }
     if (letter === mine) {
       const before = takeOnStage(state);
-      return { ...shown(state, take), ...(take === other && { other: before?.id ?? null }) };
+      return { ...withTakeShown(state, take), ...(take === other && { other: before?.id ?? null }) };
     }
     if (!comparable(take, state)) return {};
     return take === other ? { other: null, compare: 'off' } : { other: id, letter: mine };
   };
 }
 
-/** Shows the other take beside or behind the one on the stage; asked for again, alone. */
+/** Shows the compared take beside the one on the stage or as a ghost; chosen again, hides it. */
 export function compareSet(compare: Exclude<Compare, 'off'>): Change {
   return (state) => {
     if (state.compare === compare) return { compare: 'off' };
@@ -89,7 +90,7 @@ export function compareSet(compare: Exclude<Compare, 'off'>): Change {
   };
 }
 
-/** Names a take; an empty name gives it its number back. */
+/** Names a take; an empty name restores its number as its name. */
 export function takeRenamed(id: string, name: string): Change {
   const clean = name.replace(/\s+/g, ' ').trim().slice(0, LONGEST_NAME) || null;
   return ({ takes }) =>
@@ -116,7 +117,7 @@ export function takeDeleted(id: string): Change {
     const moves = take.reaction === state.reaction && next;
     return {
       takes,
-      ...(moves && shown(state, next)),
+      ...(moves && withTakeShown(state, next)),
       ...((state.other === id || (moves && next.id === state.other)) && { other: null, compare: 'off' }),
     };
   };

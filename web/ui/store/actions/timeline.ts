@@ -2,17 +2,17 @@ import { danceDuration } from '../selectors';
 import { shiftRange } from '../song-shift';
 import type { AppState } from '../state';
 import type { Change } from '../store';
-import { largest, magnification, showing, type Span, zoomed } from '../time-scale';
+import { largestMagnification, magnification, spanShowing, type Span, zoomed } from '../time-scale';
 
-/** Shortest loop, seconds: two frames and a beat of a fast song are well apart. */
+/** Shortest loop, seconds: more than two frames, less than a beat of a fast song. */
 export const SHORTEST_LOOP = 0.2;
 
 /** The part of the dance that the lanes show. */
-export function shown(state: Pick<AppState, 'zoom' | 'leader' | 'song'>): Span {
+export function visibleSpan(state: Pick<AppState, 'zoom' | 'leader' | 'song'>): Span {
   return state.zoom ?? { from: 0, to: danceDuration(state) };
 }
 
-/** Shows this part of the dance; all of it is no zoom. */
+/** Shows this part of the dance; null, or the whole dance, ends the zoom. */
 export function zoomSet(span: Span | null): Change {
   return (state) => {
     const whole = danceDuration(state);
@@ -21,32 +21,32 @@ export function zoomSet(span: Span | null): Change {
   };
 }
 
-/** Zooms by a factor around a time; around the playhead where none is given and it is in sight. */
+/** Zooms by a factor around a time; without one around the playhead if it is shown, else around the middle. */
 export function zoomedBy(factor: number, around?: number): Change {
   return (state) => {
-    const span = shown(state);
+    const span = visibleSpan(state);
     const { time } = state.playback;
-    const inSight = time >= span.from && time <= span.to;
-    const middle = around ?? (inSight ? time : (span.from + span.to) / 2);
+    const isShown = time >= span.from && time <= span.to;
+    const middle = around ?? (isShown ? time : (span.from + span.to) / 2);
     return zoomSet(zoomed(span, danceDuration(state), factor, middle))(state);
   };
 }
 
-/** Zooms so that the picture is this many times larger than the whole dance in one view. */
-export function magnified(times: number): Change {
+/** Zooms so that the dance is drawn this many times larger than in a view of all of it. */
+export function magnificationSet(times: number): Change {
   return (state) => {
     const whole = danceDuration(state);
-    const held = Math.min(largest(whole), Math.max(1, times));
-    return zoomedBy(held / magnification(shown(state), whole))(state);
+    const clamped = Math.min(largestMagnification(whole), Math.max(1, times));
+    return zoomedBy(clamped / magnification(visibleSpan(state), whole))(state);
   };
 }
 
-/** Brings a time into the picture. */
-export function brought(time: number): Change {
-  return (state) => (state.zoom ? { zoom: showing(state.zoom, danceDuration(state), time) } : {});
+/** Scrolls so that a time is shown. */
+export function scrolledTo(time: number): Change {
+  return (state) => (state.zoom ? { zoom: spanShowing(state.zoom, danceDuration(state), time) } : {});
 }
 
-/** Sets the region that a loop goes round in and turns looping on; null takes it away and turns it off. */
+/** Sets the region that is looped and turns looping on; null removes it and turns looping off. */
 export function regionSet(span: Span | null): Change {
   return (state) => {
     const whole = danceDuration(state);
@@ -58,7 +58,7 @@ export function regionSet(span: Span | null): Change {
   };
 }
 
-/** Puts one end of the region at a time; the other one stays where it makes sense, or is the dance's. */
+/** Sets one end of the region; the other end stays if it is far enough away, else it is that of the dance. */
 export function regionEndSet(end: 'from' | 'to', time: number): Change {
   return (state) => {
     const whole = danceDuration(state);
@@ -68,7 +68,7 @@ export function regionEndSet(end: 'from' | 'to', time: number): Change {
   };
 }
 
-/** Starts the song this many frames later than the dance, as long as something of it is heard. */
+/** Starts the song this many frames later than the dance, clamped to `shiftRange`. */
 export function shiftSet(frames: number): Change {
   return (state) => {
     const { min, max } = shiftRange(state);

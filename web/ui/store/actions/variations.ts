@@ -2,21 +2,21 @@ import { sameInputs } from '../selectors';
 import type { AppState, Variations, Inputs, Reaction } from '../state';
 import type { Change } from '../store';
 
-/** How many variations are made. */
+/** How many reactions there are to choose from. */
 export const VARIATION_COUNT = 3;
 
 /** Whether two inputs differ in nothing but the seed. */
-export function sameExceptSeed(a: Inputs, b: Inputs): boolean {
+export function sameButSeed(a: Inputs, b: Inputs): boolean {
   return sameInputs(a, { ...b, settings: { ...b.settings, seed: a.settings.seed } });
 }
 
-/** The inputs that the variation with this seed is made from. */
+/** The inputs of one variation. */
 export function variationInputs({ inputs }: Variations, seed: number): Inputs {
   return { ...inputs, settings: { ...inputs.settings, seed } };
 }
 
-/** Seeds that follow each other, the one that is set first; past the largest they begin again at 0. */
-export function variationsBegun(inputs: Inputs): Change {
+/** Consecutive seeds from that of the inputs; after the largest comes 0. */
+export function variationsStarted(inputs: Inputs): Change {
   const list = Array.from({ length: VARIATION_COUNT }, (_, i) => ({
     seed: (inputs.settings.seed + i) % 2 ** 32,
     reaction: null,
@@ -25,7 +25,7 @@ export function variationsBegun(inputs: Inputs): Change {
   return () => ({ variations: { inputs, list, making: true } });
 }
 
-/** The missing ones are made again. */
+/** Generating the missing ones goes on. */
 export function variationsResumed(): Change {
   return changed((variations) => ({ ...variations, making: true }));
 }
@@ -34,11 +34,11 @@ export function variationProgressed(seed: number, fraction: number): Change {
   return changed((variations) => withVariation(variations, seed, { fraction }));
 }
 
-export function variationMade(seed: number, reaction: Reaction): Change {
+export function variationAdded(seed: number, reaction: Reaction): Change {
   return changed((variations) => withVariation(variations, seed, { reaction, fraction: 1 }));
 }
 
-/** No more are made; what is made stays to pick from. */
+/** Generating stops; those that are there stay. */
 export function variationsStopped(): Change {
   return changed((variations) => ({
     ...variations,
@@ -53,8 +53,8 @@ export function variationsDropped(): Change {
   return ({ variations }) => (variations ? { variations: null } : {});
 }
 
-/** Whether all variations are made. */
-export function allMade(variations: Variations | null): boolean {
+/** Whether all variations are there. */
+export function allVariationsMade(variations: Variations | null): boolean {
   return variations?.list.every(({ reaction }) => reaction !== null) ?? false;
 }
 

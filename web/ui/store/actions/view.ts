@@ -1,11 +1,11 @@
-/** What happens to playing and looking. */
+/** Playback, camera, theme, overlays and floating panels. */
 import { danceDuration } from '../selectors';
-import type { AppState, Camera, CoarseLayer, Playback, Shown, Theme } from '../state';
+import type { AppState, Camera, CoarseLayer, Playback, Overlays, Theme } from '../state';
 import type { Change } from '../store';
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;
 
-/** Changes the transport; the time stays inside the dance. */
+/** Changes playback; the time is clamped to the dance. */
 export function playbackSet(change: Partial<Playback>): Change {
   return (state) => {
     const playback = { ...state.playback, ...change };
@@ -26,16 +26,16 @@ export function updateSet(update: boolean): Change {
   return () => ({ update });
 }
 
-/** Shows something about the dancers, or leaves it out again. */
-export function shownToggled(what: keyof Shown): Change {
-  return ({ shown }) => ({ shown: { ...shown, [what]: !shown[what] } });
+/** Turns an overlay on or off. */
+export function overlayToggled(what: keyof Overlays): Change {
+  return ({ overlays }) => ({ overlays: { ...overlays, [what]: !overlays[what] } });
 }
 
 export function coarseChanged(change: Partial<CoarseLayer>): Change {
   return ({ coarse }) => ({ coarse: { ...coarse, ...change } });
 }
 
-/** Opens a floating thing, or closes it when it is the one that is open. */
-export function opened(open: AppState['open']): Change {
-  return (state) => ({ open: state.open === open ? null : open });
+/** Opens a floating panel, or closes it when it is the one that is open. */
+export function panelToggled(open: AppState['openPanel']): Change {
+  return (state) => ({ openPanel: state.openPanel === open ? null : open });
 }

@@ -1,5 +1,4 @@
 import { expect, it } from 'vitest';
-import { openedWords } from '../../../../web/ui/project/autosave';
 import { keepWords } from '../../../../web/ui/shell/problem-dialog';
 import { emptyFileProblem, fileProblem, fullProblem } from '../../../../web/ui/store/problems';
 import { leader, song } from '../../support/made-state';
@@ -7,7 +6,7 @@ import { leader, song } from '../../support/made-state';
 const both = { song: song(3), leader: leader(30) };
 const [songName, leaderName] = [both.song.name, both.leader.name];
 
-it('the way back from a refused file names what stays', () => {
+it('the button that closes the dialog names the files that stay', () => {
   const refused = fileProblem(new Error('x'), 'leader', 'bad.bvh');
   expect(keepWords(refused, both)).toBe(`Keep ${leaderName}`);
   expect(keepWords(refused, { ...both, leader: null })).toBe('Close');
@@ -15,9 +14,4 @@ it('the way back from a refused file names what stays', () => {
   expect(keepWords(unknown, both)).toBe(`Keep ${songName} and ${leaderName}`);
   expect(keepWords(unknown, { ...both, song: null })).toBe(`Keep ${leaderName}`);
   expect(keepWords(fullProblem(), both)).toBe('Close');
-});
-
-it('an opened project is told by what is in it', () => {
-  expect(openedWords({ ...both, takes: [] })).toBe(`Opened: ${songName}, ${leaderName}, no takes`);
-  expect(openedWords({ song: null, leader: both.leader, takes: [] })).toContain('no song');
 });

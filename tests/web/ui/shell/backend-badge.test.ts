@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { loadingWords } from '../../../../web/ui/shell/loading-words';
+import { loadingWords } from '../../../../web/ui/shell/backend-badge';
 
 const loading = { phase: 'loading', label: 'Model', received: 0, total: 0 } as const;
 const part = (name: 'runtime' | 'model', loaded: number, total: number, kept = 0) => ({
@@ -9,15 +9,15 @@ const part = (name: 'runtime' | 'model', loaded: number, total: number, kept = 0
   kept: kept * 1e6,
 });
 
-describe('what is loading, in words', () => {
-  it('counts what comes from the network together', () => {
+describe('the text while the model is loading', () => {
+  it('sums up what is downloaded', () => {
     expect(loadingWords({ ...loading, parts: [part('runtime', 4, 14.2), part('model', 8, 23.8)] })).toEqual({
       title: 'Runtime and model',
       detail: '12.0 of 38.0 MB',
     });
   });
 
-  it('tells what was here from what comes', () => {
+  it('tells cached files from downloads', () => {
     const parts = [part('runtime', 12, 24), part('model', 23.8, 23.8, 23.8)];
     expect(loadingWords({ ...loading, parts })).toEqual({
       title: 'Runtime',
@@ -28,7 +28,7 @@ describe('what is loading, in words', () => {
     ).toEqual({ title: 'Runtime and model', detail: 'from this device' });
   });
 
-  it('says what is prepared when there is nothing to count', () => {
+  it('says what is prepared when nothing is downloaded', () => {
     expect(loadingWords({ ...loading, label: 'Warming up' })).toEqual({ title: 'Warming up', detail: '' });
   });
 });

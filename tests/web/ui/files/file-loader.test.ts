@@ -1,23 +1,23 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { AppError } from '../../../../web/common/error';
-import { createFiles } from '../../../../web/ui/files/files';
-import type { Files, Readers } from '../../../../web/ui/store/services';
+import { FileLoader } from '../../../../web/ui/files/file-loader';
+import type { Files, FileReaders } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { songData, leaderFile, still } from '../../support/made-state';
+import { AppError } from '../../../../web/common/error';
 
 const file = (name: string, content: string): File => new File([content], name);
 const BVH = 'HIERARCHY\nROOT Hips\n';
 const SONG = 'ID3 and so on';
 
-describe('files', () => {
+describe('reading files', () => {
   let store: change.Store;
   let files: Files;
-  let readers: { -readonly [K in keyof Readers]: Readers[K] };
+  let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
     store = change.createAppStore('dark');
-    change.apply(store, change.manifestArrived(small, 7));
+    change.apply(store, change.manifestLoaded(small, 7));
     readers = {
       loadSong: (_file, _recipe, { onProgress }) => {
         onProgress({ fraction: 0.5 });
@@ -29,23 +29,23 @@ describe('files', () => {
       },
       manifest: () => Promise.resolve(small),
     };
-    files = createFiles(store, {
+    files = new FileLoader(store, {
       loadSong: (...all) => readers.loadSong(...all),
       readLeader: (...all) => readers.readLeader(...all),
       manifest: () => readers.manifest(),
     });
   });
 
-  it('are told apart by content and read together', async () => {
+  it('tells songs and leaders apart by content and reads them together', async () => {
     await files.open([file('a', SONG), file('b', BVH)]);
-    const { song, leader, reading, visiting, problem } = store.getState();
+    const { song, leader, reading, firstVisit, problem } = store.getState();
     expect([song?.name, leader?.name]).toEqual(['a', 'b']);
     expect(reading).toEqual({ song: null, leader: null });
-    expect(visiting).toBe(false);
+    expect(firstVisit).toBe(false);
     expect(problem).toBeNull();
   });
 
-  it('become a sentence that names them when they cannot be read, and change nothing else', async () => {
+  it('shows a problem with the file’s name when it cannot be read, and changes nothing else', async () => {
     await files.open([file('good.bvh', BVH)]);
     const before = store.getState().leader;
     readers.readLeader = () =>
@@ -56,7 +56,7 @@ describe('files', () => {
       title: 'arms.bvh: The legs are missing.',
       hint: 'Export the whole body.',
       remedy: 'leader',
-      refused: { side: 'leader', name: 'arms.bvh' },
+      refused: { kind: 'leader', name: 'arms.bvh' },
     });
     expect(store.getState().leader).toBe(before);
     expect(store.getState().reading.leader).toBeNull();
@@ -69,10 +69,10 @@ describe('files', () => {
   ])('refuses %s without reading it', async (name, content, code) => {
     await files.open([file(name, content)]);
     expect(store.getState().problem?.code).toBe(code);
-    expect(store.getState().visiting).toBe(true);
+    expect(store.getState().firstVisit).toBe(true);
   });
 
-  it('the newest of a kind wins, even if an older one is ready later', async () => {
+  it('the newest file of a kind wins, even if an older one is ready later', async () => {
     const answers: (() => void)[] = [];
     readers.readLeader = ({ text }) =>
       new Promise((resolve) => {
@@ -90,7 +90,7 @@ describe('files', () => {
     expect(store.getState().leader?.name).toBe('second.bvh');
   });
 
-  it('an older one that fails after a newer one came says nothing', async () => {
+  it('an older file that fails after a newer one came shows no problem', async () => {
     let fail: (error: Error) => void = () => undefined;
     readers.readLeader = () => new Promise((_, reject) => (fail = reject));
     const first = files.openLeader(BVH, 'first.bvh', null);
@@ -101,7 +101,7 @@ describe('files', () => {
     expect(store.getState()).toMatchObject({ problem: null, leader: { name: 'second.bvh' } });
   });
 
-  it('progress that comes after the result does not make it unread again', async () => {
+  it('progress that comes after the result is ignored', async () => {
     let late: (progress: { fraction: number }) => void = () => undefined;
     readers.loadSong = (_file, _recipe, { onProgress }) => {
       late = onProgress;
@@ -112,7 +112,7 @@ describe('files', () => {
     expect(store.getState().reading.song).toBeNull();
   });
 
-  it('a song waits for the recipe of the model', async () => {
+  it('a song waits for the audio recipe of the model', async () => {
     let arrive: (manifest: typeof small) => void = () => undefined;
     readers.manifest = () => new Promise((resolve) => (arrive = resolve));
     const opening = files.openSong(file('a', SONG), 'a.mp3', 'demo song');
@@ -122,7 +122,7 @@ describe('files', () => {
     expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
   });
 
-  it('a leader is read again at another frame rate from what was kept of it', async () => {
+  it('a leader is read again at another frame rate from its stored text', async () => {
     expect(await files.rereadLeader(60)).toBeNull();
     await files.openLeader(BVH, 'a.bvh', 'demo leader');
     await files.rereadLeader(60);

@@ -1,0 +1,196 @@
+import type { Files, FileReaders } from '../store/services';
+import {
+  emptyFileProblem,
+  fileProblem,
+  isAbort,
+  otherMotionProblem,
+  unknownFileProblem,
+} from '../store/problems';
+import { fileKind, HEAD_BYTES } from './file-type';
+import type { LoadedLeader, LoadedSong, InputKind } from '../store/state';
+import { leaderLoaded, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
+import { apply, type Change, type Store } from '../store/store';
+import { problemShown, problemClosed } from '../store/actions/notices';
+import { withoutUndo } from '../store/history';
+
+/**
+ * Least time between two changes of a progress line: where the processor draws the picture, each of them takes time
+ * from the work.
+ */
+const PROGRESS_INTERVAL_MS = 500;
+
+/** A song or leader to read, and what to do with it. */
+interface Task<T> {
+  readonly side: InputKind;
+  readonly name: string;
+  readonly read: (signal: AbortSignal, progress: (fraction: number) => void) => Promise<T>;
+  readonly done: (value: T) => void;
+}
+
+/**
+ * Reads songs and leaders and puts them into the store. A newer file of a kind cancels the older one that is still
+ * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
+ */
+export class FileLoader implements Files {
+  private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
+
+  constructor(
+    private readonly store: Store,
+    private readonly readers: FileReaders,
+  ) {}
+
+  async open(files: readonly File[]): Promise<void> {
+    apply(this.store, problemClosed());
+    await Promise.all(
+      files.map(async (file) => {
+        try {
+          await this.openOne(file);
+        } catch (error) {
+          // A folder, or a file that vanished between choosing and reading.
+          apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+        }
+      }),
+    );
+  }
+
+  openSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
+    return this.runSong(blob, name, label, (song) => {
+      if (this.isOvertaken('song', label)) this.endReading('song');
+      else this.put(songLoaded(song), label);
+    });
+  }
+
+  openLeader(text: string, name: string, label: string | null): Promise<LoadedLeader | null> {
+    return this.runLeader(text, name, label, null, (leader) => {
+      if (this.isOvertaken('leader', label)) this.endReading('leader');
+      else this.putLeader(leader);
+    });
+  }
+
+  async rereadLeader(fps: number | null): Promise<LoadedLeader | null> {
+    const { leader } = this.store.getState();
+    if (!leader) return null;
+    return this.runLeader(leader.text, leader.name, leader.label, fps, (read) => {
+      this.putLeader(read);
+    });
+  }
+
+  readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
+    return this.runSong(blob, name, label, () => {
+      this.endReading('song');
+    });
+  }
+
+  readLeader(
+    text: string,
+    name: string,
+    label: string | null,
+    fps: number | null,
+  ): Promise<LoadedLeader | null> {
+    return this.runLeader(text, name, label, fps, () => {
+      this.endReading('leader');
+    });
+  }
+
+  private async openOne(file: File): Promise<void> {
+    if (file.size === 0) {
+      apply(this.store, problemShown(emptyFileProblem(file.name)));
+      return;
+    }
+    const head = new Uint8Array(await file.slice(0, HEAD_BYTES).arrayBuffer());
+    switch (fileKind(head, file.name, file.type)) {
+      case 'song':
+        apply(this.store, firstVisitEnded());
+        await this.openSong(file, file.name, null);
+        return;
+      case 'leader':
+        apply(this.store, firstVisitEnded());
+        await this.openLeader(await file.text(), file.name, null);
+        return;
+      case 'other-motion':
+        apply(this.store, problemShown(otherMotionProblem(file.name)));
+        return;
+      case 'unknown':
+        apply(this.store, problemShown(unknownFileProblem(file.name)));
+    }
+  }
+
+  private runSong(
+    blob: Blob,
+    name: string,
+    label: string | null,
+    done: (song: LoadedSong) => void,
+  ): Promise<LoadedSong | null> {
+    const read = async (signal: AbortSignal, progress: (fraction: number) => void): Promise<LoadedSong> => {
+      const { audio } = await this.readers.manifest();
+      const onProgress = ({ fraction }: { readonly fraction: number }): void => {
+        progress(fraction);
+      };
+      const data = await this.readers.loadSong(blob, audio, { signal, onProgress });
+      // The bytes themselves: a file on the visitor's disk may have changed by the time it is saved.
+      const file = new Blob([await blob.arrayBuffer()], { type: blob.type });
+      return { name, label, file, data };
+    };
+    return this.run({ side: 'song', name, read, done });
+  }
+
+  private runLeader(
+    text: string,
+    name: string,
+    label: string | null,
+    fps: number | null,
+    done: (leader: LoadedLeader) => void,
+  ): Promise<LoadedLeader | null> {
+    const read = async (signal: AbortSignal): Promise<LoadedLeader> => {
+      const { file, motion } = await this.readers.readLeader({ text, fps }, signal);
+      return { name, label, text, fps, file, motion };
+    };
+    return this.run({ side: 'leader', name, read, done });
+  }
+
+  /** Runs a task with its progress in the store; null when it failed or a newer one cancelled it. */
+  private async run<T>({ side, name, read, done }: Task<T>): Promise<T | null> {
+    const { store, running } = this;
+    running[side]?.abort();
+    const controller = new AbortController();
+    running[side] = controller;
+    apply(store, readingSet(side, { name, fraction: 0 }));
+    let reported = performance.now();
+    try {
+      const value = await read(controller.signal, (fraction) => {
+        // Progress crosses from a worker and may arrive after the result.
+        if (running[side] !== controller || performance.now() - reported < PROGRESS_INTERVAL_MS) return;
+        reported = performance.now();
+        apply(store, readingSet(side, { name, fraction }));
+      });
+      if (controller.signal.aborted) return null;
+      running[side] = null;
+      done(value);
+      return value;
+    } catch (error) {
+      if (controller.signal.aborted || isAbort(error)) return null;
+      running[side] = null;
+      this.endReading(side);
+      apply(store, problemShown(fileProblem(error, side, name)));
+      return null;
+    }
+  }
+
+  /** A file with a label is the page's own: loading it is not a step to undo. */
+  private put(change: Change, label: string | null): void {
+    apply(this.store, label === null ? change : withoutUndo(change));
+  }
+
+  private putLeader(leader: LoadedLeader): void {
+    this.put(leaderLoaded(leader), leader.label);
+  }
+
+  /** Whether a file of the page's own finds another one, which came while it was being read, as by undoing. */
+  private isOvertaken(side: InputKind, label: string | null): boolean {
+    return label !== null && this.store.getState()[side] !== null;
+  }
+
+  private endReading(side: InputKind): void {
+    apply(this.store, readingSet(side, null));
+  }
+}
