@@ -8,7 +8,7 @@ import {
   QUALITY_HIGH,
   WebMOutputFormat,
 } from 'mediabunny';
-import { breath } from './yield-to-page';
+import { yieldToPage } from '../../common/yield-to-events';
 import type { Footage, VideoOptions } from './footage';
 import type { VideoPlan } from './plan';
 import { decodeSound, songStretch } from './song';
@@ -66,7 +66,7 @@ export async function encodeVideo(
         }
       }
       onProgress({ frame: frame + 1, frames });
-      await breath();
+      await yieldToPage();
     }
     signal.throwIfAborted();
     await output.finalize();

@@ -2,7 +2,7 @@ import { type Block, gather, partition, scatter, validity } from './blocks';
 import type { Manifest } from '../manifest';
 import type { ScheduleStep } from './schedule';
 import { rings } from './block-order';
-import { nextTurn } from './yield-to-events';
+import { yieldToEvents } from '../../common/yield-to-events';
 
 /** Inputs of the step graph; `width` is layers x channels. */
 export interface StepInput {
@@ -91,7 +91,7 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     if (!step) return;
     const before = kept(levels, k, empty);
     const after = kept(levels, k + 1, empty);
-    await nextTurn(signal);
+    await yieldToEvents(signal);
     const output = await sampling.runStep({
       blocks: group.length,
       x: gather(before.x, width, group, size),

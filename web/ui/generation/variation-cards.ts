@@ -1,7 +1,8 @@
 import { CHOICES } from '../store/actions/variations';
 import { madeRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
-import { drawFigure, facing } from '../widgets/figure';
+import { headingOf } from '../../motion/skeleton/heading';
+import { drawFigure } from '../widgets/figure';
 import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';
@@ -115,7 +116,7 @@ export const mountChoiceCards: Mount = (root, store, services) => {
     const state = store.getState();
     const list = shownCards(state);
     const poses = list.map(({ reaction }) => poseOf(state, reaction));
-    const eye = facing(poses.find((pose) => pose !== null) ?? new Float32Array(66));
+    const heading = headingOf(poses.find((pose) => pose !== null) ?? new Float32Array(66));
     const colour = token(root, `--figure-${madeRole(state)}`);
     poses.forEach((pose, index) => {
       const context = cards[index]?.canvas.getContext('2d');
@@ -125,7 +126,7 @@ export const mountChoiceCards: Mount = (root, store, services) => {
       const [width, height] = [canvas.clientWidth * ratio, canvas.clientHeight * ratio].map(Math.round);
       if (!width || !height) return;
       if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-      if (pose) drawFigure(context, pose, eye, colour);
+      if (pose) drawFigure(context, pose, heading, colour);
       else context.clearRect(0, 0, width, height);
     });
   };
