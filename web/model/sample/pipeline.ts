@@ -105,8 +105,8 @@ export class Pipeline {
     const began = this.now();
     const latents = await sample({
       ...sampling,
-      reaches: plan.reaches,
-      onReach: show,
+      parts: plan.parts,
+      onPart: show,
       onProgress: tellRuns(options.onProgress, 'step', plan.before, plan.runs),
     });
     times.push(this.now());
