@@ -1,18 +1,13 @@
 import type { BodyRule } from '../motion/contact/capsules';
+import type { ContactRule } from '../motion/contact/foot-contacts';
 
 /**
  * The constants of the measures, the same as in training/metrics. They come from Python through the manifest (its
  * `quality` block), so that a number on the page and one in a report mean the same.
  */
 export interface Rules {
-  readonly contact: {
-    /** The joint's own resting height is this percentile of its heights. */
-    readonly percentile: number;
-    /** Metres above it up to which the joint touches the floor. */
-    readonly height: number;
-    /** A planted foot rises or sinks slower than this, m/s. */
-    readonly vertical_speed: number;
-    /** A planted foot that is faster skates, m/s. */
+  readonly contact: ContactRule & {
+    /** A foot in contact that is faster skates, m/s. */
     readonly slide_speed: number;
   };
   readonly penetration: BodyRule;

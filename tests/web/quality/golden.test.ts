@@ -1,12 +1,12 @@
 /** The measures of the page against training/metrics, on the same duet. */
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
-import { contacts, seenSlide } from '../../../web/quality/contact';
+import { visibleSlide } from '../../../web/quality/contact';
 import { measure } from '../../../web/quality/measure';
 import { overlapDepth } from '../../../web/quality/penetration';
 import type { Duet, Rules } from '../../../web/quality/rules';
 import { boundaries, velocityChange } from '../../../web/quality/seams';
-import { LEAVE } from '../../../web/motion/contact/foot-contacts';
+import { footContacts, RELEASE_SPEED } from '../../../web/motion/contact/foot-contacts';
 import { readNpz } from '../../../web/model/load/npz';
 
 const folder = new URL('../../fixtures/', import.meta.url);
@@ -96,12 +96,12 @@ describe('the worst moments are where the faults were put', () => {
     report[part].worst.map(({ frame }) => frame / golden.fps);
 
   test('a foot slides at half a metre per second, and all worst moments are slower than a step', () => {
-    const seen = seenSlide(contacts(duet.reactor, duet.frames, duet.fps, golden.rules.contact));
+    const seen = visibleSlide(footContacts({ ...duet, positions: duet.reactor }, golden.rules.contact));
     expect(seen[315]).toBeCloseTo(0.5, 1);
     expect(report.feet.worst).toHaveLength(3);
     for (const { value } of report.feet.worst) {
       expect(value).toBeGreaterThan(golden.rules.contact.slide_speed);
-      expect(value).toBeLessThan(LEAVE);
+      expect(value).toBeLessThan(RELEASE_SPEED);
     }
   });
 

@@ -8,6 +8,7 @@ import {
   QUALITY_HIGH,
   WebMOutputFormat,
 } from 'mediabunny';
+import { yieldToPage } from '../../common/yield-to-events';
 import type { VideoPlan } from './plan';
 import { decodeSound, songSamples, type Sound } from './song';
 import type { VideoOptions, VideoSource } from './source';
@@ -86,19 +87,4 @@ function addAudio(output: Output, plan: EncodePlan, sound: Sound, start: number)
       written = until;
     },
   };
-}
-
-/**
- * Yields to the event loop, so that the page can draw and answer clicks. Unlike a timer this is not slowed down to once
- * a second while the tab is in the background.
- */
-function yieldToPage(): Promise<void> {
-  return new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => {
-      port1.close();
-      resolve();
-    };
-    port2.postMessage(null);
-  });
 }

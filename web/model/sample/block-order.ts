@@ -7,24 +7,24 @@ export interface Run {
   readonly blocks: readonly Block[];
 }
 
-/** Runs after which the last step is done for `reach`; they come in an order in which each finds what it needs. */
-export interface Ring {
+/** Runs after which the last step is done for `part`; they come in an order in which each finds what it needs. */
+export interface PlannedPart {
   readonly runs: readonly Run[];
-  readonly reach: Block;
+  readonly part: Block;
 }
 
 /**
  * What has to be computed for growing parts of a clip. A block of one step needs the blocks of the step before that
  * lie under it, so with alternating partitions the work under a part is a cone; no block is computed twice, and
- * rings that end with the whole clip compute all blocks whatever the order.
+ * parts that end with the whole clip compute all blocks whatever the order.
  * @param partitions blocks of each step
- * @param reaches parts of the clip, latent frames; each holds the one before
+ * @param parts in latent frames; each holds the one before
  */
-export function rings(partitions: readonly (readonly Block[])[], reaches: readonly Block[]): Ring[] {
+export function planParts(partitions: readonly (readonly Block[])[], parts: readonly Block[]): PlannedPart[] {
   const planned = new Set<Block>();
-  return reaches.map((reach) => {
+  return parts.map((part) => {
     const runs: Run[] = [];
-    let under = reach;
+    let under = part;
     for (const [step, blocks] of [...partitions.entries()].reverse()) {
       const needed = blocks.filter((block) => overlap(block, under));
       const fresh = needed.filter((block) => !planned.has(block));
@@ -32,7 +32,7 @@ export function rings(partitions: readonly (readonly Block[])[], reaches: readon
       if (fresh.length > 0) runs.unshift({ step, blocks: fresh });
       under = joined(needed);
     }
-    return { runs, reach };
+    return { runs, part };
   });
 }
 
@@ -42,7 +42,7 @@ export function rings(partitions: readonly (readonly Block[])[], reaches: readon
  * @param place latent frame
  * @param worth whether a part is worth showing, by the share of all block computations that comes after it
  */
-export function reachesAround(
+export function partsAround(
   partitions: readonly (readonly Block[])[],
   place: number,
   worth: (left: number) => boolean,
@@ -50,17 +50,17 @@ export function reachesAround(
   const blocks = partitions.at(-1) ?? [];
   const found = blocks.findIndex(({ start, length }) => place < start + length);
   const centre = found < 0 ? blocks.length - 1 : found;
-  const reaches: Block[] = [];
+  const parts: Block[] = [];
   for (let extent = 1; extent < blocks.length; extent = 3 * extent + 1) {
-    reaches.push(joined(blocks.slice(Math.max(0, centre - extent), centre + extent + 1)));
+    parts.push(joined(blocks.slice(Math.max(0, centre - extent), centre + extent + 1)));
   }
   const total = partitions.flat().length;
   let left = total;
-  const shown = rings(partitions, reaches).filter(({ runs }) => {
+  const shown = planParts(partitions, parts).filter(({ runs }) => {
     left -= runs.reduce((sum, run) => sum + run.blocks.length, 0);
     return left > 0 && worth(left / total);
   });
-  return [...shown.map(({ reach }) => reach), joined(blocks)];
+  return [...shown.map(({ part }) => part), joined(blocks)];
 }
 
 function overlap(a: Block, b: Block): boolean {

@@ -1,5 +1,5 @@
 import type { Manifest } from '../manifest';
-import { nextTurn } from './yield-to-events';
+import { yieldToEvents } from '../../common/yield-to-events';
 
 /** A piece of a clip: latent frames `start` to `end` are wanted, `from` to `to` must be given for an exact result. */
 export interface Chunk {
@@ -71,7 +71,7 @@ export async function conditionClip(
   const memory = new Float32Array(latents * width);
   const plan = chunks(latents, size, latent.receptive_field.condition);
   for (const [i, chunk] of plan.entries()) {
-    await nextTurn(signal);
+    await yieldToEvents(signal);
     const result = await run({
       leader: cut(input.leader, chunk, latent.stride * skeleton.joints.length * 3),
       music: cut(input.music, chunk, latent.stride * audio.features),

@@ -13,7 +13,7 @@ import { type Progress, tell, tellRuns } from '../progress';
 import { sample, type Sampling } from './sampler';
 import { ddim } from './schedule';
 import type { ModelSession } from '../load/session';
-import { nextTurn } from './yield-to-events';
+import { yieldToEvents } from '../../common/yield-to-events';
 
 /** The partner, at the leader's size and as long as the leader. */
 export interface Made {
@@ -98,15 +98,15 @@ export class Pipeline {
       this.#decode(request.leader, latents, condition.leader, scale, every, options);
     const show = async (part: Block, made: Float32Array): Promise<void> => {
       options.onPreview?.(await this.#early(part, made, sampling, request.leader, shape, options));
-      await nextTurn(options.signal);
+      await yieldToEvents(options.signal);
     };
     if (plan.block)
       await show(plan.block, await this.#preview(request.seed, plan.block, sampling, plan, options));
     const began = this.now();
     const latents = await sample({
       ...sampling,
-      reaches: plan.reaches,
-      onReach: show,
+      parts: plan.parts,
+      onPart: show,
       onProgress: tellRuns(options.onProgress, 'step', plan.before, plan.runs),
     });
     times.push(this.now());
@@ -115,7 +115,7 @@ export class Pipeline {
     const clip = await shape(latents);
     tell(options.onProgress, 'decode')(1, 1);
     times.push(this.now());
-    await nextTurn(options.signal);
+    await yieldToEvents(options.signal);
     const motion = this.#solve(clip, request.leader);
     const locked = lockFeet(motion);
     times.push(this.now());
@@ -142,7 +142,7 @@ export class Pipeline {
     const { condition, scale } = prepareInput({ leader, music: null }, this.manifest);
     const layers = this.manifest.latent.layers.map((layer) => (layer === 'coarse' ? 1 : 0));
     const clip = await this.#decode(leader, latents, condition.leader, scale, layers, { signal });
-    await nextTurn(signal);
+    await yieldToEvents(signal);
     return this.#solve(clip, leader);
   }
 
@@ -184,7 +184,7 @@ export class Pipeline {
     const width = latent.layers.length * latent.channels;
     const earlier = this.#latents?.length === latents * width ? this.#latents : null;
     const clip = await shape(around(made, part, earlier, latents, width));
-    await nextTurn(signal);
+    await yieldToEvents(signal);
     const motion = this.#solve(clip, leader);
     const from = part.start * latent.stride;
     const to = Math.min(clip.frames, (part.start + part.length) * latent.stride);
@@ -233,7 +233,7 @@ export class Pipeline {
     options: GenerateOptions,
   ): Promise<MotionClip> {
     const { skeleton } = this.manifest;
-    await nextTurn(options.signal);
+    await yieldToEvents(options.signal);
     const decoded = await this.session.decode({ latents, leader, layers: Float32Array.from(layers) });
     const positions = decoded.slice(0, frames * skeleton.joints.length * 3).map((value) => value / scale);
     if (!positions.every(Number.isFinite)) {

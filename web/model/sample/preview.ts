@@ -1,7 +1,7 @@
 /** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
 import type { Block } from './blocks';
 import { partitions, type Sampling } from './sampler';
-import { reachesAround } from './block-order';
+import { partsAround } from './block-order';
 
 /** A run that is over sooner than this needs no preview, seconds. */
 const SOON = 0.3;
@@ -17,7 +17,7 @@ export interface Plan {
   readonly before: number;
   readonly block: Block | null;
   /** Parts of the whole that are shown as they are done; the whole itself is the last. */
-  readonly reaches: readonly Block[] | undefined;
+  readonly parts: readonly Block[] | undefined;
 }
 
 /**
@@ -28,12 +28,12 @@ export interface Plan {
 export function planWork(sampling: Sampling, place: number | null, pace: number | undefined): Plan {
   const cut = partitions(sampling);
   const runs = cut.flat().length;
-  const whole = { runs, before: 0, block: null, reaches: undefined };
+  const whole = { runs, before: 0, block: null, parts: undefined };
   if (place === null) return whole;
-  const reaches = reachesAround(cut, place, (left) => worthReach(left, runs, pace));
+  const parts = partsAround(cut, place, (left) => worthShowing(left, runs, pace));
   const block = blockAt(sampling.latents, sampling.latent.block, place);
   const before = partitions({ ...sampling, latents: block.length }).flat().length;
-  return worthPreview(before, runs, pace) ? { runs, before, block, reaches } : { ...whole, reaches };
+  return worthPreview(before, runs, pace) ? { runs, before, block, parts } : { ...whole, parts };
 }
 
 /** The block of the plain partition that holds a latent frame; frames outside the clip count as its ends. */
@@ -56,7 +56,7 @@ export function worthPreview(preview: number, whole: number, pace: number | unde
  * @param left share of the block computations that come after it
  * @param pace as in `worthPreview`
  */
-export function worthReach(left: number, whole: number, pace: number | undefined): boolean {
+export function worthShowing(left: number, whole: number, pace: number | undefined): boolean {
   return left >= LAST && (pace === undefined || pace * whole * left >= SOON);
 }
 

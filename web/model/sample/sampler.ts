@@ -1,8 +1,8 @@
 import { type Block, gather, partition, scatter, validity } from './blocks';
 import type { Manifest } from '../manifest';
 import type { ScheduleStep } from './schedule';
-import { rings } from './block-order';
-import { nextTurn } from './yield-to-events';
+import { planParts } from './block-order';
+import { yieldToEvents } from '../../common/yield-to-events';
 
 /** Inputs of the step graph; `width` is layers x channels. */
 export interface StepInput {
@@ -46,13 +46,13 @@ export interface Sampling {
   readonly blocksPerRun: number;
   readonly signal?: AbortSignal | undefined;
   /** Growing parts of the clip that are wanted one after the other, the last of them the whole; without, only that. */
-  readonly reaches?: readonly Block[] | undefined;
+  readonly parts?: readonly Block[] | undefined;
   /** Called as blocks are done: `done` of `total` block computations of the whole sampling. */
   readonly onProgress?: ((done: number, total: number) => void) | undefined;
   /** Called when a step is done for the whole clip (state latents x width, valid during the call only). */
   readonly onStep?: ((step: number, x: Float32Array, x0: Float32Array) => void) | undefined;
   /** Called when all steps are done for a part but not for the whole: its latents, length x width. */
-  readonly onReach?: ((reach: Block, x: Float32Array) => Promise<void>) | undefined;
+  readonly onPart?: ((part: Block, x: Float32Array) => Promise<void>) | undefined;
 }
 
 /** Blocks of each step: with alternating phase every second step begins with half a block. */
@@ -91,7 +91,7 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     if (!step) return;
     const before = kept(levels, k, empty);
     const after = kept(levels, k + 1, empty);
-    await nextTurn(signal);
+    await yieldToEvents(signal);
     const output = await sampling.runStep({
       blocks: group.length,
       x: gather(before.x, width, group, size),
@@ -113,7 +113,7 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     levels.delete(k); // nothing will read it any more
   };
 
-  for (const { runs, reach } of rings(cut, sampling.reaches ?? [{ start: 0, length: latents }])) {
+  for (const { runs, part } of planParts(cut, sampling.parts ?? [{ start: 0, length: latents }])) {
     for (const { step, blocks } of runs) {
       for (let first = 0; first < blocks.length; first += blocksPerRun) {
         await compute(step, blocks.slice(first, first + blocksPerRun));
@@ -121,9 +121,9 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
     }
     const { x } = kept(levels, schedule.length, empty);
     if (done === total) return x;
-    await sampling.onReach?.(reach, x.slice(reach.start * width, (reach.start + reach.length) * width));
+    await sampling.onPart?.(part, x.slice(part.start * width, (part.start + part.length) * width));
   }
-  throw new Error('the last reach of a sampling has to be the whole clip');
+  throw new Error('the last part of a sampling has to be the whole clip');
 }
 
 /** The value of a key, made when it is first asked for. */

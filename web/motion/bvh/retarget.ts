@@ -1,22 +1,10 @@
+import { forwardOf } from '../skeleton/heading';
 import type { NodeMotion } from './sample';
 import type { BvhNode } from './hierarchy';
 import type { JointMap } from './joint-map';
 import { conjugate, IDENTITY, multiply, type Quat, readQuat, rotate } from '../math/quat';
 import { J, type JointName, SMPL22 } from '../skeleton/skeleton';
-import {
-  add,
-  cross,
-  direction,
-  distance,
-  length,
-  lerp,
-  readVec,
-  scale,
-  sub,
-  type Vec3,
-  Y_AXIS,
-  ZERO,
-} from '../math/vec3';
+import { add, direction, distance, length, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
 
 /**
  * Where pelvis and spine lie between the middle of the hips (0) and the neck (1), along the back: the proportions of
@@ -102,10 +90,9 @@ function neckAndHead(body: Body, frame: number): { neck: Vec3; head: Vec3 } {
   return { neck, head: add(neck, scale(trunk, HEAD_LENGTH)) };
 }
 
-/** Direction that the hips face, level with the floor. */
-function facing(body: Body, frame: number): Vec3 {
-  const left = sub(joint(body, frame, 'left_hip'), joint(body, frame, 'right_hip'));
-  return direction(cross(left, Y_AXIS), [0, 0, 1]);
+/** Direction in which the hips point, level with the floor. */
+function hipForward(body: Body, frame: number): Vec3 {
+  return forwardOf(sub(joint(body, frame, 'left_hip'), joint(body, frame, 'right_hip')));
 }
 
 /** Vectors of a frame that the reader learns unit and axes from, in the file's own unit. */
@@ -122,7 +109,7 @@ export function measure(body: Body, frame: number): { size: number; upright: Vec
   const ahead = SIDES.map((side, i) => {
     const toe = body.toes[side];
     const foot = toe === null ? ZERO : direction(sub(at(body, frame, toe), ankles[i]!), ZERO);
-    const front = facing(body, frame);
+    const front = hipForward(body, frame);
     return foot[0] * front[0] + foot[2] * front[2];
   });
   return {
@@ -152,7 +139,7 @@ function madeToe(body: Body, side: (typeof SIDES)[number], trunk: number): Vec3 
   const turns = body.motion.rotation(body.map.nodes.get(`${side}_ankle`)!);
   let sum = ZERO;
   for (let frame = 0; frame < body.motion.frames; frame++) {
-    const front = add(scale(facing(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
+    const front = add(scale(hipForward(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
     sum = add(sum, rotate(conjugate(multiply(body.up, readQuat(turns, frame))), front));
   }
   return scale(direction(sum, [0, 0, 1]), trunk * Math.hypot(TOE_FORWARD, TOE_DOWN));

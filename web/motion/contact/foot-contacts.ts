@@ -1,58 +1,108 @@
 import type { MotionClip } from '../skeleton/clip';
-import { JOINT_COUNT } from '../skeleton/skeleton';
-import { median } from '../math/statistics';
-import { readVec, sub, type Vec3 } from '../math/vec3';
+import { FEET, JOINT_COUNT } from '../skeleton/skeleton';
+import { median, percentile } from '../math/statistics';
+import { readVec, sub } from '../math/vec3';
 
-/** Speed over the floor of a joint that comes to stand, and of one that has left again, m/s. */
-const ENTER = 0.5;
-export const LEAVE = 0.9;
-/** A standing joint rises or sinks slower than this, m/s. */
-const VERTICAL = 0.2;
+/** Heights of one joint and its speeds. */
+interface JointTrack {
+  /** One a frame, metres. */
+  readonly heights: Float64Array;
+  /** Up or down and over the floor, from each frame to the next, m/s: frames - 1 values. */
+  readonly vertical: Float64Array;
+  readonly horizontal: Float64Array;
+}
+
+function trackOf({ positions, frames, fps }: MotionClip, joint: number): JointTrack {
+  const at = (frame: number) => readVec(positions, frame * JOINT_COUNT + joint);
+  const steps = Array.from({ length: Math.max(0, frames - 1) }, (_, frame) => sub(at(frame + 1), at(frame)));
+  return {
+    heights: Float64Array.from({ length: frames }, (_, frame) => at(frame)[1]),
+    vertical: Float64Array.from(steps, ([, y]) => Math.abs(y) * fps),
+    horizontal: Float64Array.from(steps, ([x, , z]) => Math.hypot(x, z) * fps),
+  };
+}
+
+/** When a joint of the foot counts as standing on the floor: the model's manifest has these numbers. */
+export interface ContactRule {
+  /** The joint's own resting height is this percentile of its heights. */
+  readonly percentile: number;
+  /** Metres above it up to which the joint touches the floor. */
+  readonly height: number;
+  /** A joint in contact rises or sinks slower than this, m/s. */
+  readonly vertical_speed: number;
+}
+
+/** Contact and speed over the floor in m/s of ankles and toes, from each frame to the next: (frames - 1) x 4. */
+export interface FootContacts {
+  readonly inContact: Uint8Array;
+  readonly speed: Float64Array;
+}
+
 /**
- * A standing joint is at most this far above the height at which it usually rests, metres. Its lowest height would
+ * Which joints of the feet stand, and how fast they move over the floor: `contacts` of training/metrics/contact.py.
+ * Measured against each joint's own low heights, so neither the floor nor the foot's thickness matters.
+ */
+export function footContacts(clip: MotionClip, rule: ContactRule): FootContacts {
+  const steps = Math.max(0, clip.frames - 1);
+  const inContact = new Uint8Array(steps * FEET.length);
+  const speed = new Float64Array(steps * FEET.length);
+  FEET.forEach((joint, foot) => {
+    const { heights, vertical, horizontal } = trackOf(clip, joint);
+    const low = percentile(heights, rule.percentile) + rule.height;
+    for (let frame = 0; frame < steps; frame++) {
+      const sample = frame * FEET.length + foot;
+      inContact[sample] = Number(heights[frame]! < low && vertical[frame]! < rule.vertical_speed);
+      speed[sample] = horizontal[frame]!;
+    }
+  });
+  return { inContact, speed };
+}
+
+/** Speed over the floor below which a contact begins, and above which it is over, m/s. */
+const CONTACT_SPEED = 0.5;
+export const RELEASE_SPEED = 0.9;
+/** A joint in contact rises or sinks slower than this, m/s. */
+const VERTICAL_SPEED = 0.2;
+/**
+ * A joint in contact is at most this far above the height at which it usually rests, metres. Its lowest height would
  * say less: made feet dip below the floor while they swing, and hover where they stand.
  */
 const HEIGHT = 0.04;
-/** Shorter than this nobody stands, seconds. */
+/** Shortest contact, seconds. */
 const SHORTEST = 0.13;
 
-/** Frames between which a joint stands: from `first` on, up to and with `last`. */
-export interface Stretch {
+/** Frames of a contact: from `first` on, up to and with `last`. */
+export interface ContactInterval {
   readonly first: number;
   readonly last: number;
 }
 
 /**
- * The stretches of time in which a joint of the foot is meant to stand, although it may slide.
+ * The intervals in which a joint of the foot is meant to stand, although it may slide.
  *
- * Two speeds tell them (hysteresis): a stretch is as long as the joint stays low and below the higher one, and it
- * counts when somewhere in it the joint nearly rests. One speed alone would cut a stretch in two wherever a slide is
- * a little faster.
+ * Two speeds tell them (hysteresis): an interval is as long as the joint stays low and below the higher one, and it
+ * counts when somewhere in it the joint nearly rests. One speed alone would cut it in two wherever a slide is a little
+ * faster.
  */
-export function plantedStretches(clip: MotionClip, joint: number): Stretch[] {
+export function contactIntervals(clip: MotionClip, joint: number): ContactInterval[] {
   const { frames, fps } = clip;
-  const at = (frame: number): Vec3 => readVec(clip.positions, frame * JOINT_COUNT + joint);
-  /** Speed over the floor up to the next frame, or Infinity while the joint rises or sinks. */
-  const speeds = Array.from({ length: frames - 1 }, (_, frame) => {
-    const [x, y, z] = sub(at(frame + 1), at(frame));
-    return Math.abs(y) * fps < VERTICAL ? Math.hypot(x, z) * fps : Infinity;
-  });
-  const resting = speeds.flatMap((speed, frame) => (speed < ENTER ? [at(frame)[1]] : []));
-  const highest = median(resting) + HEIGHT;
+  const { heights, vertical, horizontal } = trackOf(clip, joint);
+  const speeds = horizontal.map((speed, frame) => (vertical[frame]! < VERTICAL_SPEED ? speed : Infinity));
+  const highest = median(heights.filter((_, frame) => speeds[frame]! < CONTACT_SPEED)) + HEIGHT;
 
-  const stretches: Stretch[] = [];
+  const intervals: ContactInterval[] = [];
   let first = 0;
   let slowest = Infinity;
   for (let frame = 0; frame < frames; frame++) {
-    const low = frame + 1 < frames && Math.max(at(frame)[1], at(frame + 1)[1]) < highest;
-    const now = low ? speeds[frame]! : Infinity;
-    if (now < LEAVE) {
-      slowest = Math.min(slowest, now);
+    const low = frame + 1 < frames && Math.max(heights[frame]!, heights[frame + 1]!) < highest;
+    const speed = low ? speeds[frame]! : Infinity;
+    if (speed < RELEASE_SPEED) {
+      slowest = Math.min(slowest, speed);
       continue;
     }
-    if (slowest < ENTER && frame - first >= SHORTEST * fps) stretches.push({ first, last: frame });
+    if (slowest < CONTACT_SPEED && frame - first >= SHORTEST * fps) intervals.push({ first, last: frame });
     first = frame + 1;
     slowest = Infinity;
   }
-  return stretches;
+  return intervals;
 }

@@ -1,7 +1,7 @@
 import type { SolvedMotion } from '../skeleton/clip';
-import { restingShift, type Track } from './least-squares-shift';
-import { type Leg, reachFor, reachOf } from './two-bone-ik';
-import { plantedStretches } from './foot-contacts';
+import { leastSquaresShift, type Track } from './least-squares-shift';
+import { type Leg, twoBoneIk, longestLeg } from './two-bone-ik';
+import { contactIntervals } from './foot-contacts';
 import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 import { add, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
@@ -18,12 +18,12 @@ const LEGS: readonly Chain[] = [
   { hip: J.right_hip, knee: J.right_knee, ankle: J.right_ankle, toe: J.right_foot },
 ];
 
-/** A foot that would have to be shifted farther than this is let go little by little, metres. */
-const FARTHEST = 0.1;
+/** Above this shift, metres, a foot is let go little by little. */
+const MAX_SHIFT = 0.1;
 /** Solutions for the shift; each lets go a little more where the one before asked for too much. */
 const PASSES = 6;
-/** Lack of reach that doubles the pull back to where the foot was, metres. */
-const SHORT = 0.002;
+/** How far, in metres, a leg may be too short for a shift before the weight of a shift of zero doubles. */
+const SHORTFALL = 0.002;
 
 /** The leg of one frame in world axes, and the turns of its bones. */
 function legAt(
@@ -42,34 +42,34 @@ function legAt(
   return { leg, thigh, shin, foot };
 }
 
-/** Where the planted foot is shifted over the floor in every frame: vectors in metres, level. */
+/** The shift over the floor that keeps the foot in place while it is in contact: a level vector a frame, metres. */
 function shiftsOf(motion: SolvedMotion, chain: Chain, legs: readonly Leg[]): Vec3[] {
   const tracks = (axis: 0 | 2): Track[] =>
     [chain.ankle, chain.toe].map((joint) => ({
-      planted: stretches.get(joint)!,
+      contacts: intervals.get(joint)!,
       places: Float64Array.from(legs, (_, t) => motion.positions[(t * JOINT_COUNT + joint) * 3 + axis]!),
     }));
-  const stretches = new Map(
-    [chain.ankle, chain.toe].map((joint) => [joint, plantedStretches(motion, joint)]),
+  const intervals = new Map(
+    [chain.ankle, chain.toe].map((joint) => [joint, contactIntervals(motion, joint)]),
   );
   const [along, across] = [tracks(0), tracks(2)];
-  const stay = new Float64Array(legs.length).fill(1);
+  const zeroWeights = new Float64Array(legs.length).fill(1);
   let shifts: Vec3[] = [];
   for (let pass = 0; pass < PASSES; pass++) {
-    const [x, z] = [restingShift(along, stay), restingShift(across, stay)];
+    const [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
     shifts = legs.map((_, t) => [x[t]!, 0, z[t]!]);
     legs.forEach((leg, t) => {
-      const far = Math.max(1, Math.hypot(x[t]!, z[t]!) / FARTHEST);
+      const far = Math.max(1, Math.hypot(x[t]!, z[t]!) / MAX_SHIFT);
       const ankle = add(leg.thigh, add(leg.shin, shifts[t]!));
-      const short = Math.max(0, Math.hypot(...ankle) - reachOf(leg));
-      stay[t]! *= far * far * (1 + short / SHORT);
+      const short = Math.max(0, Math.hypot(...ankle) - longestLeg(leg));
+      zeroWeights[t]! *= far * far * (1 + short / SHORTFALL);
     });
   }
   return shifts;
 }
 
 /**
- * The motion with feet that rest where they are planted.
+ * The motion with feet that rest while they are in contact (foot lock).
  *
  * Feet are shifted level over the floor, whole, with the turn they had, so that heel and ball still roll and pivot;
  * thigh and shin follow by turning at hip, knee and ankle. Nothing above the knees moves. Bone lengths stay, rotations
@@ -92,7 +92,7 @@ export function lockFeet(motion: SolvedMotion): SolvedMotion {
         writeQuat(rotations, row + joint, multiply(conjugate(parent), turn));
       };
       const target = add(add(leg.hip, add(leg.thigh, leg.shin)), shifts[frame]!);
-      const turns = reachFor(leg, target);
+      const turns = twoBoneIk(leg, target);
       const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
       put(hip, readQuat(rotations, row), upper);
       put(knee, upper, lower);

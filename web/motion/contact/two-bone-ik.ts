@@ -15,14 +15,14 @@ export interface Leg {
 }
 
 /**
- * The turns that bring the ankle to `target` with hip and bone lengths kept: `thigh` and `shin` are to be applied in
- * world axes to the bones as they are.
+ * Two-bone inverse kinematics, analytic by the law of cosines: the turns that bring the ankle to `target` with hip and
+ * bone lengths kept. `thigh` and `shin` are to be applied in world axes to the bones as they are.
  *
  * First the knee bends about its own hinge until the leg is as long as the way to the target, then the whole leg
  * swings there the shortest way: the knee goes on looking where it looked. An ankle that stays where it is leaves the
  * leg as it is. Where the target is too far, the leg stretches towards it and stops short.
  */
-export function reachFor(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
+export function twoBoneIk(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
   const { hip, thigh, shin, hinge } = leg;
   const wanted = sub(target, hip);
   // |thigh + turned shin|^2 = |thigh|^2 + |shin|^2 + 2 (c cos + s sin) of the turn, largest where the knee is straight.
@@ -39,7 +39,7 @@ export function reachFor(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
   return { thigh: swing, shin: multiply(swing, bend) };
 }
 
-/** The farthest that an ankle may be shifted to, metres from the hip: nearly straight, or as far as it was anyway. */
-export function reachOf({ thigh, shin }: Leg): number {
+/** The largest length of the leg, hip to ankle in metres, that is asked for: nearly straight, or as it was anyway. */
+export function longestLeg({ thigh, shin }: Leg): number {
   return Math.max(length(add(thigh, shin)), STRAIGHT * (length(thigh) + length(shin)));
 }

@@ -1,7 +1,8 @@
 import { VARIATION_COUNT } from '../store/actions/variations';
 import { generatedRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
-import { drawFigure, headingOf } from '../widgets/figure';
+import { headingOf } from '../../motion/skeleton/heading';
+import { drawFigure } from '../widgets/figure';
 import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';

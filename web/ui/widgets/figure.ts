@@ -30,18 +30,7 @@ const VIEW_HEIGHT = 1.85;
 const FLOOR_MARGIN = 0.08;
 
 const joint = (name: string): number => SMPL22.findIndex((known) => known === name);
-const [LEFT, RIGHT, PELVIS, HEAD_JOINT] = ['left_hip', 'right_hip', 'pelvis', 'head'].map(joint) as [
-  number,
-  number,
-  number,
-  number,
-];
-
-/** Heading of a pose from its hips, radians about y. */
-export function headingOf(pose: Float32Array): number {
-  const across = (axis: number): number => (pose[LEFT * 3 + axis] ?? 0) - (pose[RIGHT * 3 + axis] ?? 0);
-  return Math.atan2(across(2), across(0));
-}
+const [PELVIS, HEAD_JOINT] = [joint('pelvis'), joint('head')];
 
 /** A limb of the figure: two ends in pixels with their radii, and its depth, larger is nearer. */
 interface Limb {
@@ -68,7 +57,7 @@ export function drawFigure(
 ): void {
   const { width, height } = context.canvas;
   const scale = height / VIEW_HEIGHT;
-  const angle = heading + 0.45;
+  const angle = 0.45 - heading;
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   const [ox, oz] = [pose[PELVIS * 3] ?? 0, pose[PELVIS * 3 + 2] ?? 0];
   const place = (index: number): { x: number; y: number; depth: number } => {

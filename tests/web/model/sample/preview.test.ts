@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { GenerateRequest } from '../../../../web/model/sample/inputs';
 import { type GenerateResult, Pipeline, type Preview } from '../../../../web/model/sample/pipeline';
-import { around, blockAt, worthPreview, worthReach } from '../../../../web/model/sample/preview';
+import { around, blockAt, worthPreview, worthShowing } from '../../../../web/model/sample/preview';
 import type { Progress } from '../../../../web/model/progress';
 import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
@@ -154,10 +154,10 @@ describe('what is worth a preview', () => {
     expect(worthPreview(7, 22, 0.01)).toBe(false);
   });
   it('is a growing part while enough is left', () => {
-    expect(worthReach(0.3, 22, undefined)).toBe(true);
-    expect(worthReach(0.1, 22, undefined)).toBe(false);
-    expect(worthReach(0.3, 22, 0.1)).toBe(true);
-    expect(worthReach(0.3, 22, 0.01)).toBe(false);
+    expect(worthShowing(0.3, 22, undefined)).toBe(true);
+    expect(worthShowing(0.1, 22, undefined)).toBe(false);
+    expect(worthShowing(0.3, 22, 0.1)).toBe(true);
+    expect(worthShowing(0.3, 22, 0.01)).toBe(false);
   });
   it('is the block that someone looks at', () => {
     expect(blockAt(100, 60, 59.9)).toEqual({ start: 0, length: 60 });

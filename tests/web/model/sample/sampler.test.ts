@@ -3,7 +3,7 @@ import type { Block } from '../../../../web/model/sample/blocks';
 import { noise } from '../../../../web/model/sample/noise';
 import { partitions, sample, type Sampling, type StepRunner } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
-import { reachesAround } from '../../../../web/model/sample/block-order';
+import { partsAround } from '../../../../web/model/sample/block-order';
 import { small } from '../../support/small-manifest';
 
 const { latent } = small;
@@ -90,14 +90,14 @@ describe('sample', () => {
         let computed = 0;
         const result = await sample({
           ...plain,
-          reaches: reachesAround(partitions(plain), place, () => true),
+          parts: partsAround(partitions(plain), place, () => true),
           runStep: (input) => {
             computed += input.blocks;
             return mixing(input);
           },
-          onReach: (reach, x) => {
-            seen.push(reach);
-            expect(x).toEqual(whole.slice(reach.start * width, (reach.start + reach.length) * width));
+          onPart: (part, x) => {
+            seen.push(part);
+            expect(x).toEqual(whole.slice(part.start * width, (part.start + part.length) * width));
             return Promise.resolve();
           },
         });

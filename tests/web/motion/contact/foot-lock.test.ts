@@ -1,10 +1,10 @@
 import { describe, expect, test } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { lockFeet } from '../../../../web/motion/contact/foot-lock';
-import { restingShift } from '../../../../web/motion/contact/least-squares-shift';
+import { leastSquaresShift } from '../../../../web/motion/contact/least-squares-shift';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
-import { type Leg, reachFor } from '../../../../web/motion/contact/two-bone-ik';
-import { plantedStretches } from '../../../../web/motion/contact/foot-contacts';
+import { type Leg, twoBoneIk } from '../../../../web/motion/contact/two-bone-ik';
+import { contactIntervals } from '../../../../web/motion/contact/foot-contacts';
 import { quatDot, readQuat, rotate } from '../../../../web/motion/math/quat';
 import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
@@ -167,13 +167,13 @@ describe('locked feet', () => {
   });
 });
 
-describe('planted stretches', () => {
+describe('contact intervals', () => {
   test('are one where a slide is faster for a moment, and none of what never rests or is too short', () => {
     /** Carried on at these speeds in m/s, one a frame. */
     const carried = (speeds: readonly number[]) => {
       const places = [0];
       for (const speed of speeds) places.push(places.at(-1)! + speed / 30);
-      return plantedStretches(
+      return contactIntervals(
         madeStander({ frames: places.length, path: (t) => [places[t]!, 0] }),
         J.left_foot,
       );
@@ -190,12 +190,12 @@ describe('planted stretches', () => {
 
   test('end where the foot is lifted', () => {
     const lift = (frame: number): number => eased(frame, 30, 40) - eased(frame, 50, 60);
-    const stretches = plantedStretches(madeStander({ frames: 90, lift }), J.left_foot);
-    expect(stretches).toHaveLength(2);
-    expect(stretches[0]!.last).toBeGreaterThan(28);
-    expect(stretches[0]!.last).toBeLessThan(32);
-    expect(stretches[1]!.first).toBeGreaterThan(58);
-    expect(stretches[1]!.last).toBe(89);
+    const intervals = contactIntervals(madeStander({ frames: 90, lift }), J.left_foot);
+    expect(intervals).toHaveLength(2);
+    expect(intervals[0]!.last).toBeGreaterThan(28);
+    expect(intervals[0]!.last).toBeLessThan(32);
+    expect(intervals[1]!.first).toBeGreaterThan(58);
+    expect(intervals[1]!.last).toBe(89);
   });
 });
 
@@ -206,21 +206,21 @@ describe('the shift', () => {
       (_, t) => 0.1 * Math.sin(t / 3) + 0.02 * Math.cos(t * t),
     );
     const tracks = [
-      { places, planted: [{ first: 0, last: 12 }] },
+      { places, contacts: [{ first: 0, last: 12 }] },
       {
         places: places.map((place) => place ** 2),
-        planted: [
+        contacts: [
           { first: 8, last: 15 },
           { first: 30, last: 39 },
         ],
       },
     ];
-    const stay = Float64Array.from({ length: 40 }, (_, t) => 1 + (t % 5));
+    const zeroWeights = Float64Array.from({ length: 40 }, (_, t) => 1 + (t % 5));
     const cost = (shift: Float64Array): number => {
       let sum = 0;
-      shift.forEach((s, t) => (sum += stay[t]! * s * s));
-      for (const { places: from, planted } of tracks) {
-        for (const { first, last } of planted) {
+      shift.forEach((s, t) => (sum += zeroWeights[t]! * s * s));
+      for (const { places: from, contacts } of tracks) {
+        for (const { first, last } of contacts) {
           for (let t = first; t < last; t++)
             sum += 100 * (from[t + 1]! + shift[t + 1]! - from[t]! - shift[t]!) ** 2;
         }
@@ -228,7 +228,7 @@ describe('the shift', () => {
       for (let t = 1; t < 39; t++) sum += 12 * (shift[t - 1]! - 2 * shift[t]! + shift[t + 1]!) ** 2;
       return sum;
     };
-    const best = restingShift(tracks, stay);
+    const best = leastSquaresShift(tracks, zeroWeights);
     expect(top([...best])).toBeGreaterThan(0.01);
     for (let t = 0; t < 40; t++) {
       for (const by of [1e-4, -1e-4]) {
@@ -248,7 +248,7 @@ describe('reaching with a leg', () => {
     hinge: [1, 0, 0],
   });
   const ankleOf = (leg: Leg, target: Vec3): Vec3 => {
-    const { thigh, shin } = reachFor(leg, target);
+    const { thigh, shin } = twoBoneIk(leg, target);
     return add(leg.hip, add(rotate(thigh, leg.thigh), rotate(shin, leg.shin)));
   };
 
@@ -273,14 +273,14 @@ describe('reaching with a leg', () => {
   test('leaves a leg as it is, even one that noise has bent the wrong way', () => {
     for (const angle of [-0.1, -0.01, 0.01, 0.5]) {
       const leg = bentBy(angle);
-      const { thigh, shin } = reachFor(leg, add(leg.hip, add(leg.thigh, leg.shin)));
+      const { thigh, shin } = twoBoneIk(leg, add(leg.hip, add(leg.thigh, leg.shin)));
       for (const turn of [thigh, shin]) expect(Math.abs(turn[3])).toBeGreaterThan(1 - 1e-9);
     }
   });
 
   test('has no jump where the knee comes through the straight leg', () => {
     const target: Vec3 = [0.15, 0.12, 0.05];
-    const kneeAt = (angle: number): Vec3 => rotate(reachFor(bentBy(angle), target).thigh, [0, -0.42, 0]);
+    const kneeAt = (angle: number): Vec3 => rotate(twoBoneIk(bentBy(angle), target).thigh, [0, -0.42, 0]);
     for (let angle = -0.1; angle < 0.1; angle += 0.005) {
       expect(distance(kneeAt(angle), kneeAt(angle + 0.005))).toBeLessThan(0.003);
     }
