@@ -25,7 +25,7 @@ export function takeWords({ reaction: { inputs } }: Take, { leader, song, manife
   ].join(', ');
 }
 
-/** All that a take was made from: `As reactor to Demo lead, with Patio Clave, 5 steps, 1.20 coarse, ..., seed 1204`. */
+/** All that a take was made from: `As reactor to Demo leader, with Patio Clave, 5 steps, 1.20 coarse, ..., seed 1204`. */
 export function allTakeWords({ reaction: { inputs } }: Take): string {
   const { leader, song, settings } = inputs;
   return [
