@@ -1,7 +1,11 @@
 /**
- * Makes docs/dance.webp, the looping picture of the README, from the built app: `npx vite build`, then
- * `node tools/moving-picture.mjs`. The page writes a video of its demo; of that, the stretch is taken whose last
- * picture is most like its first, and its end is faded into what comes before its beginning. Needs ffmpeg.
+ * Makes docs/dance.webp, the looping picture of the README, from the built app's demo:
+ *
+ *     npx vite build && node tools/moving-picture.mjs [VIDEO]
+ *
+ * The page writes a video of its demo, which takes minutes without a GPU; VIDEO is one that it has written before. Of
+ * that the stretch is taken whose last picture is most like its first, and its end is faded into what comes before its
+ * beginning. Needs ffmpeg.
  */
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
@@ -33,15 +37,17 @@ const WAIT_MS = 300_000;
  *
  * @param {string} file where the video is put
  */
-export async function filmDemo(file) {
+async function filmDemo(file) {
+  const executablePath = await findBrowser();
+  if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
   const site = createSite({ root: path.join(root, 'dist') });
   const address = await listen(site, { port: 0 });
-  const browser = await chromium.launch({ executablePath: await findBrowser(), args: ['--no-sandbox'] });
+  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
   try {
     const page = await browser.newPage({ viewport: PAGE, colorScheme: 'dark', serviceWorkers: 'block' });
     page.setDefaultTimeout(WAIT_MS);
     await page.goto(address);
-    await page.getByRole('button', { name: 'Follow', exact: true }).click();
+    await page.getByRole('radio', { name: 'Follow' }).click();
     await page.getByRole('button', { name: 'Download', exact: true }).click();
     await page.getByRole('radio', { name: '720p' }).click();
     const coming = page.waitForEvent('download');
@@ -74,7 +80,7 @@ function findLoop(video) {
   /** @param {number} a @param {number} b numbers of pictures */
   const difference = (a, b) => {
     let sum = 0;
-    for (let i = 0; i < size; i++) sum += (bytes[a * size + i] - bytes[b * size + i]) ** 2;
+    for (let i = 0; i < size; i++) sum += ((bytes[a * size + i] ?? 0) - (bytes[b * size + i] ?? 0)) ** 2;
     return sum;
   };
   const edge = EDGE_SECONDS * FPS;
@@ -87,8 +93,7 @@ function findLoop(video) {
     ) {
       // Alike in place is not enough: two pictures earlier they have to be alike too, so that they move alike.
       const now = difference(start, end) + difference(start - 2, end - 2);
-      if (now < best.difference)
-        best = { start: start / FPS, seconds: (end - start) / FPS, difference: now };
+      if (now < best.difference) best = { start: start / FPS, seconds: (end - start) / FPS, difference: now };
     }
   return best;
 }
@@ -121,7 +126,9 @@ if (isProgram(import.meta.url)) {
     const file = path.join(root, 'docs/dance.webp');
     writeLoop(video, loop, file);
     const kilobytes = Math.round(statSync(file).size / 1000);
-    console.log(`docs/dance.webp: ${loop.seconds.toFixed(1)} s from ${loop.start.toFixed(1)} s on, ${kilobytes} kB`);
+    console.log(
+      `docs/dance.webp: ${loop.seconds.toFixed(1)} s from ${loop.start.toFixed(1)} s on, ${kilobytes} kB`,
+    );
   } finally {
     rmSync(folder, { recursive: true });
   }
