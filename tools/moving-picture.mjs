@@ -19,9 +19,9 @@ import { createSite, listen } from './serve.mjs';
 /** Pixels. */
 const PAGE = { width: 1280, height: 800 };
 /** Pixels that are kept of the stage's picture, around its middle. */
-const CROP = { width: 760, height: 660 };
+const CROP = { width: 580, height: 520 };
 /** Pixels of the finished picture's width. */
-const WIDTH = 560;
+const WIDTH = 520;
 const FPS = 30;
 const LOOP_SECONDS = { shortest: 7, longest: 9 };
 /** The couple comes together first and leaves last. */
@@ -30,7 +30,7 @@ const FADE_SECONDS = 0.4;
 const QUALITY = 55;
 /** Edge length of the small grey pictures that are compared. */
 const SMALL = 48;
-const WAIT_MS = 300_000;
+const WAIT_MS = 1_500_000;
 
 /**
  * Opens the built app and saves the video of its demo.
@@ -47,9 +47,11 @@ async function filmDemo(file) {
     const page = await browser.newPage({ viewport: PAGE, colorScheme: 'dark', serviceWorkers: 'block' });
     page.setDefaultTimeout(WAIT_MS);
     await page.goto(address);
+    await page.getByRole('button', { name: 'Play the demo' }).click();
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
     await page.getByRole('radio', { name: 'Follow' }).click();
     await page.getByRole('button', { name: 'Download', exact: true }).click();
-    await page.getByRole('radio', { name: '720p' }).click();
+    await page.getByRole('radio', { name: /As on stage/ }).click();
     const coming = page.waitForEvent('download');
     await page.getByRole('button', { name: 'Save video' }).click();
     await (await coming).saveAs(file);
