@@ -19,15 +19,16 @@ import { createSite, listen } from './serve.mjs';
 /** Pixels. */
 const PAGE = { width: 1280, height: 800 };
 /** Pixels that are kept of the stage's picture, around its middle. */
-const CROP = { width: 580, height: 520 };
+const CROP = { width: 450, height: 510 };
 /** Pixels of the finished picture's width. */
-const WIDTH = 520;
-const FPS = 30;
+const WIDTH = 450;
+/** Pictures a second that are compared; the loop keeps all of them. */
+const SEARCH_FPS = 15;
 const LOOP_SECONDS = { shortest: 7, longest: 9 };
 /** The couple comes together first and leaves last. */
 const EDGE_SECONDS = 4;
 const FADE_SECONDS = 0.4;
-const QUALITY = 55;
+const QUALITY = 65;
 /** Edge length of the small grey pictures that are compared. */
 const SMALL = 48;
 const WAIT_MS = 1_500_000;
@@ -75,7 +76,7 @@ function ffmpeg(...args) {
  * @returns {{ start: number, seconds: number }}
  */
 function findLoop(video) {
-  const filter = `fps=${FPS},crop=${CROP.width}:${CROP.height},scale=${SMALL}:${SMALL},format=gray`;
+  const filter = `fps=${SEARCH_FPS},crop=${CROP.width}:${CROP.height},scale=${SMALL}:${SMALL},format=gray`;
   const bytes = ffmpeg('-i', video, '-vf', filter, '-f', 'rawvideo', '-');
   const size = SMALL * SMALL;
   const count = bytes.length / size;
@@ -85,17 +86,18 @@ function findLoop(video) {
     for (let i = 0; i < size; i++) sum += ((bytes[a * size + i] ?? 0) - (bytes[b * size + i] ?? 0)) ** 2;
     return sum;
   };
-  const edge = EDGE_SECONDS * FPS;
+  const edge = EDGE_SECONDS * SEARCH_FPS;
   let best = { start: 0, seconds: LOOP_SECONDS.shortest, difference: Infinity };
   for (let start = edge; start < count - edge; start++)
     for (
-      let end = start + LOOP_SECONDS.shortest * FPS;
-      end <= Math.min(start + LOOP_SECONDS.longest * FPS, count - edge);
+      let end = start + LOOP_SECONDS.shortest * SEARCH_FPS;
+      end <= Math.min(start + LOOP_SECONDS.longest * SEARCH_FPS, count - edge);
       end++
     ) {
       // Alike in place is not enough: two pictures earlier they have to be alike too, so that they move alike.
       const now = difference(start, end) + difference(start - 2, end - 2);
-      if (now < best.difference) best = { start: start / FPS, seconds: (end - start) / FPS, difference: now };
+      if (now < best.difference)
+        best = { start: start / SEARCH_FPS, seconds: (end - start) / SEARCH_FPS, difference: now };
     }
   return best;
 }
