@@ -22,11 +22,11 @@ from export.runtime import default_guidance, open_model, plan
 from export.runtime import sample as sample_exported
 from training.checkpoint import load_model
 from training.data.made import made_dancer
-from training.diffusion import alphas_cumprod, ddim_steps
+from training.diffusion.noise import noise
+from training.diffusion.sampler import condition, decode, pad_to_stride, sample
+from training.diffusion.schedule import alphas_cumprod, ddim_steps
 from training.music.features import features
 from training.music.recipe import AudioRecipe
-from training.noise import noise
-from training.sampler import condition, decode, pad_to_stride, sample
 
 SEED = 1
 T = TypeVar("T")

@@ -17,13 +17,14 @@ import tyro
 from export.runtime import open_model, react
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
-from training.data.floor import put_on_floor
 from training.data.sources import read_duets
-from training.filmstrip import filmstrip
+from training.data.step_tempo import duet_tempo
+from training.evaluation.report.filmstrip import filmstrip
+from training.motion.floor import put_on_floor
 from training.music.demo import Options as Song
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
-from training.music.tempo import CYCLE, Tempo, duet_tempo
+from training.music.tempo import CYCLE, Tempo
 
 
 @dataclass(frozen=True)

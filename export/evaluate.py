@@ -27,19 +27,19 @@ from export.manifest import quality_rules
 from export.runtime import Exported, default_guidance, open_model, plan, sample
 from training.checkpoint import load_model, read_config
 from training.config import STREAMS
-from training.dancer import Dancer, Motions, Settings, Solver, Trial
+from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
-from training.diffusion import alphas_cumprod, ddim_steps
-from training.elsewhere import read_leaders
-from training.evaluate import evaluate, generate
-from training.music.pairing import Variant, build_music_bank
-from training.noise import noise
-from training.report import write_report
-from training.sampler import Model, condition, decode, pad_to_stride
-from training.sampler import sample as torch_sample
-from training.skeleton import body_height
-from training.train_hfsq import reconstruct
+from training.diffusion.noise import noise
+from training.diffusion.sampler import Model, condition, decode, pad_to_stride
+from training.diffusion.sampler import sample as torch_sample
+from training.diffusion.schedule import alphas_cumprod, ddim_steps
+from training.evaluation.evaluate import evaluate, generate
+from training.evaluation.out_of_distribution import read_leaders
+from training.evaluation.protocol import Dancer, Motions, Settings, Solver, Trial
+from training.evaluation.report.report import write_report
+from training.hfsq.reconstruct import reconstruct
+from training.motion.skeleton import body_height
 
 ROOT = Path(__file__).parents[1]
 
@@ -75,7 +75,7 @@ class Options:
     videos: bool = True
     """True and generated couple of every trial side by side, WebM."""
     plain: Path | None = None
-    """Checkpoint of a plain model (see training/plain.py), for a row beside the others."""
+    """Checkpoint of a plain model (see training/evaluation/no_latent_baseline.py), for a row beside the others."""
     solve: bool = False
     """Measure the solved skeleton too, without and with foot lock, by the page's own code under Node."""
     settings: Settings = field(default_factory=Settings)

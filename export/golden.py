@@ -10,9 +10,9 @@ import torch
 
 from training.config import STREAMS
 from training.data.made import made_dancer
-from training.diffusion import alphas_cumprod, ddim_steps
-from training.noise import noise
-from training.sampler import Model, condition, decode, sample
+from training.diffusion.noise import noise
+from training.diffusion.sampler import Model, condition, decode, sample
+from training.diffusion.schedule import alphas_cumprod, ddim_steps
 
 
 @dataclass(frozen=True)

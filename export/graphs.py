@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from torch import Tensor, nn
 
-from training.frame import smoothed_heading
-from training.sampler import Model, classifier_free_guidance, danced
-from training.streams import leader_features
+from training.diffusion.sampler import Model, classifier_free_guidance, danced
+from training.motion.leader_frame import smoothed_heading
+from training.motion.streams import leader_features
 
 
 class Condition(nn.Module):

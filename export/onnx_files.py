@@ -16,7 +16,7 @@ from torch.export import Dim
 
 from export.graphs import Condition, Decode, SamplerStep
 from training.config import STREAMS, STRIDE
-from training.sampler import Model
+from training.diffusion.sampler import Model
 
 OPSET = 20
 

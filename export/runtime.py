@@ -12,9 +12,9 @@ import numpy as np
 import onnxruntime as ort
 import torch
 
-from training.diffusion import Step, ddim_steps
-from training.noise import noise
-from training.sampler import gather, pad_to_stride, partition, scatter
+from training.diffusion.noise import noise
+from training.diffusion.sampler import gather, pad_to_stride, partition, scatter
+from training.diffusion.schedule import Step, ddim_steps
 
 OnStep = Callable[[int, np.ndarray, np.ndarray], None]
 

@@ -16,8 +16,8 @@ from export.manifest import Card
 from export.write import write_model
 from training.config import ConditionConfig, DenoiserConfig, DiffusionConfig, FrameConfig, HfsqConfig
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.sampler import Model
 from training.hfsq.autoencoder import Autoencoder
-from training.sampler import Model
 
 # Two full blocks and a half: 600 frames.
 SCENE = Scene(frames=600, steps=4, silent_from=420)

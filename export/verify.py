@@ -16,7 +16,7 @@ from rich.table import Table
 from export.golden import Scene, reference
 from export.runtime import Exported, open_model, plan, sample
 from training.checkpoint import load_model
-from training.sampler import Model
+from training.diffusion.sampler import Model
 
 TOLERANCE = 1e-4
 BLOCKS = (1, 2, 9, 75)

@@ -21,8 +21,8 @@ from training.config import (
     write_json,
 )
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.sampler import Model
 from training.hfsq.autoencoder import Autoencoder
-from training.sampler import Model
 
 
 def save_weights(folder: Path, name: str, module: nn.Module, config: dict) -> None:

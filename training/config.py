@@ -91,8 +91,8 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music: float = 0.0  # default guidance weight of the music, see `classifier_free_guidance`
-    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion, see `training.sharpen`
-    foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root, see `training.grip`
+    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion
+    foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 
 
 @dataclass(frozen=True)

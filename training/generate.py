@@ -14,13 +14,13 @@ import tyro
 
 from training.checkpoint import load_model, read_config
 from training.config import STREAMS
-from training.data.bvh import read_bvh
+from training.data.bvh.reader import read_bvh
 from training.data.sources import read_duets
-from training.filmstrip import filmstrip
+from training.diffusion.sampler import react
+from training.evaluation.report.filmstrip import filmstrip
+from training.motion.skeleton import body_height
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
-from training.sampler import react
-from training.skeleton import body_height
 
 
 @dataclass(frozen=True)

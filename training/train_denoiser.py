@@ -16,12 +16,17 @@ from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
 from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
 from training.data.sources import read_split
+from training.denoiser.condition import condition_keeps
 from training.denoiser.denoiser import Denoiser
-from training.diffusion import add_noise, alphas_cumprod, training_times
+from training.denoiser.losses import motion_loss, noise_weights, simple_loss
+from training.denoiser.windows import Augmentation, Batch, Windows, augmented_clips, improvised_clips
+from training.diffusion.sampler import Model, react
+from training.diffusion.schedule import add_noise, alphas_cumprod, training_times
+from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.improvised import improvised_clips
 from training.loop import (
     Average,
     Budget,
@@ -32,13 +37,8 @@ from training.loop import (
     load_state,
     save_state,
 )
-from training.losses import motion_loss, noise_weights, simple_loss
-from training.metrics import mean_report, quick_report
-from training.music.pairing import MusicBank, build_music_bank, variants
-from training.sampler import Model, react
-from training.skeleton import as_body, body_height
-from training.stage2_data import Augmentation, Batch, Windows, augmented_clips
-from training.streams import from_streams
+from training.motion.skeleton import as_body, body_height
+from training.motion.streams import from_streams
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Options:
     music_cache: Path | None = None
     """Folder in which music features are kept between runs."""
     solo: Path | None = None
-    """npz archive of solo dances, of which pairs are improvised (see training/improvised.py)."""
+    """npz archive of solo dances, of which pairs are improvised (see training/data/solo_pairs.py)."""
     solo_prefixes: tuple[str, ...] = ("indian", "modern")
     """Names that these solos begin with; the others are kept for leaders from elsewhere."""
     improvised: int = 1
@@ -90,19 +90,6 @@ class Options:
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
-def condition_keeps(n: int, layers: int, model: DenoiserConfig) -> tuple[Tensor, Tensor]:
-    """keep_leader, keep_music (N, R): which residual layer hears which condition (paper 3.5).
-
-    Each layer is dropped by itself; now and then all layers together (the unconditional branch of Eq. 9),
-    or the leader alone. Music alone is dropped where it enters, as silence.
-    """
-    rates = model.condition
-    keep = torch.rand(n, layers) >= rates.drop_layer
-    keep &= torch.rand(n, 1) >= rates.drop_all
-    keep_leader = keep & (torch.rand(n, 1) >= rates.drop_leader)
-    return keep_leader.float(), keep.float()
-
-
 class Stage2(nn.Module):
     """Eq. 7 as a module, so that distributed training sees one forward pass. The HFSQ inside is frozen."""
 
@@ -130,7 +117,7 @@ class Stage2(nn.Module):
         )
         margin = (memory.shape[1] - block) // 2
         keep_leader, keep_music = (
-            k.to(truth.device) for k in condition_keeps(n, layers, self.denoiser.config)
+            k.to(truth.device) for k in condition_keeps(n, layers, self.denoiser.config.condition)
         )
         predicted = self.denoiser(
             noisy,

@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 import torch
 
-from training import average, plain, train_denoiser, train_hfsq
+from training import train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
+from training.checkpoints import average
 from training.config import (
     ConditionConfig,
     DenoiserConfig,
@@ -27,9 +28,10 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
-from training.improvised import improvised_clips
+from training.denoiser.windows import Augmentation, Clip, improvised_clips
+from training.evaluation import no_latent_baseline
+from training.hfsq.reconstruct import reconstruct
 from training.loop import fast_precision
-from training.stage2_data import Augmentation, Clip
 
 HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
 DENOISER = DenoiserConfig(width=16, depths=(1, 1), mlp=2, condition=ConditionConfig(depth=1))
@@ -186,10 +188,12 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
 
 
 def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) -> None:
-    plain.main(plain.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",)))
+    no_latent_baseline.main(
+        no_latent_baseline.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",))
+    )
     hfsq, frame = load_hfsq(tmp_path)
     duet = made_duet(200, 1)
-    made = train_hfsq.reconstruct(hfsq, duet, frame)
+    made = reconstruct(hfsq, duet, frame)
     lost = made - duet.reactor
     assert np.abs(lost[..., [0, 2]]).max() < 2e-3, "bones of the made dancers are constant but for rounding"
     assert np.abs(lost - lost[:, :1]).max() < 2e-3, "as a whole they may be lifted out of the floor"

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from training.data.duet import FPS, Duet, Solo
-from training.data.floor import put_on_floor
-from training.skeleton import JOINTS
+from training.motion.floor import put_on_floor
+from training.motion.skeleton import JOINTS
 
 
 def _check_header(archive: np.lib.npyio.NpzFile, path: Path) -> None:

@@ -7,7 +7,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from training.config import STRIDE, ConditionConfig
-from training.streams import LEADER_FEATURES
+from training.motion.streams import LEADER_FEATURES
 
 MUSIC_FEATURES = 54
 
@@ -110,3 +110,15 @@ class ConditionEncoder(nn.Module):
         if not self.config.music:
             heard = torch.zeros_like(heard)
         return torch.cat([led, heard], dim=1).transpose(1, 2)
+
+
+def condition_keeps(n: int, layers: int, rates: ConditionConfig) -> tuple[Tensor, Tensor]:
+    """keep_leader, keep_music (N, R): which residual layer hears which condition (paper 3.5).
+
+    Each layer is dropped by itself; now and then all layers together (the unconditional branch of Eq. 9),
+    or the leader alone. Music alone is dropped where it enters, as silence.
+    """
+    keep = torch.rand(n, layers) >= rates.drop_layer
+    keep &= torch.rand(n, 1) >= rates.drop_all
+    keep_leader = keep & (torch.rand(n, 1) >= rates.drop_leader)
+    return keep_leader.float(), keep.float()

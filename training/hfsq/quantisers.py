@@ -7,7 +7,7 @@ from torch import Tensor, nn
 from vector_quantize_pytorch import ResidualVQ
 
 from training.config import STRIDE, HfsqConfig
-from training.streams import STREAM_WIDTHS
+from training.motion.streams import STREAM_WIDTHS
 
 
 def fsq(e: Tensor, levels: Tensor) -> Tensor:

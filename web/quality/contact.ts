@@ -4,7 +4,7 @@ import { percentile } from '../motion/statistics';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
-/** Foot skating over the whole dance: `foot_skating` of training/metrics/contact.py. */
+/** Foot skating over the whole dance: `foot_skating` of training/evaluation/metrics/contact.py. */
 export interface FootSkating {
   /** Share of contact samples (a joint of a foot in a frame) that slide. */
   readonly skateShare: number;
@@ -21,7 +21,7 @@ export interface Contacts {
 }
 
 /**
- * Which joints of the feet stand, and how fast they move over the floor: `contacts` of training/metrics/contact.py.
+ * Which joints of the feet stand, and how fast they move over the floor: `contacts` of training/evaluation/metrics/contact.py.
  * Measured against each joint's own low heights, so neither the floor nor the foot's thickness matters.
  */
 export function contacts(
