@@ -14,11 +14,12 @@ from pathlib import Path
 import numpy as np
 import tyro
 
-from export.runtime import open_model, react
+from export.runtime import open_model
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
 from training.data.sources import read_duets
 from training.data.step_tempo import duet_tempo
+from training.diffusion.react import Request, react
 from training.evaluation.report.filmstrip import filmstrip
 from training.motion.floor import put_on_floor
 from training.music.demo import Options as Song
@@ -64,10 +65,10 @@ def main(options: Options) -> None:
     recipe = AudioRecipe()
     music = features(load_audio(options.song, recipe), recipe)[: len(partner)]
     model = open_model(options.model, threads=1)
-    leader = put_on_floor(react(model, partner, music, options.leader_seed, role=1.0))
+    leader = put_on_floor(react(model, Request(partner, music, options.leader_seed, role=1.0)))
     middle = leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
     leader = (leader - middle).astype(np.float32)
-    reactor = react(model, leader, music, options.seed)
+    reactor = react(model, Request(leader, music, options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
     np.savez(options.out / "motions.npz", leader=leader, reactor=reactor)
     for start in range(0, int(options.seconds) - 8, 8):

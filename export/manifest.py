@@ -7,7 +7,7 @@ from datetime import date
 from typing import Any
 
 from training.config import FPS, STREAMS, STRIDE, per_layer, to_json
-from training.diffusion.sampler import Model
+from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
 from training.evaluation.metrics import beats, contact, penetration, seams
 from training.motion import foot_contact
@@ -112,7 +112,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "max": 3,
             "step": 0.05,
             "default": dict(zip(names, per_layer(diffusion.guidance, len(names)), strict=True)),
-            "music": {"min": 0, "max": 4, "default": diffusion.music},
+            "music": {"min": 0, "max": 4, "default": diffusion.music_guidance},
         },
         "noise": {"algorithm": "philox4x32-10"},
         "decode": {"sharpen": diffusion.sharpen, "foot_contact": diffusion.foot_contact},

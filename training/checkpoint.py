@@ -21,7 +21,7 @@ from training.config import (
     write_json,
 )
 from training.denoiser.denoiser import Denoiser
-from training.diffusion.sampler import Model
+from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
 
 
@@ -79,7 +79,8 @@ def load_model(folder: Path) -> Model:
     """Both stages of a checkpoint, ready to sample."""
     hfsq, frame = load_hfsq(folder)
     denoiser, diffusion = load_denoiser(folder, hfsq)
-    return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion)
+    height = read_card(folder)["reference_height"]
+    return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion, height)
 
 
 def read_card(folder: Path) -> dict:

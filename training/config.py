@@ -90,7 +90,7 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
-    music: float = 0.0  # default guidance weight of the music, see `classifier_free_guidance`
+    music_guidance: float = 0.0  # default guidance weight m of the music, see `classifier_free_guidance`
     sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 

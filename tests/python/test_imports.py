@@ -16,8 +16,8 @@ ALLOWED = {
     "music": set(),
     "data": {"motion", "music"},
     "hfsq": {"motion", "data"},
-    "denoiser": {"motion", "data", "hfsq"},
-    "diffusion": {"motion", "hfsq", "denoiser"},
+    "denoiser": {"motion", "music", "data", "hfsq"},
+    "diffusion": {"motion", "music", "hfsq", "denoiser"},
     "evaluation": {"motion", "music", "data", "hfsq", "checkpoint"},
     "checkpoints": {"checkpoint"},
 }

@@ -74,7 +74,7 @@ def trained(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
-def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> None:
+def test_both_stages_leave_a_checkpoint_a_log_and_curves(trained: Path) -> None:
     hfsq, frame = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)
     assert diffusion.steps == 2
@@ -84,7 +84,7 @@ def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> N
     assert (denoiser.condition.leader.std != 1).any()
     for stage in ("hfsq", "denoiser"):
         assert (trained / stage / "curves.png").stat().st_size > 1000
-        rows = [json.loads(line) for line in (trained / stage / "journal.jsonl").read_text().splitlines()]
+        rows = [json.loads(line) for line in (trained / stage / "log.jsonl").read_text().splitlines()]
         assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
         assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
 
@@ -103,9 +103,7 @@ def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: 
     train_hfsq.main(stage1(data, tmp_path))
     state = torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)
     train_hfsq.main(stage1(data, tmp_path, steps=4, evaluate_every=4, resume=True))
-    rows = [
-        json.loads(line)["step"] for line in (tmp_path / "hfsq" / "journal.jsonl").read_text().splitlines()
-    ]
+    rows = [json.loads(line)["step"] for line in (tmp_path / "hfsq" / "log.jsonl").read_text().splitlines()]
     assert state["step"] == 2
     assert max(rows) == 4
     assert rows.count(1) == 1, "resumed, not begun again"
@@ -151,7 +149,9 @@ def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Pat
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(train_denoiser, "improvised_clips", watch)
-        train_denoiser.main(stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz"))
+        train_denoiser.main(
+            stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
+        )
     assert seen == [(["indian_1"], 1)]
     with_solos, _ = load_denoiser(tmp_path, load_hfsq(trained)[0])
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])
@@ -261,8 +261,8 @@ def test_two_processes_train_together(data: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr[-2000:]
     hfsq, _ = load_hfsq(tmp_path)
     load_denoiser(tmp_path, hfsq)
-    rows = (tmp_path / "denoiser" / "journal.jsonl").read_text().splitlines()
-    assert [json.loads(r)["step"] for r in rows].count(1) == 1, "one process writes the journal"
+    rows = (tmp_path / "denoiser" / "log.jsonl").read_text().splitlines()
+    assert [json.loads(r)["step"] for r in rows].count(1) == 1, "one process writes the log"
 
 
 def test_configs_survive_json_and_refuse_unknown_keys() -> None:

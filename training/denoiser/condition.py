@@ -8,8 +8,7 @@ from torch import Tensor, nn
 
 from training.config import STRIDE, ConditionConfig
 from training.motion.streams import LEADER_FEATURES
-
-MUSIC_FEATURES = 54
+from training.music.recipe import MUSIC_FEATURES
 
 
 class MaskedBlock(nn.Module):

@@ -16,10 +16,10 @@ from training.data.augment import mirror, mirror_motion, scale_leader, swap_role
 from training.data.duet import Duet, Solo
 from training.data.music_pairing import MusicBank
 from training.data.solo_pairs import AHEAD, improvised
-from training.denoiser.condition import MUSIC_FEATURES
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
 from training.motion.streams import leader_features, to_streams
+from training.music.recipe import MUSIC_FEATURES
 
 SOLO_YAW = 20.0  # degrees; the frame of reference of a soloist is turned by up to this much
 

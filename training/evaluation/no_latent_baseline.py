@@ -3,8 +3,9 @@
 What a hierarchy of latents is worth is measured against it. There is nothing to learn in its first stage; this
 writes the stage-1 checkpoint that `training.train_denoiser` asks for, with the statistics of the training duets.
 
-python -m training.evaluation.no_latent_baseline --data ../shared/data/cmu_salsa/duets.npz --out runs/plain
-python -m training.train_denoiser --data ... --out runs/plain --denoiser.depths 6 --loss.layers 1.0
+python -m training.evaluation.no_latent_baseline --data my-duets --val duo_3 --test duo_5 --out runs/plain
+python -m training.train_denoiser --data my-duets --val duo_3 --test duo_5 --out runs/plain \\
+    --denoiser.depths 6 --loss.layers 1.0
 """
 
 from __future__ import annotations
@@ -31,8 +32,9 @@ SHORTEST = 240  # frames
 class Options:
     data: Path
     out: Path
-    val: tuple[str, ...] = ("salsa_03",)
-    test: tuple[str, ...] = ("salsa_05", "salsa_11")
+    val: tuple[str, ...]
+    test: tuple[str, ...] = ()
+    """Names of duets that choose a model, and of those that are kept for the end: no statistics are taken of either."""
 
 
 def main(options: Options) -> None:

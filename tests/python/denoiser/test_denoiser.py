@@ -12,7 +12,7 @@ from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder, condition_keeps
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.transformer import ChannelDropout, phase
-from training.diffusion.sampler import Model
+from training.diffusion.model import Model
 
 BLOCK = 60
 

@@ -12,19 +12,12 @@ from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.data.made import made_dancer
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.blocks import Block, gather, overlapping, partition, scatter
+from training.diffusion.guidance import clamp_to_range, classifier_free_guidance
+from training.diffusion.model import Model
 from training.diffusion.noise import noise
-from training.diffusion.sampler import (
-    Block,
-    Model,
-    clamp_to_range,
-    classifier_free_guidance,
-    gather,
-    overlapping,
-    partition,
-    react,
-    sample,
-    scatter,
-)
+from training.diffusion.react import Request, react
+from training.diffusion.sampler import sample
 from training.diffusion.schedule import alphas_cumprod, ddim_steps
 
 
@@ -146,10 +139,10 @@ def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
 def test_without_a_song_music_guidance_has_nothing_to_say(model: Model) -> None:
     leader = made_dancer(100, 1)
     music = np.random.default_rng(0).normal(size=(100, 54)).astype(np.float32)
-    silent = react(model, leader, None, seed=1, music_guidance=3.0)
-    assert np.allclose(silent, react(model, leader, None, seed=1, music_guidance=0.0), atol=1e-5)
-    loud = react(model, leader, music, seed=1, music_guidance=3.0)
-    assert not np.allclose(loud, react(model, leader, music, seed=1, music_guidance=0.0), atol=1e-3)
+    silent = react(model, Request(leader, None, 1, music_guidance=3.0))
+    assert np.allclose(silent, react(model, Request(leader, None, 1, music_guidance=0.0)), atol=1e-5)
+    loud = react(model, Request(leader, music, 1, music_guidance=3.0))
+    assert not np.allclose(loud, react(model, Request(leader, music, 1, music_guidance=0.0)), atol=1e-3)
 
 
 def test_what_guidance_gives_is_clamped_to_the_range_of_the_quantiser(model: Model) -> None:
@@ -202,10 +195,10 @@ def test_stitching_is_a_way_to_sample_too(model: Model) -> None:
 def test_a_reaction_is_as_long_as_its_leader(model: Model, frames: int) -> None:
     leader = made_dancer(frames, 1)
     music = np.random.default_rng(0).normal(size=(frames // 2 + 1, 54))
-    made = react(model, leader, music, seed=1)
+    made = react(model, Request(leader, music, 1))
     assert made.shape == leader.shape
     assert np.isfinite(made).all()
-    assert not np.allclose(made, react(model, leader, music, seed=2))
-    assert np.array_equal(made, react(model, leader, music, seed=1))
-    assert not np.allclose(made, react(model, leader, None, seed=1)), "silence is not music"
-    assert not np.allclose(made, react(model, leader, music, seed=1, role=1.0)), "the role is heard"
+    assert not np.allclose(made, react(model, Request(leader, music, 2)))
+    assert np.array_equal(made, react(model, Request(leader, music, 1)))
+    assert not np.allclose(made, react(model, Request(leader, None, 1))), "silence is not music"
+    assert not np.allclose(made, react(model, Request(leader, music, 1, role=1.0))), "the role is heard"

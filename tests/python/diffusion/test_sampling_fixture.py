@@ -1,6 +1,6 @@
 """The block and sampler arithmetic that both languages share.
 
-`python -m tests.python.test_sampling_fixture` rewrites tests/fixtures/sampling.json, which the TypeScript tests read.
+`python -m tests.python.diffusion.test_sampling_fixture` rewrites tests/fixtures/sampling.json, which the TypeScript tests read.
 """
 
 import json
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from training.config import DiffusionConfig
-from training.diffusion.sampler import partition
+from training.diffusion.blocks import partition
 from training.diffusion.schedule import alphas_cumprod, ddim_steps
 
 GOLDEN = Path(__file__).parents[2] / "fixtures" / "sampling.json"

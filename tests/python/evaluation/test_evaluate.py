@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from export.evaluate import Options, exported_dancer, main, paired_trials, solve_with_node
+from export.evaluate import Options, dancer_of, main, paired_trials, solve_with_node
 from export.runtime import open_model
 from tests.python.support.real_data import real_file
 from training.data.duet import Duet, Solo
@@ -310,7 +310,7 @@ def test_the_shipped_numbers_are_those_of_the_shipped_graphs():
     options = Options(data=real_file("cmu_salsa/duets.npz"), out=Path())
     trial = paired_trials(options, read_split(options.data, options.val, options.test))[0]
     sampling = stored["sampling"]
-    dancer = exported_dancer(model, sampling["steps"], tuple(sampling["guidance"]), sampling["music"])
+    dancer = dancer_of(model, sampling["steps"], tuple(sampling["guidance"]), sampling["music"])
     made = dancer(trial.duet.leader, trial.music, stored["seeds"][0])
     known = stored["rows"]["generated"]["trials"][trial.duet.name]["seeds"][0]
     again = duet_metrics(trial.duet.leader, trial.duet.reactor, made, trial.music)

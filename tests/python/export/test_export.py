@@ -11,9 +11,10 @@ import pytest
 
 from export import tiny
 from export.golden import reference
-from export.runtime import open_model, react
+from export.runtime import open_model
 from export.verify import TOLERANCE, verify
 from training.data.made import made_dancer
+from training.diffusion.react import Request, react
 
 FIXTURE = Path(__file__).parents[2] / "fixtures" / "tiny-model"
 SHIPPED = Path(__file__).parents[3] / "web" / "public" / "models"
@@ -83,10 +84,10 @@ def test_golden_tensors_say_something() -> None:
 def test_react_takes_any_length_and_silence() -> None:
     model = open_model(FIXTURE, threads=1)
     leader = made_dancer(333, 4)
-    made = react(model, leader, None, seed=1)
+    made = react(model, Request(leader, None, 1))
     assert made.shape == leader.shape
     assert np.isfinite(made).all()
-    louder = react(model, leader, np.ones((100, 54)), seed=1)
+    louder = react(model, Request(leader, np.ones((100, 54)), 1))
     assert not np.allclose(made, louder)
 
 
