@@ -9,12 +9,10 @@ from torch import Tensor
 
 from training.config import DenoiserLossConfig
 from training.hfsq.losses import energy_loss, kinematic
+from training.motion.heading import hip_heading
 from training.motion.skeleton import FEET
 
 CONTACT_STEP = 0.01  # metres per frame; a foot that moves less stands (EDGE)
-LEFT_HIP, RIGHT_HIP = 1, 2
-
-
 SNR_CAP = 5.0  # Hang et al. 2023, Efficient Diffusion Training via Min-SNR Weighting Strategy
 
 
@@ -39,25 +37,15 @@ def simple_loss(
     return (layers * layers.new_tensor(weights)).sum(), layers.detach()
 
 
-def facing(joints: Tensor) -> Tensor:
-    """Horizontal direction the hips face, (..., 2), length at most 1 and smooth where hips are vertical.
-
-    joints: (..., 22, 3).
-    """
-    across = joints[..., LEFT_HIP, :] - joints[..., RIGHT_HIP, :]
-    direction = torch.stack([-across[..., 2], across[..., 0]], dim=-1)
-    return direction / (direction.square().sum(-1, keepdim=True) + 1e-6).sqrt()
-
-
 def orientation_loss(leader: Tensor, truth: Tensor, predicted: Tensor) -> Tensor:
     """Squared difference of (cos, sin) of the yaw between the partners; finite when they face each other.
 
     The relative yaw of unit directions l and r is the rotation (l . r, l x r), so no angle is ever divided.
     """
-    led = facing(leader)
+    led = hip_heading(leader)
 
     def relative(joints: Tensor) -> Tensor:
-        own = facing(joints)
+        own = hip_heading(joints)
         dot = (led * own).sum(-1)
         cross = led[..., 0] * own[..., 1] - led[..., 1] * own[..., 0]
         return torch.stack([dot, cross], dim=-1)

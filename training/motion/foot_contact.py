@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from training.config import FPS
 from training.motion.skeleton import FEET
 
 PERCENTILE = 5.0  # of a foot joint's own heights: where it rests
@@ -11,7 +12,7 @@ HEIGHT = 0.03  # metres above that
 VERTICAL_SPEED = 0.1  # m/s, a planted foot is slower
 
 
-def contacts(motion: np.ndarray, fps: float = 30.0) -> tuple[np.ndarray, np.ndarray]:
+def contacts(motion: np.ndarray, fps: float = FPS) -> tuple[np.ndarray, np.ndarray]:
     """Contact (T-1, 4) bool and horizontal speed (T-1, 4) m/s of both ankles and feet of (T, 22, 3), y up.
 
     Measured against each joint's own 5th percentile of height, so neither the floor nor the foot's

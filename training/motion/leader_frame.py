@@ -10,18 +10,8 @@ import torch
 from torch import Tensor
 
 from training.config import FrameConfig
+from training.motion.heading import hip_heading
 from training.motion.smoothing import gaussian_mean
-
-LEFT_HIP, RIGHT_HIP = 1, 2
-
-
-def hip_facing(leader: Tensor) -> Tensor:
-    """(T, 2): unit x and z of the direction the hips of (T, 22, 3) face."""
-    across = leader[:, LEFT_HIP] - leader[:, RIGHT_HIP]
-    facing = torch.stack([-across[:, 2], across[:, 0]], dim=-1)  # across x up
-    # Not a sum with a small number: the ONNX exporter takes that for zero and leaves it out.
-    return facing / facing.square().sum(-1, keepdim=True).clamp_min(1e-8).sqrt()
-
 
 # WebGPU's own atan, sin and cos may be wrong by half a thousandth, which is half a millimetre at arm's length:
 # these are as exact everywhere as sums and products are.
@@ -55,7 +45,7 @@ def smoothed_heading(leader: Tensor, config: FrameConfig) -> Tensor:
     evenly: an average of directions would pass through zero and flip. At the ends the Gaussian weighs the
     frames that exist.
     """
-    facing = hip_facing(leader)
+    facing = hip_heading(leader)
     before, after = facing[:-1], facing[1:]
     cross = before[:, 1] * after[:, 0] - before[:, 0] * after[:, 1]
     dot = (before * after).sum(-1)
@@ -66,17 +56,3 @@ def smoothed_heading(leader: Tensor, config: FrameConfig) -> Tensor:
     c, s = cosine_sine(ahead)
     x, z = facing.unbind(-1)
     return torch.stack([c * x + s * z, c * z - s * x], dim=-1)
-
-
-def into_frame(vectors: Tensor, heading: Tensor) -> Tensor:
-    """Turn world vectors (T, N, 3) so that the heading (T, 2) becomes +z."""
-    hx, hz = heading[:, None, 0], heading[:, None, 1]
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    return torch.stack([x * hz - z * hx, y, x * hx + z * hz], dim=-1)
-
-
-def out_of_frame(vectors: Tensor, heading: Tensor) -> Tensor:
-    """Inverse of `into_frame`."""
-    hx, hz = heading[:, None, 0], heading[:, None, 1]
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    return torch.stack([x * hz + z * hx, y, z * hz - x * hx], dim=-1)

@@ -34,7 +34,7 @@ JOINTS: tuple[str, ...] = (
 )
 PARENTS: tuple[int, ...] = (-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19)
 LOWER: tuple[int, ...] = (1, 2, 4, 5, 7, 8, 10, 11)
-UPPER: tuple[int, ...] = tuple(j for j in range(1, 22) if j not in LOWER)
+UPPER: tuple[int, ...] = tuple(j for j in range(1, len(JOINTS)) if j not in LOWER)
 FEET: tuple[int, ...] = (7, 8, 10, 11)
 TOES: tuple[int, int] = (10, 11)
 LOWEST_TOE = 0.02  # metres above the floor; a planted toe rests at about 0.03 (training/motion/floor.py)

@@ -10,16 +10,16 @@ import torch
 from torch import Tensor
 
 from training.config import FPS
-from training.motion.leader_frame import into_frame, out_of_frame
-from training.motion.skeleton import LOWER, UPPER, as_body
+from training.motion.heading import into_frame, out_of_frame
+from training.motion.skeleton import JOINTS, LOWER, UPPER, as_body
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
 STREAM_WIDTHS: tuple[int, int, int] = (UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH)
-LEADER_FEATURES = 21 * 3 + 1 + 3 + 1
+LEADER_FEATURES = 3 * (len(JOINTS) - 1) + 1 + 3 + 1  # pose, root height, root velocity, turn rate
 
 # Joint order in which upper and lower streams concatenate (after the root), and the way back to SMPL order.
 _ORDER = (0, *UPPER, *LOWER)
-_INVERSE = tuple(_ORDER.index(j) for j in range(22))
+_INVERSE = tuple(_ORDER.index(j) for j in range(len(JOINTS)))
 
 
 def to_streams(leader: Tensor, reactor: Tensor, heading: Tensor) -> tuple[Tensor, Tensor, Tensor]:
@@ -42,7 +42,9 @@ def to_streams(leader: Tensor, reactor: Tensor, heading: Tensor) -> tuple[Tensor
 
 def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor, heading: Tensor) -> Tensor:
     """Inverse of `to_streams`: reactor joints (T, 22, 3) in the world."""
-    ordered = torch.cat([torch.zeros_like(upper[:, :3]), upper, lower], dim=-1).unflatten(-1, (22, 3))
+    ordered = torch.cat([torch.zeros_like(upper[:, :3]), upper, lower], dim=-1).unflatten(
+        -1, (len(JOINTS), 3)
+    )
     local = ordered.index_select(1, torch.tensor(_INVERSE, device=upper.device))
     floor = torch.stack([placement[:, 0], torch.zeros_like(placement[:, 0]), placement[:, 2]], dim=-1)
     shift = out_of_frame(floor[:, None], heading)

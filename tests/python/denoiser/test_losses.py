@@ -11,12 +11,12 @@ from training.data.made import made_dancer
 from training.denoiser.losses import (
     contact_loss,
     energy_loss,
-    facing,
     motion_loss,
     noise_weights,
     orientation_loss,
     simple_loss,
 )
+from training.motion.heading import hip_heading
 
 
 def turned(motion: torch.Tensor, angle: float) -> torch.Tensor:
@@ -48,7 +48,7 @@ def test_orientation_loss_survives_hips_on_top_of_each_other() -> None:
     (gradient,) = torch.autograd.grad(loss, leader)
     assert loss.isfinite()
     assert gradient.isfinite().all()
-    assert facing(torch.zeros(22, 3)).isfinite().all()
+    assert hip_heading(torch.zeros(22, 3)).isfinite().all()
 
 
 def test_orientation_is_relative_to_the_leader() -> None:

@@ -1,6 +1,7 @@
 """The block and sampler arithmetic that both languages share.
 
-`python -m tests.python.diffusion.test_sampling_fixture` rewrites tests/fixtures/sampling.json, which the TypeScript tests read.
+`python -m tests.python.diffusion.test_sampling_fixture` rewrites tests/fixtures/sampling.json, which the
+TypeScript tests read.
 """
 
 import json

@@ -8,7 +8,8 @@ import torch
 
 from training.config import FrameConfig
 from training.data.made import made_duet
-from training.motion.leader_frame import arctangent, cosine_sine, into_frame, out_of_frame, smoothed_heading
+from training.motion.heading import into_frame, out_of_frame
+from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
 from training.motion.skeleton import PARENTS, TOES, as_body, constant_bones
 from training.motion.streams import (
     LEADER_FEATURES,

@@ -1,7 +1,7 @@
 """The motion beats both languages find.
 
-`python -m tests.python.test_motion_beats_fixture` rewrites tests/fixtures/motion-beats.json, which the TypeScript
-tests read.
+`python -m tests.python.evaluation.metrics.test_motion_beats_fixture` rewrites
+tests/fixtures/motion-beats.json, which the TypeScript tests read.
 """
 
 import json

@@ -1,7 +1,7 @@
 """The measures that both languages take of a dance.
 
-`python -m tests.python.test_quality_fixture` rewrites tests/fixtures/quality.npz (a duet) and quality.json (its
-numbers), which the TypeScript tests read.
+`python -m tests.python.evaluation.metrics.test_quality_fixture` rewrites tests/fixtures/quality.npz
+(a duet) and quality.json (its numbers), which the TypeScript tests read.
 """
 
 import json
