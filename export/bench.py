@@ -55,8 +55,8 @@ def made_song(frames: int, recipe: AudioRecipe) -> np.ndarray:
     return (0.1 * chord + 0.5 * click + 0.01 * random.normal(size=len(time))).astype(np.float32)
 
 
-class Watch:
-    """Seconds of named stages; of several repeats, the fastest, which other programs disturbed least."""
+class Stopwatch:
+    """Seconds of named stages; of several repeats the fastest."""
 
     def __init__(self) -> None:
         self.seconds: Seconds = {}
@@ -72,7 +72,7 @@ class Watch:
 @torch.no_grad()
 def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Options) -> Seconds:
     """Seconds of condition, steps and decode with the model's default guidance."""
-    watch, sampling = Watch(), model.sampling
+    watch, sampling = Stopwatch(), model.sampling
     padded = torch.from_numpy(pad_to_stride(leader))
     features, valid = music_of_length(music, len(padded))
     steps, guidance = ddim_steps(sampling.alpha_bar, options.steps), for_all_streams(sampling.guidance)
@@ -92,7 +92,7 @@ def main(options: Options) -> None:
     leader, song = made_dancer(options.frames, SEED).astype(np.float32), made_song(options.frames, recipe)
     np.savez(options.out / "scene.npz", leader=leader, song=song)
 
-    watch = Watch()
+    watch = Stopwatch()
     for _ in range(2):  # the first call compiles
         music = watch("features", lambda: features(song, recipe))
     native = run(open_model(options.model, options.threads), leader, music, options)

@@ -39,16 +39,16 @@ class Options:
     skip: int = 1
     """Eight-counts of the duet to leave out at its start, where the couple walks in."""
     leader_seed: int = 4
-    """One whose leader needs no shift against the song."""
+    """Of the generated leader; this one steps on the beat without a shift."""
     seed: int = 1206
     """Of the first reaction; demo.json names it to the page."""
 
 
-def on_the_beat(motion: np.ndarray, danced: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
+def on_the_beat(motion: np.ndarray, dance: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
     """(T, 22, 3) at the song's tempo, cut so that its cycles begin where the song's do."""
-    factor = song.bpm / danced.bpm
+    factor = song.bpm / dance.bpm
     warped = warp_motion(motion, factor)
-    first = danced.first / warp_factor(len(motion), factor)
+    first = dance.first / warp_factor(len(motion), factor)
     cycle = CYCLE * 60 / song.bpm
     cut = (first - song.first) % cycle
     start = round((cut + skip * cycle) * FPS)

@@ -6,8 +6,8 @@
         --elsewhere ../shared/data/cmu_solo/solo.npz --solve \
         --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2
 
-With a model folder the graphs dance, and the checkpoint, if given, adds the rows of its autoencoder; with a
-checkpoint alone PyTorch dances.
+With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
+checkpoint alone it is measured under PyTorch.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Options:
     guidance: tuple[float, float] | None = None
     """Coarse and fine, Eq. 9's s; the model's default when left out."""
     music_guidance: float | None = None
-    """How much of what the song changes is added; the model's default when left out."""
+    """Guidance weight of the music; the model's default when left out."""
     threads: int = 0
     pictures: bool = True
     """Spectra and filmstrips."""

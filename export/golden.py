@@ -1,4 +1,4 @@
-"""Golden tensors: one whole sampling of the PyTorch model, for every other runtime to be held against."""
+"""Golden tensors: one whole sampling of the PyTorch model, for every other runtime to be compared with."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PyTorch modules to ONNX files, and what the manifest says of them."""
+"""PyTorch modules to ONNX files, and their entries in the manifest."""
 
 from __future__ import annotations
 

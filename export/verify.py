@@ -1,4 +1,4 @@
-"""Hold an exported model against PyTorch: every graph, every step of a full sampling, several lengths.
+"""Compare an exported model with PyTorch: every graph, every step of a full sampling, several lengths.
 
 python -m export.verify --checkpoint training/checkpoints/salsa --model web/public/models/salsa
 """

@@ -1,6 +1,4 @@
-"""Checkpoints: weights as safetensors beside their JSON config; loading is strict and rebuilds the module
-from it.
-"""
+"""Checkpoints: weights as safetensors beside their JSON config; loading is strict and rebuilds the module from it."""
 
 from __future__ import annotations
 

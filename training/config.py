@@ -75,7 +75,7 @@ class DenoiserConfig:
     heads: int = 4
     mlp: int = 3
     depths: tuple[int, ...] = (4, 2)  # transformer layers of the coarse trunk and of the fine head
-    slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, logits lost per latent frame of distance
+    alibi_slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, per latent frame (`alibi_bias`)
     block: int = 60  # latent frames
     dropout: float = 0.15  # of channels, for a whole window at once
     condition: ConditionConfig = field(default_factory=ConditionConfig)

@@ -1,6 +1,6 @@
-"""Dance with a checkpoint: the reactor for a leader and a song.
+"""Generate the reactor for a leader and a song with a checkpoint.
 
-python -m training.generate --checkpoint training/checkpoints/salsa --leader lead.bvh --song song.mp3 --out
+python -m training.generate --checkpoint training/checkpoints/salsa --leader leader.bvh --song song.mp3 --out
 runs/dance
 """
 
@@ -37,7 +37,7 @@ class Options:
     """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
     fine: float | None = None
     music_guidance: float | None = None
-    """How much of what the song changes is added; the model's default when left out."""
+    """Guidance weight of the music; the model's default when left out."""
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
 

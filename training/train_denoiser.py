@@ -21,17 +21,19 @@ from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
 from training.data.sources import read_split
 from training.data.splits import Split
-from training.denoiser.condition import condition_keeps
+from training.denoiser.clips import Augmentation, Clip, augmented_clips, solo_pair_clips
+from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import motion_loss, noise_weights, simple_loss
-from training.denoiser.windows import Augmentation, Batch, Clip, Windows, augmented_clips, improvised_clips
+from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
 from training.diffusion.react import Request, react
-from training.diffusion.schedule import add_noise, alphas_cumprod, training_times
+from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
 from training.loop import LoopOptions, Run, launch
-from training.motion.skeleton import as_body, body_height
+from training.motion.rigid_body import rigid_body
+from training.motion.skeleton import body_height
 from training.motion.streams import from_streams
 
 
@@ -123,7 +125,7 @@ def solo_clips(options: Options, hfsq: Autoencoder, frame: FrameConfig) -> list[
     if options.solo is None:
         return []
     solos, condition = read_solo(options.solo, options.solo_prefixes), options.denoiser.condition
-    return improvised_clips(solos, options.solo_copies, hfsq, frame, condition, options.seed)
+    return solo_pair_clips(solos, options.solo_copies, hfsq, frame, condition, options.seed)
 
 
 def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> Denoiser:
@@ -166,7 +168,7 @@ class Stage2(nn.Module):
     def forward(self, batch: Batch) -> tuple[Tensor, dict[str, Tensor]]:
         truth = batch.latents
         n, block, layers, _ = truth.shape
-        times = training_times(n, self.steps, truth.device)
+        times = stratified_timesteps(n, self.steps, truth.device)
         signal = self.alpha_bar[times]
         noisy = add_noise(truth, torch.randn_like(truth), signal)
         memory = self.denoiser.condition(
@@ -174,7 +176,7 @@ class Stage2(nn.Module):
         )
         margin = (memory.shape[1] - block) // 2
         keep_leader, keep_music = (
-            k.to(truth.device) for k in condition_keeps(n, layers, self.denoiser.config.condition)
+            k.to(truth.device) for k in condition_dropout(n, layers, self.denoiser.config.condition)
         )
         predicted = self.denoiser(
             noisy,
@@ -188,7 +190,7 @@ class Stage2(nn.Module):
             truth, predicted, batch.valid, self.loss.layers, noise_weights(signal, self.loss.snr)
         )
         parts = {f"simple/{r}": value for r, value in enumerate(by_layer)}
-        # training_times is sorted: the first windows have the least noise. Short windows have no motion to
+        # stratified_timesteps is sorted: the first windows have the least noise. Short windows have no motion to
         # compare.
         clean = [i for i in range(self.loss.windows) if batch.valid[i].min() > 0]
         if clean:
@@ -210,7 +212,7 @@ class Stage2(nn.Module):
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
         # Feet may sink here: were they held up, sinking them would be the cheapest way to keep them still.
-        return as_body(joints.unflatten(0, (len(rows), -1)), floor=False)
+        return rigid_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 
 def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 2) -> dict[str, float]:

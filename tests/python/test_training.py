@@ -28,7 +28,7 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
-from training.denoiser.windows import Augmentation, Clip, improvised_clips
+from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop import fast_precision
@@ -137,7 +137,7 @@ def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_
         train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
 
 
-def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
+def test_pairs_made_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
     for name in ("hfsq.json", "hfsq.safetensors"):
         (tmp_path / name).write_bytes((trained / name).read_bytes())
     np.savez(tmp_path / "solo.npz", indian_1=made_dancer(300, 1), martial_1=made_dancer(300, 2))
@@ -145,10 +145,10 @@ def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Pat
 
     def watch(solos: list[Solo], copies: int, *rest: Any) -> list[Clip]:
         seen.append(([solo.name for solo in solos], copies))
-        return improvised_clips(solos, copies, *rest)
+        return solo_pair_clips(solos, copies, *rest)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(train_denoiser, "improvised_clips", watch)
+        patch.setattr(train_denoiser, "solo_pair_clips", watch)
         train_denoiser.main(
             stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
         )
@@ -187,7 +187,7 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
         average.main(average.Options((trained, tmp_path / "stranger"), tmp_path / "x"))
 
 
-def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) -> None:
+def test_the_no_latent_baseline_is_lossless_and_trains(data: Path, tmp_path: Path) -> None:
     no_latent_baseline.main(
         no_latent_baseline.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",))
     )

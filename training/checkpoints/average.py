@@ -1,4 +1,4 @@
-"""Average denoisers that were tuned from one checkpoint: often better than each of them (model soups, ICML 2022).
+"""Average the weights of denoisers that were tuned from one checkpoint (model soups, Wortsman et al. 2022).
 
     python -m training.checkpoints.average --checkpoints runs/a runs/b --out runs/average
 

@@ -133,7 +133,7 @@ def _digest(*parts: bytes) -> str:
 
 
 def _code() -> bytes:
-    """What the code that makes the music says, so that a change to it empties the cache."""
+    """Source text of the code that makes the music, so that a change to it empties the cache."""
     modules = (features_module, stretch, synth)
     return "\n".join(Path(str(module.__file__)).read_text() for module in modules).encode()
 

@@ -1,7 +1,7 @@
-"""Pairs made from solo dances, for leaders from elsewhere.
+"""Pairs made from solo dances, so that a model meets leaders of other dances.
 
-Nobody answered a soloist. What an improviser would do is to mirror them: the soloist and their image in an
-upright mirror that stays at arm's length ahead of them make a pair that never meets, whatever is danced.
+The reactor of a pair is the soloist's reflection in an upright plane that stays at arm's length ahead of the soloist,
+so the two never overlap, whatever is danced.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from training.data.duet import Duet, Solo
 from training.motion.leader_frame import smoothed_heading
 from training.motion.skeleton import MIRROR
 
-# The mirror follows the soloist slowly, or the image would be thrown about by every turn and step.
-HEADING = FrameConfig(sigma=30.0, radius=90)  # frames
-FOLLOWING = 20.0  # frames, standard deviation
-AHEAD = (0.38, 0.5)  # metres from the root to the mirror
+# The plane follows the soloist slowly, or every turn and step would throw the reflection about.
+PLANE_HEADING = FrameConfig(sigma=30.0, radius=90)  # frames
+PLACE_SIGMA_FRAMES = 20.0
+AHEAD = (0.38, 0.5)  # metres from the root to the plane, least and most
 
 
-def improvised(solo: Solo, ahead: float) -> Duet:
-    """The soloist as leader and their image in a mirror `ahead` metres before them as reactor."""
+def solo_pair(solo: Solo, ahead: float) -> Duet:
+    """The soloist as leader and their reflection in a plane `ahead` metres before them as reactor."""
     motion = solo.motion
-    heading = smoothed_heading(torch.from_numpy(motion), HEADING).numpy()
+    heading = smoothed_heading(torch.from_numpy(motion), PLANE_HEADING).numpy()
     normal = np.stack([heading[:, 0], np.zeros(len(heading)), heading[:, 1]], axis=1)
-    place = gaussian_filter1d(motion[:, 0] * [1, 0, 1], FOLLOWING, axis=0, mode="nearest")
-    mirror = (place + normal * ahead)[:, None]
-    before = ((motion - mirror) * normal[:, None]).sum(axis=-1, keepdims=True)
-    image = (motion - 2 * before * normal[:, None])[:, list(MIRROR)]
-    return Duet(solo.name, motion, image.astype(np.float32))
+    place = gaussian_filter1d(motion[:, 0] * [1, 0, 1], PLACE_SIGMA_FRAMES, axis=0, mode="nearest")
+    plane = (place + normal * ahead)[:, None]
+    depth = ((motion - plane) * normal[:, None]).sum(axis=-1, keepdims=True)
+    reflection = (motion - 2 * depth * normal[:, None])[:, list(MIRROR)]
+    return Duet(solo.name, motion, reflection.astype(np.float32))

@@ -1,6 +1,4 @@
-"""Losses of stage 2: Eq. 6 on latents, and Eq. 7's kinematic, contact and orientation terms on decoded
-motion.
-"""
+"""Losses of stage 2: Eq. 6 on latents, and Eq. 7's kinematic, contact and orientation terms on decoded motion."""
 
 from __future__ import annotations
 
@@ -42,12 +40,12 @@ def orientation_loss(leader: Tensor, truth: Tensor, predicted: Tensor) -> Tensor
 
     The relative yaw of unit directions l and r is the rotation (l . r, l x r), so no angle is ever divided.
     """
-    led = hip_heading(leader)
+    leader_heading = hip_heading(leader)
 
     def relative(joints: Tensor) -> Tensor:
-        own = hip_heading(joints)
-        dot = (led * own).sum(-1)
-        cross = led[..., 0] * own[..., 1] - led[..., 1] * own[..., 0]
+        heading = hip_heading(joints)
+        dot = (leader_heading * heading).sum(-1)
+        cross = leader_heading[..., 0] * heading[..., 1] - leader_heading[..., 1] * heading[..., 0]
         return torch.stack([dot, cross], dim=-1)
 
     return (relative(truth) - relative(predicted)).square().sum(-1).mean(1)

@@ -6,7 +6,7 @@ from torch import Tensor
 
 from training.config import DiffusionConfig, FrameConfig
 from training.hfsq.autoencoder import Autoencoder
-from training.motion.foot_contact_correction import grip
+from training.motion.foot_contact_correction import correct_foot_contact
 from training.motion.leader_frame import smoothed_heading
 from training.motion.sharpen import sharpen
 from training.motion.streams import reactor_motion
@@ -28,4 +28,4 @@ def decode(
     raw = hfsq.denormalise(latents) * layers[:, None]
     streams = [sharpen(stream[0], config.sharpen) for stream in hfsq.decode(raw[None])]
     motion = reactor_motion(streams, leader, smoothed_heading(leader, frame))
-    return grip(motion, config.foot_contact)
+    return correct_foot_contact(motion, config.foot_contact)

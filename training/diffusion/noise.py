@@ -1,5 +1,4 @@
-"""Counter-based noise: a latent frame gets the same numbers whichever block, order or length it is computed
-in.
+"""Counter-based noise: a latent frame gets the same numbers whichever block, order or length it is computed in.
 
 The generator is Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
 Nothing is carried from one number to the next, so the browser and Python agree from a seed alone, a longer

@@ -18,7 +18,7 @@ from training.music.recipe import MUSIC_FEATURES
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """What is danced. None takes the model's default."""
+    """What a model is asked for. None takes the model's default."""
 
     leader: np.ndarray  # (T, 22, 3) metres, 30 fps, of any size
     music: np.ndarray | None = None  # (T', F) features; silence where they end, and without them
@@ -28,7 +28,7 @@ class Request:
     music_guidance: float | None = None  # m of `classifier_free_guidance`
     role: float = 0.0  # 0 dances the reactor, 1 the leader, to a partner in the leader's place
     layers: int | None = None  # residual layers that are decoded, from the coarse one up; None decodes all
-    condition_leader: np.ndarray | None = None  # (T, 22, 3), heard by the condition in the leader's place
+    condition_leader: np.ndarray | None = None  # (T, 22, 3), given to the condition in the leader's place
 
 
 @torch.no_grad()
@@ -37,9 +37,9 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     sampling = model.sampling
     height = sampling.reference_height
     leader = at_height(request.leader, height)
-    heard = leader if request.condition_leader is None else at_height(request.condition_leader, height)
+    conditioning = leader if request.condition_leader is None else at_height(request.condition_leader, height)
     music, music_valid = music_of_length(request.music, len(leader))
-    memory = model.condition(heard, music, music_valid, torch.tensor([float(request.role)]))
+    memory = model.condition(conditioning, music, music_valid, torch.tensor([float(request.role)]))
 
     default = sampling.guidance
     guidance = default if request.guidance is None else tuple(per_layer(request.guidance, sampling.layers))

@@ -55,7 +55,9 @@ def ddim_steps(alpha_bar: np.ndarray, count: int) -> list[Step]:
     return steps
 
 
-def training_times(n: int, steps: int, device: torch.device) -> Tensor:
-    """(N,) timesteps, one drawn from each of n equal slices, so that every batch covers all noise levels."""
+def stratified_timesteps(n: int, steps: int, device: torch.device) -> Tensor:
+    """(N,) timesteps in rising order, one drawn from each of n equal slices, so that every batch covers all noise
+    levels; after the low-discrepancy sampler of Kingma et al. 2021 (Variational Diffusion Models).
+    """
     slices = (torch.arange(n, device=device) + torch.rand(n, device=device)) / n
     return (slices * steps).long().clamp_max(steps - 1)

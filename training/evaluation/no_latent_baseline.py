@@ -1,4 +1,4 @@
-"""The plain model: diffusion on joint positions, four frames to a token, without HFSQ.
+"""The no-latent baseline: diffusion on joint positions, four frames to a token, without HFSQ.
 
 What a hierarchy of latents is worth is measured against it. There is nothing to learn in its first stage; this
 writes the stage-1 checkpoint that `training.train_denoiser` asks for, with the statistics of the training duets.

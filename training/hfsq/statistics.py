@@ -1,4 +1,4 @@
-"""What the autoencoder keeps of its training clips: means and deviations of streams and latents, bins in use."""
+"""Statistics of training clips: mean and deviation of streams and latents, and the FSQ bins in use."""
 
 from __future__ import annotations
 
@@ -33,9 +33,7 @@ def encode_clip(model: Autoencoder, clip: Clip) -> Tensor:
 
 @torch.no_grad()
 def bins_used(model: Autoencoder, clips: list[Clip]) -> list[float]:
-    """Share of FSQ bins that training data uses, per residual layer (fault: an undivided residual rounds to
-    zero).
-    """
+    """Share of FSQ bins that training data uses, per residual layer: little where the residual rounds to zero."""
     latents = torch.cat([encode_clip(model, clip)[0] for clip in clips[: len(clips) // 4 + 1]])
     levels = torch.tensor(model.config.levels * (model.latent_width // len(model.config.levels)))
     shares = []

@@ -22,6 +22,8 @@ Streams = tuple[Tensor, Tensor, Tensor]
 
 @dataclass(frozen=True)
 class Clip:
+    """One augmented dance as streams."""
+
     streams: Streams  # (T, c) each
     slow: Streams  # the same below the masking's cutoff
 
@@ -30,6 +32,7 @@ class Clip:
 
 
 def streams_of(duet: Duet, frame: FrameConfig) -> Streams:
+    """The reactor in the leader's smoothed frame."""
     leader, reactor = torch.from_numpy(duet.leader), torch.from_numpy(duet.reactor)
     return to_streams(leader, reactor, smoothed_heading(leader, frame))
 

@@ -1,4 +1,4 @@
-"""The frame of reference that leader features and reactor streams share: the leader's smoothed heading.
+"""The frame of reference of leader features and reactor streams: the leader's heading, smoothed over time.
 
 Everything is a function of the whole clip, so it does not depend on where windows or blocks begin. Rotating
 or moving the couple in the world changes nothing inside the frame.

@@ -1,4 +1,4 @@
-"""What diffusion in few steps leaves too quiet, made as loud as in a dance: the quick end of the motion."""
+"""Amplifies the high frequencies of a decoded motion, which sampling in few steps leaves too weak."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from torch import Tensor
 
 from training.config import FPS
 
-CUT = 6.0  # Hz
-RADIUS = 7  # frames
+CUT_HZ = 6.0
+RADIUS_FRAMES = 7  # of the filter
 
 
 def _high_pass() -> np.ndarray:
-    taps = -np.asarray(firwin(2 * RADIUS + 1, CUT, fs=FPS))
-    taps[RADIUS] += 1
+    taps = -np.asarray(firwin(2 * RADIUS_FRAMES + 1, CUT_HZ, fs=FPS))
+    taps[RADIUS_FRAMES] += 1
     return taps.astype(np.float32)
 
 
@@ -24,12 +24,12 @@ HIGH_PASS = _high_pass()
 
 
 def sharpen(values: Tensor, gain: float) -> Tensor:
-    """(T, c) at 30 frames a second, T at least 2, plus `gain` times what is quicker than 6 Hz.
+    """(T, c) at 30 frames a second, T at least 2, plus `gain` times its part above 6 Hz.
 
-    The phase stays, and a straight movement is left as it is; at both ends the motion is taken to go on straight.
+    The filter has no phase shift and leaves a constant velocity as it is; both ends are extrapolated linearly.
     """
     kernel = torch.from_numpy(HIGH_PASS).to(values)[None, None]
-    steps = torch.arange(1, RADIUS + 1).to(values)[:, None]
+    steps = torch.arange(1, RADIUS_FRAMES + 1).to(values)[:, None]
     before = values[:1] + steps.flip(0) * (values[:1] - values[1:2])
     after = values[-1:] + steps * (values[-1:] - values[-2:-1])
     rows = torch.cat([before, values, after]).T[:, None]

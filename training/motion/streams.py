@@ -1,6 +1,4 @@
-"""The paper's asymmetric representation (3.1): what the model sees of the leader, and the reactor as three
-streams.
-"""
+"""The paper's asymmetric representation (3.1): features of the leader, and the reactor as three streams."""
 
 from __future__ import annotations
 
@@ -11,7 +9,8 @@ from torch import Tensor
 
 from training.config import FPS
 from training.motion.heading import into_frame, out_of_frame
-from training.motion.skeleton import JOINTS, LOWER, UPPER, as_body
+from training.motion.rigid_body import rigid_body
+from training.motion.skeleton import JOINTS, LOWER, UPPER
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
 STREAM_WIDTHS: tuple[int, int, int] = (UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH)
@@ -56,13 +55,13 @@ def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor
 
 
 def reactor_motion(streams: Sequence[Tensor], leader: Tensor, heading: Tensor) -> Tensor:
-    """What is danced: decoded streams (T, c) as a body (T, 22, 3) in the world."""
+    """Decoded streams (T, c) as a body (T, 22, 3) with rigid bones, in the world."""
     upper, lower, placement = streams
-    return as_body(from_streams(upper, lower, placement, leader, heading)[None])[0]
+    return rigid_body(from_streams(upper, lower, placement, leader, heading)[None])[0]
 
 
 def leader_features(leader: Tensor, heading: Tensor) -> Tensor:
-    """What the condition encoder sees of the leader, (T, 68), all in the leader's smoothed frame.
+    """The leader's features (T, 68) for the condition encoder, all in the leader's smoothed frame.
 
     Pose relative to the root (63), root height (1), root velocity in m/s (3), turn rate of the frame in
     rad/s (1).

@@ -1,4 +1,4 @@
-"""BVH files in several dialects, units and axes, against joints placed independently."""
+"""BVH files in several conventions, units and axes, against joints placed independently."""
 
 from __future__ import annotations
 
@@ -34,9 +34,11 @@ def test_own_names_come_back_joint_for_joint(
     np.testing.assert_allclose(read_bvh(path).motion, put_on_floor(dancer.positions), atol=1e-4)
 
 
-@pytest.mark.parametrize("dialect", [name for name in NAMES if name != "own"])
-def test_dialects_find_the_limbs_and_fill_the_trunk(tmp_path: Path, dancer: MadeDancer, dialect: str) -> None:
-    read = read_bvh(write_bvh(tmp_path / "a.bvh", dancer, dialect, unit=0.01)).motion
+@pytest.mark.parametrize("convention", [name for name in NAMES if name != "own"])
+def test_other_naming_conventions_find_the_limbs_and_fill_the_trunk(
+    tmp_path: Path, dancer: MadeDancer, convention: str
+) -> None:
+    read = read_bvh(write_bvh(tmp_path / "a.bvh", dancer, convention, unit=0.01)).motion
     truth = put_on_floor(dancer.positions)
     np.testing.assert_allclose(read[:, LIMBS], truth[:, LIMBS], atol=1e-4)
     # The trunk is made by rule along the back; it lies on the line from hips to neck, in order.

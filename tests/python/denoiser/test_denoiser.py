@@ -9,7 +9,7 @@ import torch
 
 from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
-from training.denoiser.condition import ConditionEncoder, condition_keeps
+from training.denoiser.condition import ConditionEncoder, condition_dropout
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.transformer import ChannelDropout, phase
 from training.diffusion.model import Model
@@ -35,7 +35,7 @@ def given(model: Model, n: int = 2) -> dict[str, torch.Tensor]:
     }
 
 
-def test_causal_inside_the_block(model: Model) -> None:
+def test_attention_is_causal_inside_a_block(model: Model) -> None:
     """The output at token i does not depend on x at j > i, and does on x at j <= i."""
     inputs = given(model, 1)
     inputs["x"].requires_grad_(True)
@@ -47,7 +47,7 @@ def test_causal_inside_the_block(model: Model) -> None:
     assert (by_token[: at + 1] > 0).all()
 
 
-def test_anticipation_sees_the_leader_ahead_but_not_the_padding(model: Model) -> None:
+def test_cross_attention_sees_the_leader_ahead_but_not_the_padding(model: Model) -> None:
     inputs = given(model, 1)
     inputs["valid"][0, 50:] = 0
     inputs["memory"].requires_grad_(True)
@@ -104,12 +104,12 @@ def test_music_keeps_its_timing(model: Model) -> None:
     assert change > 0.01
 
 
-def test_independent_condition_dropout() -> None:
+def test_each_layer_loses_its_conditions_by_its_own_draw() -> None:
     """Bernoulli per layer, shared by streams; now and then all layers, now and then the leader alone."""
     torch.manual_seed(0)
     n = 20000
     rates = ConditionConfig()
-    keep_leader, keep_music = condition_keeps(n, 2, rates)
+    keep_leader, keep_music = condition_dropout(n, 2, rates)
     kept = keep_music.bool()
     expected = (1 - rates.drop_layer) * (1 - rates.drop_all)
     for layer in range(2):

@@ -10,7 +10,8 @@ import torch
 
 from training.config import STRIDE, ConditionConfig, FrameConfig, HfsqConfig
 from training.data.made import made_duet
-from training.denoiser.windows import Clip, Windows, make_clip
+from training.denoiser.clips import Clip, make_clip
+from training.denoiser.windows import Windows
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
 from training.motion.streams import from_streams, to_streams
@@ -63,7 +64,7 @@ def test_the_leader_comes_early_or_late_while_music_and_reactor_stay(clip: Clip)
     assert shifts.count(0) > 20, "half of the windows are left as they are"
 
 
-def test_a_blurred_leader_shows_where_and_not_when(clip: Clip) -> None:
+def test_a_blurred_leader_keeps_its_place_and_loses_its_timing(clip: Clip) -> None:
     batch = windows(clip, replace(PLAIN, blurred=1.0)).batch(5, short=0.0, song_ends=0.0)
     for n in range(5):
         start = int(batch.music[n, STRIDE * MARGIN, 0])

@@ -106,7 +106,7 @@ def test_decoded_losses_fade_with_noise() -> None:
         assert float(none[name]) == 0
 
 
-def test_energy_loss_speaks_of_pace_not_of_place() -> None:
+def test_energy_loss_depends_on_speed_not_on_place() -> None:
     truth = dancer(1, 60)
     assert float(energy_loss(truth, truth)) == 0
     assert float(energy_loss(truth, truth + 1)) == pytest.approx(0, abs=1e-6)
@@ -115,7 +115,7 @@ def test_energy_loss_speaks_of_pace_not_of_place() -> None:
     assert float(energy_loss(9 * truth, 4.5 * truth)) == pytest.approx(3 * np.log(2) ** 2, rel=0.1)
 
 
-def test_noise_weights_turn_from_noise_to_detail() -> None:
+def test_noise_weights_grow_with_the_signal_to_noise_ratio() -> None:
     signal = torch.linspace(0.01, 0.99, 50)
     assert torch.equal(noise_weights(signal, 0.0), torch.ones(50))
     weights = noise_weights(signal, 0.5)

@@ -119,7 +119,7 @@ def test_guidance_is_equation_9_clamped(model: Model) -> None:
             assert torch.allclose(guided[:, :, layer, channels], expected, atol=1e-5)
 
 
-def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
+def test_music_guidance_adds_the_difference_that_the_song_makes(model: Model) -> None:
     torch.manual_seed(0)
     d = model.denoiser
     width = d.config.width
@@ -136,7 +136,7 @@ def test_music_guidance_adds_what_the_song_changes(model: Model) -> None:
     assert not torch.allclose(guided, with_song.clamp(d.lowest, d.highest), atol=1e-2)
 
 
-def test_without_a_song_music_guidance_has_nothing_to_say(model: Model) -> None:
+def test_without_a_song_music_guidance_changes_nothing(model: Model) -> None:
     leader = made_dancer(100, 1)
     music = np.random.default_rng(0).normal(size=(100, 54)).astype(np.float32)
     silent = react(model, Request(leader, None, 1, music_guidance=3.0))
@@ -167,7 +167,7 @@ def test_a_range_without_ends_clamps_nothing() -> None:
     assert torch.equal(clamp_to_range(d, x0), x0)
 
 
-def test_plain_blocks_do_not_know_each_other_and_alternating_ones_do(model: Model) -> None:
+def test_plain_blocks_are_independent_and_alternating_ones_are_not(model: Model) -> None:
     """One block alone equals the same block of the whole song; alternating phase couples neighbours on purpose."""
     whole = run(model, 150, flat(0.5, 0.5), alternating_phase=False)
     alone = run(model, 60, flat(0.5, 0.5), start=60, alternating_phase=False)

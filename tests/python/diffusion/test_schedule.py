@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from training.config import DiffusionConfig
-from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, training_times
+from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
 
 ALPHA_BAR = alphas_cumprod(DiffusionConfig())
 
@@ -59,9 +59,9 @@ def test_forward_process_has_the_stated_moments() -> None:
     assert float(noisy.var()) == pytest.approx(0.7, abs=0.02)
 
 
-def test_training_times_cover_all_noise_levels_in_order() -> None:
+def test_stratified_timesteps_cover_all_noise_levels_in_order() -> None:
     torch.manual_seed(0)
-    times = training_times(64, 1000, torch.device("cpu"))
+    times = stratified_timesteps(64, 1000, torch.device("cpu"))
     assert torch.equal(times, times.sort().values)
     assert ((times * 64 // 1000) - torch.arange(64)).abs().max() <= 1
     assert times.max() <= 999

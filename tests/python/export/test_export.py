@@ -67,13 +67,13 @@ def test_verification_notices_other_weights() -> None:
         verify(tiny.tiny_model(seed=1), FIXTURE, (1,))
 
 
-def test_hot_graph_has_no_shape_arithmetic() -> None:
+def test_the_step_graph_has_no_shape_arithmetic() -> None:
     nodes = onnx.load(FIXTURE / "step.onnx").graph.node
     kinds = {node.op_type for node in nodes}
     assert not kinds & {"Shape", "Where", "NonZero", "GatherND", "Loop", "If"}
 
 
-def test_golden_tensors_say_something() -> None:
+def test_every_golden_tensor_varies() -> None:
     """Every tensor varies; a preview without the fine layer differs from the whole."""
     golden = reference(tiny.tiny_model(), tiny.SCENE)
     for name in ("memory", "initial", "x", "x0", "reactor", "coarse"):
@@ -81,7 +81,7 @@ def test_golden_tensors_say_something() -> None:
     assert np.abs(golden["reactor"] - golden["coarse"]).max() > 1e-3
 
 
-def test_react_takes_any_length_and_silence() -> None:
+def test_react_takes_a_leader_of_any_length_and_no_music() -> None:
     model = open_model(FIXTURE, threads=1)
     leader = made_dancer(333, 4)
     made = react(model, Request(leader, None, 1))

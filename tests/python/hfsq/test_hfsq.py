@@ -145,7 +145,7 @@ def test_normalised_latents_have_unit_variance_and_come_back() -> None:
     ],
     ids=["hfsq", "one-layer", "three-layers", "no-masking", "rvq", "kl"],
 )  # fmt: skip
-def test_every_row_of_the_papers_tables_learns(config: HfsqConfig) -> None:
+def test_every_quantiser_of_the_papers_tables_learns(config: HfsqConfig) -> None:
     """One batch is learnt by heart a little: loss falls and every encoder parameter receives a gradient."""
     torch.manual_seed(0)
     model = Autoencoder(config).train()

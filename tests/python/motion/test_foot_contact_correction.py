@@ -8,10 +8,10 @@ import torch
 from scipy.optimize import minimize
 from torch import Tensor
 
-import training.motion.foot_contact_correction as grip_module
+import training.motion.foot_contact_correction as correction
 from training.config import FPS
 from training.data.made import made_duet
-from training.motion.foot_contact_correction import RETURN, STIFFNESS, grip
+from training.motion.foot_contact_correction import RETURN, STIFFNESS, correct_foot_contact
 from training.motion.skeleton import FEET
 
 FRAMES = 180
@@ -21,7 +21,7 @@ STRENGTH = 0.9
 def standing(frames: int = FRAMES) -> Tensor:
     """A body that stands still, feet at their height of rest."""
     pose = torch.from_numpy(made_duet(30, 1).reactor[:1]).clone()
-    pose[:, list(FEET), 1] = torch.tensor(grip_module.REST)
+    pose[:, list(FEET), 1] = torch.tensor(correction.REST_HEIGHTS)
     return pose.expand(frames, 22, 3).clone()
 
 
@@ -45,60 +45,62 @@ def test_a_planted_foot_that_slides_a_little_stops() -> None:
     motion = slid(0.3, 0.2)
     middle = slice(FRAMES // 2 - 3, FRAMES // 2 + 1)
     assert foot_speed(motion)[middle].mean() == pytest.approx(0.3, rel=1e-3)
-    assert foot_speed(grip(motion, STRENGTH))[middle].mean() < 0.05
+    assert foot_speed(correct_foot_contact(motion, STRENGTH))[middle].mean() < 0.05
 
 
 def test_a_foot_that_is_dragged_on_purpose_goes_on() -> None:
     motion = slid(3.0, 0.5)
     middle = slice(FRAMES // 2 - 5, FRAMES // 2 + 5)
-    assert foot_speed(grip(motion, STRENGTH))[middle].mean() > 0.8 * 3.0
+    assert foot_speed(correct_foot_contact(motion, STRENGTH))[middle].mean() > 0.8 * 3.0
 
 
 def test_a_body_in_the_air_or_at_rest_is_left_alone() -> None:
     high = slid(0.3, 0.5) + torch.tensor([0.0, 0.3, 0.0])
-    assert torch.allclose(grip(high, STRENGTH), high, atol=2e-3)
-    assert torch.allclose(grip(standing(), STRENGTH), standing(), atol=1e-6)
+    assert torch.allclose(correct_foot_contact(high, STRENGTH), high, atol=2e-3)
+    assert torch.allclose(correct_foot_contact(standing(), STRENGTH), standing(), atol=1e-6)
 
 
 def test_a_foot_that_rises_does_not_hold_the_body() -> None:
     motion = slid(0.3, 0.5)
     motion[..., 1] += (torch.arange(FRAMES) % 2 * 0.02)[:, None]  # 0.6 m/s up and down, low all the time
-    assert torch.allclose(grip(motion, STRENGTH), motion, atol=2e-3)
+    assert torch.allclose(correct_foot_contact(motion, STRENGTH), motion, atol=2e-3)
 
 
 def test_only_the_place_on_the_floor_changes_and_the_whole_body_moves() -> None:
     motion = torch.from_numpy(made_duet(150, 5).reactor)
-    shift = grip(motion, STRENGTH) - motion
+    shift = correct_foot_contact(motion, STRENGTH) - motion
     assert shift[..., ::2].abs().max() > 0.005
     assert shift[..., 1].abs().max() == 0
     assert torch.allclose(shift, shift[:, :1].expand_as(shift), atol=1e-5)
 
 
-def test_the_room_has_no_directions() -> None:
+def test_the_correction_turns_with_the_motion() -> None:
     motion = torch.from_numpy(made_duet(150, 5).reactor)
     c, s = np.cos(0.7), np.sin(0.7)
     turn = torch.tensor([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=torch.float32)
     away = torch.tensor([2.0, 0.0, -1.0])
     assert torch.allclose(
-        grip(motion @ turn + away, STRENGTH), grip(motion, STRENGTH) @ turn + away, atol=1e-3
+        correct_foot_contact(motion @ turn + away, STRENGTH),
+        correct_foot_contact(motion, STRENGTH) @ turn + away,
+        atol=1e-3,
     )
 
 
 def test_without_strength_nothing_moves() -> None:
     motion = torch.from_numpy(made_duet(20, 5).reactor)
-    assert torch.equal(grip(motion, 0.0), motion)
+    assert torch.equal(correct_foot_contact(motion, 0.0), motion)
 
 
 @pytest.mark.parametrize("frames", [2, 4, 40])
 def test_short_dances_keep_their_length(frames: int) -> None:
     motion = torch.from_numpy(made_duet(frames, 5).reactor)
-    assert grip(motion, STRENGTH).shape == motion.shape
+    assert correct_foot_contact(motion, STRENGTH).shape == motion.shape
 
 
-def test_the_way_is_the_least_of_what_is_written_down(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_correction_is_the_minimum_of_its_objective(monkeypatch: pytest.MonkeyPatch) -> None:
     """Against a general optimiser, which knows nothing of convolutions and starts where the method ends."""
     motion = torch.from_numpy(made_duet(FRAMES, 5).reactor).double()
-    velocity, planted = (x.numpy() for x in grip_module._held(motion))
+    velocity, planted = (x.numpy() for x in correction._planted_velocity(motion))
 
     def cost(way: np.ndarray) -> float:
         e = way.reshape(2, FRAMES)
@@ -111,10 +113,10 @@ def test_the_way_is_the_least_of_what_is_written_down(monkeypatch: pytest.Monkey
         )
 
     def way_of(rounds: int) -> np.ndarray:
-        monkeypatch.setattr(grip_module, "ROUNDS", rounds)
-        return (grip(motion, STRENGTH) - motion)[:, 0, ::2].T.numpy().ravel()
+        monkeypatch.setattr(correction, "ITERATIONS", rounds)
+        return (correct_foot_contact(motion, STRENGTH) - motion)[:, 0, ::2].T.numpy().ravel()
 
-    still, few, many = cost(np.zeros(2 * FRAMES)), cost(way_of(grip_module.ROUNDS)), cost(way_of(400))
+    still, few, many = cost(np.zeros(2 * FRAMES)), cost(way_of(correction.ITERATIONS)), cost(way_of(400))
     least = minimize(cost, way_of(400), method="L-BFGS-B", options={"maxiter": 30, "maxfun": 20_000}).fun
     assert many - least < 0.01 * (still - least)
     assert few - least < 0.05 * (still - least)

@@ -5,10 +5,10 @@ import pytest
 import torch
 
 from training.config import FPS
-from training.motion.sharpen import RADIUS, sharpen
+from training.motion.sharpen import RADIUS_FRAMES, sharpen
 
 FRAMES = 120
-INNER = slice(RADIUS, FRAMES - RADIUS)
+INNER = slice(RADIUS_FRAMES, FRAMES - RADIUS_FRAMES)
 SECONDS = torch.arange(FRAMES, dtype=torch.float64) / FPS
 
 
@@ -27,11 +27,11 @@ def gain_at(hertz: float, gain: float) -> float:
 @pytest.mark.parametrize(
     ("hertz", "expected"), [(0.5, 1.0), (2.0, 1.0), (3.0, 1.02), (6.0, 1.2), (10.0, 1.4), (14.0, 1.4)]
 )
-def test_only_what_is_quicker_than_6_hz_becomes_louder(hertz: float, expected: float) -> None:
+def test_only_frequencies_above_6_hz_are_amplified(hertz: float, expected: float) -> None:
     assert gain_at(hertz, 0.4) == pytest.approx(expected, abs=0.02)
 
 
-def test_straight_movement_stays_to_the_ends() -> None:
+def test_constant_velocity_stays_to_the_ends() -> None:
     straight = torch.stack([SECONDS * 2.0 + 1.0, -SECONDS, torch.ones(FRAMES, dtype=torch.float64)], dim=1)
     assert torch.allclose(sharpen(straight, 0.7), straight, atol=1e-6)
 

@@ -10,7 +10,8 @@ from training.config import FrameConfig
 from training.data.made import made_duet
 from training.motion.heading import into_frame, out_of_frame
 from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
-from training.motion.skeleton import PARENTS, TOES, as_body, constant_bones
+from training.motion.rigid_body import constant_bones, rigid_body
+from training.motion.skeleton import PARENTS, TOES
 from training.motion.streams import (
     LEADER_FEATURES,
     STREAM_WIDTHS,
@@ -144,18 +145,18 @@ def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
         return motion[:, list(TOES), 1].amin(1)
 
     sunk = (lower(constant_bones(shrunk)) - lower(shrunk)).abs()
-    kept = (lower(as_body(shrunk[None], floor=False)[0]) - lower(shrunk)).abs()
+    kept = (lower(rigid_body(shrunk[None], floor=False)[0]) - lower(shrunk)).abs()
     assert sunk.max() > 0.02
     assert kept.max() < 0.25 * sunk.max()
-    sunk_body = as_body(shrunk[None] - torch.tensor([0.0, 0.3, 0.0]))[0]
+    sunk_body = rigid_body(shrunk[None] - torch.tensor([0.0, 0.3, 0.0]))[0]
     assert lower(sunk_body).min() > 0.015, "nobody stands in the floor"
-    body = as_body(shrunk[None])[0]
+    body = rigid_body(shrunk[None])[0]
     moved = body - constant_bones(shrunk)
     assert moved[..., [0, 2]].abs().max() == 0, "it only rises and sinks"
     assert (moved[..., 1] - moved[:, :1, 1]).abs().max() < 1e-6, "as a whole"
 
 
-def test_own_trigonometry_is_exact_where_it_is_used() -> None:
+def test_arctangent_cosine_and_sine_are_exact_where_they_are_used() -> None:
     x = torch.linspace(-1, 1, 2001)
     assert torch.allclose(arctangent(x), x.atan(), atol=3e-7)
     angle = torch.linspace(-4 * np.pi, 4 * np.pi, 5001)

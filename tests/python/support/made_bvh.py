@@ -84,14 +84,14 @@ class MadeDancer:
 def write_bvh(
     path: Path,
     dancer: MadeDancer,
-    dialect: str,
+    convention: str,
     unit: float,
     z_up: bool = False,
     fps: float = 30,
     without: tuple[str, ...] = (),
 ) -> Path:
-    """Writes a dancer in a dialect's names, without some joints. unit: metres per unit of the file."""
-    names = NAMES[dialect]
+    """Writes a dancer in a convention's names, without some joints. unit: metres per unit of the file."""
+    names = NAMES[convention]
     kept = [j for j, joint in enumerate(JOINTS) if joint not in without]
     order: list[int] = []
 

@@ -54,7 +54,7 @@ _SIDES = ("left", "right")
 class Body:
     """A dancer at 30 fps in the file's unit and axes. joints: (T, 3) each; ankle_turn: (T, 3, 3) world rotations."""
 
-    dialect: str
+    convention: str
     joints: dict[str, np.ndarray]
     back: list[np.ndarray]
     own_trunk: bool
@@ -94,7 +94,7 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 def read_body(file: BvhFile, fps: float | None) -> Body:
     """Names the joints of a file and moves them at 30 fps. Raises ValueError when limbs are missing."""
-    dialect, found, own_trunk = find_joints(file.nodes)
+    convention, found, own_trunk = find_joints(file.nodes)
     places, turns = world_motion(file, FPS, fps)
     joints = {name: places[:, node] for name, node in found.items()}
     back = [places[:, node] for node in back_nodes(file.nodes, found)]
@@ -105,7 +105,7 @@ def read_body(file: BvhFile, fps: float | None) -> Body:
         ]
         if f"{side}_foot" not in joints and ends:
             joints[f"{side}_foot"] = places[:, ends[0]]
-    body = Body(dialect, joints, back, own_trunk, ankle_turn)
+    body = Body(convention, joints, back, own_trunk, ankle_turn)
     for side in _SIDES:
         foot = joints.get(f"{side}_foot")
         # A node that lies on the ankle is no toe.

@@ -43,7 +43,7 @@ _WORDS, _LETTERS = ("left", "right"), ("l", "r")
 
 
 @dataclass(frozen=True)
-class _Dialect:
+class _Convention:
     """How a family of programs names the joints of a limb, `*` for the side, in the order of _LIMBS; names are
     compared in lower case without prefix, namespace and punctuation."""
 
@@ -61,18 +61,18 @@ def _limbs(text: str) -> tuple[tuple[str, ...], ...]:
 
 _HUMAN_IK = _limbs("*upleg, *leg, *foot, *toebase *toe, *arm, *forearm, *hand, *shoulder")
 _BIPED = _limbs("*thigh, *calf, *foot, *toebase *toe0 *toe, *upperarm, *forearm, *hand, *clavicle")
-_DIALECTS: dict[str, _Dialect] = {
-    "Mixamo": _Dialect(r"mixamorig\d*[:_]?", (_WORDS,), _HUMAN_IK),
-    "Character Creator": _Dialect(r"cc_base_", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
-    "Biped": _Dialect(r"(valvebiped[._])?bip\d+[ _-]?", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
-    "SMPL": _Dialect(
+_CONVENTIONS: dict[str, _Convention] = {
+    "Mixamo": _Convention(r"mixamorig\d*[:_]?", (_WORDS,), _HUMAN_IK),
+    "Character Creator": _Convention(r"cc_base_", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
+    "Biped": _Convention(r"(valvebiped[._])?bip\d+[ _-]?", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
+    "SMPL": _Convention(
         "",
         (_WORDS, _LETTERS),
         _limbs("*hip, *knee, *ankle, *foot, *shoulder, *elbow, *wrist, *collar"),
         trunk=("pelvis", "spine1", "spine2", "spine3"),
     ),
-    "CMU / MotionBuilder": _Dialect("", (_WORDS,), _HUMAN_IK),
-    "DAZ": _Dialect(
+    "CMU / MotionBuilder": _Convention("", (_WORDS,), _HUMAN_IK),
+    "DAZ": _Convention(
         "",
         (_LETTERS,),
         _limbs(
@@ -84,29 +84,29 @@ _DIALECTS: dict[str, _Dialect] = {
 }
 
 
-def _plain(name: str, dialect: _Dialect) -> str | None:
-    """The name as it is compared; None where it lacks the dialect's prefix."""
-    if dialect.prefix:
-        prefix = re.match(dialect.prefix, name, re.IGNORECASE)
+def _plain(name: str, convention: _Convention) -> str | None:
+    """The name as it is compared; None where it lacks the convention's prefix."""
+    if convention.prefix:
+        prefix = re.match(convention.prefix, name, re.IGNORECASE)
         if not prefix:
             return None
         name = name[prefix.end() :]
     return re.sub(r"[^a-z0-9]", "", re.sub(r"^.*[:|]", "", name).lower())
 
 
-def _find(nodes: list[Node], dialect: _Dialect, sides: tuple[str, str]) -> dict[str, int]:
+def _find(nodes: list[Node], convention: _Convention, sides: tuple[str, str]) -> dict[str, int]:
     by_name: dict[str, int] = {}
     for index, node in enumerate(nodes):
-        word = None if node.end_site else _plain(node.name, dialect)
+        word = None if node.end_site else _plain(node.name, convention)
         if word is not None:
             by_name.setdefault(word, index)
     wanted = [
         (f"{side}_{limb}", tuple(word.replace("*", sides[k]) for word in words))
-        for limb, words in zip(_LIMBS, dialect.limbs, strict=True)
+        for limb, words in zip(_LIMBS, convention.limbs, strict=True)
         for k, side in enumerate(_WORDS)
     ]
-    wanted += [("neck", dialect.neck), ("head", dialect.head)]
-    wanted += [(joint, (joint,)) for joint in dialect.trunk]
+    wanted += [("neck", convention.neck), ("head", convention.head)]
+    wanted += [(joint, (joint,)) for joint in convention.trunk]
     found: dict[str, int] = {}
     for joint, words in wanted:
         for word in words:
@@ -116,8 +116,8 @@ def _find(nodes: list[Node], dialect: _Dialect, sides: tuple[str, str]) -> dict[
     return found
 
 
-def _score(dialect: _Dialect, found: dict[str, int]) -> int:
-    if not all(joint in found for joint in dialect.trunk):
+def _score(convention: _Convention, found: dict[str, int]) -> int:
+    if not all(joint in found for joint in convention.trunk):
         return 0
     return sum(f"{side}_{limb}" in found for limb in _NEEDED for side in _WORDS) + (
         "neck" in found or "head" in found
@@ -134,10 +134,10 @@ def find_joints(nodes: list[Node]) -> tuple[str, dict[str, int], bool]:
         at = {node.name: index for index, node in enumerate(nodes) if not node.end_site}
         return "own", {joint: at[OWN_NAMES[joint]] for joint in JOINTS}, True
     best_name, best, best_score = "", {}, -1
-    for name, dialect in _DIALECTS.items():
-        for sides in dialect.sides:
-            found = _find(nodes, dialect, sides)
-            if (score := _score(dialect, found)) > best_score:
+    for name, convention in _CONVENTIONS.items():
+        for sides in convention.sides:
+            found = _find(nodes, convention, sides)
+            if (score := _score(convention, found)) > best_score:
                 best_name, best, best_score = name, found, score
     missing = [f"{side} {limb}" for limb in _NEEDED for side in _WORDS if f"{side}_{limb}" not in best]
     if "neck" not in best and "head" not in best:
@@ -146,7 +146,7 @@ def find_joints(nodes: list[Node]) -> tuple[str, dict[str, int], bool]:
         raise ValueError(
             f"no joint was found for {', '.join(missing)}; the file has {', '.join(names[:8])}, ..."
         )
-    return best_name, best, bool(_DIALECTS[best_name].trunk)
+    return best_name, best, bool(_CONVENTIONS[best_name].trunk)
 
 
 def back_nodes(nodes: list[Node], found: dict[str, int]) -> list[int]:
