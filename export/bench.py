@@ -18,15 +18,16 @@ import numpy as np
 import torch
 import tyro
 
-from export.runtime import default_guidance, open_model, plan
-from export.runtime import sample as sample_exported
+from export.runtime import open_model
 from training.checkpoint import load_model
+from training.config import STRIDE
 from training.data.made import made_dancer
-from training.diffusion import alphas_cumprod, ddim_steps
+from training.diffusion.model import ReactionModel, for_all_streams
+from training.diffusion.react import music_of_length, pad_to_stride
+from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.schedule import ddim_steps
 from training.music.features import features
 from training.music.recipe import AudioRecipe
-from training.noise import noise
-from training.sampler import condition, decode, pad_to_stride, sample
 
 SEED = 1
 T = TypeVar("T")
@@ -54,8 +55,8 @@ def made_song(frames: int, recipe: AudioRecipe) -> np.ndarray:
     return (0.1 * chord + 0.5 * click + 0.01 * random.normal(size=len(time))).astype(np.float32)
 
 
-class Watch:
-    """Seconds of named stages; of several repeats, the fastest, which other programs disturbed least."""
+class Stopwatch:
+    """Seconds of named stages; of several repeats the fastest."""
 
     def __init__(self) -> None:
         self.seconds: Seconds = {}
@@ -68,45 +69,19 @@ class Watch:
         return result
 
 
-def inputs(leader: np.ndarray, music: np.ndarray) -> dict[str, np.ndarray]:
-    padded = pad_to_stride(leader)
-    heard = np.zeros((len(padded), music.shape[1]), dtype=np.float32)
-    heard[: len(music)] = music[: len(padded)]
-    valid = (np.arange(len(padded)) < len(music)).astype(np.float32)
-    return {"leader": padded.astype(np.float32), "music": heard, "music_valid": valid}
-
-
-def run_native(options: Options, given: dict[str, np.ndarray]) -> Seconds:
-    """onnxruntime's own CPU build on the graphs that the browser loads."""
-    model, watch = open_model(options.model, options.threads), Watch()
-    steps, guidance = plan(model.manifest, options.steps), default_guidance(model.manifest)
-    louder = model.manifest["guidance"]["music"]["default"]
-    layers = np.ones(len(model.manifest["latent"]["layers"]))
+@torch.no_grad()
+def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Options) -> Seconds:
+    """Seconds of condition, steps and decode with the model's default guidance."""
+    watch, sampling = Stopwatch(), model.sampling
+    padded = torch.from_numpy(pad_to_stride(leader))
+    features, valid = music_of_length(music, len(padded))
+    steps, guidance = ddim_steps(sampling.alpha_bar, options.steps), for_all_streams(sampling.guidance)
+    weight, layers = sampling.music_guidance, torch.ones(sampling.layers)
+    initial = initial_noise(sampling, SEED, len(padded) // STRIDE)
     for _ in range(1 + options.repeats):
-        (memory,) = watch("condition", lambda: model.run("condition", **given, role=np.zeros(1)))
-        latents = watch("steps", lambda m=memory: sample_exported(model, m, SEED, steps, guidance, louder))
-        watch(
-            "decode", lambda x=latents: model.run("decode", latents=x, leader=given["leader"], layers=layers)
-        )
-    return watch.seconds
-
-
-def run_eager(options: Options, given: dict[str, np.ndarray]) -> Seconds:
-    """PyTorch, as the training programs sample."""
-    model, watch = load_model(options.checkpoint), Watch()
-    leader, music, valid = (torch.from_numpy(given[name]) for name in ("leader", "music", "music_valid"))
-    steps = ddim_steps(alphas_cumprod(model.diffusion), options.steps)
-    guidance = torch.tensor(model.diffusion.guidance).expand(3, -1)
-    layers, width = model.denoiser.layers, model.denoiser.latent_width
-
-    def run_steps(memory: torch.Tensor) -> torch.Tensor:
-        initial = torch.from_numpy(noise(SEED, len(memory), layers * width)).unflatten(1, (layers, width))
-        return sample(model, memory, initial, steps, guidance, model.diffusion.music)
-
-    for _ in range(1 + options.repeats):
-        memory = watch("condition", lambda: condition(model, leader, music, valid))
-        latents = watch("steps", lambda m=memory: run_steps(m))
-        watch("decode", lambda x=latents: decode(model, x, leader))
+        memory = watch("condition", lambda: model.condition(padded, features, valid, torch.zeros(1)))
+        latents = watch("steps", lambda m=memory: sample(model, m, initial, steps, guidance, weight))
+        watch("decode", lambda x=latents: model.decode(x, padded, layers))
     return watch.seconds
 
 
@@ -117,11 +92,11 @@ def main(options: Options) -> None:
     leader, song = made_dancer(options.frames, SEED).astype(np.float32), made_song(options.frames, recipe)
     np.savez(options.out / "scene.npz", leader=leader, song=song)
 
-    watch = Watch()
+    watch = Stopwatch()
     for _ in range(2):  # the first call compiles
         music = watch("features", lambda: features(song, recipe))
-    given = inputs(leader, music)
-    native, eager = run_native(options, given), run_eager(options, given)
+    native = run(open_model(options.model, options.threads), leader, music, options)
+    eager = run(load_model(options.checkpoint), leader, music, options)
     rows = [
         {"backend": name, "threads": options.threads, "seconds": {**watch.seconds, **seconds}}
         for name, seconds in (("onnxruntime native", native), ("PyTorch eager", eager))

@@ -14,16 +14,18 @@ from pathlib import Path
 import numpy as np
 import tyro
 
-from export.runtime import open_model, react
+from export.runtime import open_model
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
-from training.data.floor import put_on_floor
 from training.data.sources import read_duets
-from training.filmstrip import filmstrip
+from training.data.step_tempo import duet_tempo
+from training.diffusion.react import Request, react
+from training.evaluation.report.filmstrip import filmstrip
+from training.motion.floor import put_on_floor
 from training.music.demo import Options as Song
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
-from training.music.tempo import CYCLE, Tempo, duet_tempo
+from training.music.tempo import CYCLE, Tempo
 
 
 @dataclass(frozen=True)
@@ -37,16 +39,16 @@ class Options:
     skip: int = 1
     """Eight-counts of the duet to leave out at its start, where the couple walks in."""
     leader_seed: int = 4
-    """One whose leader needs no shift against the song."""
+    """Of the generated leader; this one steps on the beat without a shift."""
     seed: int = 1206
     """Of the first reaction; demo.json names it to the page."""
 
 
-def on_the_beat(motion: np.ndarray, danced: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
+def on_the_beat(motion: np.ndarray, dance: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
     """(T, 22, 3) at the song's tempo, cut so that its cycles begin where the song's do."""
-    factor = song.bpm / danced.bpm
+    factor = song.bpm / dance.bpm
     warped = warp_motion(motion, factor)
-    first = danced.first / warp_factor(len(motion), factor)
+    first = dance.first / warp_factor(len(motion), factor)
     cycle = CYCLE * 60 / song.bpm
     cut = (first - song.first) % cycle
     start = round((cut + skip * cycle) * FPS)
@@ -63,10 +65,10 @@ def main(options: Options) -> None:
     recipe = AudioRecipe()
     music = features(load_audio(options.song, recipe), recipe)[: len(partner)]
     model = open_model(options.model, threads=1)
-    leader = put_on_floor(react(model, partner, music, options.leader_seed, role=1.0))
+    leader = put_on_floor(react(model, Request(partner, music, options.leader_seed, role=1.0)))
     middle = leader[:, 0].mean(axis=0) * np.array([1, 0, 1])
     leader = (leader - middle).astype(np.float32)
-    reactor = react(model, leader, music, options.seed)
+    reactor = react(model, Request(leader, music, options.seed))
     options.out.mkdir(parents=True, exist_ok=True)
     np.savez(options.out / "motions.npz", leader=leader, reactor=reactor)
     for start in range(0, int(options.seconds) - 8, 8):

@@ -1,12 +1,13 @@
 """Measure a model on held-out duets: exported graphs under onnxruntime, or a checkpoint under PyTorch.
 
     python -m export.evaluate --model web/public/models/salsa --checkpoint training/checkpoints/salsa \
-        --data ../shared/data/cmu_salsa/duets.npz --test salsa_05 salsa_11 --out runs/evaluation \
+        --data ../shared/data/cmu_salsa/duets.npz --val salsa_03 --test salsa_05 salsa_11 \
+        --out runs/evaluation \
         --elsewhere ../shared/data/cmu_solo/solo.npz --solve \
         --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2
 
-With a model folder the graphs dance, and the checkpoint, if given, adds the rows of its autoencoder; with a
-checkpoint alone PyTorch dances.
+With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
+checkpoint alone it is measured under PyTorch.
 """
 
 from __future__ import annotations
@@ -24,22 +25,18 @@ import tyro
 from rich.console import Console
 
 from export.manifest import quality_rules
-from export.runtime import Exported, default_guidance, open_model, plan, sample
-from training.checkpoint import load_model, read_config
-from training.config import STREAMS
-from training.dancer import Dancer, Motions, Settings, Solver, Trial
+from export.runtime import open_model
+from training.checkpoint import load_model
+from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
-from training.diffusion import alphas_cumprod, ddim_steps
-from training.elsewhere import read_leaders
-from training.evaluate import evaluate, generate
-from training.music.pairing import Variant, build_music_bank
-from training.noise import noise
-from training.report import write_report
-from training.sampler import Model, condition, decode, pad_to_stride
-from training.sampler import sample as torch_sample
-from training.skeleton import body_height
-from training.train_hfsq import reconstruct
+from training.diffusion.model import ReactionModel
+from training.diffusion.react import Request, react
+from training.evaluation.evaluate import evaluate, generate
+from training.evaluation.out_of_distribution import read_leaders
+from training.evaluation.protocol import Dancer, Motions, Settings, Solver, Trial
+from training.evaluation.report.report import write_report
+from training.hfsq.reconstruct import reconstruct
 
 ROOT = Path(__file__).parents[1]
 
@@ -54,8 +51,9 @@ class Options:
     """Folder with manifest.json and graphs."""
     checkpoint: Path | None = None
     """Folder with hfsq and denoiser weights."""
-    val: tuple[str, ...] = ("salsa_03",)
-    test: tuple[str, ...] = ("salsa_05", "salsa_11")
+    val: tuple[str, ...] = ()
+    test: tuple[str, ...] = ()
+    """Names of duets that chose the model and of those that were kept for the end; DD100 has its own."""
     measure: Literal["test", "val"] = "test"
     """Which of the two to measure: choose models by val, report on test."""
     songs: Path | None = None
@@ -68,45 +66,26 @@ class Options:
     guidance: tuple[float, float] | None = None
     """Coarse and fine, Eq. 9's s; the model's default when left out."""
     music_guidance: float | None = None
-    """How much of what the song changes is added; the model's default when left out."""
+    """Guidance weight of the music; the model's default when left out."""
     threads: int = 0
     pictures: bool = True
     """Spectra and filmstrips."""
     videos: bool = True
     """True and generated couple of every trial side by side, WebM."""
     plain: Path | None = None
-    """Checkpoint of a plain model (see training/plain.py), for a row beside the others."""
+    """Checkpoint of a plain model (see training/evaluation/no_latent_baseline.py), for a row beside the others."""
     solve: bool = False
     """Measure the solved skeleton too, without and with foot lock, by the page's own code under Node."""
     settings: Settings = field(default_factory=Settings)
 
 
-def condition_inputs(
-    leader: np.ndarray, music: np.ndarray | None, heard_leader: np.ndarray | None, height: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.float32]:
-    """Leader and heard leader at the reference height and padded to a multiple of 4, music, its validity,
-    the scale.
-    """
-    scale = np.float32(height / body_height(leader))
-    padded = pad_to_stride((leader * scale).astype(np.float32))
-    heard = padded
-    if heard_leader is not None:
-        heard = pad_to_stride(
-            (heard_leader * np.float32(height / body_height(heard_leader))).astype(np.float32)
-        )
-    features, valid = np.zeros((len(padded), 54), np.float32), np.zeros(len(padded), np.float32)
-    if music is not None:
-        count = min(len(music), len(padded))
-        features[:count], valid[:count] = music[:count], 1
-    return padded, heard, features, valid, scale
-
-
-def exported_dancer(
-    model: Exported, steps: int | None, default: tuple[float, float] | None, louder: float
+def dancer_of(
+    model: ReactionModel,
+    steps: int | None = None,
+    default: tuple[float, float] | None = None,
+    music_guidance: float | None = None,
 ) -> Dancer:
-    """The exported graphs as a dancer: what the page computes."""
-    manifest = model.manifest
-    height, layers = manifest["skeleton"]["reference_height"], len(manifest["latent"]["layers"])
+    """A model as evaluation asks it, with these in the place of its own defaults."""
 
     def dance(
         leader: np.ndarray,
@@ -117,66 +96,15 @@ def exported_dancer(
         coarse_only: bool = False,
         role: float = 0.0,
     ) -> np.ndarray:
-        padded, heard, features, valid, scale = condition_inputs(leader, music, heard_leader, height)
-        (memory,) = model.run(
-            "condition", leader=heard, music=features, music_valid=valid, role=np.array([role])
-        )
-        chosen = guidance or default
-        weights = (
-            default_guidance(manifest) if chosen is None else np.tile(np.array(chosen), (len(STREAMS), 1))
-        )
-        schedule = plan(manifest, steps)
-        latents = sample(model, memory, seed, schedule, weights.astype(np.float32), louder)
-        kept = np.array([1] + [0 if coarse_only else 1] * (layers - 1))
-        (reactor,) = model.run("decode", latents=latents, leader=padded, layers=kept)
-        return reactor[: len(leader)] / scale
-
-    return dance
-
-
-def torch_dancer(
-    model: Model,
-    height: float,
-    steps: int | None,
-    default: tuple[float, float] | None,
-    louder: float,
-) -> Dancer:
-    """A checkpoint under PyTorch as a dancer."""
-    layers, width = model.denoiser.layers, model.denoiser.latent_width
-    schedule = ddim_steps(alphas_cumprod(model.diffusion), steps or model.diffusion.steps)
-
-    def dance(
-        leader: np.ndarray,
-        music: np.ndarray | None,
-        seed: int,
-        heard_leader: np.ndarray | None = None,
-        guidance: tuple[float, float] | None = None,
-        coarse_only: bool = False,
-        role: float = 0.0,
-    ) -> np.ndarray:
-        padded, heard, features, valid, scale = condition_inputs(leader, music, heard_leader, height)
-        memory = condition(
-            model, torch.from_numpy(heard), torch.from_numpy(features), torch.from_numpy(valid), role
-        )
-        initial = torch.from_numpy(noise(seed, len(memory), layers * width)).float()
-        weights = torch.tensor(guidance or default or model.diffusion.guidance).repeat(len(STREAMS), 1)
-        latents = torch_sample(
+        layers = 1 if coarse_only else None
+        return react(
             model,
-            memory,
-            initial.unflatten(1, (layers, width)),
-            schedule,
-            weights,
-            louder,
+            Request(
+                leader, music, seed, steps, guidance or default, music_guidance, role, layers, heard_leader
+            ),
         )
-        kept = torch.tensor([1.0] + [0.0 if coarse_only else 1.0] * (layers - 1))
-        return decode(model, latents, torch.from_numpy(padded), kept)[: len(leader)].numpy() / scale
 
     return dance
-
-
-def either(asked: float | None, default: float) -> float:
-    """0 is a wish too."""
-    return default if asked is None else asked
 
 
 def commit() -> str | None:
@@ -217,6 +145,8 @@ def paired_trials(options: Options, duets: Split) -> list[Trial]:
     alone.
     """
     chosen = duets.test if options.measure == "test" else duets.val
+    if not chosen:
+        raise SystemExit(f"no duets to measure on: name them with --{options.measure}")
     if not options.music:
         return [Trial(duet, None) for duet in chosen]
     variant = Variant(1.0, "song" if options.songs else "synth", 0)
@@ -243,41 +173,30 @@ def main(options: Options) -> None:
                 t.duet.name: [reconstruct(checkpoint.hfsq, t.duet, checkpoint.frame, layers)] for t in trials
             }
     if options.model is not None:
-        exported = open_model(options.model, options.threads)
-        louder = either(options.music_guidance, exported.manifest["guidance"]["music"]["default"])
-        dancer = exported_dancer(exported, options.steps, options.guidance, louder)
-        alternating = exported.manifest["diffusion"]["alternating_phase"]
-        facts |= {"model": exported.manifest["id"], "runtime": "onnxruntime"}
-        facts["graphs"] = {k: g["files"]["wasm"]["sha256"] for k, g in exported.manifest["graphs"].items()}
-        sampled = exported.manifest["diffusion"]["steps"]["default"]
-        guided = tuple(exported.manifest["guidance"]["default"].values())
-        name = exported.manifest["name"]
+        model = open_model(options.model, options.threads)
+        graphs = {k: g["files"]["wasm"]["sha256"] for k, g in model.manifest["graphs"].items()}
+        facts |= {"model": model.manifest["id"], "runtime": "onnxruntime", "graphs": graphs}
+        name = model.manifest["name"]
     else:
         assert checkpoint is not None and options.checkpoint is not None
-        height = read_config(options.checkpoint, "card")["reference_height"]
-        louder = either(options.music_guidance, checkpoint.diffusion.music)
-        dancer = torch_dancer(checkpoint, height, options.steps, options.guidance, louder)
-        alternating = checkpoint.diffusion.alternating_phase
-        facts |= {"model": options.checkpoint.name, "runtime": "pytorch"}
-        sampled, guided = checkpoint.diffusion.steps, checkpoint.diffusion.guidance
-        name = options.checkpoint.name
+        model, name = checkpoint, options.checkpoint.name
+        facts |= {"model": name, "runtime": "pytorch"}
     if options.plain is not None:
-        height = read_config(options.plain, "card")["reference_height"]
-        plain_model = load_model(options.plain)
-        plain = torch_dancer(plain_model, height, None, None, plain_model.diffusion.music)
+        plain = dancer_of(load_model(options.plain))
         given["plain model"] = generate(plain, trials, options.settings.seeds)[0]
-    spacing = Settings.seam_spacing // 2 if alternating else Settings.seam_spacing
+    sampling = model.sampling
+    spacing = Settings.seam_spacing // 2 if sampling.alternating_phase else Settings.seam_spacing
     settings = replace(options.settings, seam_spacing=spacing)
     facts |= {
         "commit": commit(),
         "sampling": {
-            "steps": options.steps or sampled,
-            "guidance": options.guidance or guided,
-            "music": louder,
+            "steps": options.steps or sampling.steps,
+            "guidance": options.guidance or sampling.guidance,
+            "music": sampling.music_guidance if options.music_guidance is None else options.music_guidance,
         },
     }
     evaluation = evaluate(
-        dancer,
+        dancer_of(model, options.steps, options.guidance, options.music_guidance),
         trials,
         duets.train,
         settings,

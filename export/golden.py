@@ -1,4 +1,4 @@
-"""Golden tensors: one whole sampling of the PyTorch model, for every other runtime to be held against."""
+"""Golden tensors: one whole sampling of the PyTorch model, for every other runtime to be compared with."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import torch
 
 from training.config import STREAMS
 from training.data.made import made_dancer
-from training.diffusion import alphas_cumprod, ddim_steps
-from training.noise import noise
-from training.sampler import Model, condition, decode, sample
+from training.diffusion.model import Model
+from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.schedule import ddim_steps
+from training.music.recipe import MUSIC_FEATURES
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     guidance = np.linspace(-0.5, 1.5, len(STREAMS) * model.denoiser.layers, dtype=np.float32)
     return {
         "leader": made_dancer(scene.frames, scene.seed),
-        "music": random.normal(size=(scene.frames, 54)).astype(np.float32),
+        "music": random.normal(size=(scene.frames, MUSIC_FEATURES)).astype(np.float32),
         "music_valid": valid,
         "role": np.zeros(1, dtype=np.float32),
         "guidance": guidance.reshape(len(STREAMS), model.denoiser.layers),
@@ -42,6 +43,7 @@ def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     }
 
 
+@torch.no_grad()
 def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, np.ndarray]:
     """Inputs and everything PyTorch makes of them: memory, initial noise, x and x0 after each step, joints.
 
@@ -49,22 +51,20 @@ def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, 
     """
     given = inputs(model, scene)
     tensors = {name: torch.from_numpy(value) for name, value in given.items()}
-    memory = condition(model, tensors["leader"], tensors["music"], tensors["music_valid"], role=0.0)
-    layers, channels = model.denoiser.layers, model.denoiser.latent_width
-    initial = torch.from_numpy(noise(scene.seed, len(memory), layers * channels)).reshape(
-        -1, layers, channels
-    )
+    sampling = model.sampling
+    memory = model.condition(tensors["leader"], tensors["music"], tensors["music_valid"], tensors["role"])
+    initial = initial_noise(sampling, scene.seed, len(memory))
     states: list[tuple[np.ndarray, np.ndarray]] = []
     latents = sample(
         model,
         memory,
         initial,
-        ddim_steps(alphas_cumprod(model.diffusion), scene.steps),
+        ddim_steps(sampling.alpha_bar, scene.steps),
         tensors["guidance"],
         float(given["music_guidance"][0]),
         on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
     )
-    only_coarse = torch.zeros(layers)
+    every_layer, only_coarse = torch.ones(sampling.layers), torch.zeros(sampling.layers)
     only_coarse[0] = 1
     kept = states if every_step else states[-1:]
     return given | {
@@ -74,8 +74,8 @@ def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, 
         "initial": initial.numpy(),
         "x": np.stack([x for x, _ in kept]),
         "x0": np.stack([x0 for _, x0 in kept]),
-        "reactor": decode(model, latents, tensors["leader"]).numpy(),
-        "coarse": decode(model, latents, tensors["leader"], only_coarse).numpy(),
+        "reactor": model.decode(latents, tensors["leader"], every_layer).numpy(),
+        "coarse": model.decode(latents, tensors["leader"], only_coarse).numpy(),
     }
 
 

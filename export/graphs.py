@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from torch import Tensor, nn
 
-from training.frame import smoothed_heading
-from training.sampler import Model, classifier_free_guidance, danced
-from training.streams import leader_features
+from training.diffusion.guidance import classifier_free_guidance
+from training.diffusion.model import Model
 
 
 class Condition(nn.Module):
@@ -18,12 +17,11 @@ class Condition(nn.Module):
 
     def __init__(self, model: Model) -> None:
         super().__init__()
-        self.encoder = model.denoiser.condition
-        self.frame = model.frame
+        self.model = model
+        self.encoder = model.denoiser.condition  # registers its parameters
 
     def forward(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        features = leader_features(leader, smoothed_heading(leader, self.frame))
-        return self.encoder.of_clip(features[None], music[None], music_valid[None], role)[0]
+        return self.model.condition(leader, music, music_valid, role)
 
 
 class SamplerStep(nn.Module):
@@ -61,4 +59,4 @@ class Decode(nn.Module):
         self.hfsq = model.hfsq  # registers its parameters
 
     def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        return danced(self.model, latents, leader, layers)
+        return self.model.decode(latents, leader, layers)

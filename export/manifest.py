@@ -7,12 +7,13 @@ from datetime import date
 from typing import Any
 
 from training.config import FPS, STREAMS, STRIDE, per_layer, to_json
-from training.data.floor import TOE_PERCENTILE, TOE_REST
-from training.diffusion import alphas_cumprod
-from training.metrics import beats, contact, penetration, seams
+from training.diffusion.model import Model
+from training.diffusion.schedule import alphas_cumprod
+from training.evaluation.metrics import beats, contact, penetration, seams
+from training.motion import foot_contact
+from training.motion.floor import TOE_PERCENTILE, TOE_REST
+from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
-from training.sampler import Model
-from training.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 
 FORMAT, VERSION = "reactdance-model", 2
 LAYER_NAMES = ("coarse", "fine")
@@ -42,12 +43,12 @@ def condition_field(model: Model) -> int:
 
 
 def quality_rules() -> dict[str, Any]:
-    """Constants of the measures that the page takes too, so that its numbers are those of training.metrics."""
+    """Constants of the measures that the page takes too, so that its numbers are those of the evaluation."""
     return {
         "contact": {
-            "percentile": contact.PERCENTILE,
-            "height": contact.HEIGHT,
-            "vertical_speed": contact.VERTICAL_SPEED,
+            "percentile": foot_contact.PERCENTILE,
+            "height": foot_contact.HEIGHT,
+            "vertical_speed": foot_contact.VERTICAL_SPEED,
             "slide_speed": contact.SLIDE_SPEED,
         },
         "penetration": {
@@ -111,7 +112,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "max": 3,
             "step": 0.05,
             "default": dict(zip(names, per_layer(diffusion.guidance, len(names)), strict=True)),
-            "music": {"min": 0, "max": 4, "default": diffusion.music},
+            "music": {"min": 0, "max": 4, "default": diffusion.music_guidance},
         },
         "noise": {"algorithm": "philox4x32-10"},
         "decode": {"sharpen": diffusion.sharpen, "foot_contact": diffusion.foot_contact},

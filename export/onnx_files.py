@@ -1,4 +1,4 @@
-"""PyTorch modules to ONNX files, and what the manifest says of them."""
+"""PyTorch modules to ONNX files, and their entries in the manifest."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ from torch.export import Dim
 
 from export.graphs import Condition, Decode, SamplerStep
 from training.config import STREAMS, STRIDE
-from training.sampler import Model
+from training.diffusion.model import Model
+from training.motion.skeleton import JOINTS
+from training.music.recipe import MUSIC_FEATURES
 
 OPSET = 20
 
@@ -35,12 +37,13 @@ def graphs(model: Model) -> list[Graph]:
     """Shapes: `frames` is a multiple of 4 and four times `latents`; `blocks` is any number from 1."""
     layers, channels = model.denoiser.layers, model.denoiser.latent_width
     block, memory = model.denoiser.config.block, model.denoiser.condition.memory_width
+    motion = ("frames", len(JOINTS), 3)
     state = ("blocks", block, layers, channels)
     return [
         Graph(
             "condition",
             Condition(model),
-            {"leader": ("frames", 22, 3), "music": ("frames", 54), "music_valid": ("frames",), "role": (1,)},
+            {"leader": motion, "music": ("frames", MUSIC_FEATURES), "music_valid": ("frames",), "role": (1,)},
             {"memory": ("latents", memory)},
         ),
         Graph(
@@ -60,8 +63,8 @@ def graphs(model: Model) -> list[Graph]:
         Graph(
             "decode",
             Decode(model),
-            {"latents": ("latents", layers, channels), "leader": ("frames", 22, 3), "layers": (layers,)},
-            {"reactor": ("frames", 22, 3)},
+            {"latents": ("latents", layers, channels), "leader": motion, "layers": (layers,)},
+            {"reactor": motion},
         ),
     ]
 

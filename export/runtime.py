@@ -1,9 +1,8 @@
-"""An exported model under onnxruntime: the same path as the browser's, in Python."""
+"""An exported model under onnxruntime: the browser's graphs behind the interface of `training.diffusion.model`."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,24 +10,62 @@ from typing import Any
 import numpy as np
 import onnxruntime as ort
 import torch
+from torch import Tensor
 
-from training.diffusion import Step, ddim_steps
-from training.noise import noise
-from training.sampler import gather, pad_to_stride, partition, scatter
-
-OnStep = Callable[[int, np.ndarray, np.ndarray], None]
+from training.diffusion.model import Sampling
+from training.diffusion.schedule import Step
 
 
 @dataclass(frozen=True)
 class Exported:
-    """A model folder opened for inference."""
+    """A model folder opened for inference, a `ReactionModel`."""
 
     manifest: dict[str, Any]
     sessions: dict[str, ort.InferenceSession]
 
-    def run(self, graph: str, **inputs: np.ndarray) -> list[np.ndarray]:
-        feed = {name: np.ascontiguousarray(value, dtype=np.float32) for name, value in inputs.items()}
-        return [np.asarray(out) for out in self.sessions[graph].run(None, feed)]
+    @property
+    def sampling(self) -> Sampling:
+        latent, diffusion = self.manifest["latent"], self.manifest["diffusion"]
+        guidance = self.manifest["guidance"]
+        return Sampling(
+            block=latent["block"],
+            layers=len(latent["layers"]),
+            channels=latent["channels"],
+            alpha_bar=np.array(diffusion["alphas_cumprod"]),
+            alternating_phase=diffusion["alternating_phase"],
+            stitching=False,
+            steps=diffusion["steps"]["default"],
+            guidance=tuple(guidance["default"][name] for name in latent["layers"]),
+            music_guidance=guidance["music"]["default"],
+            reference_height=self.manifest["skeleton"]["reference_height"],
+        )
+
+    def condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
+        (memory,) = self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)
+        return memory
+
+    def step(
+        self, x: Tensor, memory: Tensor, valid: Tensor, step: Step, guidance: Tensor, music_guidance: float
+    ) -> tuple[Tensor, Tensor]:
+        x_next, x0 = self._run(
+            "step",
+            x=x,
+            memory=memory,
+            valid=valid,
+            time=torch.tensor([step.time]),
+            guidance=guidance,
+            music_guidance=torch.tensor([music_guidance]),
+            coefficients=torch.tensor([step.a, step.b]),
+        )
+        return x_next, x0
+
+    def decode(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
+        (reactor,) = self._run("decode", latents=latents, leader=leader, layers=layers)
+        return reactor
+
+    def _run(self, graph: str, **inputs: Tensor) -> list[Tensor]:
+        feed = {name: np.ascontiguousarray(value.numpy(), dtype=np.float32) for name, value in inputs.items()}
+        return [torch.from_numpy(np.asarray(out)) for out in self.sessions[graph].run(None, feed)]
 
 
 def open_model(folder: Path, threads: int = 0) -> Exported:
@@ -43,81 +80,3 @@ def open_model(folder: Path, threads: int = 0) -> Exported:
         for name, graph in manifest["graphs"].items()
     }
     return Exported(manifest, sessions)
-
-
-def plan(manifest: dict[str, Any], steps: int | None) -> list[Step]:
-    diffusion = manifest["diffusion"]
-    return ddim_steps(np.array(diffusion["alphas_cumprod"]), steps or diffusion["steps"]["default"])
-
-
-def sample(
-    model: Exported,
-    memory: np.ndarray,
-    seed: int,
-    steps: list[Step],
-    guidance: np.ndarray,
-    music_guidance: float,
-    on_step: OnStep | None = None,
-) -> np.ndarray:
-    """Normalised latents (L, R, C) for memory (L, M), in blocks; guidance and music_guidance as in
-    `classifier_free_guidance`."""
-    latent = model.manifest["latent"]
-    size, frames, layers, channels = latent["block"], len(memory), len(latent["layers"]), latent["channels"]
-    x = torch.from_numpy(noise(seed, frames, layers * channels)).reshape(frames, layers, channels)
-    for k, step in enumerate(steps):
-        shifted = model.manifest["diffusion"]["alternating_phase"] and k % 2 == 1
-        blocks = partition(frames, size, shifted)
-        parts = {
-            "x": gather(x, blocks, size),
-            "memory": gather(torch.from_numpy(memory), blocks, size),
-            "valid": gather(torch.ones(frames), blocks, size),
-        }
-        x_next, x0_next = model.run(
-            "step",
-            **{name: value.numpy() for name, value in parts.items()},
-            time=np.array([step.time]),
-            guidance=guidance,
-            music_guidance=np.array([music_guidance]),
-            coefficients=np.array([step.a, step.b]),
-        )
-        x = scatter(torch.from_numpy(x_next), blocks, frames)
-        if on_step is not None:
-            on_step(k, x.numpy(), scatter(torch.from_numpy(x0_next), blocks, frames).numpy())
-    return x.numpy()
-
-
-def default_guidance(manifest: dict[str, Any]) -> np.ndarray:
-    """(S, R) of the manifest's default, the same for all streams."""
-    row = [manifest["guidance"]["default"][name] for name in manifest["latent"]["layers"]]
-    return np.tile(np.array(row, dtype=np.float32), (len(manifest["latent"]["streams"]), 1))
-
-
-def react(
-    model: Exported,
-    leader: np.ndarray,
-    music: np.ndarray | None,
-    seed: int,
-    steps: int | None = None,
-    guidance: np.ndarray | None = None,
-    role: float = 0.0,
-    layers: np.ndarray | None = None,
-) -> np.ndarray:
-    """The reactor (T, 22, 3) for a leader (T, 22, 3) at the reference height and raw music features or None.
-
-    layers: (R,) multiplier per residual layer when decoding; [1, 0] shows the coarse layer alone.
-    """
-    frames = len(leader)
-    padded = pad_to_stride(leader)
-    heard, valid = np.zeros((len(padded), model.manifest["audio"]["features"])), np.zeros(len(padded))
-    if music is not None:
-        n = min(len(music), len(padded))
-        heard[:n], valid[:n] = music[:n], 1
-    (memory,) = model.run("condition", leader=padded, music=heard, music_valid=valid, role=np.array([role]))
-    weights = default_guidance(model.manifest) if guidance is None else guidance
-    louder = model.manifest["guidance"]["music"]["default"]
-    latents = sample(model, memory, seed, plan(model.manifest, steps), weights, louder)
-    names = model.manifest["latent"]["layers"]
-    (reactor,) = model.run(
-        "decode", latents=latents, leader=padded, layers=np.ones(len(names)) if layers is None else layers
-    )
-    return reactor[:frames]

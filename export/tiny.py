@@ -16,8 +16,8 @@ from export.manifest import Card
 from export.write import write_model
 from training.config import ConditionConfig, DenoiserConfig, DiffusionConfig, FrameConfig, HfsqConfig
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
-from training.sampler import Model
 
 # Two full blocks and a half: 600 frames.
 SCENE = Scene(frames=600, steps=4, silent_from=420)
@@ -58,11 +58,11 @@ def tiny_model(seed: int = 0) -> Model:
     diffusion = DiffusionConfig(
         steps=4,
         alternating_phase=True,
-        music=1.0,
+        music_guidance=1.0,
         sharpen=0.3,
         foot_contact=0.5,
     )
-    return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion)
+    return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion, CARD.reference_height)
 
 
 def main(options: Options) -> None:

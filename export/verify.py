@@ -1,4 +1,4 @@
-"""Hold an exported model against PyTorch: every graph, every step of a full sampling, several lengths.
+"""Compare an exported model with PyTorch: every graph, every step of a full sampling, several lengths.
 
 python -m export.verify --checkpoint training/checkpoints/salsa --model web/public/models/salsa
 """
@@ -9,14 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import torch
 import tyro
 from rich.console import Console
 from rich.table import Table
 
 from export.golden import Scene, reference
-from export.runtime import Exported, open_model, plan, sample
+from export.runtime import Exported, open_model
 from training.checkpoint import load_model
-from training.sampler import Model
+from training.diffusion.model import Model
+from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.schedule import ddim_steps
 
 TOLERANCE = 1e-4
 BLOCKS = (1, 2, 9, 75)
@@ -32,30 +35,28 @@ class Options:
 def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, float]:
     """Largest absolute difference of memory, of x and x0 over all steps, and of the decoded joints in metres."""
     truth = reference(model, scene)
-    (memory,) = exported.run(
-        "condition", **{name: truth[name] for name in ("leader", "music", "music_valid", "role")}
-    )
+    given = {name: torch.from_numpy(value) for name, value in truth.items()}
+    memory = exported.condition(*(given[name] for name in ("leader", "music", "music_valid", "role")))
     states: list[tuple[np.ndarray, np.ndarray]] = []
     latents = sample(
         exported,
-        truth["memory"],
-        scene.seed,
-        plan(exported.manifest, scene.steps),
-        truth["guidance"],
+        given["memory"],
+        initial_noise(exported.sampling, scene.seed, len(memory)),
+        ddim_steps(exported.sampling.alpha_bar, scene.steps),
+        given["guidance"],
         float(truth["music_guidance"][0]),
-        on_step=lambda _, x, x0: states.append((x.copy(), x0.copy())),
+        on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
     )
-    layers = len(exported.manifest["latent"]["layers"])
-    (reactor,) = exported.run("decode", latents=latents, leader=truth["leader"], layers=np.ones(layers))
+    reactor = exported.decode(latents, given["leader"], torch.ones(exported.sampling.layers))
 
     def worst(a: np.ndarray, b: np.ndarray) -> float:
         return float(np.abs(a - b).max())
 
     return {
-        "memory": worst(memory, truth["memory"]),
+        "memory": worst(memory.numpy(), truth["memory"]),
         "x": worst(np.stack([x for x, _ in states]), truth["x"]),
         "x0": worst(np.stack([x0 for _, x0 in states]), truth["x0"]),
-        "reactor": worst(reactor, truth["reactor"]),
+        "reactor": worst(reactor.numpy(), truth["reactor"]),
     }
 
 

@@ -17,7 +17,7 @@ from export.manifest import Card, manifest
 from export.onnx_files import describe, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from training.checkpoint import load_model, read_card
-from training.sampler import Model
+from training.diffusion.model import Model
 
 GOLDEN = "golden.npz"
 

@@ -1,3 +1,1 @@
-"""Training of reactive dance models: data, HFSQ, denoiser, diffusion, metrics and the programs that run
-them.
-"""
+"""Training of reactive dance models. The programs are train_hfsq, train_denoiser and generate."""

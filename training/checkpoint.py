@@ -1,6 +1,4 @@
-"""Checkpoints: weights as safetensors beside their JSON config; loading is strict and rebuilds the module
-from it.
-"""
+"""Checkpoints: weights as safetensors beside their JSON config; loading is strict and rebuilds the module from it."""
 
 from __future__ import annotations
 
@@ -21,8 +19,8 @@ from training.config import (
     write_json,
 )
 from training.denoiser.denoiser import Denoiser
+from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
-from training.sampler import Model
 
 
 def save_weights(folder: Path, name: str, module: nn.Module, config: dict) -> None:
@@ -79,7 +77,8 @@ def load_model(folder: Path) -> Model:
     """Both stages of a checkpoint, ready to sample."""
     hfsq, frame = load_hfsq(folder)
     denoiser, diffusion = load_denoiser(folder, hfsq)
-    return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion)
+    height = read_card(folder)["reference_height"]
+    return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion, height)
 
 
 def read_card(folder: Path) -> dict:

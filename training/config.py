@@ -75,7 +75,7 @@ class DenoiserConfig:
     heads: int = 4
     mlp: int = 3
     depths: tuple[int, ...] = (4, 2)  # transformer layers of the coarse trunk and of the fine head
-    slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, logits lost per latent frame of distance
+    alibi_slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, per latent frame (`alibi_bias`)
     block: int = 60  # latent frames
     dropout: float = 0.15  # of channels, for a whole window at once
     condition: ConditionConfig = field(default_factory=ConditionConfig)
@@ -90,9 +90,9 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
-    music: float = 0.0  # default guidance weight of the music, see `classifier_free_guidance`
-    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion, see `training.sharpen`
-    foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root, see `training.grip`
+    music_guidance: float = 0.0  # default guidance weight m of the music, see `classifier_free_guidance`
+    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion
+    foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
-"""Dance with a checkpoint: the reactor for a leader and a song.
+"""Generate the reactor for a leader and a song with a checkpoint.
 
-python -m training.generate --checkpoint training/checkpoints/salsa --leader lead.bvh --song song.mp3 --out
+python -m training.generate --checkpoint training/checkpoints/salsa --leader leader.bvh --song song.mp3 --out
 runs/dance
 """
 
@@ -12,15 +12,14 @@ from pathlib import Path
 import numpy as np
 import tyro
 
-from training.checkpoint import load_model, read_config
-from training.config import STREAMS
-from training.data.bvh import read_bvh
+from training.checkpoint import load_model
+from training.config import FPS
+from training.data.bvh.reader import read_bvh
 from training.data.sources import read_duets
-from training.filmstrip import filmstrip
+from training.diffusion.react import Request, react
+from training.evaluation.report.filmstrip import filmstrip
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
-from training.sampler import react
-from training.skeleton import body_height
 
 
 @dataclass(frozen=True)
@@ -37,8 +36,8 @@ class Options:
     coarse: float | None = None
     """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
     fine: float | None = None
-    music: float | None = None
-    """How much of what the song changes is added; the model's default when left out."""
+    music_guidance: float | None = None
+    """Guidance weight of the music; the model's default when left out."""
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
 
@@ -56,27 +55,22 @@ def read_leader(options: Options) -> np.ndarray:
 def main(options: Options) -> None:
     model = load_model(options.checkpoint)
     leader = read_leader(options)
-    height = read_config(options.checkpoint, "card")["reference_height"]
-    scale = np.float32(height / body_height(leader))
     recipe = AudioRecipe()
     music = features(load_audio(options.song, recipe), recipe) if options.song else None
-    default = model.diffusion.guidance
-    row = [
-        default[0] if options.coarse is None else options.coarse,
-        default[1] if options.fine is None else options.fine,
-    ]
-    guidance = np.tile(np.array(row, dtype=np.float32), (len(STREAMS), 1))
+    coarse, fine = model.diffusion.guidance
+    guidance = (
+        coarse if options.coarse is None else options.coarse,
+        fine if options.fine is None else options.fine,
+    )
 
     options.out.mkdir(parents=True, exist_ok=True)
     made: dict[str, np.ndarray] = {}
     for seed in options.seeds:
-        scaled = react(
-            model, leader * scale, music, seed, options.steps, guidance, music_guidance=options.music
-        )
-        reactor = scaled / scale
+        request = Request(leader, music, seed, options.steps, guidance, options.music_guidance)
+        reactor = react(model, request)
         made[f"seed_{seed}/leader"], made[f"seed_{seed}/follower"] = leader, reactor
         filmstrip(leader, reactor, options.out / f"seed_{seed}.png")
-        print(f"seed {seed}: {len(reactor) / 30:.1f} s", flush=True)
+        print(f"seed {seed}: {len(reactor) / FPS:.1f} s", flush=True)
     np.savez_compressed(options.out / "reactor.npz", **made)  # pyright: ignore[reportArgumentType]
     print(f"wrote {options.out / 'reactor.npz'} and a filmstrip for each seed")
 

@@ -1,4 +1,4 @@
-"""What both training programs share: schedule, averaging, logging with curves, resumable state."""
+"""What both training programs share: options, schedule, EMA of the weights, logging with curves, resumable state."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import json
 import math
 import time
 from collections import defaultdict
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Generic, Literal, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 import torch
 from lightning_fabric import Fabric
@@ -20,6 +22,58 @@ Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
 M = TypeVar("M", bound=nn.Module)
 
 
+@dataclass(frozen=True, kw_only=True)
+class LoopOptions:
+    """The options of both programs."""
+
+    data: Path
+    """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
+    out: Path
+    """Folder of this run: checkpoints, logs, curves."""
+    val: tuple[str, ...]
+    """Names of duets that choose a model; never trained on."""
+    test: tuple[str, ...] = ()
+    """Names of duets that are never trained on, nor used to choose anything; DD100 has its own."""
+    init: Path | None = None
+    """Start from the weights of this checkpoint."""
+    solo: Path | None = None
+    """npz archive of solo dances that join the training."""
+    solo_prefixes: tuple[str, ...] = ("",)
+    """Names that those solos begin with; all of them when left out."""
+    steps: int
+    minutes: float | None = None
+    """Stop after this time even if the steps are not done; the learning rate follows whichever comes first."""
+    batch: int
+    learning_rate: float
+    weight_decay: float
+    ema_decay: float = 0.998
+    """Of the average of the weights that is measured and saved."""
+    seed: int = 0
+    devices: int = 1
+    threads: int = 0
+    """CPU threads for torch, 0 leaves its default."""
+    precision: Precision | None = None
+    """Left out: bf16 where its products are fast, single elsewhere."""
+    log_every: int = 50
+    evaluate_every: int
+    resume: bool = False
+
+    def __post_init__(self) -> None:
+        if not self.val:
+            raise ValueError("no duets to validate on: name one or more with --val")
+
+
+def launch(options: LoopOptions) -> Fabric:
+    """Fabric on the options' devices, this process among them."""
+    if options.threads:
+        torch.set_num_threads(options.threads)
+    fabric = Fabric(
+        accelerator="auto", devices=options.devices, precision=options.precision or fast_precision()
+    )
+    fabric.launch()
+    return fabric
+
+
 def fast_precision() -> Precision:
     """bf16 on a GPU and on processors with matrix tiles; without tiles its products are slower than single ones."""
     tiles = torch.cpu._is_amx_tile_supported()
@@ -27,7 +81,7 @@ def fast_precision() -> Precision:
 
 
 @dataclass
-class Budget:
+class Schedule:
     """How far a training has come: by steps, or by minutes if a time limit is given and reached first."""
 
     steps: int
@@ -50,13 +104,13 @@ class Budget:
         return min(1.0, max(by_steps, by_time))
 
 
-def learning_rate(peak: float, budget: Budget, warmup: int) -> float:
+def learning_rate(peak: float, schedule: Schedule, warmup: int) -> float:
     """Linear warm-up over `warmup` steps, then half a cosine down to 2 % of the peak."""
-    warm = min(1.0, (budget.step + 1) / warmup)
-    return peak * warm * (0.02 + 0.98 * 0.5 * (1 + math.cos(math.pi * budget.progress)))
+    warm = min(1.0, (schedule.step + 1) / warmup)
+    return peak * warm * (0.02 + 0.98 * 0.5 * (1 + math.cos(math.pi * schedule.progress)))
 
 
-class Average(Generic[M]):
+class Ema(Generic[M]):
     """Exponential moving average of a module's parameters (buffers are copied)."""
 
     def __init__(self, module: M, decay: float) -> None:
@@ -75,10 +129,8 @@ class Average(Generic[M]):
             mine.copy_(theirs)
 
 
-class Journal:
-    """Numbers of a run: printed, sent to TensorBoard, kept as JSON lines and drawn as curves.png. Rank 0
-    only.
-    """
+class Logger:
+    """Numbers of a run: printed, sent to TensorBoard, kept as JSON lines and drawn as curves.png. Rank 0 only."""
 
     def __init__(self, folder: Path, enabled: bool) -> None:
         self.folder, self.enabled = folder, enabled
@@ -91,24 +143,25 @@ class Journal:
         for name, value in values.items():
             self._sums[name].append(float(value))
 
-    def write(self, budget: Budget, extra: dict[str, float] | None = None) -> None:
+    def write(self, schedule: Schedule, extra: dict[str, float] | None = None) -> None:
         """Log the means since the last call, and `extra` as it is."""
         means = {name: sum(v) / len(v) for name, v in self._sums.items()} | (extra or {})
         self._sums.clear()
         if not self.enabled:
             return
-        row = {"step": budget.step, "minutes": round(budget.spent / 60, 2), **means}
-        with (self.folder / "journal.jsonl").open("a") as file:
+        row = {"step": schedule.step, "minutes": round(schedule.spent / 60, 2), **means}
+        with (self.folder / "log.jsonl").open("a") as file:
             file.write(json.dumps(row) + "\n")
         for name, value in means.items():
-            self._board.add_scalar(name, value, budget.step)
+            self._board.add_scalar(name, value, schedule.step)
         shown = "  ".join(f"{name} {value:.4g}" for name, value in means.items())
         print(
-            f"{100 * budget.progress:5.1f} %  step {budget.step}  {row['minutes']} min  {shown}", flush=True
+            f"{100 * schedule.progress:5.1f} %  step {schedule.step}  {row['minutes']} min  {shown}",
+            flush=True,
         )
 
     def draw(self) -> None:
-        """Redraw curves.png from the whole journal."""
+        """Redraw curves.png from the whole log."""
         if not self.enabled:
             return
         import matplotlib
@@ -116,7 +169,7 @@ class Journal:
         matplotlib.use("Agg")
         import matplotlib.pyplot as plt
 
-        rows = [json.loads(line) for line in (self.folder / "journal.jsonl").read_text().splitlines()]
+        rows = [json.loads(line) for line in (self.folder / "log.jsonl").read_text().splitlines()]
         names = sorted({name for row in rows for name in row} - {"step", "minutes"})
         columns = 4
         height = max(1, math.ceil(len(names) / columns))
@@ -134,41 +187,91 @@ class Journal:
         plt.close(figure)
 
 
-def save_state(
-    fabric: Fabric,
-    path: Path,
-    model: nn.Module,
-    optimizer: torch.optim.Optimizer,
-    average: Average,
-    budget: Budget,
-) -> None:
-    """Everything needed to go on training after a crash, in one file that is replaced only when written
-    whole.
-    """
-    state = {
-        "model": model,
-        "optimizer": optimizer,
-        "average": average.module.state_dict(),
-        "updates": average.updates,
-        "step": budget.step,
-        "spent": budget.spent,
-    }
-    part = path.with_suffix(".part")
-    fabric.save(part, state)
-    if fabric.is_global_zero:
-        part.replace(path)
+class Run(Generic[M]):
+    """One training: steps under Fabric, an EMA of the model, logs, and a state to go on from."""
 
+    def __init__(
+        self,
+        fabric: Fabric,
+        stage: nn.Module,
+        model: M,
+        optimizer: torch.optim.Optimizer,
+        options: LoopOptions,
+        folder: Path,
+        warmup: int,
+    ) -> None:
+        """stage: from a batch to the loss and its parts; model: what of it is trained, averaged and saved."""
+        self.fabric, self.model, self.options, self.warmup = fabric, model, options, warmup
+        self.ema = Ema(model, options.ema_decay)
+        self.ema.module.to(fabric.device)
+        self.stage, self.optimizer = fabric.setup(stage, optimizer)
+        self.schedule = Schedule(options.steps, options.minutes)
+        self.logger = Logger(folder, fabric.is_global_zero)
+        self.state = folder / "state.ckpt"
+        if options.resume:
+            self.load()
 
-def load_state(
-    fabric: Fabric,
-    path: Path,
-    model: nn.Module,
-    optimizer: torch.optim.Optimizer,
-    average: Average,
-    budget: Budget,
-) -> None:
-    """Inverse of `save_state`, strict."""
-    rest = fabric.load(path, {"model": model, "optimizer": optimizer}, strict=True)
-    average.module.load_state_dict(rest["average"], strict=True)
-    average.updates = rest["updates"]
-    budget.step, budget.spent = rest["step"], rest["spent"]
+    def train(self, next_batch: Callable[[], Any], evaluate: Callable[[], None]) -> None:
+        """Steps until the schedule ends; `evaluate` on rank 0 every so many."""
+        while self.schedule.progress < 1:
+            self._step(next_batch())
+            if self.schedule.step % self.options.log_every == 0:
+                self.logger.write(self.schedule)
+            if self.schedule.step % self.options.evaluate_every == 0:
+                self.save()
+                if self.fabric.is_global_zero:
+                    evaluate()
+
+    def _step(self, batch: Any) -> None:
+        self.model.train()
+        for group in self.optimizer.param_groups:
+            group["lr"] = learning_rate(self.options.learning_rate, self.schedule, self.warmup)
+        loss, parts = self.stage(self.fabric.to_device(batch))
+        self.fabric.backward(loss)
+        self.fabric.clip_gradients(self.stage, self.optimizer, max_norm=1.0)
+        self.optimizer.step()
+        self.optimizer.zero_grad()
+        self.ema.update(self.model)
+        self.schedule.tick()
+        # One clock for all ranks: it sets the learning rate.
+        self.schedule.spent = self.fabric.broadcast(self.schedule.spent)
+        self.logger.add(parts)
+
+    @contextmanager
+    def averaged(self) -> Iterator[M]:
+        """The averaged model on the CPU, to be measured and saved."""
+        yield self.ema.module.cpu()
+        self.ema.module.to(self.fabric.device)
+
+    def provenance(self, program: str, leave_out: tuple[str, ...]) -> dict[str, Any]:
+        """How a checkpoint came to be: program, steps, minutes and options, without those that are kept elsewhere."""
+        options = asdict(self.options) | {"precision": self.options.precision or fast_precision()}
+        return {
+            "program": program,
+            "steps": self.schedule.step,
+            "minutes": round(self.schedule.spent / 60, 1),
+            "options": {k: str(v) for k, v in options.items() if k not in leave_out},
+        }
+
+    def save(self) -> None:
+        """Everything needed to go on after a crash, in one file that is replaced only when written whole."""
+        state = {
+            "model": self.stage,
+            "optimizer": self.optimizer,
+            "ema": self.ema.module.state_dict(),
+            "updates": self.ema.updates,
+            "step": self.schedule.step,
+            "spent": self.schedule.spent,
+        }
+        part = self.state.with_suffix(".part")
+        self.fabric.save(part, state)
+        if self.fabric.is_global_zero:
+            part.replace(self.state)
+
+    def load(self) -> None:
+        """Inverse of `save`, strict."""
+        parts = {"model": self.stage, "optimizer": self.optimizer}
+        rest = self.fabric.load(self.state, parts, strict=True)
+        self.ema.module.load_state_dict(rest["ema"], strict=True)
+        self.ema.updates = rest["updates"]
+        self.schedule.step, self.schedule.spent = rest["step"], rest["spent"]

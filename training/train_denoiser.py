@@ -1,106 +1,152 @@
 """Stage 2: train the denoiser on the latents of a frozen HFSQ (paper 3.3 to 3.5).
 
-python -m training.train_denoiser --data ../shared/data/cmu_salsa/duets.npz --out runs/salsa
+python -m training.train_denoiser --data my-duets --val duo_3 --test duo_5 --out runs/mine
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import torch
 import tyro
-from lightning_fabric import Fabric
 from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
-from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig, FrameConfig
+from training.data.duet import Duet
+from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
 from training.data.sources import read_split
+from training.data.splits import Split
+from training.denoiser.clips import Augmentation, Clip, augmented_clips, solo_pair_clips
+from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
-from training.diffusion import add_noise, alphas_cumprod, training_times
+from training.denoiser.losses import motion_loss, noise_weights, simple_loss
+from training.denoiser.windows import Batch, Windows
+from training.diffusion.model import Model
+from training.diffusion.react import Request, react
+from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
+from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.improvised import improvised_clips
-from training.loop import (
-    Average,
-    Budget,
-    Journal,
-    Precision,
-    fast_precision,
-    learning_rate,
-    load_state,
-    save_state,
-)
-from training.losses import motion_loss, noise_weights, simple_loss
-from training.metrics import mean_report, quick_report
-from training.music.pairing import MusicBank, build_music_bank, variants
-from training.sampler import Model, react
-from training.skeleton import as_body, body_height
-from training.stage2_data import Augmentation, Batch, Windows, augmented_clips
-from training.streams import from_streams
+from training.loop import LoopOptions, Run, launch
+from training.motion.rigid_body import rigid_body
+from training.motion.skeleton import body_height
+from training.motion.streams import from_streams
 
 
-@dataclass(frozen=True)
-class Options:
-    data: Path
-    """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
-    out: Path
-    """Folder with stage 1's checkpoint; stage 2's goes beside it."""
-    init: Path | None = None
-    """Start from the denoiser of this checkpoint; stage 1 must have the same latents (see train_hfsq)."""
+@dataclass(frozen=True, kw_only=True)
+class Options(LoopOptions):
+    """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq); solo: dances
+    of which pairs are made (see training/data/solo_pairs.py).
+    """
+
     songs: Path | None = None
     """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
     music_cache: Path | None = None
     """Folder in which music features are kept between runs."""
-    solo: Path | None = None
-    """npz archive of solo dances, of which pairs are improvised (see training/improvised.py)."""
-    solo_prefixes: tuple[str, ...] = ("indian", "modern")
-    """Names that these solos begin with; the others are kept for leaders from elsewhere."""
-    improvised: int = 1
+    solo_copies: int = 1
     """Pairs of every solo dance and of its mirror image."""
-    val: tuple[str, ...] = ("salsa_03",)
-    test: tuple[str, ...] = ("salsa_05", "salsa_11")
-    """Names of duets that are never trained on, nor used to choose anything."""
     steps: int = 6000
-    minutes: float | None = None
-    """Stop after this time even if the steps are not done; the learning rate follows whichever comes first.
-    """
     batch: int = 32
     stride: int = 4
     """Frames between training windows (the paper's Table 6)."""
     learning_rate: float = 5e-4
     weight_decay: float = 0.02
-    average: float = 0.998
     synths: int = 3
     pieces: int = 2
     """Synthesised pieces and songs per duet and tempo."""
-    seed: int = 0
-    devices: int = 1
-    threads: int = 0
-    """CPU threads for torch, 0 leaves its default."""
-    precision: Precision | None = None
-    """Left out: bf16 where its products are fast, single elsewhere."""
-    log_every: int = 50
     evaluate_every: int = 600
-    resume: bool = False
     denoiser: DenoiserConfig = field(default_factory=DenoiserConfig)
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
     loss: DenoiserLossConfig = field(default_factory=DenoiserLossConfig)
     augmentation: Augmentation = field(default_factory=Augmentation)
 
 
-def condition_keeps(n: int, layers: int, model: DenoiserConfig) -> tuple[Tensor, Tensor]:
-    """keep_leader, keep_music (N, R): which residual layer hears which condition (paper 3.5).
+def main(options: Options) -> None:
+    fabric = launch(options)
+    fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
+    hfsq, frame = load_hfsq(options.out)
+    duets = read_split(options.data, options.val, options.test)
+    bank = music_of(options, duets)
+    clips = duet_clips(options, duets, bank, hfsq, frame)
 
-    Each layer is dropped by itself; now and then all layers together (the unconditional branch of Eq. 9),
-    or the leader alone. Music alone is dropped where it enters, as silence.
-    """
-    rates = model.condition
-    keep = torch.rand(n, layers) >= rates.drop_layer
-    keep &= torch.rand(n, 1) >= rates.drop_all
-    keep_leader = keep & (torch.rand(n, 1) >= rates.drop_leader)
-    return keep_leader.float(), keep.float()
+    torch.manual_seed(options.seed)  # the same initial weights on every rank
+    denoiser = initial_denoiser(options, hfsq, clips)
+    clips += solo_clips(options, hfsq, frame)
+    torch.manual_seed(options.seed + 1 + fabric.global_rank)
+    windows = Windows(
+        clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,
+        options.denoiser.condition, options.seed * 1000 + fabric.global_rank,
+    )  # fmt: skip
+    optimizer = torch.optim.AdamW(
+        denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
+    )
+    stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
+    run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", warmup=200)
+    height = float(np.mean([body_height(d.leader) for d in duets.train]))
+
+    def finish() -> None:
+        """Measure and save the averaged denoiser."""
+        with run.averaged() as averaged:
+            model = Model(hfsq.cpu(), frame, averaged, options.diffusion, height)
+            report = validate(model, bank, duets.val)
+            run.logger.write(run.schedule, report)
+            run.logger.draw()
+            provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
+            save_denoiser(options.out, averaged, options.diffusion, provenance | {"validation": report})
+            write_first_card(options.out, height)
+        hfsq.to(fabric.device)
+
+    run.train(lambda: windows.batch(options.batch), finish)
+    if fabric.is_global_zero:
+        finish()
+    fabric.barrier()
+
+
+def music_of(options: Options, duets: Split) -> MusicBank:
+    """Music features for every duet at every tempo: its own song, songs that fit, synthesised pieces."""
+    wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
+    return build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
+
+
+def duet_clips(
+    options: Options, duets: Split, bank: MusicBank, hfsq: Autoencoder, frame: FrameConfig
+) -> list[Clip]:
+    """The training duets, augmented and encoded."""
+    condition = options.denoiser.condition
+    return augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, condition, options.seed)
+
+
+def solo_clips(options: Options, hfsq: Autoencoder, frame: FrameConfig) -> list[Clip]:
+    """Pairs made from solo dances, encoded; none without an archive of solos."""
+    if options.solo is None:
+        return []
+    solos, condition = read_solo(options.solo, options.solo_prefixes), options.denoiser.condition
+    return solo_pair_clips(solos, options.solo_copies, hfsq, frame, condition, options.seed)
+
+
+def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> Denoiser:
+    """Random weights with the clips' statistics, or those of another checkpoint."""
+    denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
+    if options.init:
+        start_from(denoiser, options.init, "denoiser")
+    else:
+        set_feature_statistics(denoiser, clips)
+    denoiser.lowest, denoiser.highest = hfsq.latent_range()
+    return denoiser
+
+
+def set_feature_statistics(denoiser: Denoiser, clips: list[Clip]) -> None:
+    """Mean and standard deviation of leader and music features, from training clips."""
+    for patches, values in (
+        (denoiser.condition.leader, torch.cat([c.features for c in clips])),
+        (denoiser.condition.music, torch.cat([m for c in clips for m in c.music])),
+    ):
+        patches.mean.copy_(values.mean(0))
+        patches.std.copy_(values.std(0).clamp_min(1e-3))
 
 
 class Stage2(nn.Module):
@@ -122,7 +168,7 @@ class Stage2(nn.Module):
     def forward(self, batch: Batch) -> tuple[Tensor, dict[str, Tensor]]:
         truth = batch.latents
         n, block, layers, _ = truth.shape
-        times = training_times(n, self.steps, truth.device)
+        times = stratified_timesteps(n, self.steps, truth.device)
         signal = self.alpha_bar[times]
         noisy = add_noise(truth, torch.randn_like(truth), signal)
         memory = self.denoiser.condition(
@@ -130,7 +176,7 @@ class Stage2(nn.Module):
         )
         margin = (memory.shape[1] - block) // 2
         keep_leader, keep_music = (
-            k.to(truth.device) for k in condition_keeps(n, layers, self.denoiser.config)
+            k.to(truth.device) for k in condition_dropout(n, layers, self.denoiser.config.condition)
         )
         predicted = self.denoiser(
             noisy,
@@ -144,7 +190,7 @@ class Stage2(nn.Module):
             truth, predicted, batch.valid, self.loss.layers, noise_weights(signal, self.loss.snr)
         )
         parts = {f"simple/{r}": value for r, value in enumerate(by_layer)}
-        # training_times is sorted: the first windows have the least noise. Short windows have no motion to
+        # stratified_timesteps is sorted: the first windows have the least noise. Short windows have no motion to
         # compare.
         clean = [i for i in range(self.loss.windows) if batch.valid[i].min() > 0]
         if clean:
@@ -166,119 +212,19 @@ class Stage2(nn.Module):
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
         # Feet may sink here: were they held up, sinking them would be the cheapest way to keep them still.
-        return as_body(joints.unflatten(0, (len(rows), -1)), floor=False)
+        return rigid_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 
-def validate(
-    model: Model, options: Options, bank: MusicBank, duets: tuple, seeds: int = 2
-) -> dict[str, float]:
+def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 2) -> dict[str, float]:
     """Mean quick report over the validation duets and seeds, default steps and guidance."""
     rows = []
     for duet in duets:
         frames = len(duet) // STRIDE * STRIDE
         music = next(iter(bank[duet.name].values()))
         for seed in range(seeds):
-            made = react(model, duet.leader[:frames], music[:frames], seed)
+            made = react(model, Request(duet.leader[:frames], music[:frames], seed))
             rows.append(quick_report(duet.leader[:frames], duet.reactor[:frames], made))
     return {f"val/{k}": value for k, value in mean_report(rows).items()}
-
-
-def set_feature_statistics(denoiser: Denoiser, clips: list) -> None:
-    """Mean and standard deviation of leader and music features, from training clips."""
-    for patches, values in (
-        (denoiser.condition.leader, torch.cat([c.features for c in clips])),
-        (denoiser.condition.music, torch.cat([m for c in clips for m in c.music])),
-    ):
-        patches.mean.copy_(values.mean(0))
-        patches.std.copy_(values.std(0).clamp_min(1e-3))
-
-
-def main(options: Options) -> None:
-    options = replace(options, precision=options.precision or fast_precision())
-    if options.threads:
-        torch.set_num_threads(options.threads)
-    fabric = Fabric(accelerator="auto", devices=options.devices, precision=options.precision)
-    fabric.launch()
-    fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
-
-    hfsq, frame = load_hfsq(options.out)
-    duets = read_split(options.data, options.val, options.test)
-    wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
-    bank = build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
-    clips = augmented_clips(
-        duets.train, bank, hfsq, frame, options.augmentation, options.denoiser.condition, options.seed
-    )
-
-    torch.manual_seed(options.seed)  # the same initial weights on every rank
-    denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
-    if options.init:
-        start_from(denoiser, options.init, "denoiser")
-    else:
-        set_feature_statistics(denoiser, clips)
-    denoiser.lowest, denoiser.highest = hfsq.latent_range()
-    if options.solo is not None:
-        solos = [s for s in read_solo(options.solo) if s.name.startswith(options.solo_prefixes)]
-        clips += improvised_clips(
-            solos, options.improvised, hfsq, frame, options.denoiser.condition, options.seed
-        )
-    torch.manual_seed(options.seed + 1 + fabric.global_rank)
-    windows = Windows(
-        clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,
-        options.denoiser.condition, options.seed * 1000 + fabric.global_rank,
-    )  # fmt: skip
-    stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
-    optimizer = torch.optim.AdamW(
-        denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
-    )
-    average = Average(denoiser, options.average)
-    average.module.to(fabric.device)
-    stage, optimizer = fabric.setup(stage, optimizer)
-    budget = Budget(options.steps, options.minutes)
-    journal = Journal(options.out / "denoiser", fabric.is_global_zero)
-    state = options.out / "denoiser" / "state.ckpt"
-    if options.resume:
-        load_state(fabric, state, stage, optimizer, average, budget)
-
-    provenance = {
-        "program": "training.train_denoiser",
-        "options": {k: str(v) for k, v in asdict(options).items() if k not in ("denoiser", "diffusion")},
-    }
-    reference_height = float(np.mean([body_height(d.leader) for d in duets.train]))
-
-    def finish() -> None:
-        """Measure and save the averaged model."""
-        if not fabric.is_global_zero:
-            return
-        model = Model(hfsq.cpu(), frame, average.module.cpu(), options.diffusion)
-        report = validate(model, options, bank, duets.val)
-        journal.write(budget, report)
-        journal.draw()
-        facts = {"steps": budget.step, "minutes": round(budget.spent / 60, 1), "validation": report}
-        save_denoiser(options.out, model.denoiser, options.diffusion, provenance | facts)
-        write_first_card(options.out, reference_height)
-        hfsq.to(fabric.device)
-        average.module.to(fabric.device)
-
-    while budget.progress < 1:
-        denoiser.train()
-        for group in optimizer.param_groups:
-            group["lr"] = learning_rate(options.learning_rate, budget, warmup=200)
-        loss, parts = stage(fabric.to_device(windows.batch(options.batch)))
-        fabric.backward(loss)
-        fabric.clip_gradients(stage, optimizer, max_norm=1.0)
-        optimizer.step()
-        optimizer.zero_grad()
-        average.update(denoiser)
-        budget.tick()
-        budget.spent = fabric.broadcast(budget.spent)  # one clock for all ranks: it sets the learning rate
-        journal.add(parts)
-        if budget.step % options.log_every == 0:
-            journal.write(budget)
-        if budget.step % options.evaluate_every == 0:
-            save_state(fabric, state, stage, optimizer, average, budget)
-            finish()
-    finish()
-    fabric.barrier()
 
 
 if __name__ == "__main__":

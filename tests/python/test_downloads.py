@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from bvh import Bvh
 
-from training.skeleton import JOINTS, PARENTS
+from training.motion.skeleton import JOINTS, PARENTS
 
 # The joints by the names that BVH and GLB give them.
 NAMES = [

@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 import torch
 
-from training import average, plain, train_denoiser, train_hfsq
+from training import train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
+from training.checkpoints import average
 from training.config import (
     ConditionConfig,
     DenoiserConfig,
@@ -27,9 +28,10 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
-from training.improvised import improvised_clips
+from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
+from training.evaluation import no_latent_baseline
+from training.hfsq.reconstruct import reconstruct
 from training.loop import fast_precision
-from training.stage2_data import Augmentation, Clip
 
 HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
 DENOISER = DenoiserConfig(width=16, depths=(1, 1), mlp=2, condition=ConditionConfig(depth=1))
@@ -72,7 +74,7 @@ def trained(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
-def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> None:
+def test_both_stages_leave_a_checkpoint_a_log_and_curves(trained: Path) -> None:
     hfsq, frame = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)
     assert diffusion.steps == 2
@@ -82,7 +84,7 @@ def test_both_stages_leave_a_checkpoint_a_journal_and_curves(trained: Path) -> N
     assert (denoiser.condition.leader.std != 1).any()
     for stage in ("hfsq", "denoiser"):
         assert (trained / stage / "curves.png").stat().st_size > 1000
-        rows = [json.loads(line) for line in (trained / stage / "journal.jsonl").read_text().splitlines()]
+        rows = [json.loads(line) for line in (trained / stage / "log.jsonl").read_text().splitlines()]
         assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
         assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
 
@@ -101,9 +103,7 @@ def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: 
     train_hfsq.main(stage1(data, tmp_path))
     state = torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)
     train_hfsq.main(stage1(data, tmp_path, steps=4, evaluate_every=4, resume=True))
-    rows = [
-        json.loads(line)["step"] for line in (tmp_path / "hfsq" / "journal.jsonl").read_text().splitlines()
-    ]
+    rows = [json.loads(line)["step"] for line in (tmp_path / "hfsq" / "log.jsonl").read_text().splitlines()]
     assert state["step"] == 2
     assert max(rows) == 4
     assert rows.count(1) == 1, "resumed, not begun again"
@@ -137,7 +137,7 @@ def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_
         train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
 
 
-def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
+def test_pairs_made_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp_path: Path) -> None:
     for name in ("hfsq.json", "hfsq.safetensors"):
         (tmp_path / name).write_bytes((trained / name).read_bytes())
     np.savez(tmp_path / "solo.npz", indian_1=made_dancer(300, 1), martial_1=made_dancer(300, 2))
@@ -145,11 +145,13 @@ def test_pairs_improvised_from_solo_dances_join_stage_2(data: Path, trained: Pat
 
     def watch(solos: list[Solo], copies: int, *rest: Any) -> list[Clip]:
         seen.append(([solo.name for solo in solos], copies))
-        return improvised_clips(solos, copies, *rest)
+        return solo_pair_clips(solos, copies, *rest)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(train_denoiser, "improvised_clips", watch)
-        train_denoiser.main(stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz"))
+        patch.setattr(train_denoiser, "solo_pair_clips", watch)
+        train_denoiser.main(
+            stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
+        )
     assert seen == [(["indian_1"], 1)]
     with_solos, _ = load_denoiser(tmp_path, load_hfsq(trained)[0])
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])
@@ -185,11 +187,13 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
         average.main(average.Options((trained, tmp_path / "stranger"), tmp_path / "x"))
 
 
-def test_the_plain_model_loses_nothing_and_trains(data: Path, tmp_path: Path) -> None:
-    plain.main(plain.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",)))
+def test_the_no_latent_baseline_is_lossless_and_trains(data: Path, tmp_path: Path) -> None:
+    no_latent_baseline.main(
+        no_latent_baseline.Options(data=data, out=tmp_path, val=("made_1",), test=("made_2",))
+    )
     hfsq, frame = load_hfsq(tmp_path)
     duet = made_duet(200, 1)
-    made = train_hfsq.reconstruct(hfsq, duet, frame)
+    made = reconstruct(hfsq, duet, frame)
     lost = made - duet.reactor
     assert np.abs(lost[..., [0, 2]]).max() < 2e-3, "bones of the made dancers are constant but for rounding"
     assert np.abs(lost - lost[:, :1]).max() < 2e-3, "as a whole they may be lifted out of the floor"
@@ -257,8 +261,8 @@ def test_two_processes_train_together(data: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr[-2000:]
     hfsq, _ = load_hfsq(tmp_path)
     load_denoiser(tmp_path, hfsq)
-    rows = (tmp_path / "denoiser" / "journal.jsonl").read_text().splitlines()
-    assert [json.loads(r)["step"] for r in rows].count(1) == 1, "one process writes the journal"
+    rows = (tmp_path / "denoiser" / "log.jsonl").read_text().splitlines()
+    assert [json.loads(r)["step"] for r in rows].count(1) == 1, "one process writes the log"
 
 
 def test_configs_survive_json_and_refuse_unknown_keys() -> None:

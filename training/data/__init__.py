@@ -1,7 +1,1 @@
-"""Duets of two dancers: readers, splits, windows and augmentation."""
-
-from training.data.duet import FPS, Duet, Solo
-from training.data.npz import read_npz, read_solo
-from training.data.splits import Split, split
-
-__all__ = ["FPS", "Duet", "Solo", "Split", "read_npz", "read_solo", "split"]
+"""Duets of two dancers: readers, splits, augmentation, and the music they are danced to."""

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from training.data.duet import Duet
-from training.skeleton import MIRROR
+from training.motion.skeleton import MIRROR
 
 
 def mirror_motion(motion: np.ndarray) -> np.ndarray:

@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from training.data.duet import Duet
-from training.data.floor import put_on_floor
 from training.data.splits import Split
-from training.skeleton import JOINTS
+from training.motion.floor import put_on_floor
+from training.motion.skeleton import JOINTS
 
 _SMPLX_JOINTS = 55
 _STRIDE = 4

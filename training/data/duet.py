@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from training.config import FPS
-from training.skeleton import JOINTS
+from training.motion.skeleton import JOINTS
 
 __all__ = ["FPS", "Duet", "Solo"]
 

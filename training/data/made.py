@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from training.data.duet import FPS, Duet
-from training.skeleton import PARENTS
+from training.motion.skeleton import PARENTS
 
 # A standing body with its arms half raised, parent to joint, metres, y up, facing +z; left is +x.
 _OFFSETS = np.array(

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from training.data.duet import FPS, Duet, Solo
-from training.data.floor import put_on_floor
-from training.skeleton import JOINTS
+from training.motion.floor import put_on_floor
+from training.motion.skeleton import JOINTS
 
 
 def _check_header(archive: np.lib.npyio.NpzFile, path: Path) -> None:
@@ -40,10 +40,15 @@ def read_npz(path: Path | str) -> list[Duet]:
     return duets
 
 
-def read_solo(path: Path | str) -> list[Solo]:
-    """Solo dances of an archive with keys NAME: (T, 22, 3) metres, y up; sorted by name, floors put at 0."""
+def read_solo(path: Path | str, prefixes: tuple[str, ...] = ("",)) -> list[Solo]:
+    """Solo dances of an archive with keys NAME: (T, 22, 3) metres, y up; sorted by name, floors put at 0.
+
+    prefixes: of the names that are read.
+    """
     path = Path(path)
     with np.load(path) as archive:
         _check_header(archive, path)
-        names = sorted(key for key in archive.files if key not in ("fps", "joints"))
+        names = sorted(
+            key for key in archive.files if key not in ("fps", "joints") and key.startswith(prefixes)
+        )
         return [Solo(name, put_on_floor(archive[name])) for name in names]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from pathlib import Path
 
-from training.data.bvh import read_bvh_folder
+from training.data.bvh.reader import read_bvh_folder
 from training.data.dd100 import read_dd100, split_dd100
 from training.data.duet import Duet
 from training.data.npz import read_npz

@@ -7,9 +7,8 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from training.config import STRIDE, ConditionConfig
-from training.streams import LEADER_FEATURES
-
-MUSIC_FEATURES = 54
+from training.motion.streams import LEADER_FEATURES
+from training.music.recipe import MUSIC_FEATURES
 
 
 class MaskedBlock(nn.Module):
@@ -87,26 +86,38 @@ class ConditionEncoder(nn.Module):
         """Memory of a whole clip with what guidance by music needs beside it, (N, L, 3 D): leader, music, and the
         music's part where there is no song.
         """
-        heard = self(leader, music, music_valid, role)
-        silence = torch.zeros_like(heard).chunk(2, dim=-1)[1].transpose(1, 2)
+        memory = self(leader, music, music_valid, role)
+        silence = torch.zeros_like(memory).chunk(2, dim=-1)[1].transpose(1, 2)
         if self.config.music:
             silence = self.music.context(silence + self.silence[None, :, None], None)
-        return torch.cat([heard, silence.transpose(1, 2)], dim=-1)
+        return torch.cat([memory, silence.transpose(1, 2)], dim=-1)
 
     def forward(
         self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None
     ) -> Tensor:
         """inside: (N, L) 1 where the latent frame belongs to the clip; None when the input is the whole clip."""
         mask = None if inside is None else inside[:, None]
-        led = self.leader.embed(leader) + (2 * role - 1)[:, None, None] * self.role[None, :, None]
-        led = self.leader.context(led, mask)
+        leader_tokens = self.leader.embed(leader) + (2 * role - 1)[:, None, None] * self.role[None, :, None]
+        leader_tokens = self.leader.context(leader_tokens, mask)
         if not self.config.leader:
-            led = torch.zeros_like(led)
+            leader_tokens = torch.zeros_like(leader_tokens)
         valid = F.avg_pool1d(music_valid[:, None], STRIDE)
         # The mask goes onto the input too: where there is no song its features may be anything.
-        heard = self.music.embed(torch.where(music_valid[..., None] > 0.5, music, self.music.mean))
-        heard = heard * valid + self.silence[None, :, None] * (1 - valid)
-        heard = self.music.context(heard, mask)
+        music_tokens = self.music.embed(torch.where(music_valid[..., None] > 0.5, music, self.music.mean))
+        music_tokens = music_tokens * valid + self.silence[None, :, None] * (1 - valid)
+        music_tokens = self.music.context(music_tokens, mask)
         if not self.config.music:
-            heard = torch.zeros_like(heard)
-        return torch.cat([led, heard], dim=1).transpose(1, 2)
+            music_tokens = torch.zeros_like(music_tokens)
+        return torch.cat([leader_tokens, music_tokens], dim=1).transpose(1, 2)
+
+
+def condition_dropout(n: int, layers: int, rates: ConditionConfig) -> tuple[Tensor, Tensor]:
+    """keep_leader, keep_music (N, R): which residual layer keeps which condition (paper 3.5).
+
+    Each layer is dropped by itself; now and then all layers together (the unconditional branch of Eq. 9),
+    or the leader alone. Music alone is dropped where it enters, as silence.
+    """
+    keep = torch.rand(n, layers) >= rates.drop_layer
+    keep &= torch.rand(n, 1) >= rates.drop_all
+    keep_leader = keep & (torch.rand(n, 1) >= rates.drop_leader)
+    return keep_leader.float(), keep.float()

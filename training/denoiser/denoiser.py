@@ -10,12 +10,12 @@ from torch import Tensor, nn
 
 from training.config import DenoiserConfig
 from training.denoiser.condition import ConditionEncoder
-from training.denoiser.transformer import Layer, TimeEmbedding, causal_bias, distance_bias, phase
+from training.denoiser.transformer import Layer, TimeEmbedding, alibi_bias, causal_bias, phase
 
 
 @dataclass(frozen=True)
-class Rules:
-    """What may look where inside a block: Eq. 8's phase, the causal mask and the mask of valid leader tokens."""
+class AttentionMasks:
+    """For one block: Eq. 8's phase, the causal mask and the mask of valid leader tokens, as biases of the logits."""
 
     phase: Tensor  # (block, 2)
     causal: Tensor  # (heads, block, block)
@@ -42,7 +42,7 @@ class Conditioning(nn.Module):
         )
 
 
-class Tower(nn.Module):
+class Transformer(nn.Module):
     """The transformer of one residual layer. `context` channels carry what lower layers know; they never look up."""
 
     def __init__(self, channels: int, context: int, depth: int, config: DenoiserConfig) -> None:
@@ -61,30 +61,37 @@ class Tower(nn.Module):
         nn.init.zeros_(self.output.bias)
 
     def forward(
-        self, x: Tensor, time: Tensor, memory: Tensor, keep_leader: Tensor, keep_music: Tensor, rules: Rules
+        self,
+        x: Tensor,
+        time: Tensor,
+        memory: Tensor,
+        keep_leader: Tensor,
+        keep_music: Tensor,
+        masks: AttentionMasks,
     ) -> tuple[Tensor, Tensor]:
         """x (N, L, channels + context). Returns x0 of this layer (N, L, channels) and hidden states (N, L, D)."""
         leader, music = self.conditioning(memory, keep_leader, keep_music)
-        position = self.position(rules.phase)
+        position = self.position(masks.phase)
         film = F.silu(music + self.time(time))
         h = self.input(x) + position + leader
         leader = leader + position
         for layer in self.layers:
-            h = layer(h, leader, film, rules.causal, rules.cross)
+            h = layer(h, leader, film, masks.causal, masks.cross)
         h = self.norm(h)
         return self.output(h), h
 
 
 class Denoiser(nn.Module):
-    """Condition encoder plus one tower per residual layer: a deep coarse trunk, then fine heads on top of it.
+    """Condition encoder plus one transformer per residual layer: a deep coarse trunk, then fine heads on top of it.
 
-    Coarse never sees fine: tower r reads the noisy latents of layers up to r and the hidden states of the tower below.
+    Coarse never sees fine: transformer r reads the noisy latents of layers up to r and
+    the hidden states of the one below.
     `lowest` and `highest` (R, C) are the ends of the quantiser's range, which sampling keeps to.
     """
 
     phase: Tensor
     causal: Tensor
-    distance: Tensor
+    alibi: Tensor
     lowest: Tensor
     highest: Tensor
 
@@ -92,21 +99,23 @@ class Denoiser(nn.Module):
         super().__init__()
         if len(config.depths) != layers:
             raise ValueError(f"{layers} residual layers need {layers} depths, got {config.depths}")
-        if len(config.slopes) != config.heads:
-            raise ValueError(f"{config.heads} heads need {config.heads} slopes, got {config.slopes}")
+        if len(config.alibi_slopes) != config.heads:
+            raise ValueError(
+                f"{config.heads} heads need {config.heads} alibi_slopes, got {config.alibi_slopes}"
+            )
         self.config = config
         self.latent_width, self.layers = latent_width, layers
         self.condition = ConditionEncoder(config.width, config.condition)
-        self.towers = nn.ModuleList(
-            Tower(latent_width, r * latent_width + (config.width if r else 0), depth, config)
+        self.transformers = nn.ModuleList(
+            Transformer(latent_width, r * latent_width + (config.width if r else 0), depth, config)
             for r, depth in enumerate(config.depths)
         )
         self.register_buffer("lowest", torch.full((layers, latent_width), -torch.inf))
         self.register_buffer("highest", torch.full((layers, latent_width), torch.inf))
-        distance = distance_bias(config.block, config.slopes)
+        alibi = alibi_bias(config.block, config.alibi_slopes)
         self.register_buffer("phase", phase(config.block), persistent=False)
-        self.register_buffer("causal", distance + causal_bias(config.block), persistent=False)
-        self.register_buffer("distance", distance, persistent=False)
+        self.register_buffer("causal", alibi + causal_bias(config.block), persistent=False)
+        self.register_buffer("alibi", alibi, persistent=False)
 
     def forward(
         self, x: Tensor, time: Tensor, memory: Tensor, valid: Tensor, keep_leader: Tensor, keep_music: Tensor
@@ -116,18 +125,18 @@ class Denoiser(nn.Module):
         x: (N, block, R, C) normalised noisy latents; time: (N,) or (1,) in [0, 1]; memory: (N, block, 2 D);
         valid: (N, block) 1 for tokens of the clip, 0 for padding; keep_leader, keep_music: (N, R) 1 or 0 per layer.
         """
-        rules = self.rules(valid)
+        masks = self.masks(valid)
         outputs: list[Tensor] = []
         hidden: Tensor | None = None
-        for r, tower in enumerate(self.towers):
+        for r, transformer in enumerate(self.transformers):
             seen = x[:, :, : r + 1].reshape(-1, x.shape[1], (r + 1) * self.latent_width)
             if hidden is not None:
                 seen = torch.cat([seen, hidden], dim=-1)
-            x0, hidden = tower(seen, time, memory, keep_leader[:, r], keep_music[:, r], rules)
+            x0, hidden = transformer(seen, time, memory, keep_leader[:, r], keep_music[:, r], masks)
             outputs.append(x0)
         return torch.stack(outputs, dim=2)
 
-    def rules(self, valid: Tensor) -> Rules:
+    def masks(self, valid: Tensor) -> AttentionMasks:
         """valid: (N, block)."""
-        cross = self.distance + (valid[:, None, None, :] - 1) * 1e4
-        return Rules(self.phase, self.causal, cross)
+        cross = self.alibi + (valid[:, None, None, :] - 1) * 1e4
+        return AttentionMasks(self.phase, self.causal, cross)

@@ -29,7 +29,7 @@ class Attention(nn.Module):
 
 
 class ChannelDropout(nn.Module):
-    """Drops channels for all tokens of a window at once: (N, L, D). One draw for a window is also quick."""
+    """Drops channels (N, L, D) for all tokens of a window at once, by one draw a window."""
 
     def __init__(self, rate: float) -> None:
         super().__init__()
@@ -88,9 +88,10 @@ def phase(block: int) -> Tensor:
     return torch.stack([angle.sin(), angle.cos()], dim=-1)
 
 
-def distance_bias(block: int, slopes: tuple[float, ...]) -> Tensor:
-    """(heads, block, block): minus slope times the distance in latent frames.
+def alibi_bias(block: int, slopes: tuple[float, ...]) -> Tensor:
+    """ALiBi (Press et al. 2022, Train Short, Test Long), on both sides of the query, added to the logits.
 
+    (heads, block, block): minus slope times the distance in latent frames, one slope a head.
     Eq. 8's positions turn by half a circle over a block, which is too little to tell neighbours apart from few data;
     a slope of 0 leaves a head as the paper has it.
     """

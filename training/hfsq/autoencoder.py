@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from training.config import HfsqConfig
 from training.hfsq.convolutions import Decoder, Encoder, Patch, Unpatch
 from training.hfsq.quantisers import make_quantiser
-from training.streams import STREAM_WIDTHS
+from training.motion.streams import STREAM_WIDTHS
 
 
 class Stream(nn.Module):

@@ -14,7 +14,7 @@ from training.hfsq.masking import progressive_masking
 
 
 def kinematic(truth: Tensor, predicted: Tensor, weights: tuple[float, float, float]) -> Tensor:
-    """Eq. 4: L1 on positions, velocities and accelerations (metres per frame^k), times 100 to speak of centimetres."""
+    """Eq. 4: L1 on positions, velocities and accelerations (metres per frame^k), times 100: centimetres."""
     total = truth.new_zeros(())
     for weight in weights:
         total = total + weight * (truth - predicted).abs().mean() * 100
@@ -25,14 +25,14 @@ def kinematic(truth: Tensor, predicted: Tensor, weights: tuple[float, float, flo
 def energy_loss(truth: Tensor, predicted: Tensor) -> Tensor:
     """(N,) squared logarithm of predicted over true mean speed, acceleration and jerk, mean over joints.
 
-    L1 terms are content with a motion that moves too little; a dance is not. The third difference speaks for what
-    is above 6 Hz. motions: (N, T, 22, 3) metres.
+    L1 terms favour a motion that moves too little. The third difference weighs frequencies above 6 Hz.
+    motions: (N, T, 22, 3) metres.
     """
     total = truth.new_zeros(len(truth))
     for _ in range(3):
         truth, predicted = truth.diff(dim=1), predicted.diff(dim=1)
-        true_pace, pace = ((m.square().sum(-1) + 1e-8).sqrt().mean(1) for m in (truth, predicted))
-        total = total + (pace / true_pace).log().square().mean(-1)
+        true_speed, speed = ((m.square().sum(-1) + 1e-8).sqrt().mean(1) for m in (truth, predicted))
+        total = total + (speed / true_speed).log().square().mean(-1)
     return total
 
 
@@ -42,8 +42,8 @@ def stage1_loss(
     """Eq. 3 summed over the streams. Returns the loss and its parts, detached.
 
     motions: (N, T, c) metres each; slow: the same without what is above the masking's cutoff, the target of
-    windows whose upper layers are hidden. So the base layer learns the slow motion and leaves the quick one
-    to the layers above: a hierarchy of frequency, which Eq. 9 can then guide apart.
+    windows whose upper layers are hidden. So the base layer learns low frequencies and leaves high ones to the
+    layers above, and Eq. 9 can guide the two apart.
     """
     weights = (config.weight_position, config.weight_velocity, config.weight_acceleration)
     parts: dict[str, Tensor] = {}

@@ -1,4 +1,4 @@
-"""Progressive masking (paper 3.2, Figure 3): makes the decoder robust and the layers a hierarchy."""
+"""Progressive masking (paper 3.2, Figure 3): residual masking and code masking while stage 1 trains."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from training.config import FPS, MaskingConfig
 
 
 def slow_motion(motion: Tensor, cutoff: float | None) -> Tensor:
-    """Motion (T, c) without what is above `cutoff` Hz, in time with it; all of it where the cutoff is None."""
+    """Motion (T, c) low-passed at `cutoff` Hz without phase shift; unchanged where the cutoff is None."""
     if cutoff is None:
         return motion
     filtered = sosfiltfilt(butter(4, cutoff, fs=FPS, output="sos"), motion.numpy(), axis=0)

@@ -7,7 +7,7 @@ from torch import Tensor, nn
 from vector_quantize_pytorch import ResidualVQ
 
 from training.config import STRIDE, HfsqConfig
-from training.streams import STREAM_WIDTHS
+from training.motion.streams import STREAM_WIDTHS
 
 
 def fsq(e: Tensor, levels: Tensor) -> Tensor:
@@ -31,8 +31,8 @@ def fsq_range(levels: Tensor) -> tuple[Tensor, Tensor]:
 class Hfsq(nn.Module):
     """Grouped residual FSQ (Eq. 1): each of G groups is quantised over R layers.
 
-    Every layer looks at the residual through its own projection to the FSQ dimensions and answers through its own
-    projection back, so later layers code the directions that earlier ones left out as well as their rounding.
+    Every layer projects the residual to the FSQ dimensions and back with its own matrices, so later layers code the
+    directions that earlier ones left out as well as their rounding.
     The residual is divided by s_r before it is quantised; without that it would mostly round to zero.
     """
 
@@ -153,7 +153,7 @@ class KlBottleneck(nn.Module):
 
 
 class Unquantised(nn.Module):
-    """Features as they are, in one layer: for the plain model that diffusion in latents is measured against."""
+    """Features as they are, in one layer: for the no-latent baseline."""
 
     def __init__(self, width: int) -> None:
         super().__init__()

@@ -84,3 +84,6 @@ class AudioRecipe:
         if columns is not None and columns != recipe.features:
             raise ValueError(f"the recipe makes {recipe.features} feature columns, not {columns}")
         return recipe
+
+
+MUSIC_FEATURES = AudioRecipe().features

@@ -5,7 +5,7 @@ import type { Duet, Rules } from './rules';
 
 /** How well the reactor's beats fall on those of somebody else; NaN where the other has none. */
 export interface Alignment {
-  /** Mean score of the other's beats, 0 to 1: `beat_alignment` of training/metrics/beats.py. */
+  /** Mean score of the other's beats, 0 to 1: `beat_alignment` of training/evaluation/metrics/beats.py. */
   readonly value: number;
   /** The same by accident: the mean over all shifts of the reactor's beats, `chance_alignment` in Python. */
   readonly chance: number;

@@ -11,7 +11,7 @@ import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
-/** How close the dancers come: `penetration` of training/metrics/penetration.py and `root_distance` of distance.py. */
+/** How close the dancers come: `penetration` of training/evaluation/metrics/penetration.py and `root_distance` of distance.py. */
 export interface Closeness {
   /** Share of frames with an overlap that is deeper than a touch: `ipr_capsules`. */
   readonly overlapShare: number;
@@ -26,7 +26,7 @@ export interface Closeness {
 
 /**
  * Deepest overlap of any capsule of one dancer with any of the other in every frame, metres, 0 where there is none:
- * `depth` of training/metrics/penetration.py.
+ * `depth` of training/evaluation/metrics/penetration.py.
  */
 export function overlapDepth({ leader, reactor, frames, fps }: Duet, rule: BodyRule): Float64Array {
   const [a, b] = [leader, reactor].map((positions) => capsuleBody({ fps, frames, positions }, rule)) as [

@@ -2,7 +2,7 @@ import type { BodyRule } from '../motion/contact/capsules';
 import type { ContactRule } from '../motion/contact/foot-contacts';
 
 /**
- * The constants of the measures, the same as in training/metrics. They come from Python through the manifest (its
+ * The constants of the measures, the same as in training/evaluation/metrics. They come from Python through the manifest (its
  * `quality` block), so that a number on the page and one in a report mean the same.
  */
 export interface Rules {

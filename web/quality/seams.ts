@@ -5,7 +5,7 @@ import type { Duet, Rules } from './rules';
 /** Jitter where the blocks of the model meet; NaN without a seam. */
 export interface SeamJitter {
   readonly seams: number;
-  /** |dv| at the seams over that of the rest of the motion: `against_interior` of training/metrics/seams.py. */
+  /** |dv| at the seams over that of the rest of the motion: `against_interior` of training/evaluation/metrics/seams.py. */
   readonly ratio: number;
   /** Mean |dv| within the paper's wide window, mm per frame^2: `paper_jitter` in Python. */
   readonly paperJitter: number;
@@ -13,7 +13,7 @@ export interface SeamJitter {
 
 /**
  * |dv| in every frame: the mean over joints of ||p[t+1] - 2 p[t] + p[t-1]||, mm per frame^2, NaN at both ends.
- * `velocity_change` of training/metrics/seams.py.
+ * `velocity_change` of training/evaluation/metrics/seams.py.
  */
 export function velocityChange(positions: Float32Array, frames: number): Float64Array {
   const width = JOINT_COUNT * 3;

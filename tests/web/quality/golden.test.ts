@@ -1,4 +1,4 @@
-/** The measures of the page against training/metrics, on the same duet. */
+/** The measures of the page against training/evaluation/metrics, on the same duet. */
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { visibleSlide } from '../../../web/quality/contact';

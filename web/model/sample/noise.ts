@@ -1,5 +1,5 @@
 /**
- * Counter-based noise, the same numbers as training/noise.py: Philox4x32-10 (Salmon et al., SC 2011) and Box-Muller.
+ * Counter-based noise, the same numbers as training/diffusion/noise.py: Philox4x32-10 (Salmon et al., SC 2011) and Box-Muller.
  * A latent frame's noise depends on (seed, frame, channel) alone, so block order and clip length don't matter.
  */
 

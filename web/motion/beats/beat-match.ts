@@ -23,7 +23,7 @@ export interface BestShift {
 
 /**
  * How well each motion beat falls on the music: exp(-d^2 / (2 * tolerance^2)), d the frames to the nearest music beat, as
- * `beat_scores` of training/metrics/beats.py with the motion's beats as reference.
+ * `beat_scores` of training/evaluation/metrics/beats.py with the motion's beats as reference.
  * @param motion frames in any order
  * @param music frames in ascending order, whole or not
  * @param tolerance standard deviation of the score, frames; the manifest's

@@ -35,7 +35,7 @@ const BONES = SIDES.flatMap((side) => [
  * How many frames at the beginning of a file are no dance: the rest pose that many programs write before it, and the
  * frames in which the body is still on its way out of it. 0 unless that is certain: the first pose must be a T-pose or
  * the file's own rest pose, and the way to the second one a jump that no body makes. The rule is that of
- * training/data/bvh_rest.py.
+ * training/data/bvh/rest_pose.py.
  */
 export function restFrames(file: BvhFile, map: JointMap): number {
   const first = file.frameLines.slice(0, AFTER + 2);

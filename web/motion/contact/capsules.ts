@@ -13,7 +13,7 @@ export interface Capsule {
   readonly beyond: number;
 }
 
-/** How wide bodies are, the same as in training/metrics/penetration.py. */
+/** How wide bodies are, the same as in training/evaluation/metrics/penetration.py. */
 export interface BodyRule {
   readonly capsules: readonly Capsule[];
   /** Body height (scale.ts) of the radii's body, metres. */

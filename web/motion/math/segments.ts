@@ -1,6 +1,6 @@
 /**
  * Smallest distance between two segments, each given by its two ends as six numbers from an offset; points are
- * allowed. `segment_distance` of training/metrics/penetration.py: clamped closest points after Ericson, Real-Time
+ * allowed. `segment_distance` of training/evaluation/metrics/penetration.py: clamped closest points after Ericson, Real-Time
  * Collision Detection, 5.1.9. Written out, since a long dance asks for it some hundred thousand times.
  * @param x with `z`: level shift of the second segment, metres
  */

@@ -1,0 +1,226 @@
+"""The denoiser: what may depend on what, and how conditions are dropped."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import torch
+
+from export.tiny import tiny_model
+from training.config import ConditionConfig, DenoiserConfig
+from training.denoiser.condition import ConditionEncoder, condition_dropout
+from training.denoiser.denoiser import Denoiser
+from training.denoiser.transformer import ChannelDropout, phase
+from training.diffusion.model import Model
+
+BLOCK = 60
+
+
+@pytest.fixture(scope="module")
+def model() -> Model:
+    return tiny_model()
+
+
+def given(model: Model, n: int = 2) -> dict[str, torch.Tensor]:
+    torch.manual_seed(1)
+    d = model.denoiser
+    return {
+        "x": torch.randn(n, BLOCK, d.layers, d.latent_width),
+        "time": torch.full((n,), 0.5),
+        "memory": torch.randn(n, BLOCK, 2 * d.config.width),
+        "valid": torch.ones(n, BLOCK),
+        "keep_leader": torch.ones(n, d.layers),
+        "keep_music": torch.ones(n, d.layers),
+    }
+
+
+def test_attention_is_causal_inside_a_block(model: Model) -> None:
+    """The output at token i does not depend on x at j > i, and does on x at j <= i."""
+    inputs = given(model, 1)
+    inputs["x"].requires_grad_(True)
+    at = 30
+    out = model.denoiser(**inputs)[0, at].square().sum()
+    (gradient,) = torch.autograd.grad(out, inputs["x"])
+    by_token = gradient[0].abs().sum((1, 2))
+    assert torch.equal(by_token[at + 1 :], torch.zeros(BLOCK - at - 1))
+    assert (by_token[: at + 1] > 0).all()
+
+
+def test_cross_attention_sees_the_leader_ahead_but_not_the_padding(model: Model) -> None:
+    inputs = given(model, 1)
+    inputs["valid"][0, 50:] = 0
+    inputs["memory"].requires_grad_(True)
+    out = model.denoiser(**inputs)[0, 10].square().sum()
+    (gradient,) = torch.autograd.grad(out, inputs["memory"])
+    width = model.denoiser.config.width
+    leader = gradient[0, :, :width].abs().sum(1)
+    assert (leader[:50] > 0).all()
+    assert torch.equal(leader[50:], torch.zeros(10))
+    music = gradient[0, :, width:].abs().sum(1)
+    assert (music[:11] > 0).all(), "music reaches a token through itself and the tokens before it"
+    assert torch.equal(music[11:], torch.zeros(BLOCK - 11))
+
+
+def test_coarse_never_depends_on_fine(model: Model) -> None:
+    inputs = given(model)
+    before = model.denoiser(**inputs)
+    inputs["x"][:, :, 1] += 1
+    inputs["keep_leader"][:, 1] = 0
+    inputs["keep_music"][:, 1] = 0
+    after = model.denoiser(**inputs)
+    assert torch.equal(before[:, :, 0], after[:, :, 0])
+    assert not torch.allclose(before[:, :, 1], after[:, :, 1])
+    inputs = given(model)
+    inputs["x"][:, :, 0] += 1
+    assert not torch.allclose(before[:, :, 1], model.denoiser(**inputs)[:, :, 1]), "fine follows coarse"
+
+
+def test_each_layer_has_its_own_null_for_each_condition(model: Model) -> None:
+    base = model.denoiser(**given(model))
+    for condition in ("keep_leader", "keep_music"):
+        for layer in range(2):
+            inputs = given(model)
+            inputs[condition][:, layer] = 0
+            changed = (model.denoiser(**inputs) - base).abs().amax((0, 1, 3))
+            assert changed[layer] > 1e-4, f"{condition} of layer {layer} does nothing"
+            assert layer == 0 or changed[0] == 0
+    inputs = given(model)
+    inputs["keep_leader"][:] = inputs["keep_music"][:] = 0
+    without = model.denoiser(**inputs)
+    inputs["memory"] = torch.randn_like(inputs["memory"])
+    assert torch.equal(without, model.denoiser(**inputs)), "a dropped condition leaks"
+
+
+def test_music_keeps_its_timing(model: Model) -> None:
+    """Music enters per token: moving it by one token changes the output where a pooled mean would change nothing."""
+    inputs = given(model)
+    before = model.denoiser(**inputs)
+    width = model.denoiser.config.width
+    rolled = inputs["memory"].clone()
+    rolled[..., width:] = rolled[..., width:].roll(1, dims=1)
+    inputs["memory"] = rolled
+    change = (model.denoiser(**inputs) - before).norm() / before.norm()
+    assert change > 0.01
+
+
+def test_each_layer_loses_its_conditions_by_its_own_draw() -> None:
+    """Bernoulli per layer, shared by streams; now and then all layers, now and then the leader alone."""
+    torch.manual_seed(0)
+    n = 20000
+    rates = ConditionConfig()
+    keep_leader, keep_music = condition_dropout(n, 2, rates)
+    kept = keep_music.bool()
+    expected = (1 - rates.drop_layer) * (1 - rates.drop_all)
+    for layer in range(2):
+        assert float(kept[:, layer].float().mean()) == pytest.approx(expected, abs=0.01)
+    only_fine_dropped = (kept[:, 0] & ~kept[:, 1]).float().mean()
+    only_coarse_dropped = (~kept[:, 0] & kept[:, 1]).float().mean()
+    alone = rates.drop_layer * (1 - rates.drop_layer) * (1 - rates.drop_all)
+    assert float(only_fine_dropped) == pytest.approx(alone, abs=0.01)
+    assert float(only_coarse_dropped) == pytest.approx(alone, abs=0.01)
+    none = (~kept).all(1).float().mean()
+    assert float(none) == pytest.approx(rates.drop_all + (1 - rates.drop_all) * rates.drop_layer**2, abs=0.01)
+    leader_alone = (kept & ~keep_leader.bool()).any(1).float().mean()
+    assert float(leader_alone) == pytest.approx(
+        rates.drop_leader * float(kept.any(1).float().mean()), abs=0.01
+    )
+    assert not (keep_leader.bool() & ~kept).any()
+
+
+def test_positions_are_equation_8() -> None:
+    table = phase(BLOCK)
+    for i in (0, 1, 30, 59):
+        assert table[i, 0] == pytest.approx(math.sin(math.pi * i / BLOCK), abs=1e-6)
+        assert table[i, 1] == pytest.approx(math.cos(math.pi * i / BLOCK), abs=1e-6)
+
+
+def encoder(config: ConditionConfig) -> ConditionEncoder:
+    torch.manual_seed(0)
+    made = ConditionEncoder(16, config).eval()
+    for parameter in made.parameters():
+        if parameter.abs().max() == 0:
+            torch.nn.init.normal_(parameter, std=0.3)
+    return made
+
+
+def test_memory_of_a_window_with_margin_is_that_of_the_clip() -> None:
+    made = encoder(ConditionConfig())
+    latents, field = 40, made.receptive_field
+    leader, music = torch.randn(1, 4 * latents, 68), torch.randn(1, 4 * latents, 54)
+    role, valid = torch.zeros(1), torch.ones(1, 4 * latents)
+    whole = made(leader, music, valid, role)
+    start, stop = 10, 22
+    rows = slice(4 * (start - field), 4 * (stop + field))
+    inside = torch.ones(1, stop - start + 2 * field)
+    window = made(leader[:, rows], music[:, rows], valid[:, rows], role, inside)
+    assert torch.allclose(window[:, field:-field], whole[:, start:stop], atol=1e-5)
+    # At the clip's beginning the margin lies outside and must count as the zero padding of the whole clip.
+    padded = torch.nn.functional.pad
+    rows = slice(0, 4 * (12 + field))
+    inside = padded(torch.ones(1, 12 + field), (field, 0))
+    first = made(
+        padded(leader[:, rows], (0, 0, 4 * field, 0)), padded(music[:, rows], (0, 0, 4 * field, 0)),
+        padded(valid[:, rows], (4 * field, 0)), role, inside,
+    )  # fmt: skip
+    assert torch.allclose(first[:, field : field + 12], whole[:, :12], atol=1e-5)
+
+
+def test_silence_is_the_same_whatever_lies_in_the_features() -> None:
+    made = encoder(ConditionConfig())
+    leader, role = torch.randn(1, 80, 68), torch.zeros(1)
+    valid = torch.ones(1, 80)
+    valid[:, 40:] = 0
+    music = torch.randn(1, 80, 54)
+    other = music.clone()
+    other[:, 40:] = 1e6
+    assert torch.equal(made(leader, music, valid, role), made(leader, other, valid, role))
+    assert not torch.allclose(made(leader, music, valid, role), made(leader, music, torch.ones(1, 80), role))
+
+
+def test_memory_of_a_clip_has_silence_beside_leader_and_music() -> None:
+    made = encoder(ConditionConfig())
+    features, music = torch.randn(1, 80, 68), torch.randn(1, 80, 54)
+    role, valid = torch.ones(1), torch.ones(1, 80)
+    with torch.no_grad():
+        whole = made.of_clip(features, music, valid, role)
+        leader, heard = made(features, music, valid, role).chunk(2, dim=-1)
+        _, silence = made(features, music, torch.zeros_like(valid), role).chunk(2, dim=-1)
+    assert whole.shape[-1] == made.memory_width
+    for part, expected in zip(whole.chunk(3, dim=-1), (leader, heard, silence), strict=True):
+        assert torch.allclose(part, expected, atol=1e-5)
+    assert not torch.allclose(silence, heard, atol=0.1)
+
+
+@pytest.mark.parametrize(("leader", "music"), [(False, True), (True, False)])
+def test_ablated_conditions_are_gone(leader: bool, music: bool) -> None:
+    made = encoder(ConditionConfig(leader=leader, music=music))
+    led, heard = torch.randn(1, 40, 68), torch.randn(1, 40, 54)
+    role, valid = torch.zeros(1), torch.ones(1, 40)
+    before = made(led, heard, valid, role)
+    assert torch.equal(before, made(torch.randn_like(led), heard, valid, role)) is not leader
+    assert torch.equal(before, made(led, torch.randn_like(heard), valid, role)) is not music
+
+
+def test_a_model_with_three_layers_and_its_own_depths() -> None:
+    config = DenoiserConfig(width=16, depths=(1, 1, 1))
+    made = Denoiser(12, 3, config).eval()
+    out = made(
+        torch.randn(1, BLOCK, 3, 12), torch.zeros(1), torch.randn(1, BLOCK, 32), torch.ones(1, BLOCK),
+        torch.ones(1, 3), torch.ones(1, 3),
+    )  # fmt: skip
+    assert out.shape == (1, BLOCK, 3, 12)
+    with pytest.raises(ValueError, match="3 residual layers need 3 depths"):
+        Denoiser(12, 3, DenoiserConfig(width=16))
+
+
+def test_dropout_takes_channels_from_a_whole_window() -> None:
+    torch.manual_seed(0)
+    dropout = ChannelDropout(0.25)
+    x = torch.ones(40, 10, 64)
+    dropped = dropout.train()(x)
+    assert (dropped == dropped[:, :1]).all(), "the same channels at every moment"
+    assert (dropped[0] != dropped[1]).any(), "others in another window"
+    assert dropped.unique().tolist() == pytest.approx([0, 1 / 0.75])
+    assert float(dropped.mean()) == pytest.approx(1, abs=0.05)
+    assert torch.equal(dropout.eval()(x), x)

@@ -1,0 +1,132 @@
+"""Leaders from elsewhere: each demand fails for a partner that breaks it, and for no other."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.python.support.made_bvh import MadeDancer, write_bvh
+from training.data.duet import Solo
+from training.data.made import made_dancer, made_duet
+from training.evaluation.out_of_distribution import judge, measure_elsewhere, read_leaders
+from training.evaluation.protocol import Trial
+from training.motion.floor import put_on_floor
+from training.motion.skeleton import JOINTS
+
+TOES = (JOINTS.index("left_foot"), JOINTS.index("right_foot"))
+
+
+@pytest.fixture(scope="module")
+def leader() -> np.ndarray:
+    return put_on_floor(made_dancer(200, 1))
+
+
+def failed(leader: np.ndarray, reactor: np.ndarray) -> set[str]:
+    row = judge(leader, reactor)
+    assert row["passed"] == all(row["checks"].values())
+    return {name for name, passed in row["checks"].items() if not passed}
+
+
+def near(leader: np.ndarray) -> np.ndarray:
+    return leader + np.array([0.0, 0.0, 0.8])
+
+
+def test_a_good_partner_passes(leader: np.ndarray):
+    row = judge(leader, near(leader))
+    assert row["passed"]
+    assert row["distance_median_m"] == pytest.approx(0.8)
+    assert row["distance_max_m"] == pytest.approx(0.8)
+    assert row["speed"] == pytest.approx(row["leader_speed"])
+
+
+def test_not_a_number(leader: np.ndarray):
+    reactor = near(leader)
+    reactor[50, 3, 1] = np.nan
+    assert "finite" in failed(leader, reactor)
+
+
+def test_feet(leader: np.ndarray):
+    for shift, bad in ((0.08, False), (0.14, True), (-0.03, False), (-0.09, True)):
+        reactor = near(leader)
+        reactor[:, TOES, 1] = 0.03 + shift
+        assert ("on the floor" in failed(leader, reactor)) == bad, shift
+    # One raised foot is a step; both raised in a tenth of the dance is flying, in a hundredth it is not.
+    step = near(leader)
+    step[:, TOES, 1] = 0.03, 0.5
+    assert "on the floor" not in failed(leader, step)
+    for frames, bad in ((20, True), (1, False)):
+        jump = near(leader)
+        jump[:, TOES, 1] = 0.03
+        jump[:frames, TOES, 1] = 0.5
+        assert ("on the floor" in failed(leader, jump)) == bad, frames
+
+
+def test_distance(leader: np.ndarray):
+    assert failed(leader, leader + np.array([2.9, 0.0, 0.0])) == set()
+    assert failed(leader, leader + np.array([3.1, 0.0, 0.0])) == {"near"}
+    once = near(leader)
+    once[100] += np.array([3.0, 0.0, 0.0])  # one frame is enough
+    assert "near" in failed(leader, once)
+
+
+def test_speed():
+    still = np.repeat(put_on_floor(made_dancer(1, 1)), 121, axis=0)
+    slow, fast = (still.astype(np.float64) for _ in range(2))
+    slow[:, :, 0] += np.linspace(0, 4 * 0.29, 121)[:, None]  # m/s over 4 s
+    fast[:, :, 0] += np.linspace(0, 4 * 0.31, 121)[:, None]
+    assert failed(still, slow) == set()
+    assert failed(still, fast) == {"speed"}
+    # A leader at 0.29 m/s lets the partner have 0.88.
+    assert failed(slow, still + 3.0 * (slow - still)) == set()
+    assert failed(slow, still + 3.1 * (slow - still)) == {"speed"}
+
+
+def test_every_leader_is_danced_with(tmp_path: Path):
+    trials = [
+        Trial(made_duet(60, 1, "a"), np.full((60, 54), 1.0)),
+        Trial(made_duet(60, 2, "b"), np.full((60, 54), 2.0)),
+    ]
+    leaders = [Solo(f"martial_{i}", put_on_floor(made_dancer(50 + 40 * i, i))) for i in range(3)]
+    heard = []
+
+    def dancer(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
+        heard.append((len(leader), music.shape, float(music.mean()), seed, role))
+        return near(leader) + (10.0 if len(leader) == 90 else 0.0)
+
+    rows, dances = measure_elsewhere(dancer, leaders, trials, seed=7)
+    assert heard == [(50, (50, 54), 1.0, 7, 0.0), (90, (90, 54), 2.0, 7, 0.0), (130, (130, 54), 1.0, 7, 0.0)]
+    assert [rows[name]["passed"] for name in ("martial_0", "martial_1", "martial_2")] == [True, False, True]
+    assert [(d.name, len(d.reactor)) for d in dances] == [
+        ("martial_0", 50),
+        ("martial_1", 90),
+        ("martial_2", 130),
+    ]
+    assert "overlap_share_solved" not in rows["martial_0"]
+
+    # What is drawn is the solved dancer, and overlaps are told before and after.
+    def inside(leader, music, seed, **_):
+        return leader.copy()
+
+    def step_aside(motion, leader):
+        return motion + np.array([3, 0, 0], np.float32)
+
+    rows, dances = measure_elsewhere(inside, leaders[:1], trials, 7, step_aside)  # pyright: ignore[reportArgumentType]
+    assert rows["martial_0"]["overlap_share"] == 1.0
+    assert rows["martial_0"]["overlap_share_solved"] == 0.0
+    assert np.array_equal(dances[0].reactor, leaders[0].motion + np.array([3, 0, 0], np.float32))
+    silent, _ = measure_elsewhere(
+        lambda leader, music, seed: near(leader) if music is None else leader,  # pyright: ignore[reportArgumentType]
+        leaders[:1], [Trial(trials[0].duet, None)], 0,
+    )  # fmt: skip
+    assert silent["martial_0"]["distance_max_m"] == pytest.approx(0.8)
+
+
+def test_leaders_are_read_from_archives_and_files(tmp_path: Path):
+    np.savez(tmp_path / "solo.npz", martial_1=made_dancer(40, 1), modern_1=made_dancer(50, 2))
+    write_bvh(tmp_path / "waltz.bvh", MadeDancer(30, seed=3), "own", unit=0.01)
+    leaders = read_leaders([tmp_path / "solo.npz", tmp_path / "waltz.bvh"])
+    assert [leader.name for leader in leaders] == ["martial_1", "modern_1", "waltz"]
+    with pytest.raises(ValueError, match="waltz"):
+        read_leaders([tmp_path / "waltz.bvh", tmp_path / "waltz.bvh"])

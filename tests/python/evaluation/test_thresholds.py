@@ -1,0 +1,198 @@
+"""Bars of quality: each is computed from the numbers it names, and fails on the wrong side of its limit."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+import pytest
+
+from training.evaluation.metrics.speed import BANDS, band_name
+from training.evaluation.separability import separability
+from training.evaluation.thresholds import QUALITY, Bar, check_quality
+
+
+def row(**changed: float) -> dict[str, Any]:
+    mean = {
+        "mpjpe_mm": 90.0, "root_error_mm": 180.0, "speed_ratio": 1.0, "acceleration_ratio": 1.0,
+        **{f"energy_db {band_name(*edges)}": 0.0 for edges in BANDS},
+        "skate_share": 0.3, "contact_share": 0.5, "ipr_capsules": 0.08, "hands_w1_m": 0.05, "facing_w1_deg": 4.0,
+        "bed_forward": 0.4, "bed_forward_chance": 0.2, "bed_backward": 0.5, "bed_backward_chance": 0.2,
+        "beats_ratio": 1.0, "bone_variation": 0.01, "bas": 0.3, "bas_low": 0.2, "bas_high": 0.4,
+    } | changed  # fmt: skip
+    return {
+        "mean": mean,
+        "per_seed": [mean],
+        "trials": {n: {"mean": dict(mean)} for n in ("salsa_05", "salsa_11")},
+    }
+
+
+def good() -> dict[str, Any]:
+    """Numbers that reach every bar."""
+    near = {"hands_w1_m": 0.1, "facing_w1_deg": 8.0}
+    return {
+        "trials": {"salsa_05": 800, "salsa_11": 1000},
+        "rows": {
+            "truth": row(mpjpe_mm=0.0, root_error_mm=0.0),
+            "reconstruction": row(mpjpe_mm=9.0, root_error_mm=12.0),
+            "generated": row(),
+            "solved": row(bone_variation=0.0),
+            "solved, foot lock": row(skate_share=0.1),
+            "nearest neighbour": row(**near),
+        },
+        "long_dance": {"truth": {"repeat_share": 0.1}, "generated": {"repeat_share": 0.12}},
+        "seams": {"ratio": 1.0},
+        "responses": {"song_over_leader": 0.2, "seeds_apart_pose_mm": 46.0},
+        "two_sample": {"generated": 0.6},
+        "separability": {
+            "coarse_moves_own": 0.2, "coarse_moves_other": 0.0, "fine_moves_own": -0.2, "fine_moves_other": 0.05
+        },
+        "beat_following": {"salsa_11": {"p": 0.001, "difference": 0.5, "following": 0.9}},
+    }  # fmt: skip
+
+
+def missed(numbers: dict[str, Any]) -> dict[str, Bar]:
+    return {bar.name: bar for bar in check_quality(numbers) if not bar.passed}
+
+
+def test_good_numbers_reach_every_bar():
+    bars = check_quality(good())
+    assert [bar.name for bar in bars if not bar.passed] == []
+    assert len({bar.name for bar in bars}) == len(bars) == len(QUALITY) + 4
+
+
+# What is changed in the generated row, just inside and just outside its limit, and the bar that notices.
+@pytest.mark.parametrize(
+    "key, inside, outside, bar",
+    [
+        ("mpjpe_mm", 99.0, 101.0, "MPJPE, mm"),
+        ("root_error_mm", 199.0, 201.0, "relative-root error, mm"),
+        ("speed_ratio", 0.91, 0.89, "mean joint speed over the truth's"),
+        ("speed_ratio", 1.09, 1.11, "mean joint speed over the truth's"),
+        ("acceleration_ratio", 0.91, 0.89, "mean joint acceleration over the truth's"),
+        ("energy_db 0-1 Hz", 2.9, 3.1, "energy in 0-1 Hz against the truth, dB"),
+        ("energy_db 6-15 Hz", -2.9, -3.1, "energy in 6-15 Hz against the truth, dB"),
+        ("skate_share", 0.3 * 1.14, 0.3 * 1.16, "skating over the truth's"),
+        ("contact_share", 0.5 * 0.86, 0.5 * 0.84, "feet in contact over the truth's"),
+        ("contact_share", 0.5 * 1.14, 0.5 * 1.16, "feet in contact over the truth's"),
+        ("ipr_capsules", 0.109, 0.111, "IPR (capsules) above the truth's, points"),
+        ("hands_w1_m", 0.099, 0.1, "hand distance, W1 over nearest neighbour's"),
+        ("facing_w1_deg", 7.9, 8.0, "facing, W1 over nearest neighbour's"),
+        ("bed_forward", 0.2 + 0.61 * 0.2, 0.2 + 0.59 * 0.2, "BED forward above chance over the truth's"),
+        ("bed_forward_chance", 0.27, 0.29, "BED forward above chance over the truth's"),
+        ("bed_backward", 0.2 + 0.61 * 0.3, 0.2 + 0.59 * 0.3, "BED backward above chance over the truth's"),
+        ("beats_ratio", 1.14, 1.16, "motion beats over the truth's"),
+        ("bone_variation", 0.019, 0.021, "variation of raw bones"),
+    ],
+)
+def test_limits_of_the_motion(key: str, inside: float, outside: float, bar: str):
+    for rows, prefix in (("generated", ""), ("solved", "solved: ")):
+        numbers = good()
+        numbers["rows"][rows]["mean"][key] = inside
+        assert missed(numbers).keys() == set()
+        numbers["rows"][rows]["mean"][key] = outside
+        # Bones of the solved skeleton are rigid by construction and not asked about.
+        expected = set() if (rows, key) == ("solved", "bone_variation") else {prefix + bar}
+        assert missed(numbers).keys() == expected
+
+
+def test_limits_of_the_reconstruction_and_the_probes():
+    for section, key, outside, bar in (
+        ("seams", "ratio", 0.89, "seams over the truth's"),
+        ("seams", "ratio", 1.16, "seams over the truth's"),
+        ("responses", "song_over_leader", 0.09, "another song's change over another leader's"),
+        ("separability", "coarse_moves_own", 0.04, "coarse guidance moves energy under 1.5 Hz by"),
+        ("separability", "coarse_moves_other", 0.11, "coarse guidance leaves energy over 3 Hz"),
+        ("separability", "fine_moves_own", -0.04, "fine guidance moves energy over 3 Hz by"),
+        ("separability", "fine_moves_other", -0.11, "fine guidance leaves energy under 1.5 Hz"),
+    ):
+        numbers = good()
+        numbers[section][key] = outside
+        assert missed(numbers).keys() == {bar}
+    for key, bar in (
+        ("mpjpe_mm", "reconstruction MPJPE, mm"),
+        ("root_error_mm", "reconstruction root error, mm"),
+    ):
+        numbers = good()
+        numbers["rows"]["reconstruction"]["mean"][key] = 25.1
+        assert missed(numbers).keys() == {bar}
+
+
+@pytest.mark.parametrize(
+    "section, key, inside, outside, bar",
+    [
+        ("responses", "seeds_apart_pose_mm", 40.1, 39.9, "two seeds apart in pose, mm"),
+        ("two_sample", "generated", 0.655, 0.665, "told from the truth, accuracy"),
+    ],
+)
+def test_variety_and_likeness_have_bars(section: str, key: str, inside: float, outside: float, bar: str):
+    numbers = good()
+    numbers[section][key] = inside
+    assert missed(numbers).keys() == set()
+    numbers[section][key] = outside
+    assert missed(numbers).keys() == {bar}
+
+
+def test_beats_of_single_trials():
+    numbers = good()
+    numbers["rows"]["generated"]["trials"]["salsa_05"]["mean"]["bas"] = 0.9  # nobody knows its beats
+    assert missed(numbers).keys() == set()
+    for value in (0.19, 0.41):
+        numbers["rows"]["generated"]["trials"]["salsa_11"]["mean"]["bas"] = value
+        bar = missed(numbers)["BAS of salsa_11 in the truth's interval"]
+        assert (bar.low, bar.high) == (0.2, 0.4)
+    # p alone is not following: what changes has to turn round with the music.
+    numbers = good()
+    numbers["beat_following"]["salsa_11"]["following"] = -0.99
+    assert missed(numbers).keys() == {"half a beat later, salsa_11: following"}
+    numbers = good()
+    numbers["beat_following"]["salsa_11"]["p"] = 0.01
+    assert missed(numbers).keys() == {"half a beat later, salsa_11: p"}
+
+
+def test_what_was_not_measured_is_left_out_and_what_is_unknown_is_missed():
+    numbers = good()
+    for name in ("solved", "reconstruction", "nearest neighbour"):
+        del numbers["rows"][name]
+    for name in ("separability", "beat_following"):
+        del numbers[name]
+    names = {bar.name for bar in check_quality(numbers)}
+    assert not any(
+        word in name for name in names for word in ("solved", "reconstruction", "neighbour", "guidance")
+    )
+    assert "MPJPE, mm" in names
+    silent = copy.deepcopy(good())
+    for name in ("truth", "generated", "solved"):
+        for trial in silent["rows"][name]["trials"].values():
+            for key in ("bas", "bas_low", "bas_high"):
+                del trial["mean"][key]
+    assert not any("BAS" in bar.name for bar in check_quality(silent))
+    deaf = good()
+    deaf["rows"]["truth"]["mean"]["bed_forward"] = 0.1  # below chance: nothing to compare with
+    assert "BED forward above chance over the truth's" in missed(deaf)
+
+
+def test_separability():
+    cells = [
+        {"coarse": c, "fine": f, "slow_energy": 2.0 * (1 + c), "quick_energy": 0.5 * (1 + f) + 0.05 * c}
+        for c in (0.0, 0.5, 1.2)
+        for f in (0.0, 0.5, 1.2)
+    ]
+    assert separability(cells) == pytest.approx(
+        {"coarse_moves_own": 1.2, "coarse_moves_other": 0.12, "fine_moves_own": 1.2, "fine_moves_other": 0.0}
+    )
+    assert separability([c for c in cells if c["fine"] < 1]) == pytest.approx(
+        {"coarse_moves_own": 1.2, "coarse_moves_other": 0.12}
+    )
+    assert separability(cells[4:]) == {}
+
+
+def test_the_foot_lock_halves_skating_and_long_dances_do_not_loop():
+    numbers = good()
+    numbers["rows"]["solved, foot lock"] = row(skate_share=0.16)
+    assert missed(numbers)["foot lock: skating over without"].value == pytest.approx(0.16 / 0.3)
+    numbers = good()
+    numbers["long_dance"]["generated"]["repeat_share"] = 0.16
+    assert missed(numbers)["two minutes: repeated windows above the truth's, points"].value == pytest.approx(
+        6
+    )

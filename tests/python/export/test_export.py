@@ -1,0 +1,102 @@
+"""Export: the committed tiny model is fresh, and onnxruntime agrees with PyTorch at every step."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import onnx
+import pytest
+
+from export import tiny
+from export.golden import reference
+from export.runtime import open_model
+from export.verify import TOLERANCE, verify
+from training.data.made import made_dancer
+from training.diffusion.react import Request, react
+
+FIXTURE = Path(__file__).parents[2] / "fixtures" / "tiny-model"
+SHIPPED = Path(__file__).parents[3] / "web" / "public" / "models"
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("tiny")
+    tiny.main(tiny.Options(out=out))
+    return out
+
+
+def contents(path: Path) -> tuple[list[tuple[str, ...]], dict[str, np.ndarray]]:
+    """The nodes of a graph in order, and its weights by name."""
+    graph = onnx.load(path).graph
+    nodes = [(node.op_type, *node.input, "->", *node.output) for node in graph.node]
+    return nodes, {weight.name: onnx.numpy_helper.to_array(weight) for weight in graph.initializer}
+
+
+def test_the_committed_tiny_model_is_what_the_exporter_writes_today(exported: Path) -> None:
+    """Equal but for the last bits of random weights, which another processor may round another way."""
+    hint = "export has changed: run python -m export.tiny --out tests/fixtures/tiny-model"
+    fresh, committed = (json.loads((folder / "manifest.json").read_text()) for folder in (exported, FIXTURE))
+    for manifest in (fresh, committed):
+        manifest.pop("created")
+        for graph in manifest["graphs"].values():
+            graph.pop("files")
+    assert fresh == committed, hint
+    for name in fresh["graphs"]:
+        nodes, weights = contents(exported / f"{name}.onnx")
+        committed_nodes, committed_weights = contents(FIXTURE / f"{name}.onnx")
+        assert nodes == committed_nodes, hint
+        assert weights.keys() == committed_weights.keys(), hint
+        for key, values in weights.items():
+            assert np.allclose(values, committed_weights[key], atol=2e-3), f"{key}: {hint}"
+    with np.load(exported / "golden.npz") as new, np.load(FIXTURE / "golden.npz") as old:
+        assert new.files == old.files
+        for name in new.files:
+            assert np.allclose(new[name], old[name], atol=1e-2), f"{name}: {hint}"
+
+
+def test_onnxruntime_agrees_with_pytorch_at_every_step() -> None:
+    results = verify(tiny.tiny_model(), FIXTURE, (1, 2, 9, 75))
+    assert list(results) == [1, 2, 9, 75]
+    assert all(value <= TOLERANCE for row in results.values() for value in row.values())
+
+
+def test_verification_notices_other_weights() -> None:
+    with pytest.raises(ValueError, match="differ from PyTorch"):
+        verify(tiny.tiny_model(seed=1), FIXTURE, (1,))
+
+
+def test_the_step_graph_has_no_shape_arithmetic() -> None:
+    nodes = onnx.load(FIXTURE / "step.onnx").graph.node
+    kinds = {node.op_type for node in nodes}
+    assert not kinds & {"Shape", "Where", "NonZero", "GatherND", "Loop", "If"}
+
+
+def test_every_golden_tensor_varies() -> None:
+    """Every tensor varies; a preview without the fine layer differs from the whole."""
+    golden = reference(tiny.tiny_model(), tiny.SCENE)
+    for name in ("memory", "initial", "x", "x0", "reactor", "coarse"):
+        assert golden[name].std() > 1e-3, name
+    assert np.abs(golden["reactor"] - golden["coarse"]).max() > 1e-3
+
+
+def test_react_takes_a_leader_of_any_length_and_no_music() -> None:
+    model = open_model(FIXTURE, threads=1)
+    leader = made_dancer(333, 4)
+    made = react(model, Request(leader, None, 1))
+    assert made.shape == leader.shape
+    assert np.isfinite(made).all()
+    louder = react(model, Request(leader, np.ones((100, 54)), 1))
+    assert not np.allclose(made, louder)
+
+
+@pytest.mark.parametrize(
+    "folder", sorted(p.parent for p in SHIPPED.glob("*/manifest.json")), ids=lambda p: p.name
+)
+def test_shipped_graphs_are_those_of_the_committed_checkpoint(folder: Path) -> None:
+    from training.checkpoint import load_model
+
+    checkpoint = Path(__file__).parents[3] / "training" / "checkpoints" / folder.name
+    results = verify(load_model(checkpoint), folder, (1, 2))
+    assert all(value <= TOLERANCE for row in results.values() for value in row.values())

@@ -1,0 +1,165 @@
+"""The frame of reference and the three streams."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import torch
+
+from training.config import FrameConfig
+from training.data.made import made_duet
+from training.motion.heading import into_frame, out_of_frame
+from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
+from training.motion.rigid_body import constant_bones, rigid_body
+from training.motion.skeleton import PARENTS, TOES
+from training.motion.streams import (
+    LEADER_FEATURES,
+    STREAM_WIDTHS,
+    from_streams,
+    leader_features,
+    to_streams,
+)
+
+FRAME = FrameConfig()
+
+
+def pair(frames: int = 120) -> tuple[torch.Tensor, torch.Tensor]:
+    duet = made_duet(frames, 3)
+    return torch.from_numpy(duet.leader), torch.from_numpy(duet.reactor)
+
+
+def moved(motion: torch.Tensor, angle: float, shift: tuple[float, float]) -> torch.Tensor:
+    """Turned about the vertical by `angle` and carried over the floor."""
+    c, s = np.cos(angle), np.sin(angle)
+    turn = torch.tensor([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=torch.float32)
+    return motion @ turn.T + torch.tensor([shift[0], 0, shift[1]])
+
+
+def test_streams_come_back() -> None:
+    leader, reactor = pair()
+    heading = smoothed_heading(leader, FRAME)
+    streams = to_streams(leader, reactor, heading)
+    assert tuple(s.shape[1] for s in streams) == STREAM_WIDTHS
+    assert torch.allclose(from_streams(*streams, leader, heading), reactor, atol=1e-5)
+
+
+@pytest.mark.parametrize("angle", [0.4, 2.0, -3.0])
+def test_the_frame_does_not_see_where_the_couple_is_or_faces(angle: float) -> None:
+    leader, reactor = pair()
+    before = (*to_streams(leader, reactor, smoothed_heading(leader, FRAME)),)
+    led, reacted = moved(leader, angle, (3, -2)), moved(reactor, angle, (3, -2))
+    after = to_streams(led, reacted, smoothed_heading(led, FRAME))
+    for a, b in zip(before, after, strict=True):
+        assert torch.allclose(a, b, atol=1e-4)
+    features = leader_features(leader, smoothed_heading(leader, FRAME))
+    assert torch.allclose(features, leader_features(led, smoothed_heading(led, FRAME)), atol=2e-3)
+
+
+def test_heading_is_the_direction_the_hips_face() -> None:
+    leader = torch.zeros(200, 22, 3)
+    leader[:, 1, 0], leader[:, 2, 0] = 0.1, -0.1  # left hip at +x: the dancer faces +z
+    assert torch.allclose(smoothed_heading(leader, FRAME), torch.tensor([0.0, 1.0]).expand(200, 2), atol=1e-5)
+    turned = moved(leader, np.pi / 2, (0, 0))  # +z turns to +x
+    assert torch.allclose(smoothed_heading(turned, FRAME), torch.tensor([1.0, 0.0]).expand(200, 2), atol=1e-5)
+    vector = torch.tensor([1.0, 2.0, 3.0]).expand(200, 1, 3)
+    heading = smoothed_heading(turned, FRAME)
+    assert torch.allclose(out_of_frame(into_frame(vector, heading), heading), vector, atol=1e-5)
+
+
+def test_the_condition_knows_where_the_leader_goes() -> None:
+    """Root height, velocity and turn rate are there: without them placement would collapse to a mean distance."""
+    leader, _ = pair(200)
+    walking = leader + torch.arange(200)[:, None, None] * torch.tensor([0.02, 0.0, 0.0])
+    lifted = leader + torch.tensor([0.0, 0.3, 0.0])
+    features = {
+        name: leader_features(motion, smoothed_heading(motion, FRAME))
+        for name, motion in (("still", leader), ("walking", walking), ("lifted", lifted))
+    }
+    assert features["still"].shape == (200, LEADER_FEATURES)
+    velocity, height = slice(64, 67), 63
+    speed = (features["walking"] - features["still"])[:, velocity].norm(dim=-1)
+    assert torch.allclose(speed, torch.full_like(speed, 0.6), atol=1e-3)
+    assert torch.allclose((features["lifted"] - features["still"])[:, height], torch.tensor(0.3), atol=1e-5)
+    spin = torch.arange(200) * 0.05
+    turning = torch.stack([moved(leader[:1], float(a), (0, 0))[0] for a in spin])
+    rate = leader_features(turning, smoothed_heading(turning, FRAME))[60:140, 67]
+    assert torch.allclose(rate, torch.full_like(rate, np.sin(0.05) * 30), atol=0.02)
+
+
+def test_placement_holds_the_reactors_own_height() -> None:
+    leader, reactor = pair()
+    heading = smoothed_heading(leader, FRAME)
+    jump = leader + torch.tensor([0.0, 0.5, 0.0])
+    assert torch.equal(to_streams(leader, reactor, heading)[2], to_streams(jump, reactor, heading)[2])
+
+
+def test_the_frame_turns_evenly_with_a_leader_who_spins() -> None:
+    """Two turns a second are more than the Gaussian sees of one direction: their average has none."""
+    pace = 2 * np.pi * 2 / 30
+    still = torch.zeros(1, 22, 3)
+    still[:, 1, 0], still[:, 2, 0] = 0.1, -0.1
+    spinning = torch.cat([moved(still, pace * frame, (0, 0)) for frame in range(150)])
+    heading = smoothed_heading(spinning, FRAME)[45:-45]
+    assert torch.allclose(heading.norm(dim=-1), torch.ones(60), atol=1e-5)
+    cross = heading[:-1, 1] * heading[1:, 0] - heading[:-1, 0] * heading[1:, 1]
+    assert torch.allclose(cross, torch.full_like(cross, np.sin(pace)), atol=1e-4)
+    angles = pace * torch.arange(45, 105)
+    assert torch.allclose(heading, torch.stack([angles.sin(), angles.cos()], dim=-1), atol=1e-3)
+
+
+def test_the_frame_leaves_out_the_swing_of_the_hips() -> None:
+    swing = 0.5 * torch.sin(2 * np.pi * 1.5 * torch.arange(240) / 30)
+    still = torch.zeros(1, 22, 3)
+    still[:, 1, 0], still[:, 2, 0] = 0.1, -0.1
+    swinging = torch.cat([moved(still, float(angle), (0, 0)) for angle in swing])
+    heading = smoothed_heading(swinging, FRAME)[45:-45]
+    assert torch.allclose(heading, torch.tensor([0.0, 1.0]).expand_as(heading), atol=0.02)
+
+
+def test_bones_keep_their_length_and_direction() -> None:
+    _, reactor = pair(60)
+    stretched = reactor * (1 + 0.2 * torch.sin(torch.arange(60.0) / 5))[:, None, None]
+    made = constant_bones(stretched)
+    parents = list(PARENTS[1:])
+
+    def bones(motion: torch.Tensor) -> torch.Tensor:
+        return motion[:, 1:] - motion[:, parents]
+
+    lengths = bones(made).norm(dim=-1)
+    assert torch.allclose(lengths, lengths[:1].expand_as(lengths), atol=1e-5)
+    assert torch.allclose(lengths[0], bones(stretched).norm(dim=-1).mean(0), atol=1e-4)
+    cosine = torch.cosine_similarity(bones(made), bones(stretched), dim=-1)
+    assert torch.allclose(cosine, torch.ones_like(cosine), atol=1e-4)
+    assert torch.equal(made[:, 0], stretched[:, 0])
+    assert torch.allclose(constant_bones(made), made, atol=1e-5)
+
+
+def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
+    """Feet that bones of their mean length would push through the floor stay where they were."""
+    reactor = pair(120)[1] + torch.tensor([0.0, 0.1, 0.0])
+    shrunk = reactor.clone()
+    shrink = 0.1 * torch.exp(-(((torch.arange(120.0) - 60) / 20) ** 2))
+    shrunk[:, :, 1] = reactor[:, :, 1] * (1 - shrink)[:, None] + reactor[:, :1, 1] * shrink[:, None]
+
+    def lower(motion: torch.Tensor) -> torch.Tensor:
+        return motion[:, list(TOES), 1].amin(1)
+
+    sunk = (lower(constant_bones(shrunk)) - lower(shrunk)).abs()
+    kept = (lower(rigid_body(shrunk[None], floor=False)[0]) - lower(shrunk)).abs()
+    assert sunk.max() > 0.02
+    assert kept.max() < 0.25 * sunk.max()
+    sunk_body = rigid_body(shrunk[None] - torch.tensor([0.0, 0.3, 0.0]))[0]
+    assert lower(sunk_body).min() > 0.015, "nobody stands in the floor"
+    body = rigid_body(shrunk[None])[0]
+    moved = body - constant_bones(shrunk)
+    assert moved[..., [0, 2]].abs().max() == 0, "it only rises and sinks"
+    assert (moved[..., 1] - moved[:, :1, 1]).abs().max() < 1e-6, "as a whole"
+
+
+def test_arctangent_cosine_and_sine_are_exact_where_they_are_used() -> None:
+    x = torch.linspace(-1, 1, 2001)
+    assert torch.allclose(arctangent(x), x.atan(), atol=3e-7)
+    angle = torch.linspace(-4 * np.pi, 4 * np.pi, 5001)
+    cosine, sine = cosine_sine(angle)
+    assert torch.allclose(cosine, angle.cos(), atol=5e-6)
+    assert torch.allclose(sine, angle.sin(), atol=5e-6)

@@ -1,0 +1,58 @@
+"""Average the weights of denoisers that were tuned from one checkpoint (model soups, Wortsman et al. 2022).
+
+    python -m training.checkpoints.average --checkpoints runs/a runs/b --out runs/average
+
+Stage 1 and the card are those of the first checkpoint; all must have been trained with the same stage 1.
+"""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+import tyro
+from safetensors.torch import load_file
+
+from training.checkpoint import load_denoiser, load_hfsq, read_config, save_denoiser
+
+
+@dataclass(frozen=True)
+class Options:
+    checkpoints: tuple[Path, ...]
+    """Folders of checkpoints, two or more."""
+    out: Path
+    """Folder for the average."""
+
+
+def main(options: Options) -> None:
+    """Raises ValueError for fewer than two checkpoints, and for those of different models or stages 1."""
+    first, *others = options.checkpoints
+    if not others:
+        raise ValueError("an average needs two checkpoints or more")
+    configs = [read_config(folder, "denoiser") for folder in options.checkpoints]
+    stage1 = (first / "hfsq.safetensors").read_bytes()
+    for folder, config in zip(others, configs[1:], strict=True):
+        if config["denoiser"]["depths"] != configs[0]["denoiser"]["depths"] or (
+            (folder / "hfsq.safetensors").read_bytes() != stage1
+        ):
+            raise ValueError(f"{folder} is of another model or another stage 1 than {first}")
+    hfsq, _ = load_hfsq(first)
+    denoiser, diffusion = load_denoiser(first, hfsq)
+    weights = [load_file(str(folder / "denoiser.safetensors")) for folder in options.checkpoints]
+    mean = {key: torch.stack([w[key].float() for w in weights]).mean(0) for key in weights[0]}
+    denoiser.load_state_dict({key: value.to(denoiser.state_dict()[key].dtype) for key, value in mean.items()})
+    provenance = {
+        "program": "training.checkpoints.average",
+        "checkpoints": [config["provenance"] for config in configs],
+    }
+    options.out.mkdir(parents=True, exist_ok=True)
+    for name in ("hfsq.json", "hfsq.safetensors", "card.json"):
+        if (first / name).exists() and options.out.resolve() != first.resolve():
+            shutil.copy(first / name, options.out / name)
+    save_denoiser(options.out, denoiser, diffusion, provenance)
+
+
+if __name__ == "__main__":
+    main(tyro.cli(Options))

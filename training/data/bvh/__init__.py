@@ -1,0 +1,1 @@
+"""Reads BVH files of whole bodies as the 22 joints."""

@@ -1,0 +1,83 @@
+"""Reader of duets kept as BVH files: NAME_leader.bvh and NAME_reactor.bvh, and NAME.wav, .mp3, .ogg or .flac if any."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from training.data.bvh.body import assemble, find_unit, find_up, read_body
+from training.data.bvh.file import parse_bvh
+from training.data.bvh.rest_pose import rest_frames
+from training.data.duet import Duet, Solo
+from training.motion.floor import put_on_floor
+
+SONG_SUFFIXES = (".wav", ".mp3", ".ogg", ".flac")
+
+
+def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
+    """One dancer: metres, y up, 30 fps, floor at 0, without the rest pose before the dance.
+
+    fps: overrides the frame rate that the file states.
+    Raises ValueError, naming the file, for what is no complete BVH file of a whole body.
+    """
+    (motion,) = _read_together([Path(path)], fps)
+    return Solo(Path(path).stem, put_on_floor(motion))
+
+
+def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
+    """All duets of a folder, sorted by name. Partners keep their distance: unit and up axis are found for both at once.
+
+    The shorter dancer's length is kept. fps: overrides the frame rate that the files state.
+    Raises FileNotFoundError when there is no NAME_leader.bvh or a partner is missing, ValueError for a bad file.
+    """
+    folder = Path(folder)
+    leaders = sorted(folder.glob("*_leader.bvh"))
+    if not leaders:
+        raise FileNotFoundError(f"no NAME_leader.bvh in {folder}")
+    duets = []
+    for leader_path in leaders:
+        name = leader_path.stem.removesuffix("_leader")
+        reactor_path = folder / f"{name}_reactor.bvh"
+        if not reactor_path.exists():
+            raise FileNotFoundError(f"{leader_path} has no partner {reactor_path.name}")
+        leader, reactor = _read_together([leader_path, reactor_path], fps)
+        songs = [song for suffix in SONG_SUFFIXES if (song := folder / f"{name}{suffix}").exists()]
+        frames = min(len(leader), len(reactor))
+        duets.append(
+            Duet(
+                name,
+                put_on_floor(leader[:frames]),
+                put_on_floor(reactor[:frames]),
+                songs[0] if songs else None,
+            )
+        )
+    return duets
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Puts the file's name before the words of a ValueError."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
+
+
+def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
+    """Dancers of one world, (T, 22, 3) each; files of one recording have one unit, one up axis and one beginning."""
+    files, rests, bodies = [], [], []
+    for path in paths:
+        with _naming(path):
+            file = parse_bvh(path)
+            rests.append(rest_frames(file))
+            files.append(file)
+    for path, file in zip(paths, files, strict=True):
+        with _naming(path):
+            bodies.append(read_body(replace(file, values=file.values[max(rests) :]), fps))
+    up = find_up(sum((body.upright() / body.size() for body in bodies), start=np.zeros(3)))
+    metres = find_unit(float(np.exp(np.mean([np.log(body.size()) for body in bodies]))))
+    return [assemble(body, up, metres) for body in bodies]

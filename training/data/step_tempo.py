@@ -1,0 +1,178 @@
+"""One constant tempo and phase of a dance, from the feet.
+
+Salsa in eight counts: steps on 1, 2, 3 and 5, 6, 7, feet alternating, so one foot plants on 1, 3, 6 and the
+other on 2, 5, 7. The leader begins with the left foot, the reactor mirrors. The steps on 2 and 6 are small
+(weight is replaced), and dancers spread the three steps over the four counts, so the counts themselves hardly
+show in the spectrum of foot speed, but the eight-count cycle does, in the sum and the difference of the two
+feet.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import find_peaks
+
+from training.data.duet import FPS, Duet
+from training.motion.skeleton import JOINTS
+from training.music.tempo import CYCLE, Tempo
+
+_LEFT = tuple(JOINTS.index(name) for name in ("left_ankle", "left_foot"))
+_RIGHT = tuple(JOINTS.index(name) for name in ("right_ankle", "right_foot"))
+
+# Counts, from 0, on which the foot that begins and the other one plant.
+BEGINNING_FOOT = (0, 2, 5)
+OTHER_FOOT = (1, 4, 6)
+
+_BPM = np.arange(140.0, 210.0, 0.2)
+# Harmonics of the eight-count cycle that steps can excite: both feet together repeat after four counts, the
+# difference of the feet changes sign after four.
+_SUM_HARMONICS = (2, 4, 6)
+_DIFFERENCE_HARMONICS = (1, 3, 5)
+
+
+@dataclass(frozen=True)
+class Plants:
+    """Touch-downs of one dancer: seconds (K,), foot (K,) 0 left, 1 right, and peak speed (K,) m/s of the
+    step."""
+
+    seconds: np.ndarray
+    foot: np.ndarray
+    speed: np.ndarray
+
+
+def foot_speed(motion: np.ndarray, sigma: float = 1.5) -> np.ndarray:
+    """Speed of the left and right foot (ankle and toes' mean) of a (T, 22, 3) motion: (2, T) m/s,
+    smoothed."""
+    rows = []
+    for foot in (_LEFT, _RIGHT):
+        path = gaussian_filter1d(
+            motion[:, foot].mean(axis=1).astype(np.float64), sigma, axis=0, mode="nearest"
+        )
+        rows.append(np.linalg.norm(np.gradient(path, axis=0), axis=1) * FPS)
+    return np.stack(rows)
+
+
+def foot_plants(motion: np.ndarray, lowest_peak: float = 0.5, settled: float = 0.5) -> Plants:
+    """Times at which a moving foot comes to rest: its speed has fallen to `settled` of the step's peak.
+
+    Half the peak is where the speed changes fastest, so it is the least uncertain instant of a touch-down;
+    the foot itself keeps sliding a little in captured motion. Steps slower than `lowest_peak` m/s are
+    shuffles.
+    """
+    seconds, feet, peaks = [], [], []
+    for foot, speed in enumerate(foot_speed(motion)):
+        found, _ = find_peaks(speed, height=lowest_peak, prominence=0.5 * lowest_peak)
+        for peak, following in zip(found, np.append(found, len(speed))[1:], strict=True):
+            level = settled * speed[peak]
+            slow = np.flatnonzero(speed[peak:following] <= level)
+            if len(slow):
+                after = peak + slow[0]
+                fall = speed[after - 1] - speed[after]
+                seconds.append((after - 1 + (speed[after - 1] - level) / fall) / FPS)
+                feet.append(foot)
+                peaks.append(speed[peak])
+    order = np.argsort(seconds)
+    return Plants(np.array(seconds)[order], np.array(feet, dtype=int)[order], np.array(peaks)[order])
+
+
+def _centred(signal: np.ndarray) -> np.ndarray:
+    """Without its slow trend (2 s), weighted down at the ends, norm 1."""
+    window = np.hanning(len(signal) + 2)[1:-1] ** 0.25
+    signal = (signal - gaussian_filter1d(signal, 2.0 * FPS, mode="nearest")) * window
+    return signal / max(float(np.linalg.norm(signal)), 1e-12)
+
+
+def cycle_power(motion: np.ndarray, bpm: np.ndarray) -> np.ndarray:
+    """How much of the feet's rhythm has a period of eight counts, for each tempo: (len(bpm),), about 0 to
+    1."""
+    left, right = foot_speed(motion)
+    seconds = np.arange(len(motion)) / FPS
+    power = np.zeros(len(bpm))
+    for signal, harmonics in ((left + right, _SUM_HARMONICS), (left - right, _DIFFERENCE_HARMONICS)):
+        signal = _centred(signal)
+        for harmonic in harmonics:
+            wave = np.exp(-2j * np.pi * harmonic * np.outer(bpm / 60 / CYCLE, seconds))
+            power += np.abs(wave @ signal) ** 2 / len(seconds)
+    return power
+
+
+def _step_template(counts: np.ndarray, planted: tuple[int, ...]) -> np.ndarray:
+    """Expected foot speed at positions in the eight counts: a bump before each plant, the small steps
+    lower."""
+    total = np.zeros_like(counts)
+    for plant in planted:
+        away = (counts - (plant - 0.6) + CYCLE / 2) % CYCLE - CYCLE / 2
+        total += (0.5 if plant in (1, 5) else 1.0) * np.exp(-0.5 * (away / 0.5) ** 2)
+    return total
+
+
+def plant_errors(plants: Plants, tempo: Tempo, begins: int) -> np.ndarray:
+    """Signed distance in beats from each plant to the nearest count its foot plants on: (K,).
+
+    begins: the foot on count 1, 0 left (leader) or 1 right (reactor).
+    """
+    counts = tempo.counts(plants.seconds)
+    targets = np.where((plants.foot == begins)[:, None], BEGINNING_FOOT, OTHER_FOOT)
+    errors = (counts[:, None] - targets + CYCLE / 2) % CYCLE - CYCLE / 2
+    return errors[np.arange(len(counts)), np.abs(errors).argmin(axis=1)]
+
+
+def estimate_tempo(dancers: list[tuple[np.ndarray, int]]) -> Tempo:
+    """Constant tempo and phase of dancers who move together.
+
+    dancers: (T, 22, 3) motions, each with the foot it begins on (0 left, 1 right).
+
+    The tempo is where the feet have most power in the harmonics of eight counts; the eight counts are then
+    laid where the feet's speed fits the pattern of steps best, and shifted so that the median plant falls on
+    its count.
+    """
+    bpm = float(_BPM[np.sum([cycle_power(motion, _BPM) for motion, _ in dancers], axis=0).argmax()])
+    period = 60 / bpm
+    feet = [(foot_speed(motion), begins) for motion, begins in dancers]
+    fits = []
+    firsts = np.arange(0, CYCLE, 0.05) * period
+    for first in firsts:
+        fit = 0.0
+        for speeds, begins in feet:
+            counts = Tempo(bpm, float(first)).counts(np.arange(speeds.shape[1]) / FPS)
+            for foot, speed in enumerate(speeds):
+                template = _step_template(counts, BEGINNING_FOOT if foot == begins else OTHER_FOOT)
+                fit += float(np.corrcoef(template, speed)[0, 1])
+        fits.append(fit)
+    tempo = Tempo(bpm, float(firsts[int(np.argmax(fits))]))
+    errors = np.concatenate([plant_errors(foot_plants(motion), tempo, begins) for motion, begins in dancers])
+    shift = float(np.median(errors)) * period if len(errors) else 0.0
+    return Tempo(bpm, (tempo.first + shift) % (CYCLE * period))
+
+
+def duet_tempo(duet: Duet, leader_only: bool) -> Tempo:
+    """Tempo of a duet; from the leader alone where the reactor is what a model is asked for.
+
+    On held-out sequences the music is a condition, so nothing of the true reactor's timing may reach it.
+    """
+    if leader_only:
+        return estimate_tempo([(duet.leader, 0)])
+    return estimate_tempo([(duet.leader, 0), (duet.reactor, 1)])
+
+
+@dataclass(frozen=True)
+class PlantFit:
+    """How well plants lie on the counts: their number; `on_count`, the share within a third of a beat of a
+    count that the foot plants on (a quarter by chance); `concentration`, the mean resultant length, 0 to 1,
+    of the plants on the circle of a left-right step pair, the two feet half a turn apart."""
+
+    plants: int
+    on_count: float
+    concentration: float
+
+
+def plant_fit(plants: Plants, tempo: Tempo, begins: int) -> PlantFit:
+    """Measures plants against a tempo; begins: the foot on count 1, 0 left or 1 right."""
+    on_count = float(np.mean(np.abs(plant_errors(plants, tempo, begins)) < 1 / 3))
+    # Three pairs of steps in eight counts. On the circle of single beats even a perfect dancer would score
+    # low, since three steps are spread over four beats.
+    turns = 3 * tempo.counts(plants.seconds) / CYCLE + 0.5 * (plants.foot != begins)
+    return PlantFit(len(plants.seconds), on_count, float(np.abs(np.exp(2j * np.pi * turns).mean())))

@@ -1,0 +1,78 @@
+"""The reactor to a leader and a song: one function, whatever runs the model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from training.config import STRIDE, per_layer
+from training.diffusion.model import ReactionModel, for_all_streams
+from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.schedule import ddim_steps
+from training.motion.skeleton import body_height
+from training.music.recipe import MUSIC_FEATURES
+
+
+@dataclass(frozen=True, eq=False)
+class Request:
+    """What a model is asked for. None takes the model's default."""
+
+    leader: np.ndarray  # (T, 22, 3) metres, 30 fps, of any size
+    music: np.ndarray | None = None  # (T', F) features; silence where they end, and without them
+    seed: int = 0
+    steps: int | None = None
+    guidance: tuple[float, float] | None = None  # Eq. 9's s of coarse and fine, for all streams
+    music_guidance: float | None = None  # m of `classifier_free_guidance`
+    role: float = 0.0  # 0 dances the reactor, 1 the leader, to a partner in the leader's place
+    layers: int | None = None  # residual layers that are decoded, from the coarse one up; None decodes all
+    condition_leader: np.ndarray | None = None  # (T, 22, 3), given to the condition in the leader's place
+
+
+@torch.no_grad()
+def react(model: ReactionModel, request: Request) -> np.ndarray:
+    """The reactor (T, 22, 3) metres, as much smaller or taller than the model's reference as the leader is."""
+    sampling = model.sampling
+    height = sampling.reference_height
+    leader = at_height(request.leader, height)
+    conditioning = leader if request.condition_leader is None else at_height(request.condition_leader, height)
+    music, music_valid = music_of_length(request.music, len(leader))
+    memory = model.condition(conditioning, music, music_valid, torch.tensor([float(request.role)]))
+
+    default = sampling.guidance
+    guidance = default if request.guidance is None else tuple(per_layer(request.guidance, sampling.layers))
+    weight = sampling.music_guidance if request.music_guidance is None else request.music_guidance
+    steps = ddim_steps(sampling.alpha_bar, request.steps or sampling.steps)
+    initial = initial_noise(sampling, request.seed, len(memory))
+    latents = sample(model, memory, initial, steps, for_all_streams(guidance), weight)
+
+    layers = torch.arange(sampling.layers) < (request.layers or sampling.layers)
+    reactor = model.decode(latents, leader, layers.float())[: len(request.leader)]
+    return reactor.numpy() / scale_to(request.leader, height)
+
+
+def scale_to(motion: np.ndarray, height: float) -> np.float32:
+    """The factor that brings a dancer (T, 22, 3) to a height, in metres of `body_height`."""
+    return np.float32(height / body_height(motion))
+
+
+def at_height(motion: np.ndarray, height: float) -> Tensor:
+    """A dancer (T, 22, 3) scaled to a height and padded to whole latent frames."""
+    return torch.from_numpy(pad_to_stride((motion * scale_to(motion, height)).astype(np.float32)))
+
+
+def pad_to_stride(motion: np.ndarray) -> np.ndarray:
+    """Repeat the last frame until the length is a multiple of 4."""
+    missing = -len(motion) % STRIDE
+    return np.concatenate([motion, np.repeat(motion[-1:], missing, axis=0)]) if missing else motion
+
+
+def music_of_length(music: np.ndarray | None, frames: int) -> tuple[Tensor, Tensor]:
+    """Features (frames, F), cut or followed by zeros, and (frames,) 1 where there is music."""
+    features, valid = torch.zeros(frames, MUSIC_FEATURES), torch.zeros(frames)
+    if music is not None:
+        count = min(len(music), frames)
+        features[:count], valid[:count] = torch.from_numpy(music[:count]).float(), 1
+    return features, valid

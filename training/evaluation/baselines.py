@@ -1,0 +1,90 @@
+"""Reactors without a model, to read a model's numbers against: looking the answer up, standing still,
+mirroring.
+
+All see the leader in its own heading of each frame, so that turning or moving the couple changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from training.data.duet import Duet
+from training.evaluation.metrics.distance import root_distance
+from training.motion.heading import heading as facing
+from training.motion.heading import turn_in, turn_out
+from training.motion.skeleton import MIRROR
+
+WINDOW = 60  # frames that are copied in one piece
+# What the root does in so many frames counts like a joint that is elsewhere by as much.
+LOOKAHEAD = 5.0
+
+
+def leader_description(leader: np.ndarray) -> np.ndarray:
+    """Pose, root velocity and turn rate of (T, 22, 3), (T, 70): all in metres (and radians) of similar
+    size.
+    """
+    heading = facing(leader)
+    pose = turn_in(leader - leader[:, :1], heading).reshape(len(leader), -1)
+    velocity = turn_in(np.gradient(leader[:, :1], axis=0), heading)[:, 0]
+    turn = np.gradient(np.unwrap(np.arctan2(heading[:, 0], heading[:, 1])))[:, None]
+    return np.concatenate([pose, velocity * LOOKAHEAD, turn * LOOKAHEAD], axis=1)
+
+
+def _window_costs(library: np.ndarray, query: np.ndarray) -> np.ndarray:
+    """Squared distance of a query (W, F) to every window of W frames of a library clip (T, F), (T - W +
+    1,).
+    """
+    cross = library @ query.T
+    gap = (library**2).sum(axis=1)[:, None] + (query**2).sum(axis=1) - 2 * cross
+    starts = len(library) - len(query) + 1
+    return sum((gap[k : k + starts, k] for k in range(len(query))), np.zeros(max(starts, 0)))
+
+
+def nearest_neighbour(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
+    """For every 60 frames of a leader (T, 22, 3) the reactor of the training window with the closest
+    leader.
+    """
+    descriptions = [leader_description(duet.leader) for duet in train]
+    headings = [facing(duet.leader) for duet in train]
+    query, heading = leader_description(leader), facing(leader)
+    made = np.empty_like(leader)
+    for start in range(0, len(leader), WINDOW):
+        rows = slice(start, min(start + WINDOW, len(leader)))
+        count = rows.stop - start
+        best = (np.inf, 0, 0)
+        for clip, description in enumerate(descriptions):
+            if len(description) >= count:
+                costs = _window_costs(description, query[rows])
+                best = min(best, (float(costs.min()), clip, int(costs.argmin())))
+        _, clip, first = best
+        if not np.isfinite(best[0]):
+            raise ValueError(f"no training duet has {count} frames")
+        copied, source = slice(first, first + count), train[clip]
+        offset = source.reactor[copied] - source.leader[copied, :1]
+        seen = turn_in(offset, headings[clip][copied])
+        made[rows] = turn_out(seen, heading[rows]) + leader[rows, :1]
+    return made
+
+
+def mean_pose(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
+    """The mean body of the training reactors at their mean place beside the leader, for every frame of a
+    leader.
+    """
+    seen = [turn_in(d.reactor - d.leader[:, :1], facing(d.leader)) for d in train]
+    body = np.concatenate(seen).mean(axis=0)
+    return turn_out(np.repeat(body[None], len(leader), axis=0), facing(leader)) + leader[:, :1]
+
+
+def median_distance(train: Sequence[Duet]) -> float:
+    """Median distance of the roots over all training frames, metres."""
+    return float(np.median(np.concatenate([root_distance(d.leader, d.reactor) for d in train])))
+
+
+def mirrored_leader(leader: np.ndarray, distance: float) -> np.ndarray:
+    """The leader (T, 22, 3) in a mirror that stands in front of its hips, upright, half the distance away."""
+    heading = facing(leader)
+    seen = turn_in(leader - leader[:, :1], heading)
+    seen[..., 2] = distance - seen[..., 2]
+    return turn_out(seen[:, list(MIRROR)], heading) + leader[:, :1]

@@ -1,0 +1,91 @@
+"""What a model listens to: how much its dance changes when a condition does, and whether it follows the
+beat.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from training.evaluation.metrics.beats import motion_beats, music_beats
+
+
+def relative_change(leader: np.ndarray, base: np.ndarray, changed: np.ndarray) -> float:
+    """RMS difference of two reactors beside the same leader over the RMS movement of the first; all (T, 22,
+    3).
+
+    Movement is taken from its mean over time, beside the leader's root. 0: the condition was not heard; two
+    dances that have nothing in common come to about 1.4.
+    """
+    first = base - leader[:, :1]
+    difference = changed - base
+    movement = first - first.mean(axis=0)
+    return float(np.sqrt((difference**2).sum() / (movement**2).sum()))
+
+
+def between_seeds(motions: Sequence[np.ndarray]) -> dict[str, float]:
+    """How different several reactors (T, 22, 3) to one leader are: mean over pairs, pose and place, in mm."""
+    pose, place = [], []
+    for i, first in enumerate(motions):
+        for second in motions[i + 1 :]:
+            gap = (first - first[:, :1]) - (second - second[:, :1])
+            pose.append(np.linalg.norm(gap, axis=-1).mean())
+            place.append(np.linalg.norm(first[:, 0] - second[:, 0], axis=-1).mean())
+    if not pose:
+        raise ValueError("differences between seeds need at least two motions")
+    return {"pose_mm": float(np.mean(pose) * 1000), "place_mm": float(np.mean(place) * 1000)}
+
+
+def beat_period(music: np.ndarray) -> float:
+    """Median frames between the beats of music features (T, 54); NaN with fewer than two beats."""
+    beats = music_beats(music)
+    return float(np.median(np.diff(beats))) if len(beats) > 1 else float("nan")
+
+
+def half_beat_later(music: np.ndarray) -> np.ndarray:
+    """Music features (T, 54), half a beat later; what falls off the end comes first."""
+    period = beat_period(music)
+    if not np.isfinite(period):
+        raise ValueError("music with fewer than two beats cannot be shifted by half a beat")
+    return np.roll(music, round(period / 2), axis=0)
+
+
+def beat_phase(music: np.ndarray, motion: np.ndarray) -> complex:
+    """Where in the beat the motion beats fall: mean of exp(2 pi i phase), phase 0 on a beat and 0.5 between
+    two.
+
+    Its size says how steadily they fall there (1 always, 0 anywhere). Motion beats before the first and
+    after the last music beat are left out.
+    """
+    beats, minima = music_beats(music), motion_beats(motion)
+    minima = minima[(minima >= beats[0]) & (minima < beats[-1])] if len(beats) > 1 else minima[:0]
+    if len(minima) == 0:
+        return 0j
+    before = np.searchsorted(beats, minima, side="right") - 1
+    phase = (minima - beats[before]) / (beats[before + 1] - beats[before])
+    return complex(np.exp(2j * np.pi * phase).mean())
+
+
+def shift_test(
+    base: Sequence[complex], shifted: Sequence[complex], resamples: int = 10000, seed: int = 0
+) -> dict[str, float]:
+    """Do motion beats follow the music when it moves by half a beat? Paired permutation test over seeds.
+
+    base, shifted: `beat_phase` of each seed against the unshifted music. Where motion follows, the phase
+    turns round and base - shifted is large in one direction; where music is not heard, the pair can be
+    exchanged. p is the share of exchanges with a mean difference at least as large; `following` is minus
+    the cosine between the mean phases.
+    """
+    first, second = np.array(base), np.array(shifted)
+    if len(first) != len(second) or len(first) == 0:
+        raise ValueError("the shift test needs pairs of phases")
+    difference = first - second
+    observed = abs(difference.mean())
+    signs = np.random.default_rng(seed).choice([-1.0, 1.0], size=(resamples, len(difference)))
+    chance = np.abs((signs * difference).mean(axis=1))
+    p = (1 + (chance >= observed - 1e-12).sum()) / (1 + resamples)
+    mean_a, mean_b = first.mean(), second.mean()
+    size = abs(mean_a) * abs(mean_b)
+    following = -float((mean_a * mean_b.conjugate()).real / size) if size > 0 else 0.0
+    return {"p": float(p), "difference": float(observed), "following": following}

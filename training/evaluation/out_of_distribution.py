@@ -1,0 +1,108 @@
+"""Leaders from elsewhere: other people in other dances, for whom there is no true reactor to compare with.
+
+What can be asked is that the partner stays a partner: finite, on the floor, near, and no livelier than it
+should be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from training.data.bvh.reader import read_bvh
+from training.data.duet import Solo
+from training.data.npz import read_solo
+from training.evaluation.metrics.distance import root_distance
+from training.evaluation.metrics.penetration import penetration
+from training.evaluation.metrics.speed import joint_speed
+from training.evaluation.protocol import Dancer, Solver, Trial, fit_length
+from training.motion.floor import lower_toe
+
+# Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
+# planted toe rests at 0.03; true reactors of the salsa stay within 0.01 and 0.09.
+LOWEST_TOE, HIGHEST_TOE = -0.03, 0.15
+FARTHEST = 3.0  # metres between the roots
+SPEED_FACTOR, SPEED_REST = 2.0, 0.3  # times the leader's mean speed, plus m/s
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """A leader from elsewhere and the reactor generated for it, both (T, 22, 3) metres; solved where that was
+    asked for.
+    """
+
+    name: str
+    leader: np.ndarray
+    reactor: np.ndarray
+
+
+def read_leaders(sources: Sequence[Path]) -> list[Solo]:
+    """Solo dances of npz archives and single BVH files, floors at 0.
+
+    Raises ValueError for two leaders of one name.
+    """
+    leaders = [solo for path in sources for solo in _read(path)]
+    names = [leader.name for leader in leaders]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(f"leaders from elsewhere have the same name: {', '.join(twice)}")
+    return leaders
+
+
+def _read(path: Path) -> list[Solo]:
+    return read_solo(path) if path.suffix == ".npz" else [read_bvh(path)]
+
+
+def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
+    """Measures of a reactor beside a leader on the floor y = 0, and in `checks` which of the demands it meets.
+
+    toe_low_m and toe_high_m: 1st and 99th percentile over frames of the lower toe joint's height.
+    """
+    low, high = np.percentile(lower_toe(reactor), [1, 99])
+    apart = root_distance(leader, reactor)
+    row = {
+        "frames": len(reactor),
+        "toe_low_m": float(low),
+        "toe_high_m": float(high),
+        "distance_median_m": float(np.median(apart)),
+        "distance_max_m": float(apart.max()),
+        "speed": joint_speed(reactor),
+        "leader_speed": joint_speed(leader),
+        "overlap_share": penetration(leader, reactor)["ipr_capsules"],
+    }
+    checks = {
+        "finite": bool(np.isfinite(reactor).all()),
+        "on the floor": row["toe_low_m"] >= LOWEST_TOE and row["toe_high_m"] <= HIGHEST_TOE,
+        "near": row["distance_median_m"] < FARTHEST and row["distance_max_m"] < FARTHEST,
+        "speed": row["speed"] < SPEED_FACTOR * row["leader_speed"] + SPEED_REST,
+    }
+    return {**row, "checks": checks, "passed": all(checks.values())}
+
+
+def measure_elsewhere(
+    dancer: Dancer,
+    leaders: Sequence[Solo],
+    trials: Sequence[Trial],
+    seed: int,
+    solve: Solver | None = None,
+) -> tuple[dict[str, Any], list[Elsewhere]]:
+    """`judge` for every leader by name, danced with one seed to the songs of the trials in turn; and the dances.
+
+    solve: what is drawn then, whose share of overlaps is reported beside that of the joints before.
+    """
+    rows: dict[str, Any] = {}
+    dances = []
+    for index, leader in enumerate(leaders):
+        song = trials[index % len(trials)].music
+        music = None if song is None else fit_length(song, len(leader))
+        reactor = dancer(leader.motion, music, seed)
+        row = judge(leader.motion, reactor)
+        if solve:
+            reactor = solve(reactor, leader.motion)
+            row["overlap_share_solved"] = penetration(leader.motion, reactor)["ipr_capsules"]
+        rows[leader.name] = row
+        dances.append(Elsewhere(leader.name, leader.motion, reactor))
+    return rows, dances

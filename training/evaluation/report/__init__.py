@@ -1,0 +1,1 @@
+"""Writes an evaluation down: tables, spectra, filmstrips and videos."""
