@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from training.evaluation.metrics.bones import bone_variation
-from training.evaluation.metrics.contact import foot_skating
+from training.evaluation.metrics.contact import foot_skating, physical_foot_contact
 from training.evaluation.metrics.penetration import (
     CAPSULES,
     RADII,
@@ -15,7 +15,6 @@ from training.evaluation.metrics.penetration import (
     penetration,
     segment_distance,
 )
-from training.evaluation.metrics.pfc import physical_foot_contact
 from training.evaluation.metrics.seams import (
     boundaries,
     paper_jitter,
@@ -105,7 +104,7 @@ def test_velocity_change_of_a_parabola():
     assert change[1:-1] == pytest.approx(np.full(18, 5.0))
 
 
-def test_a_jump_at_the_boundary_is_a_seam_and_elsewhere_is_not():
+def test_a_jump_at_the_boundary_is_a_seam_and_between_two_it_is_not():
     truth = smooth(1000)
     seams = boundaries(1000)
     assert list(seams) == [240, 480, 720, 960]
@@ -115,10 +114,10 @@ def test_a_jump_at_the_boundary_is_a_seam_and_elsewhere_is_not():
     jump = truth.copy()
     jump[240:, :, 1] += 0.05  # between frames 239 and 240
     assert seam_ratio([seam_sample(truth, jump, seams)])["ratio"] > 2
-    elsewhere = truth.copy()
+    between = truth.copy()
     # Changes frames 242 and 243; the window of the seam at 240 ends with frame 241.
-    elsewhere[243:, :, 1] += 0.05
-    assert seam_ratio([seam_sample(truth, elsewhere, seams)])["ratio"] == pytest.approx(1.0)
+    between[243:, :, 1] += 0.05
+    assert seam_ratio([seam_sample(truth, between, seams)])["ratio"] == pytest.approx(1.0)
 
 
 def test_seams_of_many_motions_add_up_by_frames():
@@ -129,8 +128,8 @@ def test_seams_of_many_motions_add_up_by_frames():
     assert result["seams"] == 4
     assert result["ratio"] == pytest.approx(0.5)
     assert result["own"] == pytest.approx(1.0)
-    lame = seam_ratio([seam_sample(truth, 0.5 * truth, boundaries(500))])
-    assert (lame["ratio"], lame["own"]) == pytest.approx((0.5, 1.0))
+    slow = seam_ratio([seam_sample(truth, 0.5 * truth, boundaries(500))])
+    assert (slow["ratio"], slow["own"]) == pytest.approx((0.5, 1.0))
 
 
 def test_paper_jitter_sees_thirty_frames():

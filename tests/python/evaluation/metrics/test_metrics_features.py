@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter1d
 
-from training.evaluation.metrics.crossdist import CROSS_JOINTS, cross_distances
+from training.evaluation.metrics.distance import CROSS_JOINTS, cross_distances
 from training.evaluation.metrics.frechet import clips, div, diversity, fid, frechet, normalise
 from training.evaluation.metrics.geometric import (
     HIPS,

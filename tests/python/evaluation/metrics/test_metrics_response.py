@@ -90,9 +90,9 @@ def test_motion_that_follows_the_beat_is_told_from_motion_that_does_not():
     following = shift_test(base, -0.5 * np.exp(0.4j) + noise[2] + 1j * noise[3])
     assert following["p"] < 0.01
     assert following["following"] > 0.8
-    deaf = shift_test(base, 0.5 * np.exp(0.4j) + noise[2] + 1j * noise[3])
-    assert deaf["p"] > 0.05
-    assert deaf["following"] < -0.8
+    unchanging = shift_test(base, 0.5 * np.exp(0.4j) + noise[2] + 1j * noise[3])
+    assert unchanging["p"] > 0.05
+    assert unchanging["following"] < -0.8
     # Few seeds cannot be significant: 2 of the 2^3 exchanges are as extreme as what was seen.
     assert shift_test([1 + 0j] * 3, [-1 + 0j] * 3)["p"] == pytest.approx(0.25, abs=0.02)
     with pytest.raises(ValueError, match="pairs"):
