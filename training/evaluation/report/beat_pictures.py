@@ -1,4 +1,4 @@
-"""Draws, for every duet without a song, when its feet plant against the beats that its music is given.
+"""Draws when the feet of every duet are planted, beside the beats of the tempo that is fitted to them.
 
     python -m training.evaluation.report.beat_pictures --duets DUETS.npz --val NAME --test NAME NAME --out runs/beats
 
