@@ -10,8 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from training.config import FPS
 from training.data.augment import mirror
-from training.data.duet import FPS, Duet
+from training.data.duet import Duet
 from training.evaluation.metrics.repetition import repetition
 from training.evaluation.protocol import HeldOutDuet, ReactorGenerator
 from training.motion.heading import heading

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.evaluation.metrics.distance import root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error, root_error_per_frame
 from training.evaluation.metrics.speed import joint_speed

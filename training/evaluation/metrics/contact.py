@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.motion.foot_contact import contacts
 
 SLIDE_SPEED = 0.2  # m/s, a foot in contact that is faster skates

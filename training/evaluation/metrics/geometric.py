@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.evaluation.metrics.modes import Mode, feature_pose
 
 HUMERUS, SHOULDERS, HIPS = 0.2568381, 0.3908484, 0.1192471  # metres

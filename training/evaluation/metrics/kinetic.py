@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.evaluation.metrics.modes import Mode, feature_pose
 
 WINDOW = 2  # frames on each side over which velocities and accelerations are averaged

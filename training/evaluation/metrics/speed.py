@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from training.data.duet import FPS
+from training.config import FPS
 
 # Bands of joint velocity in Hz: travelling, steps, accents, and mostly noise.
 BANDS: tuple[tuple[float, float], ...] = ((0.0, 1.0), (1.0, 3.0), (3.0, 6.0), (6.0, 15.0))

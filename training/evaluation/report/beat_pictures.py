@@ -20,7 +20,8 @@ import tyro
 from rich.console import Console
 from rich.table import Table
 
-from training.data.duet import FPS, Duet
+from training.config import FPS
+from training.data.duet import Duet
 from training.data.npz import read_npz
 from training.data.splits import split
 from training.data.step_tempo import duet_tempo, foot_plants, foot_speed, plant_fit

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.motion.skeleton import JOINTS, PARENTS
 
 LEADER, REACTOR, TRUTH = "#2f6fde", "#f07a2b", "#a7adb5"

@@ -12,7 +12,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from training.data.duet import FPS, Duet
+from training.config import FPS
+from training.data.duet import Duet
 from training.evaluation.evaluate import Evaluation
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.out_of_distribution import OutOfDistributionDance

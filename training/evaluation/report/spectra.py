@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.evaluation.protocol import COARSE_ALONE, GENERATED, TRUTH
 from training.evaluation.report.filmstrip import INK, PAPER, REACTOR, RULE
 

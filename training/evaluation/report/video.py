@@ -14,7 +14,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter1d
 
-from training.data.duet import FPS
+from training.config import FPS
 from training.evaluation.report.filmstrip import (
     HEAD_RADIUS,
     INK,

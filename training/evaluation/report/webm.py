@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 
 from PIL import Image
 
-from training.data.duet import FPS
+from training.config import FPS
 
 CLUSTER = 30  # frames of a Matroska cluster, which has one time stamp and one entry of the seek table
 _MILLISECOND = 1_000_000  # nanoseconds, the unit of all times in the file
