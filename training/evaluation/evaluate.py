@@ -1,4 +1,4 @@
-"""Evaluates a model on held-out duets: generated reactors beside the truth and beside what needs no model.
+"""Evaluates a model on held-out duets: generated reactors beside the truth and baselines.
 
 A model is a function (`ReactorGenerator`), so a checkpoint under PyTorch, exported graphs under onnxruntime
 and anything else are measured by the same code. `evaluate` returns plain numbers;
