@@ -3,8 +3,9 @@
     python -m export.evaluate --model web/public/models/salsa --checkpoint training/checkpoints/salsa \
         --data ../shared/data/cmu_salsa/duets.npz --val salsa_03 --test salsa_05 salsa_11 \
         --out runs/evaluation \
-        --elsewhere ../shared/data/cmu_solo/solo.npz --solve \
-        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2
+        --out-of-distribution ../shared/data/cmu_solo/solo.npz --solve \
+        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 \
+        --settings.beats-unknown salsa_05 --settings.seen-leaders indian modern
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
 checkpoint alone it is measured under PyTorch.
@@ -32,10 +33,11 @@ from training.data.sources import read_split
 from training.data.splits import Split
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import Request, react
-from training.evaluation.evaluate import evaluate, generate
+from training.evaluation.evaluate import evaluate
 from training.evaluation.out_of_distribution import read_leaders
-from training.evaluation.protocol import Dancer, Motions, Settings, Solver, Trial
+from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings, Solver
 from training.evaluation.report.report import write_report
+from training.evaluation.rows import generate_motions
 from training.hfsq.reconstruct import reconstruct
 
 ROOT = Path(__file__).parents[1]
@@ -57,11 +59,11 @@ class Options:
     measure: Literal["test", "val"] = "test"
     """Which of the two to measure: choose models by val, report on test."""
     songs: Path | None = None
-    """Folder of songs; the held-out ones among them are paired with the trials instead of the synthesiser."""
+    """Folder of songs; the held-out ones among them are paired with the duets instead of the synthesiser."""
     music: bool = True
     music_cache: Path | None = None
-    elsewhere: tuple[Path, ...] = ()
-    """Leaders from elsewhere: npz archives of solo dances, single BVH files."""
+    out_of_distribution: tuple[Path, ...] = ()
+    """Leaders of other dances, without a partner: npz archives of solo dances, single BVH files."""
     steps: int | None = None
     guidance: tuple[float, float] | None = None
     """Coarse and fine, Eq. 9's s; the model's default when left out."""
@@ -71,40 +73,47 @@ class Options:
     pictures: bool = True
     """Spectra and filmstrips."""
     videos: bool = True
-    """True and generated couple of every trial side by side, WebM."""
-    plain: Path | None = None
-    """Checkpoint of a plain model (see training/evaluation/no_latent_baseline.py), for a row beside the others."""
+    """True and generated couple of every duet side by side, WebM."""
+    no_latent_baseline: Path | None = None
+    """Checkpoint of training/evaluation/no_latent_baseline.py, for a row beside the others."""
     solve: bool = False
     """Measure the solved skeleton too, without and with foot lock, by the page's own code under Node."""
     settings: Settings = field(default_factory=Settings)
 
 
-def dancer_of(
+def reactor_generator(
     model: ReactionModel,
     steps: int | None = None,
     default: tuple[float, float] | None = None,
     music_guidance: float | None = None,
-) -> Dancer:
+) -> ReactorGenerator:
     """A model as evaluation asks it, with these in the place of its own defaults."""
 
-    def dance(
+    def generate(
         leader: np.ndarray,
         music: np.ndarray | None,
         seed: int,
-        heard_leader: np.ndarray | None = None,
+        condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
-        coarse_only: bool = False,
+        layers: int | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
-        layers = 1 if coarse_only else None
         return react(
             model,
             Request(
-                leader, music, seed, steps, guidance or default, music_guidance, role, layers, heard_leader
+                leader,
+                music,
+                seed,
+                steps,
+                guidance or default,
+                music_guidance,
+                role,
+                layers,
+                condition_leader,
             ),
         )
 
-    return dance
+    return generate
 
 
 def commit() -> str | None:
@@ -140,19 +149,19 @@ SOLVERS: dict[str, Solver] = {
 }
 
 
-def paired_trials(options: Options, duets: Split) -> list[Trial]:
-    """The trials to measure with the music that training pairs them with, its tempo fitted from the leader
+def paired_duets(options: Options, duets: Split) -> list[HeldOutDuet]:
+    """The held-out duets to measure with the music that training pairs them with, its tempo fitted from the leader
     alone.
     """
     chosen = duets.test if options.measure == "test" else duets.val
     if not chosen:
         raise SystemExit(f"no duets to measure on: name them with --{options.measure}")
     if not options.music:
-        return [Trial(duet, None) for duet in chosen]
+        return [HeldOutDuet(duet, None) for duet in chosen]
     variant = Variant(1.0, "song" if options.songs else "synth", 0)
-    held_out = Split((), duets.val, duets.test)  # training duets need no music here
-    bank = build_music_bank(held_out, options.songs, [variant], cache_dir=options.music_cache)
-    return [Trial(duet, bank[duet.name][variant]) for duet in chosen]
+    split = Split((), duets.val, duets.test)  # training duets need no music here
+    bank = build_music_bank(split, options.songs, [variant], cache_dir=options.music_cache)
+    return [HeldOutDuet(duet, bank[duet.name][variant]) for duet in chosen]
 
 
 def main(options: Options) -> None:
@@ -162,7 +171,7 @@ def main(options: Options) -> None:
     if options.model is None and options.checkpoint is None:
         raise SystemExit("give --model (a folder with manifest.json), --checkpoint, or both")
     duets = read_split(options.data, options.val, options.test)
-    trials = paired_trials(options, duets)
+    held_out = paired_duets(options, duets)
     facts: dict[str, Any] = {"data": options.data.name, "split": {"val": options.val, "test": options.test}}
 
     given: dict[str, Motions] = {}
@@ -170,7 +179,8 @@ def main(options: Options) -> None:
     if checkpoint is not None:
         for name, layers in (("reconstruction", None), ("reconstruction, coarse alone", 1)):
             given[name] = {
-                t.duet.name: [reconstruct(checkpoint.hfsq, t.duet, checkpoint.frame, layers)] for t in trials
+                i.duet.name: [reconstruct(checkpoint.hfsq, i.duet, checkpoint.frame, layers)]
+                for i in held_out
             }
     if options.model is not None:
         model = open_model(options.model, options.threads)
@@ -181,9 +191,9 @@ def main(options: Options) -> None:
         assert checkpoint is not None and options.checkpoint is not None
         model, name = checkpoint, options.checkpoint.name
         facts |= {"model": name, "runtime": "pytorch"}
-    if options.plain is not None:
-        plain = dancer_of(load_model(options.plain))
-        given["plain model"] = generate(plain, trials, options.settings.seeds)[0]
+    if options.no_latent_baseline is not None:
+        baseline = reactor_generator(load_model(options.no_latent_baseline))
+        given["no-latent baseline"] = generate_motions(baseline, held_out, options.settings.seeds)[0]
     sampling = model.sampling
     spacing = Settings.seam_spacing // 2 if sampling.alternating_phase else Settings.seam_spacing
     settings = replace(options.settings, seam_spacing=spacing)
@@ -196,19 +206,20 @@ def main(options: Options) -> None:
         },
     }
     evaluation = evaluate(
-        dancer_of(model, options.steps, options.guidance, options.music_guidance),
-        trials,
+        reactor_generator(model, options.steps, options.guidance, options.music_guidance),
+        held_out,
         duets.train,
         settings,
         given,
         SOLVERS if options.solve else None,
-        read_leaders(options.elsewhere),
+        read_leaders(options.out_of_distribution),
         console.print,
     )
     title = f"{name}, measured"
-    bars = write_report(evaluation, trials, options.out, title, facts, options.pictures, options.videos)
+    required = write_report(evaluation, held_out, options.out, title, facts, options.pictures, options.videos)
+    reached = sum(result.passed for result in required)
     console.print(
-        f"wrote {options.out / 'report.md'}; {sum(b.passed for b in bars)} of {len(bars)} bars reached"
+        f"wrote {options.out / 'report.md'}; {reached} of {len(required)} required thresholds reached"
     )
 
 

@@ -1,1 +1,1 @@
-"""Measures a model on held-out duets, beside the truth and beside what needs no model."""
+"""Measures a model on held-out duets, beside the truth and baselines."""

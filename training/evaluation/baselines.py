@@ -1,5 +1,5 @@
-"""Reactors without a model, to read a model's numbers against: looking the answer up, standing still,
-mirroring.
+"""Reactors that need no model, to read a model's numbers against: the nearest neighbour among the training duets, the
+mean pose, the mirrored leader.
 
 All see the leader in its own heading of each frame, so that turning or moving the couple changes nothing.
 """
@@ -12,19 +12,28 @@ import numpy as np
 
 from training.data.duet import Duet
 from training.evaluation.metrics.distance import root_distance
+from training.evaluation.protocol import HeldOutDuet, Motions
 from training.motion.heading import heading as facing
 from training.motion.heading import turn_in, turn_out
 from training.motion.skeleton import MIRROR
 
 WINDOW = 60  # frames that are copied in one piece
-# What the root does in so many frames counts like a joint that is elsewhere by as much.
-LOOKAHEAD = 5.0
+# What the root travels in so many frames counts as much as a joint that is off by the same distance.
+LOOKAHEAD = 5.0  # frames
+
+
+def baselines(held_out: Sequence[HeldOutDuet], train: Sequence[Duet]) -> dict[str, Motions]:
+    """One row for each baseline, learned from the training duets."""
+    distance = median_distance(train)
+    return {
+        "nearest neighbour": {i.duet.name: [nearest_neighbour(train, i.duet.leader)] for i in held_out},
+        "mean pose": {i.duet.name: [mean_pose(train, i.duet.leader)] for i in held_out},
+        "mirrored leader": {i.duet.name: [mirrored_leader(i.duet.leader, distance)] for i in held_out},
+    }
 
 
 def leader_description(leader: np.ndarray) -> np.ndarray:
-    """Pose, root velocity and turn rate of (T, 22, 3), (T, 70): all in metres (and radians) of similar
-    size.
-    """
+    """Pose, root velocity and turn rate of a leader (T, 22, 3) metres, (T, 70): metres and radians of similar size."""
     heading = facing(leader)
     pose = turn_in(leader - leader[:, :1], heading).reshape(len(leader), -1)
     velocity = turn_in(np.gradient(leader[:, :1], axis=0), heading)[:, 0]
@@ -33,9 +42,7 @@ def leader_description(leader: np.ndarray) -> np.ndarray:
 
 
 def _window_costs(library: np.ndarray, query: np.ndarray) -> np.ndarray:
-    """Squared distance of a query (W, F) to every window of W frames of a library clip (T, F), (T - W +
-    1,).
-    """
+    """Squared distance of a query (W, F) to every window of W frames of a library clip (T, F), (T - W + 1,)."""
     cross = library @ query.T
     gap = (library**2).sum(axis=1)[:, None] + (query**2).sum(axis=1) - 2 * cross
     starts = len(library) - len(query) + 1
@@ -43,8 +50,10 @@ def _window_costs(library: np.ndarray, query: np.ndarray) -> np.ndarray:
 
 
 def nearest_neighbour(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
-    """For every 60 frames of a leader (T, 22, 3) the reactor of the training window with the closest
-    leader.
+    """For every 60 frames of a leader (T, 22, 3) metres the reactor of the training window with the closest leader,
+    which may begin at any frame; (T, 22, 3).
+
+    Raises ValueError if no training duet is as long as such a window.
     """
     descriptions = [leader_description(duet.leader) for duet in train]
     headings = [facing(duet.leader) for duet in train]
@@ -69,8 +78,8 @@ def nearest_neighbour(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
 
 
 def mean_pose(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
-    """The mean body of the training reactors at their mean place beside the leader, for every frame of a
-    leader.
+    """The mean body of the training reactors at their mean place beside the leader, for every frame of a leader
+    (T, 22, 3) metres.
     """
     seen = [turn_in(d.reactor - d.leader[:, :1], facing(d.leader)) for d in train]
     body = np.concatenate(seen).mean(axis=0)
@@ -83,7 +92,7 @@ def median_distance(train: Sequence[Duet]) -> float:
 
 
 def mirrored_leader(leader: np.ndarray, distance: float) -> np.ndarray:
-    """The leader (T, 22, 3) in a mirror that stands in front of its hips, upright, half the distance away."""
+    """The leader (T, 22, 3) metres in an upright mirror in front of its hips, half the distance (metres) away."""
     heading = facing(leader)
     seen = turn_in(leader - leader[:, :1], heading)
     seen[..., 2] = distance - seen[..., 2]

@@ -1,7 +1,7 @@
-"""Whether a dance of two minutes repeats itself: held-out dances one after the other, as one leader.
+"""Whether a dance of two minutes repeats itself: held-out duets one after the other, as one leader.
 
-No single trial lasts that long. Each dance is followed by the next and, when all have been danced, by their
-mirror images, which count as new movement; its first frame is put where the dance before it ended.
+No single one lasts that long. Each duet is followed by the next and, after the last, by their mirror images, which
+count as new movement; its first frame is put where the duet before it ended.
 """
 
 from __future__ import annotations
@@ -10,13 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from training.config import FPS
 from training.data.augment import mirror
 from training.data.duet import Duet
 from training.evaluation.metrics.repetition import repetition
-from training.evaluation.protocol import Dancer, Trial
+from training.evaluation.protocol import HeldOutDuet, ReactorGenerator
 from training.motion.heading import heading
 
-FRAMES = 3600  # two minutes at 30 fps
+FRAMES = 120 * FPS  # two minutes
 
 
 def _continued(duet: Duet, after: Duet) -> Duet:
@@ -33,31 +34,34 @@ def _continued(duet: Duet, after: Duet) -> Duet:
     return Duet(duet.name, moved(duet.leader), moved(duet.reactor))
 
 
-def joined(trials: Sequence[Trial], frames: int = FRAMES) -> Trial:
-    """The trials and their mirror images as one, cut to a number of frames, or as long as they last."""
+def joined(held_out: Sequence[HeldOutDuet], frames: int = FRAMES) -> HeldOutDuet:
+    """The duets and their mirror images as one, cut to a number of frames if they last longer.
+
+    Music is (T, F) features, zero where a duet's music ends before the duet; None if a duet has none.
+    """
     pieces: list[Duet] = []
     music: list[np.ndarray] = []
-    for trial, duet in [(t, t.duet) for t in trials] + [(t, mirror(t.duet)) for t in trials]:
+    for item, duet in [(i, i.duet) for i in held_out] + [(i, mirror(i.duet)) for i in held_out]:
         pieces.append(_continued(duet, pieces[-1]) if pieces else duet)
-        if trial.music is not None:
-            heard = np.zeros((len(duet), trial.music.shape[1]), np.float32)
-            heard[: len(trial.music)] = trial.music[: len(duet)]
-            music.append(heard)
+        if item.music is not None:
+            padded = np.zeros((len(duet), item.music.shape[1]), np.float32)
+            padded[: len(item.music)] = item.music[: len(duet)]
+            music.append(padded)
     leader, reactor = (
         np.concatenate(parts)[:frames] for parts in zip(*((p.leader, p.reactor) for p in pieces), strict=True)
     )
     whole = np.concatenate(music)[:frames] if len(music) == len(pieces) else None
-    return Trial(Duet("long dance", leader, reactor), whole)
+    return HeldOutDuet(Duet("long dance", leader, reactor), whole)
 
 
 def measure_long_dance(
-    dancer: Dancer, trials: Sequence[Trial], seeds: Sequence[int]
+    generate: ReactorGenerator, held_out: Sequence[HeldOutDuet], seeds: Sequence[int]
 ) -> dict[str, dict[str, float]]:
     """`repetition` of the true and of the generated reactor, the latter in the mean over seeds; and the length."""
-    trial = joined(trials)
-    made = [repetition(dancer(trial.duet.leader, trial.music, seed)) for seed in seeds]
+    whole = joined(held_out)
+    made = [repetition(generate(whole.duet.leader, whole.music, seed)) for seed in seeds]
     return {
-        "length": {"frames": float(len(trial.duet))},
-        "truth": repetition(trial.duet.reactor),
+        "length": {"frames": float(len(whole.duet))},
+        "truth": repetition(whole.duet.reactor),
         "generated": {key: float(np.mean([row[key] for row in made])) for key in made[0]},
     }

@@ -22,7 +22,7 @@ from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.statistics import set_input_statistics, set_latent_statistics
 from training.hfsq.windows import training_clips
 
-PLAIN = HfsqConfig(quantiser="none", layers=1, scales=(1.0,), masking=None)
+NO_LATENTS = HfsqConfig(quantiser="none", layers=1, scales=(1.0,), masking=None)
 # As in stage 1 (`training.train_hfsq`).
 TEMPOS = (0.9, 1.0, 1.1)
 SHORTEST = 240  # frames
@@ -40,7 +40,7 @@ class Options:
 def main(options: Options) -> None:
     duets = read_split(options.data, options.val, options.test).train
     clips = training_clips(duets, [], TEMPOS, FrameConfig(), cutoff=None, shortest=SHORTEST)
-    model = Autoencoder(PLAIN)
+    model = Autoencoder(NO_LATENTS)
     set_input_statistics(model, clips)
     set_latent_statistics(model, clips)
     save_hfsq(options.out, model, FrameConfig(), {"program": "training.evaluation.no_latent_baseline"})

@@ -1,7 +1,7 @@
-"""Leaders from elsewhere: other people in other dances, for whom there is no true reactor to compare with.
+"""Out-of-distribution leaders: other people in other dances, for whom there is no true reactor to compare with.
 
-What can be asked is that the partner stays a partner: finite, on the floor, near, and no livelier than it
-should be.
+What can be asked is that the partner stays a partner: finite, on the floor, near, and not much faster than the
+leader. Leaders whose solos were in the training data are reported apart from those that were not.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from training.data.npz import read_solo
 from training.evaluation.metrics.distance import root_distance
 from training.evaluation.metrics.penetration import penetration
 from training.evaluation.metrics.speed import joint_speed
-from training.evaluation.protocol import Dancer, Solver, Trial, fit_length
+from training.evaluation.protocol import HeldOutDuet, ReactorGenerator, Settings, Solver, fit_length
 from training.motion.floor import lower_toe
 
 # Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
@@ -30,9 +30,9 @@ SPEED_FACTOR, SPEED_REST = 2.0, 0.3  # times the leader's mean speed, plus m/s
 
 
 @dataclass(frozen=True)
-class Elsewhere:
-    """A leader from elsewhere and the reactor generated for it, both (T, 22, 3) metres; solved where that was
-    asked for.
+class OutOfDistributionDance:
+    """A leader and the reactor generated for it, fitted to a skeleton where there is a solver; both (T, 22, 3)
+    metres.
     """
 
     name: str
@@ -45,21 +45,21 @@ def read_leaders(sources: Sequence[Path]) -> list[Solo]:
 
     Raises ValueError for two leaders of one name.
     """
-    leaders = [solo for path in sources for solo in _read(path)]
+    leaders = [
+        solo for path in sources for solo in (read_solo(path) if path.suffix == ".npz" else [read_bvh(path)])
+    ]
     names = [leader.name for leader in leaders]
     if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise ValueError(f"leaders from elsewhere have the same name: {', '.join(twice)}")
+        raise ValueError(f"out-of-distribution leaders have the same name: {', '.join(twice)}")
     return leaders
 
 
-def _read(path: Path) -> list[Solo]:
-    return read_solo(path) if path.suffix == ".npz" else [read_bvh(path)]
+def measure_partner(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
+    """Measures of a reactor beside a leader, (T, 22, 3) metres on the floor y = 0; `checks` says which of the
+    demands it meets, `passed` whether all.
 
-
-def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
-    """Measures of a reactor beside a leader on the floor y = 0, and in `checks` which of the demands it meets.
-
-    toe_low_m and toe_high_m: 1st and 99th percentile over frames of the lower toe joint's height.
+    toe_low_m and toe_high_m: 1st and 99th percentile over frames of the lower toe joint's height, metres.
+    speed and leader_speed: mean joint speeds, m/s. overlap_share: of the frames, see `penetration`.
     """
     low, high = np.percentile(lower_toe(reactor), [1, 99])
     apart = root_distance(leader, reactor)
@@ -82,27 +82,34 @@ def judge(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
     return {**row, "checks": checks, "passed": all(checks.values())}
 
 
-def measure_elsewhere(
-    dancer: Dancer,
+def measure_out_of_distribution(
+    generate: ReactorGenerator,
     leaders: Sequence[Solo],
-    trials: Sequence[Trial],
-    seed: int,
+    held_out: Sequence[HeldOutDuet],
+    settings: Settings,
     solve: Solver | None = None,
-) -> tuple[dict[str, Any], list[Elsewhere]]:
-    """`judge` for every leader by name, danced with one seed to the songs of the trials in turn; and the dances.
+) -> tuple[dict[str, Any], list[OutOfDistributionDance]]:
+    """`measure_partner` for every leader, with the first seed and the held-out duets' songs in turn; and the dances.
 
-    solve: what is drawn then, whose share of overlaps is reported beside that of the joints before.
+    The numbers have the groups `seen` and `unseen` (whether the leader's name begins with one of
+    `settings.seen_leaders`), each with its `count`, how many `passed` and its `leaders` by name. solve: the
+    skeleton that is then drawn; its overlaps are overlap_share_solved, beside those of the joints before.
     """
-    rows: dict[str, Any] = {}
+    rows: dict[str, dict[str, Any]] = {"seen": {}, "unseen": {}}
     dances = []
     for index, leader in enumerate(leaders):
-        song = trials[index % len(trials)].music
+        song = held_out[index % len(held_out)].music
         music = None if song is None else fit_length(song, len(leader))
-        reactor = dancer(leader.motion, music, seed)
-        row = judge(leader.motion, reactor)
+        reactor = generate(leader.motion, music, settings.seeds[0])
+        row = measure_partner(leader.motion, reactor)
         if solve:
             reactor = solve(reactor, leader.motion)
             row["overlap_share_solved"] = penetration(leader.motion, reactor)["ipr_capsules"]
-        rows[leader.name] = row
-        dances.append(Elsewhere(leader.name, leader.motion, reactor))
-    return rows, dances
+        group = "seen" if leader.name.startswith(settings.seen_leaders) else "unseen"
+        rows[group][leader.name] = row
+        dances.append(OutOfDistributionDance(leader.name, leader.motion, reactor))
+    groups = {
+        name: {"count": len(group), "passed": sum(row["passed"] for row in group.values()), "leaders": group}
+        for name, group in rows.items()
+    }
+    return groups, dances

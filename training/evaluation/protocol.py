@@ -1,4 +1,7 @@
-"""What evaluation takes: a model as a function, held-out duets with their music, and how much to measure."""
+"""What evaluation takes: a model as a function, held-out duets with their music, and how much to measure.
+
+Every motion is (T, 22, 3) metres, y up, at 30 fps; music is (T, 54) features of the same frames.
+"""
 
 from __future__ import annotations
 
@@ -9,41 +12,45 @@ import numpy as np
 
 from training.data.duet import Duet
 
+# Rows of an evaluation that are not named by what was passed in.
+TRUTH, GENERATED, COARSE_ALONE = "truth", "generated", "generated, coarse alone"
 
-class Dancer(Protocol):
-    """A model as evaluation sees it."""
+
+class ReactorGenerator(Protocol):
+    """A model as evaluation sees it: a function from a leader and music to a reactor."""
 
     def __call__(
         self,
         leader: np.ndarray,
         music: np.ndarray | None,
         seed: int,
-        heard_leader: np.ndarray | None = None,
+        condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
-        coarse_only: bool = False,
+        layers: int | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
-        """The reactor (T, 22, 3) metres, at the leader's own size, to a leader (T, 22, 3) and music (T',
-        54) or None.
+        """The reactor (T, 22, 3) metres, at the leader's own size.
 
-        heard_leader: (T, 22, 3), what the condition is made of where that is not the leader it dances with.
-        guidance: coarse and fine for all streams, None for the default. coarse_only: decoded without the
-        fine layer. role: 0 dances the reactor, 1 the leader, to a partner in the leader's place.
+        leader: (T, 22, 3) metres. music: (T', 54) features, None for silence. condition_leader: (T, 22, 3),
+        takes the leader's place in the condition, while the reactor is still decoded beside `leader`.
+        guidance: classifier-free guidance of the coarse and the fine layer, None for the model's default.
+        layers: residual layers that are decoded, 1 for the coarse one alone, None for all. role: 0 generates
+        the reactor, 1 the leader of a partner in the leader's place.
         """
         ...
 
 
 class Solver(Protocol):
-    """What makes a body of constant bone lengths of generated joints, to be drawn and exported."""
+    """Fits a skeleton of constant bone lengths to generated joints, as they are drawn and exported."""
 
     def __call__(self, motion: np.ndarray, leader: np.ndarray, /) -> np.ndarray:
-        """The motion (T, 22, 3) metres, solved beside the leader (T, 22, 3) that it dances with."""
+        """The fitted motion (T, 22, 3) of a motion (T, 22, 3), kept out of the leader's body (T, 22, 3); metres."""
         ...
 
 
 @dataclass(frozen=True)
-class Trial:
-    """A held-out duet and the music it is danced to, (T, 54) features or None."""
+class HeldOutDuet:
+    """A duet that was not trained on and its music, (T, 54) features or None."""
 
     duet: Duet
     music: np.ndarray | None
@@ -51,6 +58,8 @@ class Trial:
 
 @dataclass(frozen=True)
 class Settings:
+    """How much is measured."""
+
     seeds: tuple[int, ...] = (0, 1, 2, 3, 4)
     seam_spacing: int = 240  # frames between block boundaries; half of it with alternating block phase
     seam_starts: tuple[int, ...] = (0, 60, 120, 180)  # frames cut off the start, to move the boundaries
@@ -58,13 +67,17 @@ class Settings:
     two_sample: bool = True  # train networks to tell generated from true windows
     phase_seeds: int = 0  # seeds of the half-beat test; 0 leaves it out, 16 are needed for p < 0.01
     guidance_grid: tuple[float, ...] = ()  # values of coarse and fine guidance to try; none leaves it out
+    beats_unknown: tuple[str, ...] = ()
+    """Held-out duets whose music has no reliable beats: their beat alignment has no threshold."""
+    seen_leaders: tuple[str, ...] = ()
+    """How the names of out-of-distribution leaders begin whose dances were in the training data."""
 
 
 Motions = dict[str, list[np.ndarray]]
-"""By name of the trial: one motion per seed, or a single one where there is no chance in it."""
+"""By name of the held-out duet: one motion (T, 22, 3) per seed, or a single one where nothing is random."""
 
 
-def fit_length(motion: np.ndarray, frames: int) -> np.ndarray:
-    """Cut, or played forth and back, to a number of frames: longer without a jump."""
-    period = np.concatenate([motion, motion[-2:0:-1]])
+def fit_length(values: np.ndarray, frames: int) -> np.ndarray:
+    """Values per frame (T, ...), cut or played forwards and backwards in turn until there are `frames` of them."""
+    period = np.concatenate([values, values[-2:0:-1]])
     return np.concatenate([period] * (frames // len(period) + 1))[:frames]

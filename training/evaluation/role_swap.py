@@ -1,4 +1,4 @@
-"""Role swap (paper 6.10): the reactor leads, and the model dances the leader's part."""
+"""Role swap (paper 6.10): the model generates the leader, to a reactor in the leader's place."""
 
 from __future__ import annotations
 
@@ -10,37 +10,41 @@ from training.data.augment import swap_roles
 from training.data.duet import Duet
 from training.evaluation.baselines import nearest_neighbour
 from training.evaluation.metrics import mean_report, quick_report
-from training.evaluation.protocol import Dancer, Motions, Trial
+from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator
 
-LEADER = 1.0  # the role input of a model that dances the leader's part
-
-
-def swapped_trials(trials: Sequence[Trial]) -> list[Trial]:
-    """The same dances and music with the reactor in the leader's place; what is true is then the leader."""
-    return [replace(trial, duet=swap_roles(trial.duet)) for trial in trials]
+LEADER = 1.0  # role input of a model that generates the leader
 
 
-def _rows(trials: Sequence[Trial], motions: Motions) -> dict[str, Any]:
-    by_trial = {}
-    for trial in trials:
-        duet = trial.duet
+def swapped_duets(held_out: Sequence[HeldOutDuet]) -> list[HeldOutDuet]:
+    """The same duets and music with the two dancers exchanged; the true reactor is then the leader."""
+    return [replace(item, duet=swap_roles(item.duet)) for item in held_out]
+
+
+def _measure(held_out: Sequence[HeldOutDuet], motions: Motions) -> dict[str, Any]:
+    """`quick_report` of every motion, its mean by duet, and the mean over duets."""
+    by_duet = {}
+    for item in held_out:
+        duet = item.duet
         seeds = [quick_report(duet.leader, duet.reactor, made) for made in motions[duet.name]]
-        by_trial[duet.name] = {"mean": mean_report(seeds), "seeds": seeds}
-    return {"mean": mean_report([row["mean"] for row in by_trial.values()]), "trials": by_trial}
+        by_duet[duet.name] = {"mean": mean_report(seeds), "seeds": seeds}
+    return {"mean": mean_report([row["mean"] for row in by_duet.values()]), "trials": by_duet}
 
 
 def measure_role_swap(
-    dancer: Dancer, trials: Sequence[Trial], train: Sequence[Duet], seeds: Sequence[int]
+    generate: ReactorGenerator,
+    held_out: Sequence[HeldOutDuet],
+    train: Sequence[Duet],
+    seeds: Sequence[int],
 ) -> tuple[dict[str, Any], Motions]:
-    """MPJPE, root error, speed and distance ratio of generated leaders against the true ones; and the dances.
+    """`quick_report` of generated leaders against the true ones, and the generated leaders (T, 22, 3) metres.
 
-    Beside them the nearest neighbour among the training duets, swapped too. Each has its mean over trials, and
-    per trial the mean and every seed. The motions (T, 22, 3) are the leaders that were generated.
+    Beside them the nearest neighbour among the training duets, swapped too. Each has its mean over the held-out
+    duets and, in `trials`, by duet the mean and every seed.
     """
-    swapped = swapped_trials(trials)
+    swapped = swapped_duets(held_out)
     made = {
-        t.duet.name: [dancer(t.duet.leader, t.music, seed, role=LEADER) for seed in seeds] for t in swapped
+        i.duet.name: [generate(i.duet.leader, i.music, seed, role=LEADER) for seed in seeds] for i in swapped
     }
     library = [swap_roles(duet) for duet in train]
-    copied = {t.duet.name: [nearest_neighbour(library, t.duet.leader)] for t in swapped}
-    return {"generated": _rows(swapped, made), "nearest neighbour": _rows(swapped, copied)}, made
+    nearest = {i.duet.name: [nearest_neighbour(library, i.duet.leader)] for i in swapped}
+    return {"generated": _measure(swapped, made), "nearest neighbour": _measure(swapped, nearest)}, made

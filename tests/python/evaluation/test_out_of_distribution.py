@@ -1,4 +1,4 @@
-"""Leaders from elsewhere: each demand fails for a partner that breaks it, and for no other."""
+"""Out-of-distribution leaders: each demand fails for a partner that breaks it, and for no other."""
 
 from __future__ import annotations
 
@@ -10,8 +10,12 @@ import pytest
 from tests.python.support.made_bvh import MadeDancer, write_bvh
 from training.data.duet import Solo
 from training.data.made import made_dancer, made_duet
-from training.evaluation.out_of_distribution import judge, measure_elsewhere, read_leaders
-from training.evaluation.protocol import Trial
+from training.evaluation.out_of_distribution import (
+    measure_out_of_distribution,
+    measure_partner,
+    read_leaders,
+)
+from training.evaluation.protocol import HeldOutDuet, Settings
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
 
@@ -24,7 +28,7 @@ def leader() -> np.ndarray:
 
 
 def failed(leader: np.ndarray, reactor: np.ndarray) -> set[str]:
-    row = judge(leader, reactor)
+    row = measure_partner(leader, reactor)
     assert row["passed"] == all(row["checks"].values())
     return {name for name, passed in row["checks"].items() if not passed}
 
@@ -34,20 +38,20 @@ def near(leader: np.ndarray) -> np.ndarray:
 
 
 def test_a_good_partner_passes(leader: np.ndarray):
-    row = judge(leader, near(leader))
+    row = measure_partner(leader, near(leader))
     assert row["passed"]
     assert row["distance_median_m"] == pytest.approx(0.8)
     assert row["distance_max_m"] == pytest.approx(0.8)
     assert row["speed"] == pytest.approx(row["leader_speed"])
 
 
-def test_not_a_number(leader: np.ndarray):
+def test_a_coordinate_that_is_not_a_number_fails(leader: np.ndarray):
     reactor = near(leader)
     reactor[50, 3, 1] = np.nan
     assert "finite" in failed(leader, reactor)
 
 
-def test_feet(leader: np.ndarray):
+def test_feet_have_to_be_on_the_floor(leader: np.ndarray):
     for shift, bad in ((0.08, False), (0.14, True), (-0.03, False), (-0.09, True)):
         reactor = near(leader)
         reactor[:, TOES, 1] = 0.03 + shift
@@ -63,7 +67,7 @@ def test_feet(leader: np.ndarray):
         assert ("on the floor" in failed(leader, jump)) == bad, frames
 
 
-def test_distance(leader: np.ndarray):
+def test_the_roots_have_to_be_near(leader: np.ndarray):
     assert failed(leader, leader + np.array([2.9, 0.0, 0.0])) == set()
     assert failed(leader, leader + np.array([3.1, 0.0, 0.0])) == {"near"}
     once = near(leader)
@@ -71,7 +75,7 @@ def test_distance(leader: np.ndarray):
     assert "near" in failed(leader, once)
 
 
-def test_speed():
+def test_the_reactor_may_not_be_much_faster_than_the_leader():
     still = np.repeat(put_on_floor(made_dancer(1, 1)), 121, axis=0)
     slow, fast = (still.astype(np.float64) for _ in range(2))
     slow[:, :, 0] += np.linspace(0, 4 * 0.29, 121)[:, None]  # m/s over 4 s
@@ -83,44 +87,52 @@ def test_speed():
     assert failed(slow, still + 3.1 * (slow - still)) == {"speed"}
 
 
-def test_every_leader_is_danced_with(tmp_path: Path):
-    trials = [
-        Trial(made_duet(60, 1, "a"), np.full((60, 54), 1.0)),
-        Trial(made_duet(60, 2, "b"), np.full((60, 54), 2.0)),
+def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_path: Path):
+    held_out = [
+        HeldOutDuet(made_duet(60, 1, "a"), np.full((60, 54), 1.0)),
+        HeldOutDuet(made_duet(60, 2, "b"), np.full((60, 54), 2.0)),
     ]
-    leaders = [Solo(f"martial_{i}", put_on_floor(made_dancer(50 + 40 * i, i))) for i in range(3)]
-    heard = []
+    names = ("martial_0", "martial_1", "modern_2")
+    leaders = [Solo(name, put_on_floor(made_dancer(50 + 40 * i, i))) for i, name in enumerate(names)]
+    calls = []
 
-    def dancer(leader, music, seed, heard_leader=None, guidance=None, coarse_only=False, role=0.0):
-        heard.append((len(leader), music.shape, float(music.mean()), seed, role))
+    def generate(leader, music, seed, condition_leader=None, guidance=None, layers=None, role=0.0):
+        calls.append((len(leader), music.shape, float(music.mean()), seed, role))
         return near(leader) + (10.0 if len(leader) == 90 else 0.0)
 
-    rows, dances = measure_elsewhere(dancer, leaders, trials, seed=7)
-    assert heard == [(50, (50, 54), 1.0, 7, 0.0), (90, (90, 54), 2.0, 7, 0.0), (130, (130, 54), 1.0, 7, 0.0)]
-    assert [rows[name]["passed"] for name in ("martial_0", "martial_1", "martial_2")] == [True, False, True]
+    groups, dances = measure_out_of_distribution(
+        generate, leaders, held_out, Settings(seeds=(7, 8), seen_leaders=("indian", "modern"))
+    )
+    assert calls == [(50, (50, 54), 1.0, 7, 0.0), (90, (90, 54), 2.0, 7, 0.0), (130, (130, 54), 1.0, 7, 0.0)]
+    seen, unseen = groups["seen"], groups["unseen"]
+    assert (seen["count"], seen["passed"], list(seen["leaders"])) == (1, 1, ["modern_2"])
+    assert (unseen["count"], unseen["passed"]) == (2, 1)
+    assert [unseen["leaders"][name]["passed"] for name in ("martial_0", "martial_1")] == [True, False]
     assert [(d.name, len(d.reactor)) for d in dances] == [
         ("martial_0", 50),
         ("martial_1", 90),
-        ("martial_2", 130),
+        ("modern_2", 130),
     ]
-    assert "overlap_share_solved" not in rows["martial_0"]
+    assert "overlap_share_solved" not in unseen["leaders"]["martial_0"]
 
-    # What is drawn is the solved dancer, and overlaps are told before and after.
+    # What is drawn is the fitted skeleton; overlaps are reported before and after.
     def inside(leader, music, seed, **_):
         return leader.copy()
 
     def step_aside(motion, leader):
         return motion + np.array([3, 0, 0], np.float32)
 
-    rows, dances = measure_elsewhere(inside, leaders[:1], trials, 7, step_aside)  # pyright: ignore[reportArgumentType]
-    assert rows["martial_0"]["overlap_share"] == 1.0
-    assert rows["martial_0"]["overlap_share_solved"] == 0.0
+    groups, dances = measure_out_of_distribution(inside, leaders[:1], held_out, Settings(), step_aside)  # pyright: ignore[reportArgumentType]
+    row = groups["unseen"]["leaders"]["martial_0"]
+    assert row["overlap_share"] == 1.0
+    assert row["overlap_share_solved"] == 0.0
     assert np.array_equal(dances[0].reactor, leaders[0].motion + np.array([3, 0, 0], np.float32))
-    silent, _ = measure_elsewhere(
+    without_music, _ = measure_out_of_distribution(
         lambda leader, music, seed: near(leader) if music is None else leader,  # pyright: ignore[reportArgumentType]
-        leaders[:1], [Trial(trials[0].duet, None)], 0,
+        leaders[:1], [HeldOutDuet(held_out[0].duet, None)], Settings(),
     )  # fmt: skip
-    assert silent["martial_0"]["distance_max_m"] == pytest.approx(0.8)
+    row = without_music["unseen"]["leaders"]["martial_0"]
+    assert row["distance_max_m"] == pytest.approx(0.8)
 
 
 def test_leaders_are_read_from_archives_and_files(tmp_path: Path):

@@ -1,4 +1,4 @@
-"""Bars of quality: each is computed from the numbers it names, and fails on the wrong side of its limit."""
+"""Target thresholds: each is computed from the numbers it names, and fails on the wrong side of its limit."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from training.evaluation.limits import ThresholdResult
 from training.evaluation.metrics.speed import BANDS, band_name
-from training.evaluation.separability import separability
-from training.evaluation.thresholds import QUALITY, Bar, check_quality
+from training.evaluation.thresholds import TARGETS, check_targets
 
 
 def row(**changed: float) -> dict[str, Any]:
@@ -28,10 +28,11 @@ def row(**changed: float) -> dict[str, Any]:
 
 
 def good() -> dict[str, Any]:
-    """Numbers that reach every bar."""
+    """Numbers that reach every target."""
     near = {"hands_w1_m": 0.1, "facing_w1_deg": 8.0}
     return {
         "trials": {"salsa_05": 800, "salsa_11": 1000},
+        "beats_unknown": ["salsa_05"],
         "rows": {
             "truth": row(mpjpe_mm=0.0, root_error_mm=0.0),
             "reconstruction": row(mpjpe_mm=9.0, root_error_mm=12.0),
@@ -51,19 +52,19 @@ def good() -> dict[str, Any]:
     }  # fmt: skip
 
 
-def missed(numbers: dict[str, Any]) -> dict[str, Bar]:
-    return {bar.name: bar for bar in check_quality(numbers) if not bar.passed}
+def missed(numbers: dict[str, Any]) -> dict[str, ThresholdResult]:
+    return {result.name: result for result in check_targets(numbers) if not result.passed}
 
 
-def test_good_numbers_reach_every_bar():
-    bars = check_quality(good())
-    assert [bar.name for bar in bars if not bar.passed] == []
-    assert len({bar.name for bar in bars}) == len(bars) == len(QUALITY) + 4
+def test_good_numbers_reach_every_target():
+    results = check_targets(good())
+    assert [result.name for result in results if not result.passed] == []
+    assert len({result.name for result in results}) == len(results) == len(TARGETS) + 4
 
 
-# What is changed in the generated row, just inside and just outside its limit, and the bar that notices.
+# What is changed in the generated row, just inside and just outside its limit, and the target that fails.
 @pytest.mark.parametrize(
-    "key, inside, outside, bar",
+    "key, inside, outside, target",
     [
         ("mpjpe_mm", 99.0, 101.0, "MPJPE, mm"),
         ("root_error_mm", 199.0, 201.0, "relative-root error, mm"),
@@ -85,19 +86,19 @@ def test_good_numbers_reach_every_bar():
         ("bone_variation", 0.019, 0.021, "variation of raw bones"),
     ],
 )
-def test_limits_of_the_motion(key: str, inside: float, outside: float, bar: str):
+def test_limits_of_the_motion(key: str, inside: float, outside: float, target: str):
     for rows, prefix in (("generated", ""), ("solved", "solved: ")):
         numbers = good()
         numbers["rows"][rows]["mean"][key] = inside
         assert missed(numbers).keys() == set()
         numbers["rows"][rows]["mean"][key] = outside
         # Bones of the solved skeleton are rigid by construction and not asked about.
-        expected = set() if (rows, key) == ("solved", "bone_variation") else {prefix + bar}
+        expected = set() if (rows, key) == ("solved", "bone_variation") else {prefix + target}
         assert missed(numbers).keys() == expected
 
 
-def test_limits_of_the_reconstruction_and_the_probes():
-    for section, key, outside, bar in (
+def test_limits_of_the_reconstruction_and_the_experiments():
+    for section, key, outside, target in (
         ("seams", "ratio", 0.89, "seams over the truth's"),
         ("seams", "ratio", 1.16, "seams over the truth's"),
         ("responses", "song_over_leader", 0.09, "another song's change over another leader's"),
@@ -108,40 +109,42 @@ def test_limits_of_the_reconstruction_and_the_probes():
     ):
         numbers = good()
         numbers[section][key] = outside
-        assert missed(numbers).keys() == {bar}
-    for key, bar in (
+        assert missed(numbers).keys() == {target}
+    for key, target in (
         ("mpjpe_mm", "reconstruction MPJPE, mm"),
         ("root_error_mm", "reconstruction root error, mm"),
     ):
         numbers = good()
         numbers["rows"]["reconstruction"]["mean"][key] = 25.1
-        assert missed(numbers).keys() == {bar}
+        assert missed(numbers).keys() == {target}
 
 
 @pytest.mark.parametrize(
-    "section, key, inside, outside, bar",
+    "section, key, inside, outside, target",
     [
         ("responses", "seeds_apart_pose_mm", 40.1, 39.9, "two seeds apart in pose, mm"),
         ("two_sample", "generated", 0.655, 0.665, "told from the truth, accuracy"),
     ],
 )
-def test_variety_and_likeness_have_bars(section: str, key: str, inside: float, outside: float, bar: str):
+def test_limits_of_variety_and_of_the_two_sample_test(
+    section: str, key: str, inside: float, outside: float, target: str
+):
     numbers = good()
     numbers[section][key] = inside
     assert missed(numbers).keys() == set()
     numbers[section][key] = outside
-    assert missed(numbers).keys() == {bar}
+    assert missed(numbers).keys() == {target}
 
 
-def test_beats_of_single_trials():
+def test_limits_of_the_beats_of_single_duets():
     numbers = good()
-    numbers["rows"]["generated"]["trials"]["salsa_05"]["mean"]["bas"] = 0.9  # nobody knows its beats
+    numbers["rows"]["generated"]["trials"]["salsa_05"]["mean"]["bas"] = 0.9  # its beats are unknown
     assert missed(numbers).keys() == set()
     for value in (0.19, 0.41):
         numbers["rows"]["generated"]["trials"]["salsa_11"]["mean"]["bas"] = value
-        bar = missed(numbers)["BAS of salsa_11 in the truth's interval"]
-        assert (bar.low, bar.high) == (0.2, 0.4)
-    # p alone is not following: what changes has to turn round with the music.
+        result = missed(numbers)["BAS of salsa_11 in the truth's interval"]
+        assert (result.low, result.high) == (0.2, 0.4)
+    # p alone is not following: the motion beats have to move with the music.
     numbers = good()
     numbers["beat_following"]["salsa_11"]["following"] = -0.99
     assert missed(numbers).keys() == {"half a beat later, salsa_11: following"}
@@ -150,13 +153,13 @@ def test_beats_of_single_trials():
     assert missed(numbers).keys() == {"half a beat later, salsa_11: p"}
 
 
-def test_what_was_not_measured_is_left_out_and_what_is_unknown_is_missed():
+def test_what_was_not_measured_has_no_target_and_what_is_not_a_number_fails():
     numbers = good()
     for name in ("solved", "reconstruction", "nearest neighbour"):
         del numbers["rows"][name]
     for name in ("separability", "beat_following"):
         del numbers[name]
-    names = {bar.name for bar in check_quality(numbers)}
+    names = {result.name for result in check_targets(numbers)}
     assert not any(
         word in name for name in names for word in ("solved", "reconstruction", "neighbour", "guidance")
     )
@@ -166,25 +169,10 @@ def test_what_was_not_measured_is_left_out_and_what_is_unknown_is_missed():
         for trial in silent["rows"][name]["trials"].values():
             for key in ("bas", "bas_low", "bas_high"):
                 del trial["mean"][key]
-    assert not any("BAS" in bar.name for bar in check_quality(silent))
-    deaf = good()
-    deaf["rows"]["truth"]["mean"]["bed_forward"] = 0.1  # below chance: nothing to compare with
-    assert "BED forward above chance over the truth's" in missed(deaf)
-
-
-def test_separability():
-    cells = [
-        {"coarse": c, "fine": f, "slow_energy": 2.0 * (1 + c), "quick_energy": 0.5 * (1 + f) + 0.05 * c}
-        for c in (0.0, 0.5, 1.2)
-        for f in (0.0, 0.5, 1.2)
-    ]
-    assert separability(cells) == pytest.approx(
-        {"coarse_moves_own": 1.2, "coarse_moves_other": 0.12, "fine_moves_own": 1.2, "fine_moves_other": 0.0}
-    )
-    assert separability([c for c in cells if c["fine"] < 1]) == pytest.approx(
-        {"coarse_moves_own": 1.2, "coarse_moves_other": 0.12}
-    )
-    assert separability(cells[4:]) == {}
+    assert not any("BAS" in result.name for result in check_targets(silent))
+    below_chance = good()
+    below_chance["rows"]["truth"]["mean"]["bed_forward"] = 0.1  # below chance: nothing to compare with
+    assert "BED forward above chance over the truth's" in missed(below_chance)
 
 
 def test_the_foot_lock_halves_skating_and_long_dances_do_not_loop():

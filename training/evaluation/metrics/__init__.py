@@ -1,4 +1,4 @@
-"""Measures of generated duets, each in a module of its own; `quick_report` is the handful watched during
+"""Measures of generated reactors, each in a module of its own; `quick_report` is the few that are watched during
 training.
 """
 
@@ -8,19 +8,20 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from training.config import FPS
 from training.evaluation.metrics.distance import root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error, root_error_per_frame
 from training.evaluation.metrics.speed import joint_speed
 
 
 def quick_report(
-    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, fps: float = 30.0
+    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, fps: float = FPS
 ) -> dict[str, float]:
     """The numbers that select a model while it trains; all motions (T, 22, 3) metres.
 
-    mpjpe_mm and root_error_mm are errors; the median beside the mean shows whether seconds in which the
-    couple stands far apart, as before it comes together, make the difference. speed_ratio (mean joint
-    speed) and distance_ratio (median distance of the roots) are generated over true, 1 is right.
+    mpjpe_mm, root_error_mm and root_error_median_mm are errors in mm; the median over frames is not affected by
+    the seconds in which the couple stands far apart. speed_ratio (mean joint speed) and distance_ratio (median
+    distance of the roots) are generated over true, 1 is right.
     """
     return {
         "mpjpe_mm": mpjpe(truth, generated),

@@ -1,7 +1,9 @@
-"""Beats of a motion, and how well they fall on the music's (BAS) or on the partner's (BED).
+"""Beats of a motion, and how well they align with the music's (beat alignment score, BAS, Li et al. 2021) or with
+the partner's (beat echo degree, BED, Siyao et al. 2024), as the paper's tables take them.
 
-A motion beat is a moment of least speed. Extra minima raise a score, so the number of beats and the chance
-level, the score after sliding the reactor's beats round the clip, belong beside it.
+A motion beat is a local minimum of speed. Both scores are the mean over reference beats of
+exp(-d^2 / (2 * 3^2)), d the frames to the nearest motion beat. More motion beats raise a score, so the number
+of beats and the chance level, the mean score over all circular shifts of the motion beats, belong beside it.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from scipy.signal import argrelmin
 
 SMOOTHING = 5.0  # frames, standard deviation of the filter on the speed
 TOLERANCE = 3.0  # frames, standard deviation of the score
+BEAT_COLUMN = 53  # of the music features: 1 at a beat
 
 
 def motion_beats(motion: np.ndarray) -> np.ndarray:
@@ -21,14 +24,12 @@ def motion_beats(motion: np.ndarray) -> np.ndarray:
 
 
 def music_beats(features: np.ndarray) -> np.ndarray:
-    """Frames of the beats in music features (T, 54), column 53 is 1 at a beat."""
-    return np.flatnonzero(features[:, 53] > 0.5)
+    """Frames of the beats in music features (T, 54), (K,) int."""
+    return np.flatnonzero(features[:, BEAT_COLUMN] > 0.5)
 
 
 def beat_scores(reference: np.ndarray, beats: np.ndarray) -> np.ndarray:
-    """exp(-d^2 / (2 * 3^2)) for every reference beat, d the frames to the nearest beat; zeros where there
-    is none.
-    """
+    """Score of every reference beat (K,) against the frames of beats (M,), (K,) in [0, 1]; zeros without any beat."""
     if len(beats) == 0:
         return np.zeros(len(reference))
     distance = np.abs(reference[:, None] - beats[None]).min(axis=1)
@@ -36,9 +37,7 @@ def beat_scores(reference: np.ndarray, beats: np.ndarray) -> np.ndarray:
 
 
 def beat_alignment(reference: np.ndarray, beats: np.ndarray) -> float:
-    """Mean beat score: BAS with music beats as reference, BED with the leader's; NaN without a reference
-    beat.
-    """
+    """Mean of `beat_scores`: BAS with music beats as reference, BED with the leader's; NaN without a reference beat."""
     return float(beat_scores(reference, beats).mean()) if len(reference) else float("nan")
 
 
@@ -51,8 +50,8 @@ def chance_alignment(reference: np.ndarray, beats: np.ndarray, frames: int) -> f
 
 
 def bed(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
-    """Beat echo of two motions (T, J, 3): forward (leader's beats answered), backward, chance of both, beat
-    counts.
+    """Beat echo degree of two motions (T, J, 3): forward (the leader's beats are the reference), backward (the
+    reactor's), the chance level of both, and the number of beats of either.
     """
     first, second = motion_beats(leader), motion_beats(reactor)
     frames = len(leader)
@@ -67,8 +66,8 @@ def bed(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
 
 
 def bas(music: np.ndarray, reactor: np.ndarray, resamples: int = 1000, seed: int = 0) -> dict[str, float]:
-    """Beat alignment to the music beats (K,) frames, with chance and a 95 % bootstrap interval over the
-    beats.
+    """Beat alignment score of a reactor (T, J, 3) to music beats (K,) frames: value, chance level, and the limits
+    low and high of the 95 % bootstrap interval over the beats. All NaN without a music beat.
     """
     beats = motion_beats(reactor)
     scores = beat_scores(music, beats)

@@ -1,7 +1,7 @@
-"""How the two dancers stand to each other: distance of the roots, nearest hands, facing.
+"""How the two dancers stand to each other: distances of roots, hands and other joints, facing.
 
 Motions are (T, 22, 3) in metres, y up. Distributions over frames are compared by the Wasserstein distance,
-which stays in the unit of what is compared.
+which has the unit of what is compared.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ from training.motion.heading import heading
 from training.motion.skeleton import JOINTS
 
 _WRISTS = (JOINTS.index("left_wrist"), JOINTS.index("right_wrist"))
+# Root, ankles, feet, head, shoulders and wrists, as in the Duolando evaluation (Siyao et al. 2024).
+CROSS_JOINTS: tuple[int, ...] = (0, 7, 8, 10, 11, 15, 16, 17, 20, 21)
 
 
 def root_distance(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
@@ -27,21 +29,30 @@ def hand_distance(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
 
 
 def facing(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
-    """Angle between the two headings, (T,) degrees in [0, 180]: 180 is face to face or back to back, 0 is
-    abreast.
+    """Angle between the two headings, (T,) degrees in [0, 180]: 180 is face to face or back to back, 0 is the same
+    direction.
     """
     cosine = (heading(leader) * heading(reactor)).sum(axis=-1)
     return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def bearing(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
-    """Angle between the leader's heading and the way to the reactor, (T,) degrees in [0, 180]: 0 is in front.
+    """Angle between the leader's heading and the direction to the reactor, (T,) degrees in [0, 180]: 0 is in front.
 
     Together with `facing` it tells face to face (0 and 180) from back to back (180 and 180).
     """
-    way = (reactor[:, 0] - leader[:, 0])[:, [0, 2]]
-    way = way / np.maximum(np.linalg.norm(way, axis=-1, keepdims=True), 1e-9)
-    return np.degrees(np.arccos(np.clip((heading(leader) * way).sum(axis=-1), -1.0, 1.0)))
+    direction = (reactor[:, 0] - leader[:, 0])[:, [0, 2]]
+    direction = direction / np.maximum(np.linalg.norm(direction, axis=-1, keepdims=True), 1e-9)
+    return np.degrees(np.arccos(np.clip((heading(leader) * direction).sum(axis=-1), -1.0, 1.0)))
+
+
+def cross_distances(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
+    """Features of the pair for FID_cd: the mean over time of the distance from each of ten joints of the reactor to
+    each of ten of the leader, (100,) metres, reactor joint by leader joint.
+    """
+    joints = list(CROSS_JOINTS)
+    gap = reactor[:, joints, None] - leader[:, None, joints]
+    return np.linalg.norm(gap.astype(np.float64), axis=-1).mean(axis=0).reshape(-1)
 
 
 def wasserstein(truth: np.ndarray, generated: np.ndarray) -> float:

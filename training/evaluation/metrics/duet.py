@@ -1,4 +1,4 @@
-"""All measures of one reactor beside its leader and the true reactor, as one flat table row; and of sets of
+"""All measures of one reactor beside its leader and the true reactor, as one flat table row; and those of sets of
 clips.
 """
 
@@ -10,16 +10,20 @@ import numpy as np
 
 from training.evaluation.metrics.beats import bas, bed, music_beats
 from training.evaluation.metrics.bones import bone_variation
-from training.evaluation.metrics.contact import foot_skating
-from training.evaluation.metrics.crossdist import cross_distances
-from training.evaluation.metrics.distance import facing, hand_distance, root_distance, wasserstein
+from training.evaluation.metrics.contact import foot_skating, physical_foot_contact
+from training.evaluation.metrics.distance import (
+    cross_distances,
+    facing,
+    hand_distance,
+    root_distance,
+    wasserstein,
+)
 from training.evaluation.metrics.errors import mpjpe, mpjve, root_error, root_error_by_distance
 from training.evaluation.metrics.frechet import Interval, clips, div, fid
 from training.evaluation.metrics.geometric import geometric_features
 from training.evaluation.metrics.kinetic import kinetic_features
 from training.evaluation.metrics.modes import Mode
 from training.evaluation.metrics.penetration import penetration
-from training.evaluation.metrics.pfc import physical_foot_contact
 from training.evaluation.metrics.repetition import SHORTEST, repetition
 from training.evaluation.metrics.speed import band_decibels, joint_acceleration, joint_speed
 
@@ -29,8 +33,8 @@ CLIP, HOP = 120, 60  # frames of the clips that FID and Div see: 4 s, overlappin
 def duet_metrics(
     leader: np.ndarray, truth: np.ndarray, made: np.ndarray, music: np.ndarray | None = None
 ) -> dict[str, float]:
-    """Every measure of one generated reactor `made` against the true one, all (T, 22, 3) metres, y up, 30
-    fps.
+    """Every measure of one generated reactor `made` against the true one, all (T, 22, 3) metres, y up,
+    30 fps.
 
     music: (T, 54) features for BAS; bas_low and bas_high are its 95 % interval over the beats. Names end in
     their unit; `_ratio` is generated over true, `_w1` a Wasserstein distance to the true distribution over
@@ -98,9 +102,11 @@ def set_metrics(
     hop: int = HOP,
     resamples: int = 100,
 ) -> dict[str, Interval]:
-    """fid_k, fid_g, fid_cd, div_k, div_g, div_cd of couples (leader, reactor) against the true couples.
+    """FID and Div of couples (leader, reactor), (T, 22, 3) metres each, against the true couples: fid_k, fid_g,
+    fid_cd, div_k, div_g, div_cd of kinetic (k), geometric (g) and cross-distance (cd) features of clips of
+    `length` frames, one every `hop` frames.
 
-    `mode` says how k and g are computed; cd is the same in both.
+    `mode` says how k and g are computed (see `modes`); cd is the same in both.
     """
     real, fake = _features(truth, length, hop, mode), _features(made, length, hop, mode)
     result = {f"fid_{name}": fid(real[name], fake[name], mode, resamples) for name in real}

@@ -1,8 +1,8 @@
 """How far a generated reactor is from the true one: pose, velocity and place beside the leader.
 
-Every motion is (T, J, 3) in metres at 30 fps with joint 0 the root. MPJPE and MPJVE compare bodies whose
-roots were put on top of each other, so they say nothing of where the reactor stands; the relative-root
-error is the one that does.
+Every motion is (T, J, 3) in metres at 30 fps with joint 0 the root. MPJPE and MPJVE (the paper's) compare joints
+relative to the root, so they do not depend on where the reactor stands; the relative-root error does. Motions of
+different lengths raise ValueError.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""Distance of two sets of feature vectors (FID) and diversity within one (Div), with bootstrap intervals.
+"""Frechet distance of two sets of feature vectors (FID, Heusel et al. 2017) and diversity within one (Div), with
+bootstrap intervals, as in the paper's tables.
 
 Both sets are first normalised by the truth's mean and standard deviation. A whole test set makes few
 vectors; clips of equal length make more (`clips`). The covariance of fewer clips than features is singular,
@@ -46,9 +47,10 @@ def normalise(truth: np.ndarray, *others: np.ndarray, mode: Mode = "corrected") 
 def frechet(a: np.ndarray, b: np.ndarray, mode: Mode = "corrected") -> float:
     """Frechet distance between Gaussians fitted to (N, D) and (M, D), covariances with ddof 1.
 
-    |mu_a - mu_b|^2 + tr(Sa + Sb - 2 sqrtm(Sa Sb)). `paper` mode takes the matrix root of the product, which
-    rounding can make negative in sum when the covariances are singular. `corrected` mode uses that the root's
-    trace is the nuclear norm of A B^T for centred data Sa = A^T A: exact at any rank, and never negative.
+    |mu_a - mu_b|^2 + tr(Sa + Sb - 2 sqrtm(Sa Sb)) (Dowson and Landau 1982). `paper` mode takes the matrix root
+    of the product, which rounding can make negative in sum when the covariances are singular. `corrected` mode
+    uses that the root's trace is the nuclear norm of A B^T for centred data Sa = A^T A: exact at any rank, and
+    never negative. Raises ValueError with fewer than two vectors in a set.
     """
     if min(len(a), len(b)) < 2:
         raise ValueError("a Frechet distance needs at least two vectors in each set")
@@ -70,7 +72,7 @@ def frechet(a: np.ndarray, b: np.ndarray, mode: Mode = "corrected") -> float:
 
 
 def diversity(features: np.ndarray) -> float:
-    """Mean L2 distance over all pairs of different rows of (N, D)."""
+    """Mean L2 distance over all pairs of different rows of (N, D). Raises ValueError with fewer than two rows."""
     count = len(features)
     if count < 2:
         raise ValueError("diversity needs at least two vectors")

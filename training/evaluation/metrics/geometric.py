@@ -1,17 +1,18 @@
 """Geometric features of one dancer (FID_g): in what share of frames each of 32 poses or gestures is seen.
 
-After Mueller et al. 2005 as used by the AIST++, Duolando and ReactDance evaluations. Thresholds are
-multiples of a humerus, a shoulder width and a hip width of one fixed body, so dancers should be compared at
-the same scale.
+After Müller et al. 2005 (Efficient content-based retrieval of motion capture data) as used by the AIST++, Duolando
+and ReactDance evaluations. Thresholds are multiples of a humerus, a shoulder width and a hip width of one fixed body,
+so dancers should be compared at the same scale.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from training.evaluation.metrics.modes import FPS, Mode, feature_pose
+from training.config import FPS
+from training.evaluation.metrics.modes import Mode, feature_pose
 
-HUMERUS, SHOULDERS, HIPS = 0.2568381, 0.3908484, 0.1192471
+HUMERUS, SHOULDERS, HIPS = 0.2568381, 0.3908484, 0.1192471  # metres
 
 ROOT, LHIP, RHIP, BELLY, LKNEE, RKNEE = 0, 1, 2, 3, 4, 5
 LANKLE, RANKLE, CHEST, LTOES, RTOES, NECK = 7, 8, 9, 10, 11, 12

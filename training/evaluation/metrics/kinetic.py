@@ -1,14 +1,16 @@
 """Kinetic features of one dancer (FID_k): how much each joint moves, horizontally, vertically and in
 acceleration.
 
-After the features of Onuma et al. 2008 as used by the AIST++, Duolando and ReactDance evaluations.
+After Onuma et al. 2008 (FMDistance: a fast and effective distance function for motion capture data) as used by the
+AIST++, Duolando and ReactDance evaluations.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from training.evaluation.metrics.modes import FPS, Mode, feature_pose
+from training.config import FPS
+from training.evaluation.metrics.modes import Mode, feature_pose
 
 WINDOW = 2  # frames on each side over which velocities and accelerations are averaged
 

@@ -1,4 +1,4 @@
-"""Inter-penetration of two dancers whose bodies are capsules round their bones: `IPR (capsules)`.
+"""Inter-penetration rate (IPR) of two dancers whose bodies are capsules round their bones: `IPR (capsules)`.
 
 The paper uses SMPL meshes and generalised winding numbers. Without a body model each bone gets a radius of
 human size, so the number is never to be compared with the paper's column. Hands have no capsule: a dance
@@ -64,8 +64,8 @@ def segment_distance(p0: np.ndarray, p1: np.ndarray, q0: np.ndarray, q1: np.ndar
 
 
 def depth(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
-    """Deepest overlap of any capsule of one with any of the other in every frame, (T,) metres, 0 where
-    there is none.
+    """Deepest overlap of any capsule of one with any of the other in every frame of (T, 22, 3) metres, (T,) metres;
+    0 without an overlap.
 
     Radii follow the size of each body.
     """
@@ -84,8 +84,8 @@ def depth(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
 
 
 def penetration(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
-    """ipr_capsules: share of frames with an overlap deeper than 1 cm; depth percentiles over all frames,
-    mm.
+    """ipr_capsules: share of frames with an overlap deeper than 1 cm; depth_p50_mm and depth_p95_mm: percentiles of
+    the depth over all frames, mm.
     """
     deepest = depth(leader, reactor)
     half, most = np.percentile(deepest, [50, 95]) * 1000

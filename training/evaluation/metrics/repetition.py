@@ -1,7 +1,6 @@
-"""Whether a long dance repeats itself: windows whose movement comes again elsewhere in the same dance.
+"""Whether a long dance repeats itself: windows whose movement comes again at another time of the same dance.
 
-Dance repeats by nature, so the share means nothing by itself: read it against the truth's over the same
-length.
+Dance repeats by nature, so the share has to be compared with the truth's over the same length.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from training.motion.heading import heading, turn_in
 
 WINDOW, HOP = 60, 10  # frames: 2 s of movement, looked at every third of a second
 APART = 120  # frames between the starts of two windows that count as different moments
-SHORTEST = WINDOW + APART + 1  # frames of a dance in which there is an elsewhere
+SHORTEST = WINDOW + APART + 1  # frames of a dance with at least two different moments
 # Below it a window is a near-duplicate: no two moments of the true salsa are closer than about 65.
 NEAR_MM = 60.0
 
@@ -24,8 +23,10 @@ def own_poses(motion: np.ndarray) -> np.ndarray:
 
 
 def nearest_repeats(motion: np.ndarray) -> np.ndarray:
-    """For every window its distance to the most similar window elsewhere, (K,) mm: root mean square over
-    frames and joints; elsewhere starts at least 4 s earlier or later, at any frame.
+    """For every window of a motion (T, 22, 3) its distance to the most similar other window, (K,) mm: root mean
+    square over frames and joints; the other starts at least 4 s earlier or later, at any frame.
+
+    Raises ValueError for a motion shorter than `SHORTEST`.
     """
     poses = own_poses(motion)
     starts = len(poses) - WINDOW + 1
@@ -45,7 +46,7 @@ def nearest_repeats(motion: np.ndarray) -> np.ndarray:
 
 
 def repetition(motion: np.ndarray) -> dict[str, float]:
-    """repeat_share: share of windows with a near-duplicate elsewhere; repeat_mm: median distance to the
+    """repeat_share: share of windows with a near-duplicate at least 4 s away; repeat_mm: median distance to the
     nearest.
     """
     nearest = nearest_repeats(motion)

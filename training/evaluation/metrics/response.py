@@ -1,5 +1,5 @@
-"""What a model listens to: how much its dance changes when a condition does, and whether it follows the
-beat.
+"""How much a generated dance changes when a condition does, how different seeds are, and whether motion follows the
+beat of the music.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ def relative_change(leader: np.ndarray, base: np.ndarray, changed: np.ndarray) -
     """RMS difference of two reactors beside the same leader over the RMS movement of the first; all (T, 22,
     3).
 
-    Movement is taken from its mean over time, beside the leader's root. 0: the condition was not heard; two
-    dances that have nothing in common come to about 1.4.
+    Movement is the difference from its mean over time, relative to the leader's root. 0: the condition has no
+    effect; two unrelated dances come to about 1.4.
     """
     first = base - leader[:, :1]
     difference = changed - base
@@ -25,7 +25,11 @@ def relative_change(leader: np.ndarray, base: np.ndarray, changed: np.ndarray) -
 
 
 def between_seeds(motions: Sequence[np.ndarray]) -> dict[str, float]:
-    """How different several reactors (T, 22, 3) to one leader are: mean over pairs, pose and place, in mm."""
+    """How different several reactors (T, 22, 3) to one leader are: mean over pairs, of poses relative to
+    the root (pose_mm) and of roots (place_mm).
+
+    Raises ValueError for fewer than two motions.
+    """
     pose, place = [], []
     for i, first in enumerate(motions):
         for second in motions[i + 1 :]:
@@ -44,7 +48,10 @@ def beat_period(music: np.ndarray) -> float:
 
 
 def half_beat_later(music: np.ndarray) -> np.ndarray:
-    """Music features (T, 54), half a beat later; what falls off the end comes first."""
+    """Music features (T, 54), half a beat later; the frames beyond the end come first.
+
+    Raises ValueError with fewer than two beats.
+    """
     period = beat_period(music)
     if not np.isfinite(period):
         raise ValueError("music with fewer than two beats cannot be shifted by half a beat")
@@ -55,7 +62,7 @@ def beat_phase(music: np.ndarray, motion: np.ndarray) -> complex:
     """Where in the beat the motion beats fall: mean of exp(2 pi i phase), phase 0 on a beat and 0.5 between
     two.
 
-    Its size says how steadily they fall there (1 always, 0 anywhere). Motion beats before the first and
+    Its absolute value says how steadily they fall there (1 always, 0 anywhere). Motion beats before the first and
     after the last music beat are left out.
     """
     beats, minima = music_beats(music), motion_beats(motion)
@@ -72,10 +79,11 @@ def shift_test(
 ) -> dict[str, float]:
     """Do motion beats follow the music when it moves by half a beat? Paired permutation test over seeds.
 
-    base, shifted: `beat_phase` of each seed against the unshifted music. Where motion follows, the phase
-    turns round and base - shifted is large in one direction; where music is not heard, the pair can be
-    exchanged. p is the share of exchanges with a mean difference at least as large; `following` is minus
-    the cosine between the mean phases.
+    base, shifted: `beat_phase` of each seed against the unshifted music. Where motion follows the music, the
+    phase moves by half a beat and base - shifted is large in one direction; where the music has no effect, the
+    two of a pair can be exchanged. p is the share of exchanges with a mean difference at least as large;
+    `following` is minus the cosine between the mean phases: 1 follows, -1 stays. Raises ValueError without
+    pairs.
     """
     first, second = np.array(base), np.array(shifted)
     if len(first) != len(second) or len(first) == 0:

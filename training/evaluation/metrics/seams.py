@@ -1,4 +1,5 @@
-"""Boundary jitter: whether the motion jumps where two generated blocks meet.
+"""Boundary jitter: whether the motion jumps at seams, the boundaries between generated blocks. The ratio of
+`seam_ratio` is the boundary jitter ratio, in tables "seams over the truth's".
 
 A block boundary at frame s lies between frames s-1 and s. |dv| at frame t is the mean over joints of
 ||p[t+1] - 2 p[t] + p[t-1]||, in mm per frame^2; frames s-1 and s are the two that see both sides of it.
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-RADIUS = 2.0  # frames on either side that feel a seam
+RADIUS = 2.0  # frames on either side that count as the seam
 CLEAR = 8.0  # frames on either side that do not count as the motion's interior
 PAPER_RADIUS = 30.0  # frames, the paper's window
 
@@ -49,9 +50,9 @@ def paper_jitter(motion: np.ndarray, seams: np.ndarray, radius: float = PAPER_RA
 class SeamSample:
     """|dv| near the seams of one generated motion, and of the true one at the same frames.
 
-    All values are sums in mm per frame^2 over `frames` frames of `seams` seams, so that samples of many
-    motions add up. `inside` are the generated frames away from seams, to tell a seam from a motion that is
-    shaky everywhere.
+    Velocity changes are sums in mm per frame^2 over `frames` frames of `seams` seams, so that samples of many
+    motions add up. `inside` are the generated frames away from seams, to tell a seam from a motion that
+    jitters everywhere.
     """
 
     seams: int
@@ -66,6 +67,8 @@ class SeamSample:
 def seam_sample(truth: np.ndarray, generated: np.ndarray, seams: np.ndarray) -> SeamSample:
     """Sums of |dv| within RADIUS frames of the seams of a generated motion (T, J, 3), and of the truth in the
     same frames.
+
+    Raises ValueError for motions of different lengths.
     """
     if len(truth) != len(generated):
         raise ValueError(
@@ -98,11 +101,11 @@ def against_interior(motion: np.ndarray, seams: np.ndarray) -> float:
 
 
 def seam_ratio(samples: list[SeamSample]) -> dict[str, float]:
-    """Seams over many motions; 1.0 is seamless.
+    """Boundary jitter ratio over many motions; 1.0 is seamless.
 
-    ratio: |dv| at the seams over the truth's at the same frames. own: |dv| at the seams over the generated
-    motion's own interior, divided by what the truth's is at the same frames, which a shaky or a lame motion
-    does not change.
+    seams: their number. ratio: |dv| at the seams over the truth's at the same frames. own: |dv| at the seams over
+    the generated motion's own interior, divided by what the truth's is at the same frames, which does not change
+    where a motion jitters or is too slow everywhere. NaN where nothing moves.
     """
     made, true = sum(s.generated for s in samples), sum(s.truth for s in samples)
     inside_made, inside_true = sum(s.inside_generated for s in samples), sum(s.inside_truth for s in samples)

@@ -1,4 +1,4 @@
-"""How lively a motion is: mean joint speed and acceleration, and its energy by frequency.
+"""Mean joint speed and acceleration of a motion, and its energy by frequency.
 
 Motions are (T, J, 3) in metres. The ratios to the truth show over-smoothing (below 1) and jitter (above 1).
 """
@@ -7,22 +7,24 @@ from __future__ import annotations
 
 import numpy as np
 
-# Bands of joint velocity in Hz: travelling, the dance's steps, accents, and what is mostly noise.
+from training.config import FPS
+
+# Bands of joint velocity in Hz: travelling, steps, accents, and mostly noise.
 BANDS: tuple[tuple[float, float], ...] = ((0.0, 1.0), (1.0, 3.0), (3.0, 6.0), (6.0, 15.0))
 
 
-def joint_speed(motion: np.ndarray, fps: float = 30.0) -> float:
+def joint_speed(motion: np.ndarray, fps: float = FPS) -> float:
     """Mean speed of all joints in the world, m/s."""
     return float(np.linalg.norm(np.diff(motion, axis=0), axis=-1).mean() * fps)
 
 
-def joint_acceleration(motion: np.ndarray, fps: float = 30.0) -> float:
+def joint_acceleration(motion: np.ndarray, fps: float = FPS) -> float:
     """Mean size of the second difference of all joints in the world, m/s^2."""
     return float(np.linalg.norm(np.diff(motion, n=2, axis=0), axis=-1).mean() * fps**2)
 
 
 def band_power(
-    motion: np.ndarray, bands: tuple[tuple[float, float], ...] = BANDS, fps: float = 30.0
+    motion: np.ndarray, bands: tuple[tuple[float, float], ...] = BANDS, fps: float = FPS
 ) -> np.ndarray:
     """Mean power of the joint velocities in each band, (len(bands),) in (m/s)^2.
 
@@ -55,7 +57,7 @@ def band_decibels(
     truth: np.ndarray,
     generated: np.ndarray,
     bands: tuple[tuple[float, float], ...] = BANDS,
-    fps: float = 30.0,
+    fps: float = FPS,
 ) -> dict[str, float]:
     """Energy of the generated motion against the true one in each band, dB."""
     ratio = band_power(generated, bands, fps) / band_power(truth, bands, fps)

@@ -1,9 +1,9 @@
-"""Classifier two-sample test: can a small network tell generated couples from true ones (Lopez-Paz and
-Oquab 2017)?
+"""Classifier two-sample test (Lopez-Paz and Oquab 2017): can a small network tell generated couples from true ones?
+In tables its accuracy is "told from the truth".
 
-Its accuracy on windows it has not seen is 0.5 where the two cannot be told apart. It sees both dancers, so
-it can use anything: poses, timing, distance, hands that miss each other. With little data even the truth
-does not score exactly 0.5 against itself; report that beside it (`truth_against_truth`).
+The accuracy on windows that it was not trained on is 0.5 where the two cannot be told apart. It sees both dancers,
+so it can use anything: poses, timing, distance, hands that miss each other. With little data even the truth does not
+score exactly 0.5 against itself; report that beside it (`truth_against_truth`).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def couple_windows(couples: Sequence[Couple]) -> tuple[np.ndarray, np.ndarray]:
     """Windows of couples (leader, reactor), (N, 60, 264), and the segment that each lies in, (N,) int.
 
     Positions in metres and their change per frame of both bodies, seen from the leader's place and heading
-    in the middle of the window.
+    in the middle of the window. Raises ValueError if no couple is as long as a segment.
     """
     windows, groups, segments = [], [], 0
     for leader, reactor in couples:
@@ -71,8 +71,8 @@ def _balanced(labels: torch.Tensor, random: torch.Generator) -> torch.Tensor:
 def held_out_accuracy(
     first: np.ndarray, first_groups: np.ndarray, second: np.ndarray, second_groups: np.ndarray, seed: int = 0
 ) -> float:
-    """Mean over folds of the balanced accuracy on windows (N, W, F) of groups that the network was not
-    trained on.
+    """Mean over folds of the balanced accuracy on windows (N, W, F) of groups (N,) that the network was not
+    trained on. NaN if no fold has both kinds on both sides.
     """
     inputs = torch.from_numpy(np.concatenate([first, second])).transpose(1, 2)
     labels = torch.cat([torch.zeros(len(first)), torch.ones(len(second))])
@@ -92,11 +92,11 @@ def held_out_accuracy(
             std = inputs[known].std(dim=(0, 2), keepdim=True).clamp_min(1e-3)
             network = _network(inputs.shape[1])
             optimizer = torch.optim.AdamW(network.parameters(), lr=2e-3, weight_decay=0.05)
-            seen, answers = (inputs[known] - mean) / std, labels[known]
+            training, targets = (inputs[known] - mean) / std, labels[known]
             for _ in range(STEPS):
-                batch = _balanced(answers, random)
+                batch = _balanced(targets, random)
                 loss = nn.functional.binary_cross_entropy_with_logits(
-                    network(seen[batch])[:, 0], answers[batch]
+                    network(training[batch])[:, 0], targets[batch]
                 )
                 optimizer.zero_grad()
                 loss.backward()
@@ -115,7 +115,7 @@ def two_sample_accuracy(truth: Sequence[Couple], made: Sequence[Couple], seed: i
     truth[i].
 
     The same stretch of both is held out together, so the network cannot use that it knows the leader of a
-    window.
+    window. Raises ValueError for different lengths.
     """
     if [len(a) for a, _ in truth] != [len(a) for a, _ in made]:
         raise ValueError("true and generated couples must have the same lengths")
@@ -137,5 +137,5 @@ def truth_against_truth(truth: Sequence[Couple], repeats: int = 3, seed: int = 0
         scores.append(
             held_out_accuracy(windows[first], groups[first], windows[~first], groups[~first], seed + repeat)
         )
-    told = [score for score in scores if np.isfinite(score)]
-    return float(np.mean(told)) if told else float("nan")
+    known = [score for score in scores if np.isfinite(score)]
+    return float(np.mean(known)) if known else float("nan")

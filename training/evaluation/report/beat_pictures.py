@@ -1,4 +1,4 @@
-"""Draws, for every duet without a song, when its feet plant against the beats that its music is given.
+"""Draws when the feet of every duet are planted, beside the beats of the tempo that is fitted to them.
 
     python -m training.evaluation.report.beat_pictures --duets DUETS.npz --val NAME --test NAME NAME --out runs/beats
 
@@ -20,7 +20,8 @@ import tyro
 from rich.console import Console
 from rich.table import Table
 
-from training.data.duet import FPS, Duet
+from training.config import FPS
+from training.data.duet import Duet
 from training.data.npz import read_npz
 from training.data.splits import split
 from training.data.step_tempo import duet_tempo, foot_plants, foot_speed, plant_fit

@@ -1,4 +1,4 @@
-"""Filmstrips: a dance as a row of poses from two sides and from above, to look at what numbers do not say."""
+"""Filmstrips: a dance as a row of poses from the front, from the side and from above."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
+from training.config import FPS
 from training.motion.skeleton import JOINTS, PARENTS
 
 LEADER, REACTOR, TRUTH = "#2f6fde", "#f07a2b", "#a7adb5"
@@ -25,7 +26,7 @@ CELL_HEIGHT = 2.15  # metres that the side views show
 
 @dataclass(frozen=True)
 class View:
-    """A parallel projection: which way on the page is right, up, towards the eye, as unit vectors (3,)."""
+    """A parallel projection: what is right, up and towards the eye on the picture, as unit vectors (3,)."""
 
     name: str
     right: np.ndarray
@@ -42,9 +43,9 @@ def views(leader: np.ndarray, reactor: np.ndarray) -> tuple[View, View, View]:
 
     The front view looks across the line on which the two stand most of the time.
     """
-    way = (reactor[:, 0] - leader[:, 0])[:, [0, 2]].astype(np.float64)
+    offset = (reactor[:, 0] - leader[:, 0])[:, [0, 2]].astype(np.float64)
     # The longest axis of their offsets, sign ignored: partners change places all the time.
-    _, axes = np.linalg.eigh(way.T @ way)
+    _, axes = np.linalg.eigh(offset.T @ offset)
     x, z = axes[:, -1] if axes[0, -1] >= 0 else -axes[:, -1]
     across = (x, 0.0, z)
     return (
@@ -64,7 +65,7 @@ def shade(colour: str, amount: float) -> tuple[float, float, float]:
 def draw_body(
     axes: Axes, pose: np.ndarray, view: View, colour: str, shift: tuple[float, float], ghost: bool = False
 ) -> None:
-    """One body (22, 3) metres in a projection, moved on the page by shift; nearer limbs cover farther ones.
+    """One body (22, 3) metres in a projection, moved by shift (metres); nearer limbs cover farther ones.
 
     The body's right side is darker, so that left and right can be told apart; a ghost is flat and lies
     behind.
@@ -128,7 +129,7 @@ def filmstrip(
     reactor: np.ndarray,
     path: Path | str,
     truth: np.ndarray | None = None,
-    fps: float = 30.0,
+    fps: float = FPS,
     poses: int = 12,
     start: float = 0.0,
     seconds: float = 8.0,
@@ -138,7 +139,7 @@ def filmstrip(
 
     leader, reactor and truth (the true reactor, in grey behind) are (T, 22, 3) metres, y up. Three rows:
     front, side and top, each moment centred on the middle of the couple. Times and the distance of the
-    roots stand below.
+    roots stand below. Raises ValueError where less than two frames of the motion are asked for.
     """
     first = round(start * fps)
     last = min(round((start + seconds) * fps), len(leader) - 1)

@@ -1,9 +1,10 @@
-"""Writes an evaluation down: JSON, Markdown, a table on the screen, energy spectra, filmstrips and videos."""
+"""Writes an evaluation into a folder: JSON, Markdown, energy spectra, filmstrips and videos."""
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,21 +12,27 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from training.config import FPS
 from training.data.duet import Duet
 from training.evaluation.evaluate import Evaluation
-from training.evaluation.out_of_distribution import Elsewhere
-from training.evaluation.protocol import Trial
+from training.evaluation.limits import ThresholdResult
+from training.evaluation.out_of_distribution import OutOfDistributionDance
+from training.evaluation.protocol import GENERATED, TRUTH, HeldOutDuet
 from training.evaluation.report.filmstrip import filmstrip
 from training.evaluation.report.report_text import COLUMNS, markdown, number
 from training.evaluation.report.spectra import draw_spectra
 from training.evaluation.report.video import write_video
-from training.evaluation.role_swap import swapped_trials
-from training.evaluation.thresholds import Bar, check, check_quality
+from training.evaluation.role_swap import swapped_duets
+from training.evaluation.thresholds import check_required, check_targets
+
+# Rows that get filmstrips, where they were measured.
+FILMSTRIPS = (TRUTH, "reconstruction", "reconstruction, coarse alone", GENERATED, "nearest neighbour")
+FILMSTRIP_SECONDS = 8.0
 
 
 def screen_table(numbers: dict[str, Any]) -> Table:
-    """The main table, one row per method, mean over trials and seeds."""
-    table = Table(title=f"{', '.join(numbers['trials'])}; mean over trials and {len(numbers['seeds'])} seeds")
+    """The main table, one row per method, mean over held-out duets and seeds."""
+    table = Table(title=f"{', '.join(numbers['trials'])}; mean over duets and {len(numbers['seeds'])} seeds")
     table.add_column("")
     for label, _, _ in COLUMNS:
         table.add_column(label, justify="right")
@@ -34,111 +41,115 @@ def screen_table(numbers: dict[str, Any]) -> Table:
     return table
 
 
-def draw(trials: list[Trial], evaluation: Evaluation, out: Path, strips: list[str]) -> list[Path]:
-    """Spectra, and a filmstrip of 8 s from the middle of every trial in each named row; of the generated dances
-    their first 8 s too. Then one filmstrip of the role swap and one of each kind of leader from elsewhere.
+def draw(held_out: list[HeldOutDuet], evaluation: Evaluation, out: Path, strips: Sequence[str]) -> list[Path]:
+    """Spectra, and a filmstrip of 8 s from the middle of every duet in each named row; of the generated dances
+    their first 8 s too. Then one filmstrip of the role swap and one of each dance of the out-of-distribution
+    leaders. Returns the PNG files.
     """
     rows = evaluation.motions
-    lines = {name: [m for t in trials for m in motions[t.duet.name]] for name, motions in rows.items()}
+    lines = {name: [m for i in held_out for m in motions[i.duet.name]] for name, motions in rows.items()}
     pictures = [draw_spectra(lines, out / "spectra.png")]
-    for trial in trials:
-        duet = trial.duet
+    for item in held_out:
+        duet = item.duet
         middle = _middle(len(duet))
         for name in (n for n in strips if n in rows):
             motion = rows[name][duet.name][0]
-            truth = None if name == "truth" else duet.reactor[: len(motion)]
-            for start in (0.0, middle) if name == "generated" else (middle,):
+            truth = None if name == TRUTH else duet.reactor[: len(motion)]
+            for start in (0.0, middle) if name == GENERATED else (middle,):
                 path = out / f"{duet.name}-{name.replace(',', '').replace(' ', '-')}-{start:.0f}s.png"
                 title = f"{duet.name}, {name}"
                 pictures.append(
                     filmstrip(duet.leader[: len(motion)], motion, path, truth, start=start, title=title)
                 )
-    for duet, made in _role_swap(trials, evaluation):
-        path, title = out / f"{duet.name}-role-swap.png", f"{duet.name}, role swap: the reactor leads (blue)"
+    for duet, made in _role_swap(held_out, evaluation):
+        path = out / f"{duet.name}-role-swap.png"
+        title = f"{duet.name}, role swap: the generated leader in orange"
         pictures.append(
             filmstrip(duet.leader, made, path, duet.reactor, start=_middle(len(duet)), title=title)
         )
     for dance in _one_of_each_kind(evaluation):
-        path, title = out / f"elsewhere-{dance.name}.png", f"{dance.name}, a leader from elsewhere"
+        path, title = out / f"out-of-distribution-{dance.name}.png", f"{dance.name}, out of distribution"
         start = _middle(len(dance.leader))
         pictures.append(filmstrip(dance.leader, dance.reactor, path, start=start, title=title))
     return pictures
 
 
-def _role_swap(trials: list[Trial], evaluation: Evaluation) -> list[tuple[Duet, np.ndarray]]:
-    """The first trial that was danced with roles swapped, and what was generated for the leader's part."""
-    danced = [trial for trial in trials if trial.duet.name in evaluation.swapped][:1]
-    return [(t.duet, evaluation.swapped[t.duet.name][0]) for t in swapped_trials(danced)]
+def _role_swap(held_out: list[HeldOutDuet], evaluation: Evaluation) -> list[tuple[Duet, np.ndarray]]:
+    """The first duet that was generated with roles swapped, exchanged, and the leader (T, 22, 3) generated for it."""
+    chosen = [item for item in held_out if item.duet.name in evaluation.swapped][:1]
+    return [(item.duet, evaluation.swapped[item.duet.name][0]) for item in swapped_duets(chosen)]
 
 
-def _one_of_each_kind(evaluation: Evaluation) -> list[Elsewhere]:
-    """The first leader from elsewhere of each kind, by the part of the name before the underscore."""
-    return list({dance.name.partition("_")[0]: dance for dance in reversed(evaluation.elsewhere)}.values())
+def _one_of_each_kind(evaluation: Evaluation) -> list[OutOfDistributionDance]:
+    """The first out-of-distribution leader of each dance, by the part of the name before the underscore."""
+    dances = reversed(evaluation.out_of_distribution)
+    return list({dance.name.partition("_")[0]: dance for dance in dances}.values())
 
 
 def _middle(frames: int) -> float:
-    """Second at which 8 s from the middle begin."""
-    return max(frames / 60 - 4.0, 0.0)
+    """Second at which the filmstrip from the middle begins."""
+    return max((frames / FPS - FILMSTRIP_SECONDS) / 2, 0.0)
 
 
-def film(trials: list[Trial], evaluation: Evaluation, out: Path) -> list[Path]:
-    """Videos from two sides of the first seed's dances: every trial beside its truth, the role swap beside its
-    truth, one of each kind of leader from elsewhere.
+def film(held_out: list[HeldOutDuet], evaluation: Evaluation, out: Path) -> list[Path]:
+    """Videos from two sides of the first seed's dances: every duet beside its truth, the role swap beside its
+    truth, one of each dance of the out-of-distribution leaders. Returns the WebM files.
     """
     scenes = {
-        t.duet.name: (
-            t.duet.leader,
-            {"truth": t.duet.reactor, "generated": evaluation.motions["generated"][t.duet.name][0]},
+        item.duet.name: (
+            item.duet.leader,
+            {"truth": item.duet.reactor, "generated": evaluation.motions[GENERATED][item.duet.name][0]},
         )
-        for t in trials
+        for item in held_out
     }
-    for duet, made in _role_swap(trials, evaluation):
+    for duet, made in _role_swap(held_out, evaluation):
         scenes[f"{duet.name}-role-swap"] = duet.leader, {"truth": duet.reactor, "reactor leads": made}
     for dance in _one_of_each_kind(evaluation):
-        scenes[f"elsewhere-{dance.name}"] = dance.leader, {"generated": dance.reactor}
+        scenes[f"out-of-distribution-{dance.name}"] = dance.leader, {"generated": dance.reactor}
     return [
         write_video(leader, reactors, out / f"{name}.webm") for name, (leader, reactors) in scenes.items()
     ]
 
 
-def _plain(value: Any) -> Any:
-    """JSON has no NaN."""
+def _json_values(value: Any) -> Any:
+    """The value with None for NaN and infinity, which JSON does not have."""
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: _json_values(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [_json_values(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _judged(bars: list[Bar]) -> list[dict[str, Any]]:
-    return [{"name": b.name, "value": b.value, "limits": b.limits, "passed": b.passed} for b in bars]
+def _json_results(results: list[ThresholdResult]) -> list[dict[str, Any]]:
+    return [{"name": r.name, "value": r.value, "limits": r.limits, "passed": r.passed} for r in results]
 
 
 def write_report(
     evaluation: Evaluation,
-    trials: list[Trial],
+    held_out: list[HeldOutDuet],
     out: Path,
     title: str,
     facts: dict[str, Any],
     pictures: bool = True,
     videos: bool = True,
-) -> list[Bar]:
-    """metrics.json, report.md, pictures and videos into a folder, the table on the screen; returns the bars.
+) -> list[ThresholdResult]:
+    """metrics.json, report.md, pictures and videos into a folder, the table on the screen.
 
-    facts: what was measured (model, data, commit), kept at the head of metrics.json.
+    facts: what was measured (model, data, commit), kept at the head of metrics.json. Returns the results of the
+    required thresholds; metrics.json has them as `bars`, the targets as `quality`.
     """
     out.mkdir(parents=True, exist_ok=True)
-    bars = check(evaluation.numbers)
+    numbers = evaluation.numbers
+    required, targets = check_required(numbers), check_targets(numbers)
     head = {"format": "reactdance-metrics", "version": 1, **facts}
-    judged = {"bars": _judged(bars), "quality": _judged(check_quality(evaluation.numbers))}
-    (out / "metrics.json").write_text(json.dumps(_plain(head | evaluation.numbers | judged), indent=1) + "\n")
-    strips = ["truth", "reconstruction", "reconstruction, coarse alone", "generated", "nearest neighbour"]
-    drawn = draw(trials, evaluation, out, strips) if pictures else []
-    filmed = film(trials, evaluation, out) if videos else []
-    (out / "report.md").write_text(markdown(evaluation.numbers, title, drawn, filmed))
+    results = {"bars": _json_results(required), "quality": _json_results(targets)}
+    (out / "metrics.json").write_text(json.dumps(_json_values(head | numbers | results), indent=1) + "\n")
+    drawn = draw(held_out, evaluation, out, FILMSTRIPS) if pictures else []
+    filmed = film(held_out, evaluation, out) if videos else []
+    (out / "report.md").write_text(markdown(numbers, title, drawn, filmed))
     console = Console(width=200)
-    console.print(screen_table(evaluation.numbers))
-    for bar in bars:
-        mark = "[green]reached[/green]" if bar.passed else "[red]missed[/red]"
-        console.print(f"{mark}  {bar.name}: {number(bar.value)} ({bar.limits})")
-    return bars
+    console.print(screen_table(numbers))
+    for result in required:
+        mark = "[green]reached[/green]" if result.passed else "[red]missed[/red]"
+        console.print(f"{mark}  {result.name}: {number(result.value)} ({result.limits})")
+    return required

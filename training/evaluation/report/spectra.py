@@ -9,21 +9,22 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from training.config import FPS
+from training.evaluation.protocol import COARSE_ALONE, GENERATED, TRUTH
 from training.evaluation.report.filmstrip import INK, PAPER, REACTOR, RULE
 
 EDGES = np.geomspace(0.2, 15.0, 25)  # Hz, of the bins that are drawn
-COARSE = "generated, coarse alone"
 # What is drawn of an evaluation's rows: line colour and style.
 LINES: dict[str, tuple[str, str]] = {
-    "truth": (INK, "-"),
+    TRUTH: (INK, "-"),
     "reconstruction": ("#4fa36a", "-"),
     "reconstruction, coarse alone": ("#4fa36a", "--"),
-    "generated": (REACTOR, "-"),
-    COARSE: (REACTOR, "--"),
+    GENERATED: (REACTOR, "-"),
+    COARSE_ALONE: (REACTOR, "--"),
 }
 
 
-def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES, fps: float = 30.0) -> np.ndarray:
+def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES, fps: float = FPS) -> np.ndarray:
     """Power density of the joint velocities of (T, J, 3) metres between each two edges (Hz), (m/s)^2 per Hz.
 
     One periodogram of the whole clip under a Hann window, summed over x, y, z and averaged over joints and the

@@ -1,4 +1,4 @@
-"""A video of one leader with several reactors side by side, from two sides, to see what numbers do not say.
+"""A video of one leader with several reactors side by side, from the front and from the side.
 
 Drawn with Pillow lines, not with matplotlib: a minute of dance is 1800 frames.
 """
@@ -14,6 +14,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter1d
 
+from training.config import FPS
 from training.evaluation.report.filmstrip import (
     HEAD_RADIUS,
     INK,
@@ -31,7 +32,7 @@ from training.motion.skeleton import JOINTS, PARENTS
 
 CELL = (400, 320)  # pixels of one couple from one side
 CAPTION = 28  # pixels above the cells
-FINE = 2  # drawn so many times larger and then averaged: Pillow's lines have hard edges
+SUPERSAMPLING = 2  # drawn so many times larger and then averaged: Pillow's lines have hard edges
 LIMB = 0.045  # metres, width of a limb's line
 HEIGHT = 2.15  # metres that a cell shows at least, in height
 CAMERA = 30.0  # frames, standard deviation of the camera's smoothing: it follows the couple, not the steps
@@ -51,8 +52,8 @@ class Camera:
     def project(self, pose: np.ndarray, frame: int, corner: tuple[int, int]) -> np.ndarray:
         """Pose (22, 3) to pixels (22, 2) in the cell at a corner, and how near (22,): (22, 3)."""
         seen = pose - self.centre[frame]
-        x = corner[0] + CELL[0] * FINE / 2 + seen @ self.view.right * self.scale
-        y = corner[1] + CELL[1] * FINE * 0.94 - seen @ self.view.up * self.scale
+        x = corner[0] + CELL[0] * SUPERSAMPLING / 2 + seen @ self.view.right * self.scale
+        y = corner[1] + CELL[1] * SUPERSAMPLING * 0.94 - seen @ self.view.up * self.scale
         return np.stack([x, y, seen @ self.view.eye], axis=-1)
 
 
@@ -65,7 +66,7 @@ def cameras(leader: np.ndarray, reactors: Sequence[np.ndarray]) -> tuple[Camera,
     for view in views(leader, reactors[0])[:2]:
         reach = max(float(np.abs((m - centre[:, None]) @ view.right).max()) for m in (leader, *reactors))
         width = max(2 * (reach + 2 * HEAD_RADIUS), HEIGHT * CELL[0] / CELL[1])
-        result.append(Camera(view, centre, CELL[0] * FINE / width))
+        result.append(Camera(view, centre, CELL[0] * SUPERSAMPLING / width))
     return result[0], result[1]
 
 
@@ -84,8 +85,10 @@ def _draw_couple(
     corner: tuple[int, int],
 ) -> None:
     """Bodies (22, 3) by colour into the cell at a corner; what is nearer covers what is farther."""
-    floor = corner[1] + CELL[1] * FINE * 0.94
-    draw.line([(corner[0], floor), (corner[0] + CELL[0] * FINE, floor)], fill=RULE, width=2 * FINE)
+    floor = corner[1] + CELL[1] * SUPERSAMPLING * 0.94
+    draw.line(
+        [(corner[0], floor), (corner[0] + CELL[0] * SUPERSAMPLING, floor)], fill=RULE, width=2 * SUPERSAMPLING
+    )
     width, radius = round(LIMB * camera.scale), HEAD_RADIUS * camera.scale
     parts = []
     for colour, pose in bodies.items():
@@ -113,7 +116,7 @@ def _draw_couple(
 
 
 def pictures(
-    leader: np.ndarray, reactors: Mapping[str, np.ndarray], fps: float = 30.0
+    leader: np.ndarray, reactors: Mapping[str, np.ndarray], fps: float = FPS
 ) -> Iterator[Image.Image]:
     """One RGB picture for every frame: a column for each reactor under its name, front above, side below."""
     lengths = [len(leader), *(len(reactor) for reactor in reactors.values())]
@@ -123,14 +126,14 @@ def pictures(
     size = (len(reactors) * CELL[0], 2 * CELL[1] + CAPTION)
     font = ImageFont.load_default(15)
     for frame in range(len(leader)):
-        large = Image.new("RGB", (size[0] * FINE, size[1] * FINE), PAPER)
+        large = Image.new("RGB", (size[0] * SUPERSAMPLING, size[1] * SUPERSAMPLING), PAPER)
         draw = ImageDraw.Draw(large)
         for column, reactor in enumerate(reactors.values()):
             for row, camera in enumerate(sides):
-                corner = (column * CELL[0] * FINE, (CAPTION + row * CELL[1]) * FINE)
+                corner = (column * CELL[0] * SUPERSAMPLING, (CAPTION + row * CELL[1]) * SUPERSAMPLING)
                 bodies = {LEADER: leader[frame], REACTOR: reactor[frame]}
                 _draw_couple(draw, bodies, camera, frame, corner)
-        picture = large.reduce(FINE)
+        picture = large.reduce(SUPERSAMPLING)
         caption = ImageDraw.Draw(picture)
         for column, name in enumerate(reactors):
             caption.text(((column + 0.5) * CELL[0], 16), name, fill=INK, font=font, anchor="mm")
@@ -140,9 +143,7 @@ def pictures(
         yield picture
 
 
-def write_video(
-    leader: np.ndarray, reactors: Mapping[str, np.ndarray], path: Path, fps: float = 30.0
-) -> Path:
+def write_video(leader: np.ndarray, reactors: Mapping[str, np.ndarray], path: Path, fps: float = FPS) -> Path:
     """Write the WebM of a leader and its reactors by name, (T, 22, 3) metres each; returns its path."""
     path.write_bytes(webm(pictures(leader, reactors, fps), fps))
     return path

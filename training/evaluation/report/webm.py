@@ -12,7 +12,9 @@ from collections.abc import Iterable, Sequence
 
 from PIL import Image
 
-CLUSTER = 30  # frames that share a time stamp's origin and one entry of the seek table
+from training.config import FPS
+
+CLUSTER = 30  # frames of a Matroska cluster, which has one time stamp and one entry of the seek table
 _MILLISECOND = 1_000_000  # nanoseconds, the unit of all times in the file
 
 
@@ -38,20 +40,20 @@ def _element(name: int, content: bytes) -> bytes:
     )
 
 
-def _whole(name: int, value: int) -> bytes:
+def _unsigned(name: int, value: int) -> bytes:
     return _element(name, struct.pack(">Q", value))
 
 
-def _time(frame: int, fps: float) -> int:
+def _milliseconds(frame: int, fps: float) -> int:
     return round(frame * 1000 / fps)
 
 
 def _cluster(frames: Sequence[bytes], first: int, fps: float) -> bytes:
     """Frames from number `first` on; each says how many ms after the cluster's time it is shown."""
-    start = _time(first, fps)
-    blocks = [_whole(0xE7, start)]
+    start = _milliseconds(first, fps)
+    blocks = [_unsigned(0xE7, start)]
     for number, frame in enumerate(frames, first):
-        head = struct.pack(">BhB", 0x81, _time(number, fps) - start, 0x80)  # track 1, time, key frame
+        head = struct.pack(">BhB", 0x81, _milliseconds(number, fps) - start, 0x80)  # track 1, time, key frame
         blocks.append(_element(0xA3, head + frame))
     return _element(0x1F43B675, b"".join(blocks))
 
@@ -61,15 +63,15 @@ def _cues(positions: Sequence[int], fps: float) -> bytes:
     points = [
         _element(
             0xBB,
-            _whole(0xB3, _time(index * CLUSTER, fps))
-            + _element(0xB7, _whole(0xF7, 1) + _whole(0xF1, position)),
+            _unsigned(0xB3, _milliseconds(index * CLUSTER, fps))
+            + _element(0xB7, _unsigned(0xF7, 1) + _unsigned(0xF1, position)),
         )
         for index, position in enumerate(positions)
     ]
     return _element(0x1C53BB6B, b"".join(points))
 
 
-def webm(pictures: Iterable[Image.Image], fps: float = 30.0) -> bytes:
+def webm(pictures: Iterable[Image.Image], fps: float = FPS) -> bytes:
     """The file's bytes for RGB pictures of one size. Raises ValueError without pictures or with another size."""
     frames: list[bytes] = []
     sizes: set[tuple[int, int]] = set()
@@ -81,18 +83,18 @@ def webm(pictures: Iterable[Image.Image], fps: float = 30.0) -> bytes:
     ((width, height),) = sizes
     header = _element(
         0x1A45DFA3,
-        _whole(0x4286, 1) + _whole(0x42F7, 1) + _whole(0x42F2, 4) + _whole(0x42F3, 8)
-        + _element(0x4282, b"webm") + _whole(0x4287, 2) + _whole(0x4285, 2),
+        _unsigned(0x4286, 1) + _unsigned(0x42F7, 1) + _unsigned(0x42F2, 4) + _unsigned(0x42F3, 8)
+        + _element(0x4282, b"webm") + _unsigned(0x4287, 2) + _unsigned(0x4285, 2),
     )  # fmt: skip
     info = _element(
         0x1549A966,
-        _whole(0x2AD7B1, _MILLISECOND) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
+        _unsigned(0x2AD7B1, _MILLISECOND) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
         + _element(0x4489, struct.pack(">d", len(frames) * 1000 / fps)),
     )  # fmt: skip
     track = _element(
         0xAE,
-        _whole(0xD7, 1) + _whole(0x73C5, 1) + _whole(0x83, 1) + _whole(0x9C, 0) + _element(0x86, b"V_VP8")
-        + _whole(0x23E383, round(1e9 / fps)) + _element(0xE0, _whole(0xB0, width) + _whole(0xBA, height)),
+        _unsigned(0xD7, 1) + _unsigned(0x73C5, 1) + _unsigned(0x83, 1) + _unsigned(0x9C, 0) + _element(0x86, b"V_VP8")
+        + _unsigned(0x23E383, round(1e9 / fps)) + _element(0xE0, _unsigned(0xB0, width) + _unsigned(0xBA, height)),
     )  # fmt: skip
     head = info + _element(0x1654AE6B, track)
     clusters = [_cluster(frames[i : i + CLUSTER], i, fps) for i in range(0, len(frames), CLUSTER)]

@@ -48,12 +48,12 @@ def test_the_truth_is_drawn_only_when_given(tmp_path: Path):
 
 def test_only_the_moments_asked_for_are_drawn(tmp_path: Path):
     leader, reactor = couple()
-    elsewhere = reactor.copy()
-    elsewhere[:30] += 0.3
-    elsewhere[151:] += 0.3
+    moved = reactor.copy()
+    moved[:30] += 0.3
+    moved[151:] += 0.3
     one = imread(filmstrip(leader, reactor, tmp_path / "a.png", poses=5, start=1.0, seconds=4.0))
-    same = imread(filmstrip(leader, elsewhere, tmp_path / "b.png", poses=5, start=1.0, seconds=4.0))
-    other = imread(filmstrip(leader, elsewhere, tmp_path / "c.png", poses=5, start=1.0, seconds=5.0))
+    same = imread(filmstrip(leader, moved, tmp_path / "b.png", poses=5, start=1.0, seconds=4.0))
+    other = imread(filmstrip(leader, moved, tmp_path / "c.png", poses=5, start=1.0, seconds=5.0))
     assert (one == same).all()
     assert other.shape != one.shape or (other != one).any()
     with pytest.raises(ValueError, match="nothing to show"):

@@ -9,8 +9,9 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
+from training.evaluation.protocol import COARSE_ALONE
 from training.evaluation.report.filmstrip import REACTOR
-from training.evaluation.report.spectra import COARSE, EDGES, draw_spectra, spectrum
+from training.evaluation.report.spectra import EDGES, draw_spectra, spectrum
 
 
 def swinging(hertz: float, frames: int = 900) -> np.ndarray:
@@ -41,5 +42,5 @@ def test_the_picture_has_a_line_for_each_known_row(tmp_path: Path):
     noise = np.cumsum(np.random.default_rng(0).normal(scale=0.01, size=(600, 22, 3)), axis=0)
     none = orange({"truth": [noise], "mean pose": [noise]})
     one = orange({"truth": [noise], "generated": [2 * noise]})
-    two = orange({"truth": [noise], "generated": [2 * noise], COARSE: [noise]})
+    two = orange({"truth": [noise], "generated": [2 * noise], COARSE_ALONE: [noise]})
     assert none == 0 < one < two

@@ -55,10 +55,8 @@ def test_description_does_not_depend_on_the_room():
     )
 
 
-def test_nearest_neighbour_finds_the_same_dance_elsewhere():
-    """A leader known from training, turned, moved and cut, is answered by the same reactor, turned and
-    moved.
-    """
+def test_nearest_neighbour_finds_the_same_dance_at_another_place():
+    """A leader of the training duets, turned, moved and cut, gets the same reactor, turned and moved."""
     train = [made_duet(name, seed) for seed, name in enumerate("abc")]
     known = train[1]
     leader = moved(known.leader[37:237], 130, (1.0, 4.0))

@@ -45,7 +45,7 @@ def test_a_dance_that_never_returns_does_not_repeat():
     assert result["repeat_mm"] == pytest.approx(APART * speed * 1000, rel=0.05)
 
 
-def test_a_phrase_danced_again_elsewhere_is_found():
+def test_a_phrase_danced_again_later_is_found():
     dance = wandering(900)
     dance[600:750] = moved(dance[100:250], 140)
     nearest = nearest_repeats(dance)

@@ -25,10 +25,10 @@ def test_windows_lie_inside_segments_and_ignore_the_room():
     assert windows.shape[1:] == (WINDOW, 264)
     assert list(np.unique(groups)) == [0, 1]
     turn = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]], np.float32)
-    elsewhere, _ = couple_windows([(leader @ turn + np.float32(3), reactor @ turn + np.float32(3))])
+    moved, _ = couple_windows([(leader @ turn + np.float32(3), reactor @ turn + np.float32(3))])
     # Heights are kept, so only the shift along y remains.
     expected = windows.reshape(len(windows), WINDOW, 2, 44, 3) + np.array([[[0, 3, 0]], [[0, 0, 0]]])
-    assert elsewhere.reshape(expected.shape) == pytest.approx(expected, abs=1e-4)
+    assert moved.reshape(expected.shape) == pytest.approx(expected, abs=1e-4)
     with pytest.raises(ValueError, match=str(SEGMENT)):
         couple_windows([(leader[:100], reactor[:100])])
 

@@ -1,0 +1,52 @@
+"""How two bodies stand to each other, against values worked out by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.python.support.bodies import random_body, random_walk, turned
+from training.evaluation.metrics.distance import (
+    CROSS_JOINTS,
+    bearing,
+    cross_distances,
+    facing,
+    hand_distance,
+    root_distance,
+    wasserstein,
+)
+from training.motion.heading import heading
+
+
+def test_heading_facing_and_bearing():
+    leader = random_body()
+    assert heading(leader)[0] == pytest.approx([0.0, 1.0])
+    assert heading(turned(leader, 90))[0] == pytest.approx([1.0, 0.0], abs=1e-9)
+    partner = turned(leader, 180)
+    partner += leader[:, :1] + np.array([0.0, 0.0, 0.7]) - partner[:, :1]
+    assert facing(leader, partner) == pytest.approx(np.full(61, 180.0))
+    assert facing(leader, turned(leader, 30)) == pytest.approx(np.full(61, 30.0))
+    assert bearing(leader, partner) == pytest.approx(np.zeros(61), abs=1e-5)
+    assert bearing(leader, leader + np.array([0.0, 0.0, -1.0])) == pytest.approx(np.full(61, 180.0))
+    assert root_distance(leader, partner) == pytest.approx(np.full(61, 0.7))
+
+
+def test_nearest_hands_of_four_pairs():
+    leader, reactor = random_body(), random_body()
+    leader[:, 20], leader[:, 21] = (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)
+    reactor[:, 20], reactor[:, 21] = (5.0, 1.0, 0.0), (1.0, 1.3, 0.4)
+    assert hand_distance(leader, reactor) == pytest.approx(np.full(61, 0.5))
+
+
+def test_wasserstein_of_a_shift_is_the_shift():
+    sample = np.random.default_rng(2).normal(size=500)
+    assert wasserstein(sample, sample + 0.25) == pytest.approx(0.25)
+
+
+def test_cross_distances():
+    leader, reactor = random_walk(10), random_walk(10, seed=5)
+    features = cross_distances(leader, reactor).reshape(10, 10)
+    for i, a in enumerate(CROSS_JOINTS):
+        for j, b in enumerate(CROSS_JOINTS):
+            expected = np.linalg.norm(reactor[:, a] - leader[:, b], axis=-1).mean()
+            assert features[i, j] == pytest.approx(expected)

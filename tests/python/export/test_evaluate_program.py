@@ -1,0 +1,91 @@
+"""The evaluation program: the tiny exported model, the page's skeleton solver, and the shipped numbers."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
+from export.runtime import open_model
+from tests.python.support.real_data import real_file
+from training.data.made import made_duet
+from training.data.sources import read_split
+from training.evaluation.metrics.bones import bone_variation
+from training.evaluation.metrics.duet import duet_metrics
+from training.evaluation.metrics.penetration import depth as overlap_depth
+from training.evaluation.protocol import Settings
+from training.motion.skeleton import JOINTS
+
+TINY = Path(__file__).parents[2] / "fixtures/tiny-model"
+SHIPPED = Path(__file__).parents[3] / "web/public/models/salsa"
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_the_pages_solver_keeps_bones_rigid():
+    """A body whose bones breathe comes back with constant ones, close to where it was."""
+    motion = made_duet(60, 1).leader
+    breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
+    far = motion + np.array([3, 0, 0], np.float32)
+    solved = solve_with_node(breathing, far)
+    assert bone_variation(breathing) > 0.02
+    assert bone_variation(solved) < 1e-4
+    assert np.linalg.norm(solved - breathing, axis=-1).mean() < 0.05
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
+    """Somebody who stands within the leader steps aside, level, and no farther than must be."""
+    motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
+    inside = motion + np.array([0.1, 0, 0], np.float32)
+    free, solved = (solve_with_node(inside, motion + np.array([x, 0, 0], np.float32)) for x in (3, 0))
+    aside = solved - free
+    assert np.median(overlap_depth(motion, inside)) > 0.1
+    assert np.abs(aside[..., 1]).max() == 0
+    assert 0.05 < np.linalg.norm(aside, axis=-1).max() < 0.64
+    trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
+    assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
+
+
+@pytest.mark.skipif(not TINY.exists(), reason="tiny model not built")
+def test_the_program_measures_an_exported_model(tmp_path: Path):
+    duets = [made_duet(300, seed, name) for seed, name in enumerate(("train", "val", "one", "two"))]
+    archive = {
+        f"{d.name}/{role}": m for d in duets for role, m in (("leader", d.leader), ("follower", d.reactor))
+    }
+    np.savez(tmp_path / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
+    main(
+        Options(
+            data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, val=("val",), test=("one", "two"),
+            pictures=False, videos=False, music=False,
+            settings=Settings(seeds=(0, 1), seam_starts=(0,), response_seeds=1, two_sample=False),
+        )
+    )  # fmt: skip
+    stored = json.loads((tmp_path / "out/metrics.json").read_text())
+    assert stored["runtime"] == "onnxruntime"
+    assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] > 0
+    # The tiny model alternates its block phase, so boundaries lie every 120 frames of 300.
+    assert stored["seams"]["seams"] == 2 * 2 * 2
+    with pytest.raises(SystemExit, match="--model"):
+        main(Options(data=tmp_path / "duets.npz", out=tmp_path / "out"))
+
+
+def test_the_shipped_numbers_are_those_of_the_shipped_graphs():
+    """metrics.json beside the manifest: same graphs, and one dance of it measured again."""
+    model = open_model(SHIPPED, threads=1)
+    stored = json.loads((SHIPPED / "metrics.json").read_text())
+    assert stored["graphs"] == {k: g["files"]["wasm"]["sha256"] for k, g in model.manifest["graphs"].items()}
+    assert all(result["passed"] for result in stored["bars"])
+    val, test = (tuple(stored["split"][part]) for part in ("val", "test"))
+    options = Options(data=real_file("cmu_salsa/duets.npz"), out=Path(), val=val, test=test)
+    held_out = paired_duets(options, read_split(options.data, options.val, options.test))[0]
+    sampling = stored["sampling"]
+    generate = reactor_generator(model, sampling["steps"], tuple(sampling["guidance"]), sampling["music"])
+    made = generate(held_out.duet.leader, held_out.music, stored["seeds"][0])
+    known = stored["rows"]["generated"]["trials"][held_out.duet.name]["seeds"][0]
+    again = duet_metrics(held_out.duet.leader, held_out.duet.reactor, made, held_out.music)
+    for key in ("mpjpe_mm", "root_error_mm", "speed_ratio", "skate_share", "hands_w1_m", "bone_variation"):
+        assert again[key] == pytest.approx(known[key], rel=0.01, abs=1e-5), key
