@@ -3,6 +3,7 @@
 import hashlib
 import json
 import subprocess
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 SHARED_DATA = ROOT.parent / "shared" / "data"
 LARGEST = 20 * 2**20
 """Bytes. Larger files make every clone slow for ever."""
+MOST_FILES = 16
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +51,17 @@ def test_lock_files_hold_no_download_addresses() -> None:
     ]
     assert len(pins) > 50
     assert [pin for pin in pins if "==" not in pin or "://" in pin] == []
+
+
+def test_no_folder_of_sources_is_overfull(tracked: list[Path]) -> None:
+    """A reader tells from the tree where a thing lives."""
+    sources = [
+        path
+        for path in tracked
+        if path.relative_to(ROOT).parts[0] in ("web", "training", "export", "tests", "tools")
+    ]
+    count = Counter(path.relative_to(ROOT).parent for path in sources)
+    assert {str(folder): files for folder, files in count.items() if files > MOST_FILES} == {}
 
 
 def test_node_packages_are_pinned_exactly() -> None:

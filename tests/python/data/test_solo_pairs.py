@@ -12,7 +12,7 @@ from training.data.made import made_dancer
 from training.data.solo_pairs import AHEAD, solo_pair
 from training.denoiser.clips import solo_pair_clips
 from training.denoiser.windows import Windows
-from training.evaluation.metrics.bones import bone_variation
+from training.evaluation.metrics.errors import bone_variation
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.skeleton import JOINTS, MIRROR
 

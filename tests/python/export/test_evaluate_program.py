@@ -14,8 +14,8 @@ from export.runtime import open_model
 from tests.python.support.real_data import real_file
 from training.data.made import made_duet
 from training.data.sources import read_split
-from training.evaluation.metrics.bones import bone_variation
 from training.evaluation.metrics.duet import duet_metrics
+from training.evaluation.metrics.errors import bone_variation
 from training.evaluation.metrics.penetration import depth as overlap_depth
 from training.evaluation.protocol import Settings
 from training.motion.skeleton import JOINTS

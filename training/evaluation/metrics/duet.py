@@ -9,7 +9,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from training.evaluation.metrics.beats import bas, bed, music_beats
-from training.evaluation.metrics.bones import bone_variation
 from training.evaluation.metrics.contact import foot_skating, physical_foot_contact
 from training.evaluation.metrics.distance import (
     cross_distances,
@@ -18,7 +17,13 @@ from training.evaluation.metrics.distance import (
     root_distance,
     wasserstein,
 )
-from training.evaluation.metrics.errors import mpjpe, mpjve, root_error, root_error_by_distance
+from training.evaluation.metrics.errors import (
+    bone_variation,
+    mpjpe,
+    mpjve,
+    root_error,
+    root_error_by_distance,
+)
 from training.evaluation.metrics.frechet import Interval, clips, div, fid
 from training.evaluation.metrics.geometric import geometric_features
 from training.evaluation.metrics.kinetic import kinetic_features

@@ -1,4 +1,5 @@
-"""How far a generated reactor is from the true one: pose, velocity and place beside the leader.
+"""How far a generated reactor is from the true one (pose, velocity, place beside the leader), and whether bones keep
+their length.
 
 Every motion is (T, J, 3) in metres at 30 fps with joint 0 the root. MPJPE and MPJVE (the paper's) compare joints
 relative to the root, so they do not depend on where the reactor stands; the relative-root error does. Motions of
@@ -10,6 +11,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+
+from training.motion.skeleton import PARENTS
 
 # Edges of the bins of true distance between the roots, metres: in hold, at arm's length, just apart,
 # walking in.
@@ -76,3 +79,17 @@ def root_error_by_distance(
         name = f">{low:g} m" if np.isinf(high) else f"{low:g}-{high:g} m"
         result[name] = float(error[inside].mean()) if inside.any() else float("nan")
     return result
+
+
+def bone_lengths(motion: np.ndarray) -> np.ndarray:
+    """Lengths of the 21 bones of (T, 22, 3) in every frame, (T, 21) metres."""
+    parents = list(PARENTS[1:])
+    return np.linalg.norm(motion[:, 1:] - motion[:, parents], axis=-1)
+
+
+def bone_variation(motion: np.ndarray) -> float:
+    """Mean over bones of the standard deviation over time divided by the mean length; 0 is a rigid
+    skeleton.
+    """
+    lengths = bone_lengths(motion.astype(np.float64))
+    return float((lengths.std(axis=0) / lengths.mean(axis=0)).mean())

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.python.support.bodies import standing
-from training.evaluation.metrics.bones import bone_variation
+from training.evaluation.metrics.errors import bone_variation
 from training.evaluation.metrics.penetration import (
     CAPSULES,
     RADII,
