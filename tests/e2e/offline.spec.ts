@@ -136,7 +136,7 @@ test('a new build is offered, and taken whole', async ({ page, host }) => {
   await app.openWithoutPicture();
   const next = page.locator('meta[name="build"]');
   await expect(next).not.toBeAttached();
-  const note = page.getByRole('status').filter({ hasText: 'A new version is there.' });
+  const note = page.getByRole('status').filter({ hasText: 'A new version is ready.' });
   await expect(note).toBeVisible();
   await note.getByRole('button', { name: 'Reload' }).click();
   await expect(next).toBeAttached();

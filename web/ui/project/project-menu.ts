@@ -92,7 +92,7 @@ function build(services: Services, toggle: () => void): Elements {
     'Song, leader, takes and settings in one file',
     services.saveProject,
   );
-  const open = entry('folder', 'Open a project', 'In the place of what is here; undo brings it back', () => {
+  const open = entry('folder', 'Open a project', 'Replaces what is here; undo brings it back', () => {
     services.choose('project');
   });
   const clear = entry(

@@ -27,7 +27,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   const block = el(
     'section',
     { class: 'first', attributes: { 'aria-label': 'Start' } },
-    el('h1', { text: 'Drop a song and a lead. Watch the partner answer.' }),
+    el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
     el('p', {
       class: 'lede',
       text: 'Your browser dances the reacting partner and shows both in 3D.',

@@ -39,7 +39,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
       (update) => {
         note.hidden = !update;
         // Set when it is shown, so that it is read out.
-        setText(words, update ? 'A new version is there.' : '');
+        setText(words, update ? 'A new version is ready.' : '');
       },
     ),
     () => {
