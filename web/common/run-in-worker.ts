@@ -41,7 +41,12 @@ type Outcome =
   | { readonly kind: 'crashed'; readonly reason: string };
 
 interface TaskRunner {
-  call(id: number, name: string, input: unknown, report: (report: unknown) => void): Promise<Outcome>;
+  call(
+    id: number,
+    name: string,
+    input: unknown,
+    report: (report: unknown) => Promise<void>,
+  ): Promise<Outcome>;
   cancel(id: number): void;
 }
 
@@ -53,15 +58,25 @@ export function serve(tasks: Tasks, port?: Endpoint): void {
       const controller = new AbortController();
       running.set(id, controller);
       const { signal } = controller;
+      let lastReport = Promise.resolve();
+      const context: TaskContext<unknown> = {
+        signal,
+        report: (value) => {
+          lastReport = Promise.resolve(report(handOver(value)));
+        },
+      };
+      let outcome: Outcome;
       try {
         const task = tasks[name] as Task<unknown, unknown, unknown>;
-        const output = await task(input, { signal, report: (value) => report(handOver(value)) });
-        return handOver({ kind: 'done', output });
+        outcome = handOver({ kind: 'done', output: await task(input, context) });
       } catch (error) {
-        return failure(error, signal);
+        outcome = failure(error, signal);
       } finally {
         running.delete(id);
       }
+      // Reports go through a port of their own, which the outcome would overtake.
+      await lastReport;
+      return outcome;
     },
     cancel(id) {
       running.get(id)?.abort();

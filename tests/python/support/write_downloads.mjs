@@ -5,21 +5,21 @@
  */
 import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
-import { loadWeb } from '../../tools/load-web.mjs';
+import { loadWeb } from '../../../tools/load-web.mjs';
 
 const [folder] = process.argv.slice(2);
 if (!folder) throw new Error('Usage: node tests/python/support/write_downloads.mjs folder');
 
-/** @type {typeof import('../../web/motion/bvh/read')} */
+/** @type {typeof import('../../../web/motion/bvh/read')} */
 const { readBvh } = await loadWeb('motion/bvh/read.ts');
-/** @type {typeof import('../../web/motion/fit/ik')} */
+/** @type {typeof import('../../../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
-/** @type {typeof import('../../web/export/client')} */
+/** @type {typeof import('../../../web/export/client')} */
 const { writeMotion } = await loadWeb('export/client.ts');
 
-/** @type {(role: 'leader' | 'reactor') => Promise<{ role: 'leader' | 'reactor', motion: import('../../web/motion/skeleton/clip').SolvedMotion }>} */
+/** @type {(role: 'leader' | 'reactor') => Promise<{ role: 'leader' | 'reactor', motion: import('../../../web/motion/skeleton/clip').SolvedMotion }>} */
 const dancer = async (role) => {
-  const text = await readFile(new URL(`../../web/public/demo/${role}.bvh`, import.meta.url), 'utf8');
+  const text = await readFile(new URL(`../../../web/public/demo/${role}.bvh`, import.meta.url), 'utf8');
   return { role, motion: solve(readBvh(text).clip) };
 };
 const dancers = [await dancer('leader'), await dancer('reactor')];

@@ -14,6 +14,10 @@ const tasks = {
     seen.buffers.push(doubled.buffer);
     return doubled;
   },
+  count({ to }: { to: number }, { report }: TaskContext<number>): number {
+    for (let at = 1; at <= to; at++) report(at);
+    return to;
+  },
   refuse: (_: object): never => {
     throw new AppError('bad-request', 'It has no frames.', 'Give it some.');
   },
@@ -65,6 +69,18 @@ afterEach(() => {
 });
 
 describe('a connection to a worker', () => {
+  it('hears every report before the output', async () => {
+    const reports: number[] = [];
+    const output = await runInWorker<Tested, 'count'>(
+      open(),
+      'count',
+      { to: 20 },
+      { onReport: (at) => reports.push(at) },
+    );
+    expect(output).toBe(20);
+    expect(reports).toEqual(Array.from({ length: 20 }, (_, i) => i + 1));
+  });
+
   it('answers several calls at once, with reports, and transfers what is given away', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const values = Float32Array.of(1, 2);
