@@ -2,8 +2,8 @@ import {
   type BodyRule,
   type CapsuleBody,
   capsuleBody,
-  closePairs,
-  deepest,
+  candidatePairs,
+  penetrationDepth,
 } from '../motion/contact/capsules';
 import { percentile } from '../motion/math/statistics';
 import { distance, readVec } from '../motion/math/vec3';
@@ -33,7 +33,9 @@ export function overlapDepth({ leader, reactor, frames, fps }: Duet, rule: BodyR
     CapsuleBody,
     CapsuleBody,
   ];
-  return Float64Array.from({ length: frames }, (_, frame) => deepest(a, b, closePairs(a, b, frame)));
+  return Float64Array.from({ length: frames }, (_, frame) =>
+    penetrationDepth(a, b, candidatePairs(a, b, frame)),
+  );
 }
 
 /** An overlap this much deeper than a touch is a clear fault. */

@@ -1,5 +1,5 @@
 import type { MotionClip } from '../skeleton/clip';
-import { smoothed } from '../math/gaussian';
+import { gaussianFilter } from '../math/statistics';
 
 /** Mean joint speed between frames, metres per frame: frames - 1 values. */
 function meanSpeed(positions: Float32Array, frames: number): Float64Array {
@@ -27,7 +27,7 @@ export function motionBeats(
   { positions, frames }: Pick<MotionClip, 'positions' | 'frames'>,
   smoothing: number,
 ): number[] {
-  const speed = smoothed(meanSpeed(positions, frames), smoothing);
+  const speed = gaussianFilter(meanSpeed(positions, frames), smoothing);
   const beats: number[] = [];
   for (let frame = 1; frame + 1 < speed.length; frame++) {
     if (speed[frame]! < speed[frame - 1]! && speed[frame]! < speed[frame + 1]!) beats.push(frame);
