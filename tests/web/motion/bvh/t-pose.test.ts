@@ -57,7 +57,8 @@ describe('a rest pose before the dance is left out', () => {
     expect(meant.report.remarks).toEqual([]);
   };
 
-  test('at the place where the dance begins', () => expectLeftOut(before(dance, pose(body, [0, 95, 18])), dance));
+  test('at the place where the dance begins', () =>
+    expectLeftOut(before(dance, pose(body, [0, 95, 18])), dance));
 
   test('at another place, rotated, with slightly bent limbs', () => {
     const bent = pose(body, [300, 90, -200], { LeftArm: 6, RightUpLeg: -5, LeftForeArm: 4 });
