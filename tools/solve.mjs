@@ -4,8 +4,8 @@
  *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
- * With --beside the dancer is kept out of the leader's body, whose width is in body.json (quality.penetration of a
- * manifest). With --foot-lock planted feet are kept from sliding, as by the page's setting of that name.
+ * With --beside collisions with the leader are avoided; body.json has the capsules of both bodies (quality.penetration
+ * of a manifest). With --foot-lock feet in contact do not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -41,7 +41,7 @@ function read(file) {
 /** @type {typeof import('../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/collision-avoidance')} */
-const { keepApart } = await loadWeb('motion/contact/collision-avoidance.ts');
+const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const clip = read(from);
@@ -52,7 +52,7 @@ if (values.beside !== undefined && values.body !== undefined) {
     console.error(`${values.beside} has ${leader.frames} frames, ${from} has ${clip.frames}.`);
     process.exit(2);
   }
-  motion = keepApart(motion, leader, JSON.parse(readFileSync(values.body, 'utf8')));
+  motion = avoidCollisions(motion, leader, JSON.parse(readFileSync(values.body, 'utf8')));
 }
 if (values['foot-lock']) motion = lockFeet(motion);
 writeFileSync(to, new Uint8Array(motion.positions.buffer));

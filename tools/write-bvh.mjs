@@ -1,10 +1,10 @@
 /**
- * Solves a couple as the page does and writes both as BVH.
+ * Solves both dancers as the page does and writes both as BVH.
  *
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
  * motions.npz holds `leader` and `reactor`, (T, 22, 3) float32 metres at 30 fps; manifest.json is the model's, which
- * says how wide bodies are.
+ * has the capsules of the bodies.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -21,7 +21,7 @@ const { readNpz } = await loadWeb('model/load/npz.ts');
 /** @type {typeof import('../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/collision-avoidance')} */
-const { keepApart } = await loadWeb('motion/contact/collision-avoidance.ts');
+const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
 /** @type {typeof import('../web/motion/bvh/write')} */
 const { writeBvh } = await loadWeb('motion/bvh/write.ts');
 
@@ -37,12 +37,12 @@ function clip(name) {
 
 const leader = clip('leader');
 const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
-const couple = {
+const dancers = {
   leader: solve(leader),
-  reactor: keepApart(solve(clip('reactor')), leader, quality.penetration),
+  reactor: avoidCollisions(solve(clip('reactor')), leader, quality.penetration),
 };
 await mkdir(folder, { recursive: true });
-for (const [name, motion] of Object.entries(couple)) {
+for (const [name, motion] of Object.entries(dancers)) {
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

@@ -3,11 +3,11 @@ import { concern, type Measure, type MomentKind, type Scale, worstMoments, worst
 import { motionBeats } from '../motion/beats/motion-beats';
 import type { Duet, Rules } from './rules';
 
-/** How well the reactor's beats fall on those of somebody else; NaN where the other has none. */
+/** Beat alignment with a reference; NaN where the reference has no beats. */
 export interface Alignment {
-  /** Mean score of the other's beats, 0 to 1: `beat_alignment` of training/evaluation/metrics/beats.py. */
+  /** Mean score of the reference's beats, 0 to 1: `beat_alignment` of training/evaluation/metrics/beats.py. */
   readonly value: number;
-  /** The same by accident: the mean over all shifts of the reactor's beats, `chance_alignment` in Python. */
+  /** The same by chance: the mean over all shifts of the reactor's beats, `chance_alignment` in Python. */
   readonly chance: number;
 }
 
@@ -22,31 +22,33 @@ export interface BeatAlignment {
   readonly reactorBeats: number;
 }
 
-/** What `beatScores` gives, by the whole frames to the nearest beat: over all shifts it is asked for too often. */
+/** The score of `beatScores` by the whole frames to the nearest beat, computed once for all shifts. */
 function scoreTable(frames: number, tolerance: number): Float64Array {
-  return Float64Array.from({ length: frames + 1 }, (_, far) => Math.exp(-(far * far) / (2 * tolerance ** 2)));
+  return Float64Array.from({ length: frames + 1 }, (_, distance) =>
+    Math.exp(-(distance * distance) / (2 * tolerance ** 2)),
+  );
 }
 
-/** The mean score over all shifts of the beats. What leaves at the end comes in at the start. */
-function chanceOf(
+/** The mean score over all circular shifts of the beats. */
+function chanceAlignment(
   reference: readonly number[],
   beats: readonly number[],
   frames: number,
   table: Float64Array,
 ): number {
   const references = Int32Array.from(reference);
-  // Those of this round and of the one before: each shift shows as many of them in a row as there are beats.
-  const rounds = Int32Array.from([...beats.map((beat) => beat - frames), ...beats]);
-  let first = rounds.length - beats.length;
+  // The beats and those one period earlier: every shift has as many of them in a row as there are beats.
+  const periodic = Int32Array.from([...beats.map((beat) => beat - frames), ...beats]);
+  let first = periodic.length - beats.length;
   let sum = 0;
   for (let shift = 1; shift < frames; shift++) {
-    if (first > 0 && rounds[first - 1]! + shift >= 0) first--;
+    if (first > 0 && periodic[first - 1]! + shift >= 0) first--;
     const last = first + beats.length - 1;
     let nearest = first;
     for (const frame of references) {
-      let far = Math.abs(frame - rounds[nearest]! - shift);
+      let far = Math.abs(frame - periodic[nearest]! - shift);
       while (nearest < last) {
-        const next = Math.abs(frame - rounds[nearest + 1]! - shift);
+        const next = Math.abs(frame - periodic[nearest + 1]! - shift);
         if (next > far) break;
         far = next;
         nearest++;
@@ -57,7 +59,7 @@ function chanceOf(
   return sum / (frames - 1) / reference.length;
 }
 
-/** How well the beats fall on the reference, and how well they would by accident. */
+/** Beat alignment with the reference, and its value by chance. */
 export function alignment(
   reference: readonly number[],
   beats: readonly number[],
@@ -69,14 +71,14 @@ export function alignment(
   const unknown = reference.length === 0 || beats.length === 0;
   return {
     value,
-    chance: unknown ? value : chanceOf(reference, beats, frames, scoreTable(frames, tolerance)),
+    chance: unknown ? value : chanceAlignment(reference, beats, frames, scoreTable(frames, tolerance)),
   };
 }
 
-/** Standard deviation of the window in which the score is felt, seconds: about two bars. */
-const FELT = 1.5;
-/** Beats that the window must hold to say anything. */
-const ENOUGH = 2;
+/** Standard deviation of the Gaussian window of the local score, seconds: about two bars. */
+const WINDOW = 1.5;
+/** Least sum of the window's weights over beats with which the local score is defined. */
+const MIN_WEIGHT = 2;
 
 /** The score around every frame, 0 to 1; NaN where the reference has too few beats. */
 export function localScore(
@@ -85,7 +87,7 @@ export function localScore(
   frames: number,
   fps: number,
 ): Float32Array {
-  const deviation = FELT * fps;
+  const deviation = WINDOW * fps;
   const [sums, weights] = [new Float64Array(frames), new Float64Array(frames)];
   reference.forEach((beat, index) => {
     const from = Math.max(0, Math.ceil(beat - 3 * deviation));
@@ -96,10 +98,12 @@ export function localScore(
       weights[frame]! += weight;
     }
   });
-  return Float32Array.from(sums, (sum, frame) => (weights[frame]! < ENOUGH ? NaN : sum / weights[frame]!));
+  return Float32Array.from(sums, (sum, frame) =>
+    weights[frame]! < MIN_WEIGHT ? NaN : sum / weights[frame]!,
+  );
 }
 
-/** Twice what accident gives is fine; half of it is the limit, as nothing meets there. */
+/** Twice the value by chance is fine; half of it is the limit. */
 const scaleBy = ({ chance }: Alignment): Scale => ({
   fine: 2 * chance,
   limit: chance / 2,
@@ -110,23 +114,23 @@ const scaleBy = ({ chance }: Alignment): Scale => ({
 export function measureBeats(duet: Duet, rules: Rules): Measure<BeatAlignment> {
   const { frames, fps } = duet;
   const { smoothing, tolerance } = rules.beats;
-  const lead = motionBeats({ positions: duet.leader, frames }, smoothing);
-  const own = motionBeats({ positions: duet.reactor, frames }, smoothing);
+  const leader = motionBeats({ positions: duet.leader, frames }, smoothing);
+  const reactor = motionBeats({ positions: duet.reactor, frames }, smoothing);
   const music = duet.beats.filter((beat) => beat >= 0 && beat < frames);
   const whole: BeatAlignment = {
-    music: alignment(music, own, frames, tolerance),
-    leader: alignment(lead, own, frames, tolerance),
-    backward: alignment(own, lead, frames, tolerance),
-    leaderBeats: lead.length,
-    reactorBeats: own.length,
+    music: alignment(music, reactor, frames, tolerance),
+    leader: alignment(leader, reactor, frames, tolerance),
+    backward: alignment(reactor, leader, frames, tolerance),
+    leaderBeats: leader.length,
+    reactorBeats: reactor.length,
   };
-  const heard = (kind: MomentKind, reference: readonly number[], as: Alignment) => {
-    const local = localScore(reference, beatScores(reference, own, tolerance), frames, fps);
+  const judge = (kind: MomentKind, reference: readonly number[], as: Alignment) => {
+    const local = localScore(reference, beatScores(reference, reactor, tolerance), frames, fps);
     const row = local.map((score) => concern(score, scaleBy(as)));
     return { row, worst: worstMoments(row, fps, kind, (frame) => local[frame]!) };
   };
-  const rows = [heard('leader', lead, whole.leader)];
-  if (music.length > 0) rows.unshift(heard('music', music, whole.music));
+  const rows = [judge('leader', leader, whole.leader)];
+  if (music.length > 0) rows.unshift(judge('music', music, whole.music));
   return {
     whole,
     rows: rows.map(({ row }) => row),

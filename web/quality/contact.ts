@@ -31,19 +31,19 @@ export function footSkating({ inContact, speed }: FootContacts, rule: Rules['con
   };
 }
 
-/** A foot that slides this many times faster than it may is a clear fault. */
-const BAD = 4;
+/** Factor over the limit at which a slide has concern 2. */
+const BAD_FACTOR = 4;
 /** Frames to either side over which a slide is averaged. */
-const AROUND = 4;
+const HALF_WINDOW = 4;
 
 /**
- * The visible slide around every frame, m/s: of the joints that stand for most of a third of a second the one that
- * slides most, on average. Contact alone says too much for that: a low step or a foot that brushes the floor for a
- * frame or two is no slide to the eye. NaN where nothing stands.
+ * The visible slide around every frame, m/s: the largest mean slide of the joints that are in contact for most of a third
+ * of a second. Shorter contacts, as in a low step or where a foot brushes the floor, are not visible as slides. NaN
+ * without contact.
  */
 export function visibleSlide({ inContact, speed }: FootContacts): Float32Array {
   const steps = inContact.length / FEET.length;
-  const seen = new Float32Array(steps + 1).fill(NaN);
+  const largest = new Float32Array(steps + 1).fill(NaN);
   FEET.forEach((_, foot) => {
     let standing = 0;
     let slide = 0;
@@ -53,22 +53,22 @@ export function visibleSlide({ inContact, speed }: FootContacts): Float32Array {
       standing += sign;
       slide += sign * speed[sample]!;
     };
-    for (let frame = -AROUND; frame < steps; frame++) {
-      count(frame + AROUND, 1);
-      count(frame - AROUND - 1, -1);
-      if (frame < 0 || standing <= AROUND) continue;
+    for (let frame = -HALF_WINDOW; frame < steps; frame++) {
+      count(frame + HALF_WINDOW, 1);
+      count(frame - HALF_WINDOW - 1, -1);
+      if (frame < 0 || standing <= HALF_WINDOW) continue;
       const mean = slide / standing;
-      if (!(seen[frame]! >= mean)) seen[frame] = mean;
+      if (!(largest[frame]! >= mean)) largest[frame] = mean;
     }
   });
-  return seen;
+  return largest;
 }
 
 /** Foot skating of the reactor. */
 export function measureFeet(duet: Duet, rules: Rules): Measure<FootSkating> {
   const rule = rules.contact;
   const found = footContacts({ ...duet, positions: duet.reactor }, rule);
-  const scale: Scale = { fine: 0, limit: rule.slide_speed, bad: BAD * rule.slide_speed };
+  const scale: Scale = { fine: 0, limit: rule.slide_speed, bad: BAD_FACTOR * rule.slide_speed };
   const slides = visibleSlide(found);
   const row = slides.map((slide) => concern(slide, scale));
   return {

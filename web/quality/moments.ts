@@ -1,6 +1,6 @@
 export type MomentKind = 'slide' | 'overlap' | 'music' | 'leader' | 'seam';
 
-/** A moment worth a look. */
+/** A moment at which a measure is past its limit. */
 export interface Moment {
   readonly kind: MomentKind;
   readonly frame: number;
@@ -14,7 +14,7 @@ export interface Moment {
 export interface Measure<Whole> {
   /** The numbers of the whole dance, as Python gives them; NaN where there is nothing to measure. */
   readonly whole: Whole;
-  /** Concern per frame, one row or several that are drawn above each other; NaN where there is none to have. */
+  /** Concern per frame, one row or several, drawn above each other; NaN where there is nothing to measure. */
   readonly rows: readonly Float32Array[];
   /** A few moments past the limit, the worst first. */
   readonly worst: readonly Moment[];
@@ -22,8 +22,8 @@ export interface Measure<Whole> {
 
 /**
  * How values of one measure are judged, so that measures of different units can be drawn and ranked together:
- * concern is 0 at `fine`, 1 at `limit` and 2 at `bad`, straight between and beyond. What is fine may be more or less
- * than what is bad.
+ * concern is 0 at `fine`, 1 at `limit` and 2 at `bad`, linear between and beyond. `fine` may be above or below
+ * `bad`.
  */
 export interface Scale {
   readonly fine: number;
@@ -37,28 +37,28 @@ export function concern(value: number, { fine, limit, bad }: Scale): number {
   return past > 0 ? 1 + past : Math.max(0, (value - fine) / (limit - fine));
 }
 
-/** Moments of one measure. */
-const MOST = 3;
+/** Largest number of moments of one measure. */
+const MAX_MOMENTS = 3;
 /** Two moments of one measure are at least this far apart, seconds. */
-const LEAST_APART = 1;
-/** The same as a share of the dance, so that their marks do not lie on each other in a long one. */
-const SHARE_APART = 1 / 30;
+const MIN_DISTANCE = 1;
+/** The same as a share of the dance, so that their marks do not overlap in a long one. */
+const MIN_DISTANCE_SHARE = 1 / 30;
 
 /** The few moments past the limit, the worst first. */
 export function worstOf(moments: readonly Moment[]): Moment[] {
   return moments
     .filter(({ concern }) => concern > 1)
     .sort((a, b) => b.concern - a.concern)
-    .slice(0, MOST);
+    .slice(0, MAX_MOMENTS);
 }
 
-/** Frames between two moments of one measure. */
+/** Least number of frames between two moments of one measure. */
 export function apart(frames: number, fps: number): number {
-  return Math.ceil(Math.max(LEAST_APART * fps, SHARE_APART * frames));
+  return Math.ceil(Math.max(MIN_DISTANCE * fps, MIN_DISTANCE_SHARE * frames));
 }
 
 /**
- * The worst moments of a row: peaks above 1 with nothing worse near by.
+ * The worst moments of a row: local maxima above 1 (non-maximum suppression within the least distance).
  * @param row concern per frame
  * @param value the measure's own value at a frame
  */
@@ -68,11 +68,15 @@ export function worstMoments(
   kind: MomentKind,
   value: (frame: number) => number,
 ): Moment[] {
-  const near = apart(row.length, fps);
+  const radius = apart(row.length, fps);
   const peaks: Moment[] = [];
   row.forEach((here, frame) => {
     if (!(here > 1)) return;
-    for (let other = Math.max(0, frame - near); other <= Math.min(row.length - 1, frame + near); other++) {
+    for (
+      let other = Math.max(0, frame - radius);
+      other <= Math.min(row.length - 1, frame + radius);
+      other++
+    ) {
       // Of several that are equally bad the first one counts.
       if (row[other]! > here || (row[other] === here && other < frame)) return;
     }

@@ -2,8 +2,8 @@ import {
   type BodyRule,
   type CapsuleBody,
   capsuleBody,
-  closePairs,
-  deepest,
+  candidatePairs,
+  penetrationDepth,
 } from '../motion/contact/capsules';
 import { percentile } from '../motion/math/statistics';
 import { distance, readVec } from '../motion/math/vec3';
@@ -11,7 +11,7 @@ import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { concern, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
-/** How close the dancers come: `penetration` of training/evaluation/metrics/penetration.py and `root_distance` of distance.py. */
+/** Distance and penetration of the dancers: `penetration` of training/evaluation/metrics/penetration.py and `root_distance` of distance.py. */
 export interface Closeness {
   /** Share of frames with an overlap that is deeper than a touch: `ipr_capsules`. */
   readonly overlapShare: number;
@@ -33,22 +33,24 @@ export function overlapDepth({ leader, reactor, frames, fps }: Duet, rule: BodyR
     CapsuleBody,
     CapsuleBody,
   ];
-  return Float64Array.from({ length: frames }, (_, frame) => deepest(a, b, closePairs(a, b, frame)));
+  return Float64Array.from({ length: frames }, (_, frame) =>
+    penetrationDepth(a, b, candidatePairs(a, b, frame)),
+  );
 }
 
-/** An overlap this much deeper than a touch is a clear fault. */
-const BAD = 5;
-/** Roots this far apart, in metres, are no concern; nearer they tint the lane a little, but only overlap is a fault. */
-const FAR: Scale = { fine: 1.2, limit: 0, bad: -1 };
+/** Factor over the limit at which an overlap has concern 2. */
+const BAD_FACTOR = 5;
+/** Concern of the distance between the roots, metres: below 1 at any distance, as only an overlap is past the limit. */
+const DISTANCE_SCALE: Scale = { fine: 1.2, limit: 0, bad: -1 };
 
 /** Closest distance and overlap of the two dancers. */
 export function measureCloseness(duet: Duet, rules: Rules): Measure<Closeness> {
   const { deep } = rules.penetration;
   const depth = overlapDepth(duet, rules.penetration);
   const roots = rootDistance(duet);
-  const scale: Scale = { fine: 0, limit: deep, bad: BAD * deep };
+  const scale: Scale = { fine: 0, limit: deep, bad: BAD_FACTOR * deep };
   const row = Float32Array.from(depth, (overlap, frame) =>
-    Math.max(concern(overlap, scale), concern(roots[frame]!, FAR)),
+    Math.max(concern(overlap, scale), concern(roots[frame]!, DISTANCE_SCALE)),
   );
   return {
     whole: {

@@ -18,7 +18,7 @@ export interface Rules {
     readonly tolerance: number;
   };
   readonly seams: {
-    /** Frames around a seam that feel it. */
+    /** Frames around a seam that belong to it. */
     readonly radius: number;
     /** Frames around a seam that are not counted as the motion's interior. */
     readonly clear: number;
@@ -27,7 +27,7 @@ export interface Rules {
   };
 }
 
-/** What is measured: two dancers of equal length, and what they were to follow. */
+/** What is measured: two motions of equal length, the music's beats and the block length. */
 export interface Duet {
   readonly fps: number;
   readonly frames: number;

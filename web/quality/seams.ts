@@ -42,24 +42,24 @@ export function boundaries(frames: number, block: number): number[] {
   );
 }
 
-/** Mean of the values in frames whose distance to the nearest seam is in the range; a seam lies between two frames. */
+/** Mean of the values in frames whose distance to the nearest seam meets the condition; a seam lies between two frames. */
 function meanWhere(
   values: Float64Array,
   seams: readonly number[],
-  wanted: (distance: number) => boolean,
+  condition: (distance: number) => boolean,
 ): number {
   let sum = 0;
   let count = 0;
   values.forEach((value, frame) => {
     const distance = Math.min(...seams.map((seam) => Math.abs(frame - (seam - 0.5))));
-    if (Number.isNaN(value) || !wanted(distance)) return;
+    if (Number.isNaN(value) || !condition(distance)) return;
     sum += value;
     count++;
   });
   return sum / count;
 }
 
-/** A seam that is this much rougher than the rest; one place in twenty inside a block is so too. */
+/** Ratio of the jitter at a seam to that inside blocks from which it is a fault; 5 % of frames inside reach it too. */
 const LIMIT = 2;
 const SCALE: Scale = { fine: 0.5, limit: LIMIT, bad: 2 * LIMIT };
 
@@ -69,11 +69,11 @@ export function measureSeams(duet: Duet, rules: Rules): Measure<SeamJitter> {
   const change = velocityChange(duet.reactor, duet.frames);
   const seams = boundaries(duet.frames, duet.block);
   const inside = meanWhere(change, seams, (distance) => distance > clear);
-  const rough = (some: readonly number[]): number =>
+  const jitterRatio = (some: readonly number[]): number =>
     meanWhere(change, some, (distance) => distance <= radius) / inside;
   const row = new Float32Array(duet.frames).fill(NaN);
   const moments = seams.map((seam): Moment => {
-    const value = rough([seam]);
+    const value = jitterRatio([seam]);
     const judged = concern(value, SCALE);
     row.fill(judged, Math.max(0, seam - clear), seam + clear);
     return { kind: 'seam', frame: seam, value, concern: judged };
@@ -81,7 +81,7 @@ export function measureSeams(duet: Duet, rules: Rules): Measure<SeamJitter> {
   return {
     whole: {
       seams: seams.length,
-      ratio: rough(seams),
+      ratio: jitterRatio(seams),
       paperJitter: meanWhere(change, seams, (distance) => distance <= paper_radius),
     },
     rows: [row],

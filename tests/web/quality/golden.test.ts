@@ -91,7 +91,7 @@ describe('so are the curves', () => {
   });
 });
 
-describe('the worst moments are where the faults were put', () => {
+describe('the worst moments are at the made faults', () => {
   const seconds = (part: keyof typeof report): number[] =>
     report[part].worst.map(({ frame }) => frame / golden.fps);
 
@@ -115,7 +115,7 @@ describe('the worst moments are where the faults were put', () => {
     expect(seconds('seams')).toEqual([16]);
   });
 
-  test('moments of one measure keep apart', () => {
+  test('moments of one measure are a least distance apart', () => {
     for (const { worst } of [report.feet, report.closeness, report.beats, report.seams]) {
       const frames = worst.map(({ frame }) => frame).sort((a, b) => a - b);
       frames.slice(1).forEach((frame, index) => expect(frame - frames[index]!).toBeGreaterThan(29));

@@ -28,10 +28,10 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
   return {
     clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
     report: {
-      dialect: 'Mixamo',
+      convention: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
-      filled: [],
-      recut: [],
+      estimated: [],
+      retargeted: [],
       sourceFps: 60,
       sourceFrames: frames * 2,
       sourceDuration: frames / 30,

@@ -1,6 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import { lockFeet } from '../../motion/contact/foot-lock';
-import { keepApart } from '../../motion/contact/collision-avoidance';
+import { avoidCollisions } from '../../motion/contact/collision-avoidance';
 import { solve } from '../../motion/fit/ik';
 import type { Block } from './blocks';
 import { type ConditionInput, conditionClip } from './chunks';
@@ -148,7 +148,7 @@ export class Pipeline {
 
   /** The decoded partner as a body of its own beside the leader. */
   #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
-    return keepApart(solve(clip), leader, this.manifest.quality.penetration);
+    return avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
   }
 
   /** Latents of one block sampled for itself: without its neighbours it is not quite what it will be, but soon there. */

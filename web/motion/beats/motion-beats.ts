@@ -1,5 +1,5 @@
 import type { MotionClip } from '../skeleton/clip';
-import { smoothed } from '../math/gaussian';
+import { gaussianFilter } from '../math/statistics';
 
 /** Mean joint speed between frames, metres per frame: frames - 1 values. */
 function meanSpeed(positions: Float32Array, frames: number): Float64Array {
@@ -17,8 +17,8 @@ function meanSpeed(positions: Float32Array, frames: number): Float64Array {
 }
 
 /**
- * The beats of a motion, its moments of least speed, the accents of a dance: frames at which the smoothed mean joint
- * speed has a strict local minimum. `motion_beats` of training/evaluation/metrics/beats.py.
+ * Motion beats (as in Siyao et al., Bailando, 2022): frames at which the smoothed mean joint speed has a strict local
+ * minimum. `motion_beats` of training/evaluation/metrics/beats.py.
  * @param clip any number of joints; fewer than two frames have no beat
  * @param smoothing standard deviation of the filter on the speed, frames; the manifest's
  * @returns frames in ascending order; frame f stands for the step from frame f to f + 1
@@ -27,7 +27,7 @@ export function motionBeats(
   { positions, frames }: Pick<MotionClip, 'positions' | 'frames'>,
   smoothing: number,
 ): number[] {
-  const speed = smoothed(meanSpeed(positions, frames), smoothing);
+  const speed = gaussianFilter(meanSpeed(positions, frames), smoothing);
   const beats: number[] = [];
   for (let frame = 1; frame + 1 < speed.length; frame++) {
     if (speed[frame]! < speed[frame - 1]! && speed[frame]! < speed[frame + 1]!) beats.push(frame);

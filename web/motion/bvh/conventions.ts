@@ -1,32 +1,32 @@
-import { BVH_NAMES } from './joint-names';
+import type { JointName } from '../skeleton/skeleton';
 
 /** Joints of one side of the body, from the trunk outwards. */
 export const LIMB_JOINTS = ['hip', 'knee', 'ankle', 'toe', 'shoulder', 'elbow', 'wrist', 'collar'] as const;
 export type LimbJoint = (typeof LIMB_JOINTS)[number];
 
 /**
- * How a family of programs names the joints.
+ * Skeleton convention: the joint names that a family of programs uses.
  *
  * Names are compared in lower case without prefix, namespace, spaces and punctuation; `*` stands for the side.
  */
-export interface Dialect {
+export interface SkeletonConvention {
   readonly name: string;
-  /** What every joint's name begins with, where the family has such a mark. */
+  /** Beginning of every joint's name, where the convention has one. */
   readonly prefix?: RegExp;
-  /** Ways to write left and right. */
+  /** Words for left and right. */
   readonly sides: readonly (readonly [string, string])[];
   readonly limbs: Readonly<Record<LimbJoint, readonly string[]>>;
   readonly neck: readonly string[];
   readonly head: readonly string[];
-  /** Names of pelvis, spine1, spine2 and spine3 where the family has the very joints of our skeleton. */
+  /** Names of pelvis, spine1, spine2 and spine3 where the convention has exactly the joints of the SMPL skeleton. */
   readonly trunk?: readonly [string, string, string, string];
 }
 
-const WORDS = [['left', 'right']] as const;
-const LETTERS = [['l', 'r']] as const;
+const SIDE_WORDS = [['left', 'right']] as const;
+const SIDE_LETTERS = [['l', 'r']] as const;
 
 const HUMAN_IK = {
-  sides: WORDS,
+  sides: SIDE_WORDS,
   limbs: {
     hip: ['*upleg'],
     knee: ['*leg'],
@@ -41,9 +41,9 @@ const HUMAN_IK = {
   head: ['head'],
 } as const;
 
-/** 3ds Max and its heirs. */
+/** The biped of 3ds Max, and conventions derived from it. */
 const BIPED = {
-  sides: LETTERS,
+  sides: SIDE_LETTERS,
   limbs: {
     hip: ['*thigh'],
     knee: ['*calf'],
@@ -58,14 +58,14 @@ const BIPED = {
   head: ['head'],
 } as const;
 
-/** Known families, the more particular first; the last one tries every usual word. */
-export const DIALECTS: readonly Dialect[] = [
+/** Known conventions, the more specific first; the last one tries every common name. */
+export const CONVENTIONS: readonly SkeletonConvention[] = [
   { name: 'Mixamo', prefix: /^mixamorig\d*[:_]?/i, ...HUMAN_IK },
   { name: 'Character Creator', prefix: /^cc_base_/i, ...BIPED },
   { name: 'Biped', prefix: /^(valvebiped[._])?bip\d+[ _-]?/i, ...BIPED },
   {
     name: 'SMPL',
-    sides: [...WORDS, ...LETTERS],
+    sides: [...SIDE_WORDS, ...SIDE_LETTERS],
     limbs: {
       hip: ['*hip'],
       knee: ['*knee'],
@@ -83,7 +83,7 @@ export const DIALECTS: readonly Dialect[] = [
   { name: 'CMU / MotionBuilder', ...HUMAN_IK },
   {
     name: 'DAZ',
-    sides: LETTERS,
+    sides: SIDE_LETTERS,
     limbs: {
       hip: ['*thigh', '*thighbend'],
       knee: ['*shin'],
@@ -99,7 +99,7 @@ export const DIALECTS: readonly Dialect[] = [
   },
   {
     name: 'generic names',
-    sides: [...WORDS, ...LETTERS],
+    sides: [...SIDE_WORDS, ...SIDE_LETTERS],
     limbs: {
       hip: ['*thigh', 'thigh*', '*upleg', 'upleg*', '*upperleg', 'upperleg*', '*hip', 'hip*'],
       knee: [
@@ -127,10 +127,40 @@ export const DIALECTS: readonly Dialect[] = [
   },
 ];
 
-/** A file of our own is known by having our 22 joints and no other. */
-export const OWN_DIALECT = 'ReactDance';
+/**
+ * Names of the 22 joints in files that `writeBvh` writes: those of MotionBuilder's HumanIK, which Blender add-ons, Maya,
+ * MotionBuilder and game engines recognise without a mapping by hand.
+ */
+export const BVH_NAMES: Readonly<Record<JointName, string>> = {
+  pelvis: 'Hips',
+  left_hip: 'LeftUpLeg',
+  right_hip: 'RightUpLeg',
+  spine1: 'Spine',
+  left_knee: 'LeftLeg',
+  right_knee: 'RightLeg',
+  spine2: 'Spine1',
+  left_ankle: 'LeftFoot',
+  right_ankle: 'RightFoot',
+  spine3: 'Spine2',
+  left_foot: 'LeftToeBase',
+  right_foot: 'RightToeBase',
+  neck: 'Neck',
+  left_collar: 'LeftShoulder',
+  right_collar: 'RightShoulder',
+  head: 'Head',
+  left_shoulder: 'LeftArm',
+  right_shoulder: 'RightArm',
+  left_elbow: 'LeftForeArm',
+  right_elbow: 'RightForeArm',
+  left_wrist: 'LeftHand',
+  right_wrist: 'RightHand',
+};
 
-export function isOwn(names: readonly string[]): boolean {
-  const ours = Object.values(BVH_NAMES);
-  return names.length === ours.length && ours.every((name) => names.includes(name));
+/** Name of the convention of files that `writeBvh` wrote. */
+export const OWN_CONVENTION = 'ReactDance';
+
+/** Whether these are the names of a file that `writeBvh` wrote: exactly the 22 of `BVH_NAMES`. */
+export function isOwnSkeleton(names: readonly string[]): boolean {
+  const own = Object.values(BVH_NAMES);
+  return names.length === own.length && own.every((name) => names.includes(name));
 }

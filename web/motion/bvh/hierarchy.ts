@@ -1,9 +1,9 @@
-import { AGAIN, complaint, numberHint } from './number';
+import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
 import { AppError } from '../../common/error';
 
 /** One joint or end site of the hierarchy, in the order of the file. */
 export interface BvhNode {
-  /** Name as written; an end site is called after its parent. */
+  /** Name as written; an end site is named after its parent. */
   readonly name: string;
   readonly endSite: boolean;
   /** Index of the parent node, -1 for the root. */
@@ -15,48 +15,48 @@ export interface BvhNode {
 
 const CHANNELS = ['Xposition', 'Yposition', 'Zposition', 'Xrotation', 'Yrotation', 'Zrotation'];
 
-/** Joints in a row; the longest tails and cloaks have a few dozen. */
-const DEEPEST = 300;
+/** Largest depth of the hierarchy; the longest tails and cloaks have a few dozen joints in a row. */
+const MAX_DEPTH = 300;
 
-/** Walks over the words of the hierarchy and knows the line of each. */
-class Words {
-  private readonly words: { text: string; line: number }[] = [];
-  private at = 0;
+/** Reads the tokens of the hierarchy in order, with the line number of each. */
+class TokenReader {
+  private readonly tokens: { text: string; line: number }[] = [];
+  private position = 0;
 
   constructor(lines: readonly string[], end: number) {
     for (let line = 0; line < end; line++) {
       const spaced = lines[line]!.replaceAll(/[{}]/g, ' $& ');
-      for (const text of spaced.split(/\s+/)) if (text !== '') this.words.push({ text, line: line + 1 });
+      for (const text of spaced.split(/\s+/)) if (text !== '') this.tokens.push({ text, line: line + 1 });
     }
   }
 
   get line(): number {
-    return (this.words[this.at] ?? this.words.at(-1))?.line ?? 1;
+    return (this.tokens[this.position] ?? this.tokens.at(-1))?.line ?? 1;
   }
 
   peek(): string | undefined {
-    return this.words[this.at]?.text;
+    return this.tokens[this.position]?.text;
   }
 
   next(): string | undefined {
-    return this.words[this.at++]?.text;
+    return this.tokens[this.position++]?.text;
   }
 
-  /** All words up to the end of the line or a brace: the name of a joint may hold spaces. */
+  /** All tokens up to the end of the line or a brace: the name of a joint may contain spaces. */
   restOfLine(): string {
-    const line = this.words[this.at - 1]?.line;
+    const line = this.tokens[this.position - 1]?.line;
     const rest: string[] = [];
-    while (this.words[this.at]?.line === line && this.peek() !== '{' && this.peek() !== '}') {
+    while (this.tokens[this.position]?.line === line && this.peek() !== '{' && this.peek() !== '}') {
       rest.push(this.next()!);
     }
     return rest.join(' ');
   }
 }
 
-function cutOff(words: Words): AppError {
+function truncated(tokens: TokenReader): AppError {
   return new AppError(
     'truncated',
-    `The file ends at line ${words.line}, in the middle of the skeleton.`,
+    `The file ends at line ${tokens.line}, in the middle of the skeleton.`,
     'The file is incomplete: copy or export it again.',
   );
 }
@@ -67,74 +67,74 @@ function cutOff(words: Words): AppError {
  * @throws {AppError} `truncated`, `bad-hierarchy`, `bad-number` or `several-roots`
  */
 export function readHierarchy(lines: readonly string[], end: number): BvhNode[] {
-  const words = new Words(lines, end);
-  words.next();
+  const tokens = new TokenReader(lines, end);
+  tokens.next();
   const nodes: BvhNode[] = [];
   const roots: { name: string; line: number }[] = [];
-  const bad = (what: string): AppError =>
-    words.peek() === undefined && end === lines.length
-      ? cutOff(words)
-      : new AppError('bad-hierarchy', `Line ${words.line}: ${what}.`, AGAIN);
+  const invalid = (what: string): AppError =>
+    tokens.peek() === undefined && end === lines.length
+      ? truncated(tokens)
+      : new AppError('bad-hierarchy', `Line ${tokens.line}: ${what}.`, HINT_EXPORT_AGAIN);
 
   const numbers = (count: number, what: string): number[] =>
     Array.from({ length: count }, () => {
-      const token = words.peek();
-      if (token === undefined) throw bad(`${what} is incomplete`);
-      const wrong = complaint(token);
+      const token = tokens.peek();
+      if (token === undefined) throw invalid(`${what} is incomplete`);
+      const wrong = numberProblem(token);
       if (wrong !== null) {
-        throw new AppError('bad-number', `Line ${words.line}: in ${what}, ${wrong}.`, numberHint(token));
+        throw new AppError('bad-number', `Line ${tokens.line}: in ${what}, ${wrong}.`, numberHint(token));
       }
-      words.next();
+      tokens.next();
       return Number(token);
     });
 
   const readNode = (parent: number, endSite: boolean, depth: number): void => {
-    if (depth > DEEPEST) throw bad(`joints hang on one another more than ${DEEPEST} deep`);
-    const written = words.restOfLine();
+    if (depth > MAX_DEPTH) throw invalid(`joints hang on one another more than ${MAX_DEPTH} deep`);
+    const written = tokens.restOfLine();
     const name = endSite ? `end of ${nodes[parent]!.name}` : written;
-    if (name === '') throw bad('a joint has no name');
-    if (words.next() !== '{') throw bad(`expected "{" after ${name}`);
-    if (words.next()?.toUpperCase() !== 'OFFSET') throw bad(`${name} has no OFFSET`);
+    if (name === '') throw invalid('a joint has no name');
+    if (tokens.next() !== '{') throw invalid(`expected "{" after ${name}`);
+    if (tokens.next()?.toUpperCase() !== 'OFFSET') throw invalid(`${name} has no OFFSET`);
     const [x, y, z] = numbers(3, `the OFFSET of ${name}`) as [number, number, number];
     const channels: string[] = [];
-    if (words.peek()?.toUpperCase() === 'CHANNELS') {
-      words.next();
+    if (tokens.peek()?.toUpperCase() === 'CHANNELS') {
+      tokens.next();
       const [count] = numbers(1, `the CHANNELS of ${name}`) as [number];
       for (let i = 0; i < count; i++) {
-        const word = words.peek();
-        const channel = CHANNELS.find((known) => known.toLowerCase() === word?.toLowerCase());
+        const token = tokens.peek();
+        const channel = CHANNELS.find((known) => known.toLowerCase() === token?.toLowerCase());
         if (channel === undefined)
-          throw bad(`"${word ?? ''}" in ${name} is no channel of position or rotation`);
+          throw invalid(`"${token ?? ''}" in ${name} is no channel of position or rotation`);
         channels.push(channel);
-        words.next();
+        tokens.next();
       }
     }
     const index = nodes.push({ name, endSite, parent, offset: [x, y, z], channels }) - 1;
     for (;;) {
-      const word = words.next()?.toUpperCase();
-      if (word === '}') return;
-      if (word === 'JOINT') readNode(index, false, depth + 1);
-      else if (word === 'END') readNode(index, true, depth + 1);
-      else if (word === undefined) throw bad(`"}" of ${name} is missing`);
-      else throw bad(`expected JOINT, End Site or "}" in ${name}, found "${word}"`);
+      const keyword = tokens.next()?.toUpperCase();
+      if (keyword === '}') return;
+      if (keyword === 'JOINT') readNode(index, false, depth + 1);
+      else if (keyword === 'END') readNode(index, true, depth + 1);
+      else if (keyword === undefined) throw invalid(`"}" of ${name} is missing`);
+      else throw invalid(`expected JOINT, End Site or "}" in ${name}, found "${keyword}"`);
     }
   };
 
-  while (words.peek() !== undefined) {
-    if (words.peek()!.toUpperCase() !== 'ROOT') throw bad(`expected ROOT, found "${words.peek()!}"`);
-    roots.push({ name: '', line: words.line });
-    words.next();
+  while (tokens.peek() !== undefined) {
+    if (tokens.peek()!.toUpperCase() !== 'ROOT') throw invalid(`expected ROOT, found "${tokens.peek()!}"`);
+    roots.push({ name: '', line: tokens.line });
+    tokens.next();
     const first = nodes.length;
     readNode(-1, false, 0);
     roots.at(-1)!.name = nodes[first]!.name;
   }
-  if (roots.length === 0) throw bad('there is no ROOT');
+  if (roots.length === 0) throw invalid('there is no ROOT');
   if (roots.length > 1) {
     const where = roots.map(({ name, line }) => `${name} at line ${line}`).join(', ');
     throw new AppError(
       'several-roots',
       `The file holds ${roots.length} skeletons: ${where}.`,
-      'Export one dancer per file: the one who leads.',
+      'Export one dancer per file: the leader.',
     );
   }
   return nodes;

@@ -1,22 +1,30 @@
-import { BVH_NAMES } from './joint-names';
 import type { BvhNode } from './hierarchy';
-import { type Dialect, DIALECTS, isOwn, LIMB_JOINTS, type LimbJoint, OWN_DIALECT } from './conventions';
+import {
+  BVH_NAMES,
+  CONVENTIONS,
+  isOwnSkeleton,
+  LIMB_JOINTS,
+  type LimbJoint,
+  OWN_CONVENTION,
+  type SkeletonConvention,
+} from './conventions';
 import { AppError } from '../../common/error';
 import { type JointName, SMPL22 } from '../skeleton/skeleton';
 
-/** Which node of a file is which joint. */
+/** The node of a file for each joint. */
 export interface JointMap {
-  readonly dialect: string;
-  /** Node of every joint that the file has; the others are filled by rule. */
+  /** Name of the skeleton convention. */
+  readonly convention: string;
+  /** Node of every joint that the file has; the others are estimated. */
   readonly nodes: ReadonlyMap<JointName, number>;
-  /** Does the file have the very trunk of our skeleton, so that pelvis and spine need no rule? */
-  readonly ownTrunk: boolean;
-  /** Nodes between the hips and the neck, upwards: the bend of the back. */
-  readonly back: readonly number[];
+  /** Whether the file has exactly the trunk of the SMPL skeleton, so that pelvis and spine are not estimated. */
+  readonly hasSmplTrunk: boolean;
+  /** Nodes of the spine between the hips and the neck, upwards. */
+  readonly spine: readonly number[];
 }
 
-/** What the joint of a limb is called in our skeleton. */
-const OURS: Readonly<Record<LimbJoint, string>> = {
+/** Name in the SMPL skeleton of a limb's joint. */
+const SMPL_NAMES: Readonly<Record<LimbJoint, string>> = {
   hip: 'hip',
   knee: 'knee',
   ankle: 'ankle',
@@ -26,20 +34,21 @@ const OURS: Readonly<Record<LimbJoint, string>> = {
   wrist: 'wrist',
   collar: 'collar',
 };
-/** The joints of the trunk, which nearly every family of programs puts elsewhere. */
+/** The joints of the trunk, which nearly every convention places differently. */
 export const TRUNK_JOINTS: readonly JointName[] = ['pelvis', 'spine1', 'spine2', 'spine3'];
 const LEG: readonly LimbJoint[] = ['hip', 'knee', 'ankle'];
 const ARM: readonly LimbJoint[] = ['shoulder', 'elbow', 'wrist'];
-const FINDABLE = new Set<LimbJoint>([...LEG, ...ARM]);
+const REQUIRED = new Set<LimbJoint>([...LEG, ...ARM]);
 
-function plain(name: string, dialect: Dialect): string | null {
-  if (dialect.prefix !== undefined) {
-    return dialect.prefix.test(name) ? plainWord(name.replace(dialect.prefix, '')) : null;
+/** A node's name in the form that is compared; null where it lacks the convention's prefix. */
+function normalisedName(name: string, convention: SkeletonConvention): string | null {
+  if (convention.prefix !== undefined) {
+    return convention.prefix.test(name) ? normalise(name.replace(convention.prefix, '')) : null;
   }
-  return plainWord(name);
+  return normalise(name);
 }
 
-function plainWord(name: string): string {
+function normalise(name: string): string {
   return name
     .replace(/^.*[:|]/, '')
     .replace(/^DEF-/, '')
@@ -47,16 +56,16 @@ function plainWord(name: string): string {
     .replaceAll(/[^a-z0-9]/g, '');
 }
 
-/** Joints that a dialect finds among the nodes; no node is two joints. */
-function find(
+/** The node of every joint that a convention has a name for; no node stands for two joints. */
+function findJoints(
   nodes: readonly BvhNode[],
-  dialect: Dialect,
+  convention: SkeletonConvention,
   sides: readonly [string, string],
 ): Map<JointName, number> {
   const found = new Map<JointName, number>();
   const byName = new Map<string, number>();
   nodes.forEach((node, index) => {
-    const word = node.endSite ? null : plain(node.name, dialect);
+    const word = node.endSite ? null : normalisedName(node.name, convention);
     if (word !== null && !byName.has(word)) byName.set(word, index);
   });
   const take = (joint: JointName, words: readonly string[]): void => {
@@ -70,21 +79,23 @@ function find(
   for (const limb of LIMB_JOINTS) {
     (['left', 'right'] as const).forEach((side, i) => {
       take(
-        `${side}_${OURS[limb]}` as JointName,
-        dialect.limbs[limb].map((word) => word.replace('*', sides[i]!)),
+        `${side}_${SMPL_NAMES[limb]}` as JointName,
+        convention.limbs[limb].map((word) => word.replace('*', sides[i]!)),
       );
     });
   }
-  take('neck', dialect.neck);
-  take('head', dialect.head);
-  TRUNK_JOINTS.forEach((joint, i) => dialect.trunk && take(joint, [dialect.trunk[i]!]));
+  take('neck', convention.neck);
+  take('head', convention.head);
+  TRUNK_JOINTS.forEach((joint, i) => convention.trunk && take(joint, [convention.trunk[i]!]));
   return found;
 }
 
-/** How many of the joints that cannot be guessed were found; a family with our trunk must have that trunk. */
-function score(dialect: Dialect, found: ReadonlyMap<JointName, number>): number {
-  if (dialect.trunk !== undefined && !TRUNK_JOINTS.every((joint) => found.has(joint))) return 0;
-  const limbs = [...FINDABLE].flatMap((limb) => [`left_${OURS[limb]}`, `right_${OURS[limb]}`] as JointName[]);
+/** Number of required joints that were found; 0 where the convention has a trunk of which a joint is missing. */
+function score(convention: SkeletonConvention, found: ReadonlyMap<JointName, number>): number {
+  if (convention.trunk !== undefined && !TRUNK_JOINTS.every((joint) => found.has(joint))) return 0;
+  const limbs = [...REQUIRED].flatMap(
+    (limb) => [`left_${SMPL_NAMES[limb]}`, `right_${SMPL_NAMES[limb]}`] as JointName[],
+  );
   return limbs.filter((joint) => found.has(joint)).length + (found.has('head') || found.has('neck') ? 1 : 0);
 }
 
@@ -94,15 +105,15 @@ function ancestors(nodes: readonly BvhNode[], node: number): number[] {
   return chain;
 }
 
-/** Says what a body lacks, whole limbs before single joints. */
+/** The error that names the missing joints, whole limbs before single joints; null when none is missing. */
 function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, number>): AppError | null {
-  const lacks = (limb: readonly LimbJoint[]): string[] =>
+  const missingOf = (limb: readonly LimbJoint[]): string[] =>
     ['left', 'right'].flatMap((side) =>
       limb
-        .filter((joint) => !found.has(`${side}_${OURS[joint]}` as JointName))
+        .filter((joint) => !found.has(`${side}_${SMPL_NAMES[joint]}` as JointName))
         .map((joint) => `${side} ${joint}`),
     );
-  const [legs, arms] = [lacks(LEG), lacks(ARM)];
+  const [legs, arms] = [missingOf(LEG), missingOf(ARM)];
   const top = found.has('head') || found.has('neck') ? [] : ['neck or head'];
   const missing = [...legs, ...arms, ...top];
   if (missing.length === 0) return null;
@@ -123,29 +134,30 @@ function missingJoints(nodes: readonly BvhNode[], found: ReadonlyMap<JointName, 
 }
 
 /**
- * Finds our joints among the nodes of a file by the names of the dialect that fits best.
+ * Finds the 22 joints among the nodes of a file, by the names of the convention of which most joints are found.
  *
  * @throws {AppError} `missing-joints` when a limb's joint or both neck and head cannot be found
  */
 export function mapJoints(nodes: readonly BvhNode[]): JointMap {
   const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
-  if (isOwn(names)) {
+  if (isOwnSkeleton(names)) {
     const own = new Map(
       SMPL22.map((joint) => [
         joint,
         nodes.findIndex(({ name, endSite }) => !endSite && name === BVH_NAMES[joint]),
       ]),
     );
-    return { dialect: OWN_DIALECT, nodes: own, ownTrunk: true, back: [] };
+    return { convention: OWN_CONVENTION, nodes: own, hasSmplTrunk: true, spine: [] };
   }
-  let best: { dialect: Dialect; found: Map<JointName, number> } | null = null;
-  for (const dialect of DIALECTS) {
-    for (const sides of dialect.sides) {
-      const found = find(nodes, dialect, sides);
-      if (best === null || score(dialect, found) > score(best.dialect, best.found)) best = { dialect, found };
+  let best: { convention: SkeletonConvention; found: Map<JointName, number> } | null = null;
+  for (const convention of CONVENTIONS) {
+    for (const sides of convention.sides) {
+      const found = findJoints(nodes, convention, sides);
+      if (best === null || score(convention, found) > score(best.convention, best.found))
+        best = { convention, found };
     }
   }
-  const { dialect, found } = best!;
+  const { convention, found } = best!;
   const error = missingJoints(nodes, found);
   if (error) throw error;
 
@@ -156,7 +168,7 @@ export function mapJoints(nodes: readonly BvhNode[]): JointMap {
   ]);
   const chain = ancestors(nodes, top);
   const fork = chain.findIndex((node) => below.has(node));
-  const back = chain.slice(0, Math.max(0, fork)).reverse();
-  const ownTrunk = dialect.trunk !== undefined;
-  return { dialect: dialect.name, nodes: found, ownTrunk, back };
+  const spine = chain.slice(0, Math.max(0, fork)).reverse();
+  const hasSmplTrunk = convention.trunk !== undefined;
+  return { convention: convention.name, nodes: found, hasSmplTrunk, spine };
 }

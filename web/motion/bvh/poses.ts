@@ -11,10 +11,10 @@ export interface BvhPoses {
   readonly translations: Float32Array;
 }
 
-/** Frames that the loader gets at once; it makes an object per joint and frame, so a long file must come in pieces. */
+/** Frames that the loader gets at once: it allocates an object per joint and frame, too many for a long file. */
 const CHUNK = 256;
 
-/** The hierarchy in the one spelling that three's loader takes, with names that cannot clash. */
+/** The lines of a node and everything below it in the one form that three's loader reads, with unique names. */
 function canonical(nodes: readonly BvhNode[], at: number): string[] {
   const { endSite, offset, channels, parent } = nodes[at]!;
   const children = nodes.flatMap((node, index) => (node.parent === at ? canonical(nodes, index) : []));
@@ -29,14 +29,14 @@ function canonical(nodes: readonly BvhNode[], at: number): string[] {
 }
 
 /**
- * Does this joint's position channel hold the whole way from the parent, or what is added to its OFFSET?
+ * Whether a joint's position channels hold the translation from the parent, instead of what is added to its OFFSET.
  *
- * Programs disagree. A joint hardly moves against its parent, so the reading that stays nearer to the offset is meant.
+ * Programs disagree. A joint hardly moves against its parent, so the reading that stays nearer to the offset is taken.
  */
-function isWhole(offset: Vec3, values: readonly Vec3[]): boolean {
+function includesOffset(offset: Vec3, values: readonly Vec3[]): boolean {
   const squared = (v: Vec3): number => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  const asWhole = values.reduce((sum, value) => sum + squared(sub(value, offset)), 0);
-  return asWhole < values.reduce((sum, value) => sum + squared(value), 0);
+  const asTranslation = values.reduce((sum, value) => sum + squared(sub(value, offset)), 0);
+  return asTranslation < values.reduce((sum, value) => sum + squared(value), 0);
 }
 
 /**
@@ -55,12 +55,12 @@ export function readPoses(file: BvhFile, wanted: readonly number[]): BvhPoses {
     const { tracks } = loader.parse(text).clip;
     // Two tracks per joint, in the order of the file: position (offset included) and quaternion.
     moving.forEach((node, index) => {
-      const places = tracks[2 * index]!.values;
-      const turns = tracks[2 * index + 1]!.values;
+      const positions = tracks[2 * index]!.values;
+      const quaternions = tracks[2 * index + 1]!.values;
       for (let frame = 0; frame < lines.length; frame++) {
         const at = (first + frame) * nodes.length + node;
-        translations.set(places.subarray(3 * frame, 3 * frame + 3), 3 * at);
-        rotations.set(turns.subarray(4 * frame, 4 * frame + 4), 4 * at);
+        translations.set(positions.subarray(3 * frame, 3 * frame + 3), 3 * at);
+        rotations.set(quaternions.subarray(4 * frame, 4 * frame + 4), 4 * at);
       }
     });
   }
@@ -73,7 +73,7 @@ export function readPoses(file: BvhFile, wanted: readonly number[]): BvhPoses {
       }
     } else if (node.parent >= 0 && node.channels.some((channel) => channel.endsWith('position'))) {
       const values = all.map((at) => sub(readVec(translations, at), node.offset));
-      if (isWhole(node.offset, values))
+      if (includesOffset(node.offset, values))
         all.forEach((at, frame) => writeVec(translations, at, values[frame]!));
     }
   });

@@ -12,13 +12,13 @@ export interface NodeMotion {
   readonly rotation: (node: number) => Float64Array;
 }
 
-/** Where an output frame lies between two frames of the file. */
-function moments(
+/** For every output frame the two frames of the file around it, and its place between them (0 to 1). */
+function resampleTimes(
   frames: number,
   from: number,
   to: number,
 ): { before: number; after: number; share: number }[] {
-  // The slack keeps the last frame when the rates divide evenly but the quotient is not exact.
+  // The tolerance keeps the last frame when the rates divide evenly but the quotient is not exact.
   const count = Math.floor(((frames - 1) / from) * to + 1e-6) + 1;
   return Array.from({ length: count }, (_, i) => {
     const at = Math.min((i * from) / to, frames - 1);
@@ -30,11 +30,11 @@ function moments(
 }
 
 /**
- * World motion of `nodes` (and the joints they hang on) at the rate `to`, from a file whose frames have the rate
+ * World motion of `nodes` (and their ancestors) at the rate `to`, from a file whose frames have the rate
  * `from`. Rotations are interpolated before the joints are placed, so limbs keep their lengths between frames.
  */
 export function sampleNodes(file: BvhFile, nodes: readonly number[], from: number, to: number): NodeMotion {
-  const times = moments(file.frameLines.length, from, to);
+  const times = resampleTimes(file.frameLines.length, from, to);
   const wanted = [...new Set(times.flatMap(({ before, after }) => [before, after]))].sort((a, b) => a - b);
   const slots = new Map(wanted.map((frame, slot) => [frame, slot]));
   const poses = readPoses(file, wanted);

@@ -5,23 +5,23 @@ import { conjugate, readQuat, rotate } from '../math/quat';
 import type { JointName } from '../skeleton/skeleton';
 import { add, direction, distance, dot, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
 
-/** Frames of the file after the first one that it is compared with, and the fewest that can tell anything. */
-const AFTER = 32;
-const FEWEST_AFTER = 12;
-/** A jump is this many times more sudden than anything in the frames after it; dances reach 2, their faults 5. */
-const SUDDEN = 4;
-/** The least jump, root mean square over the joints, as part of leg, trunk and neck: 6 cm. */
-const LEAST_JUMP = 0.05;
-/** How far a bone may be from where a T-pose or the file's rest pose has it, as cosines of 20 and 12 degrees. */
-const AS_T_POSE = Math.cos((20 * Math.PI) / 180);
-const AS_REST = Math.cos((12 * Math.PI) / 180);
+/** Frames after the first one with which it is compared, at most and at least. */
+const COMPARED_FRAMES = 32;
+const MIN_COMPARED_FRAMES = 12;
+/** A jump's acceleration is this many times the largest one after it; in dances the ratio reaches 2, at faults 5. */
+const ACCELERATION_RATIO = 4;
+/** Least length of a jump, root mean square over the joints, as a share of leg, trunk and neck: 6 cm. */
+const MIN_JUMP = 0.05;
+/** Largest angle of a bone to that of a T-pose and of the file's rest pose, 20 and 12 degrees, as cosines. */
+const T_POSE_COSINE = Math.cos((20 * Math.PI) / 180);
+const REST_POSE_COSINE = Math.cos((12 * Math.PI) / 180);
 /**
- * A solver that starts from the rest pose needs some frames until it has found the dance. These are hurried, as parts
- * of the body per frame, and many times faster than what follows.
+ * Transition from the rest pose to the dance, as solvers write it that start from the rest pose: at most this many
+ * frames, at least this fast (shares of the body per frame), and this many times faster than what follows.
  */
-const LONGEST_LANDING = 8;
-const HURRIED = 0.03;
-const SLOWER_AFTER = 4;
+const MAX_TRANSITION_FRAMES = 8;
+const MIN_TRANSITION_SPEED = 0.03;
+const TRANSITION_SPEED_RATIO = 4;
 
 const SIDES = ['left', 'right'] as const;
 const BONES = SIDES.flatMap((side) => [
@@ -32,14 +32,13 @@ const BONES = SIDES.flatMap((side) => [
 ]) as readonly (readonly [JointName, JointName])[];
 
 /**
- * How many frames at the beginning of a file are no dance: the rest pose that many programs write before it, and the
- * frames in which the body is still on its way out of it. 0 unless that is certain: the first pose must be a T-pose or
- * the file's own rest pose, and the way to the second one a jump that no body makes. The rule is that of
- * training/data/bvh/rest_pose.py.
+ * Number of frames at the beginning of a file that are no dance: the rest pose that many programs write before it, and
+ * the transition out of it. 0 unless that is certain: the first pose must be a T-pose or the file's own rest pose, and
+ * the step to the second one faster than a body can move. The rule is that of training/data/bvh/rest_pose.py.
  */
 export function restFrames(file: BvhFile, map: JointMap): number {
-  const first = file.frameLines.slice(0, AFTER + 2);
-  if (first.length < FEWEST_AFTER + 2) return 0;
+  const first = file.frameLines.slice(0, COMPARED_FRAMES + 2);
+  if (first.length < MIN_COMPARED_FRAMES + 2) return 0;
   const nodes = [...map.nodes.values()];
   const motion = sampleNodes({ ...file, frameLines: first }, nodes, 1, 1);
   const place = (node: number, frame: number): Vec3 => readVec(motion.position(node), frame);
@@ -47,25 +46,33 @@ export function restFrames(file: BvhFile, map: JointMap): number {
   if (!isTPose(joint, topOf(map)) && !isRestPose(file, map, motion)) return 0;
 
   const frames = [...first.keys()];
-  const mean = (way: (node: number) => number): number =>
-    Math.sqrt(nodes.reduce((sum, node) => sum + way(node) ** 2, 0) / nodes.length);
+  const rootMeanSquare = (value: (node: number) => number): number =>
+    Math.sqrt(nodes.reduce((sum, node) => sum + value(node) ** 2, 0) / nodes.length);
   const steps = frames
     .slice(1)
-    .map((frame) => mean((node) => distance(place(node, frame), place(node, frame - 1))));
-  /** How far each frame is from where its two neighbours let one expect it. */
-  const shocks = frames
+    .map((frame) => rootMeanSquare((node) => distance(place(node, frame), place(node, frame - 1))));
+  /** Distance of each frame from the middle of its two neighbours: half the acceleration. */
+  const accelerations = frames
     .slice(2)
     .map((frame) =>
-      mean((node) => distance(lerp(place(node, frame), place(node, frame - 2), 0.5), place(node, frame - 1))),
+      rootMeanSquare((node) =>
+        distance(lerp(place(node, frame), place(node, frame - 2), 0.5), place(node, frame - 1)),
+      ),
     );
   const size = bodySize(joint, topOf(map));
-  if (steps[0]! < LEAST_JUMP * size || shocks[0]! < SUDDEN * Math.max(...shocks.slice(1))) return 0;
-  const calm = SLOWER_AFTER * Math.max(...steps.slice(1 + LONGEST_LANDING));
+  if (
+    steps[0]! < MIN_JUMP * size ||
+    accelerations[0]! < ACCELERATION_RATIO * Math.max(...accelerations.slice(1))
+  )
+    return 0;
+  const dancing = TRANSITION_SPEED_RATIO * Math.max(...steps.slice(1 + MAX_TRANSITION_FRAMES));
   return steps.findIndex(
-    (step, frame) => frame > LONGEST_LANDING || (frame > 0 && (step < HURRIED * size || step < calm)),
+    (step, frame) =>
+      frame > MAX_TRANSITION_FRAMES || (frame > 0 && (step < MIN_TRANSITION_SPEED * size || step < dancing)),
   );
 }
 
+/** Position of a joint in the first frame. */
 type At = (joint: JointName) => Vec3;
 
 /** The upper end of the back: the neck, or the head where the file has no neck. */
@@ -73,6 +80,7 @@ function topOf(map: JointMap): JointName {
   return map.nodes.has('neck') ? 'neck' : 'head';
 }
 
+/** The middle of the hips. */
 const middleOfHips = (at: At): Vec3 => lerp(at('left_hip'), at('right_hip'), 0.5);
 
 /** Leg and trunk in the file's unit. */
@@ -84,29 +92,29 @@ function bodySize(at: At, top: JointName): number {
   return (legs[0]! + legs[1]!) / 2 + distance(middleOfHips(at), at(top));
 }
 
-/** Arms straight out to the sides and legs straight down, whatever way the body is turned. */
+/** Whether the arms are straight out to the sides and the legs straight down, for any rotation of the body. */
 function isTPose(at: At, top: JointName): boolean {
   const left = direction(sub(at('left_hip'), at('right_hip')), ZERO);
   const up = direction(sub(at(top), middleOfHips(at)), ZERO);
   return BONES.every(([from, to]) => {
     const bone = direction(sub(at(to), at(from)), ZERO);
     const leg = /hip|knee/.test(from);
-    const meant = leg ? scale(up, -1) : scale(left, from.startsWith('left') ? 1 : -1);
-    return dot(bone, meant) > AS_T_POSE;
+    const expected = leg ? scale(up, -1) : scale(left, from.startsWith('left') ? 1 : -1);
+    return dot(bone, expected) > T_POSE_COSINE;
   });
 }
 
-/** Every limb as the skeleton of the file has it before any joint is turned, whatever way the hips are turned. */
+/** Whether every limb is as in the file's skeleton without any joint rotation, for any rotation of the hips. */
 function isRestPose(file: BvhFile, map: JointMap, motion: NodeMotion): boolean {
   const rest: Vec3[] = [];
   for (const { parent, offset } of file.nodes)
     rest.push(parent < 0 ? [...offset] : add(rest[parent]!, offset));
   const hips = file.nodes[map.nodes.get('left_hip')!]!.parent;
   if (hips < 0) return false;
-  const home = conjugate(readQuat(motion.rotation(hips), 0));
+  const inverse = conjugate(readQuat(motion.rotation(hips), 0));
   return BONES.every((ends) => {
     const [from, to] = ends.map((name) => map.nodes.get(name)!) as [number, number];
-    const seen = rotate(home, sub(readVec(motion.position(to), 0), readVec(motion.position(from), 0)));
-    return dot(direction(seen, ZERO), direction(sub(rest[to]!, rest[from]!), ZERO)) > AS_REST;
+    const bone = rotate(inverse, sub(readVec(motion.position(to), 0), readVec(motion.position(from), 0)));
+    return dot(direction(bone, ZERO), direction(sub(rest[to]!, rest[from]!), ZERO)) > REST_POSE_COSINE;
   });
 }

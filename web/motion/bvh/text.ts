@@ -1,22 +1,26 @@
 import { readFrames } from './frames';
 import { type BvhNode, readHierarchy } from './hierarchy';
-import { AGAIN } from './number';
+import { HINT_EXPORT_AGAIN } from './number';
 import { AppError } from '../../common/error';
 
-/** A BVH file whose every number has been looked at. */
+/** A BVH file in which every number has been checked. */
 export interface BvhFile {
   readonly nodes: readonly BvhNode[];
-  /** Values of one frame each, as text with as many numbers as there are channels. */
+  /** Values of one frame a line, as many numbers as there are channels. */
   readonly frameLines: readonly string[];
   /** Frame time as written, seconds. */
   readonly frameTime: string;
   readonly warnings: readonly string[];
-  /** Does the file end before its last frame does? `frameLines` are then those that are whole. */
-  readonly cutOff: boolean;
+  /** Whether the file ends before its last frame is complete; `frameLines` are then the complete ones. */
+  readonly truncated: boolean;
 }
 
-/** The line of a header entry such as "Frames: 12" and its value; both are undefined where it is missing. */
-function header(lines: readonly string[], from: number, key: RegExp): { line: number; value: string } | null {
+/** Line and value of a header entry such as "Frames: 12" on the next line that is not blank; null where it is missing. */
+function headerEntry(
+  lines: readonly string[],
+  from: number,
+  key: RegExp,
+): { line: number; value: string } | null {
   for (let line = from; line < lines.length; line++) {
     const text = lines[line]!.trim();
     if (text === '') continue;
@@ -27,7 +31,8 @@ function header(lines: readonly string[], from: number, key: RegExp): { line: nu
 }
 
 /**
- * Takes a BVH file apart and looks at every number of it. Of a file that ends too early the whole frames are used.
+ * Splits a BVH file into hierarchy and frames and checks every number. Of a file that ends too early the complete
+ * frames are used.
  *
  * @throws {AppError} `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
  *   `too-few-frames` or `several-roots`, naming the line, and the joint where there is one
@@ -54,18 +59,22 @@ export function parseBvhText(text: string): BvhFile {
       'The file is incomplete, or holds only a rest pose: export it again with its animation.',
     );
   }
-  const frames = header(lines, motion + 1, /^Frames\s*:(.*)$/i);
-  const time = frames && header(lines, frames.line + 1, /^Frame\s+Time\s*:(.*)$/i);
+  const frames = headerEntry(lines, motion + 1, /^Frames\s*:(.*)$/i);
+  const time = frames && headerEntry(lines, frames.line + 1, /^Frame\s+Time\s*:(.*)$/i);
   if (!frames || !time) {
     const missing = frames ? '"Frame Time:"' : '"Frames:"';
-    throw new AppError('bad-hierarchy', `After MOTION in line ${motion + 1}, ${missing} is missing.`, AGAIN);
+    throw new AppError(
+      'bad-hierarchy',
+      `After MOTION in line ${motion + 1}, ${missing} is missing.`,
+      HINT_EXPORT_AGAIN,
+    );
   }
   const stated = Number(frames.value);
   if (frames.value === '' || !Number.isInteger(stated) || stated < 0) {
     const where = `Line ${frames.line + 1}: "${frames.value}" is no number of frames.`;
-    throw new AppError('bad-number', where, AGAIN);
+    throw new AppError('bad-number', where, HINT_EXPORT_AGAIN);
   }
-  const { frameLines, warnings, cutOff } = readFrames(lines, time.line + 1, stated, nodes);
+  const { frameLines, warnings, truncated } = readFrames(lines, time.line + 1, stated, nodes);
   if (stated < 2) {
     throw new AppError(
       'too-few-frames',
@@ -73,5 +82,5 @@ export function parseBvhText(text: string): BvhFile {
       'Export the whole animation, not only its current frame.',
     );
   }
-  return { nodes, frameLines, frameTime: time.value, warnings, cutOff };
+  return { nodes, frameLines, frameTime: time.value, warnings, truncated };
 }

@@ -1,4 +1,4 @@
-import { BVH_NAMES } from './joint-names';
+import { BVH_NAMES } from './conventions';
 import type { SolvedMotion } from '../skeleton/clip';
 import { eulerZxy } from '../math/euler';
 import { readQuat } from '../math/quat';
@@ -9,10 +9,10 @@ import { readVec, scale, type Vec3, ZERO } from '../math/vec3';
 const UNITS_PER_METRE = 100;
 /** Four decimals: a micrometre, and an angle that moves the end of a limb by two micrometres. */
 const DECIMALS = 4;
-const DEGREES = 180 / Math.PI;
+const DEGREES_PER_RADIAN = 180 / Math.PI;
 
-/** Bones beyond the last joints, metres: crown, finger knuckles and toe tips, so that tools draw those bones. */
-const TIPS: ReadonlyMap<number, Vec3> = new Map([
+/** Offsets of the end sites from the last joints, metres: crown, finger knuckles and tips of the toes. */
+const END_SITES: ReadonlyMap<number, Vec3> = new Map([
   [J.head, [0, 0.18, 0]],
   [J.left_wrist, [0.09, 0, 0]],
   [J.right_wrist, [-0.09, 0, 0]],
@@ -25,35 +25,36 @@ function depthFirst(joint: number): number[] {
   return [joint, ...CHILDREN[joint]!.flatMap(depthFirst)];
 }
 
-function decimal(value: number): string {
+function formatNumber(value: number): string {
   const text = value.toFixed(DECIMALS);
   return Number(text) === 0 ? '0.0000' : text;
 }
 
-function triple(v: Vec3): string {
-  return v.map(decimal).join(' ');
+function formatVec(v: Vec3): string {
+  return v.map(formatNumber).join(' ');
 }
 
+/** The lines of a joint and everything below it. */
 function hierarchy(offsets: Float32Array, joint: number, indent: string): string[] {
-  const inner = `${indent}\t`;
+  const childIndent = `${indent}\t`;
   const head = joint === 0 ? 'ROOT' : 'JOINT';
   const position = joint === 0 ? '6 Xposition Yposition Zposition' : '3';
-  const tip = TIPS.get(joint);
+  const endSite = END_SITES.get(joint);
   const end =
-    tip === undefined
+    endSite === undefined
       ? []
       : [
-          `${inner}End Site`,
-          `${inner}{`,
-          `${inner}\tOFFSET ${triple(scale(tip, UNITS_PER_METRE))}`,
-          `${inner}}`,
+          `${childIndent}End Site`,
+          `${childIndent}{`,
+          `${childIndent}\tOFFSET ${formatVec(scale(endSite, UNITS_PER_METRE))}`,
+          `${childIndent}}`,
         ];
   return [
     `${indent}${head} ${BVH_NAMES[SMPL22[joint]!]}`,
     `${indent}{`,
-    `${inner}OFFSET ${triple(joint === 0 ? ZERO : scale(readVec(offsets, joint), UNITS_PER_METRE))}`,
-    `${inner}CHANNELS ${position} Zrotation Xrotation Yrotation`,
-    ...CHILDREN[joint]!.flatMap((child) => hierarchy(offsets, child, inner)),
+    `${childIndent}OFFSET ${formatVec(joint === 0 ? ZERO : scale(readVec(offsets, joint), UNITS_PER_METRE))}`,
+    `${childIndent}CHANNELS ${position} Zrotation Xrotation Yrotation`,
+    ...CHILDREN[joint]!.flatMap((child) => hierarchy(offsets, child, childIndent)),
     ...end,
     `${indent}}`,
   ];
@@ -71,7 +72,7 @@ function hierarchy(offsets: Float32Array, joint: number, indent: string): string
 export function writeBvh(motion: SolvedMotion): string {
   if (motion.frames < 1) throw new RangeError('A motion without frames cannot be written as BVH.');
   const order = depthFirst(0);
-  const before: Vec3[] = new Array<Vec3>(JOINT_COUNT).fill(ZERO);
+  const previous: Vec3[] = new Array<Vec3>(JOINT_COUNT).fill(ZERO);
   const lines = [
     'HIERARCHY',
     ...hierarchy(motion.offsets, 0, ''),
@@ -80,11 +81,11 @@ export function writeBvh(motion: SolvedMotion): string {
     `Frame Time: ${(1 / motion.fps).toFixed(8)}`,
   ];
   for (let frame = 0; frame < motion.frames; frame++) {
-    const values = [triple(scale(readVec(motion.root, frame), UNITS_PER_METRE))];
+    const values = [formatVec(scale(readVec(motion.root, frame), UNITS_PER_METRE))];
     for (const joint of order) {
-      const angles = eulerZxy(readQuat(motion.rotations, frame * JOINT_COUNT + joint), before[joint]!);
-      before[joint] = angles;
-      values.push(triple(scale(angles, DEGREES)));
+      const angles = eulerZxy(readQuat(motion.rotations, frame * JOINT_COUNT + joint), previous[joint]!);
+      previous[joint] = angles;
+      values.push(formatVec(scale(angles, DEGREES_PER_RADIAN)));
     }
     lines.push(values.join(' '));
   }

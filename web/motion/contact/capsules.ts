@@ -3,22 +3,22 @@ import { bodyHeight } from '../skeleton/scale';
 import { segmentDistance } from '../math/segments';
 import { J, JOINT_COUNT, type JointName } from '../skeleton/skeleton';
 
-/** A rounded bone of the body whose overlaps are measured. */
+/** A capsule around a bone: a segment with a radius. */
 export interface Capsule {
   readonly from: JointName;
   readonly to: JointName;
   /** Metres, on a body of the reference height. */
   readonly radius: number;
-  /** Share of the bone's length by which it goes on past its end; it then begins at that end. */
+  /** Where above 0, the axis begins at the bone's end and goes on by this share of the bone's length (the skull). */
   readonly beyond: number;
 }
 
-/** How wide bodies are, the same as in training/evaluation/metrics/penetration.py. */
+/** The capsules of a body, the same as in training/evaluation/metrics/penetration.py. */
 export interface BodyRule {
   readonly capsules: readonly Capsule[];
   /** Body height (scale.ts) of the radii's body, metres. */
   readonly reference_height: number;
-  /** A shallower overlap is a touch, metres. */
+  /** Depth from which an overlap counts as penetration; a shallower one is a touch, metres. */
   readonly deep: number;
 }
 
@@ -28,7 +28,7 @@ export interface CapsuleBody {
   readonly axes: Float64Array;
   /** frames x capsules x 4: middle of each axis, and the radius of the sphere around the whole capsule. */
   readonly spheres: Float64Array;
-  /** One a capsule, metres: radii follow the size of the body. */
+  /** One a capsule, metres, scaled with the body's height. */
   readonly radii: readonly number[];
 }
 
@@ -47,7 +47,6 @@ export function capsuleBody(clip: MotionClip, { capsules, reference_height }: Bo
       let square = 0;
       for (let axis = 0; axis < 3; axis++) {
         const [first, last] = [positions[a + axis]!, positions[b + axis]!];
-        // The skull sits on the neck's end.
         const start = beyond > 0 ? last : first;
         const end = last + (last - first) * beyond;
         axes[capsule * 6 + axis] = start;
@@ -68,47 +67,53 @@ export interface CapsulePair {
   readonly radii: number;
 }
 
-/** Whether the spheres around two capsules are no farther apart than `slack`, the second one shifted level by x, z. */
-function spheresMeet(
+/** Whether the bounding spheres of two capsules come within `margin` metres, the second one shifted level by x, z. */
+function spheresOverlap(
   { spheres: a }: CapsuleBody,
   p: number,
   { spheres: b }: CapsuleBody,
   q: number,
   x: number,
   z: number,
-  slack: number,
+  margin: number,
 ): boolean {
   const gapX = a[p * 4]! - b[q * 4]! - x;
   const gapY = a[p * 4 + 1]! - b[q * 4 + 1]!;
   const gapZ = a[p * 4 + 2]! - b[q * 4 + 2]! - z;
-  const reach = a[p * 4 + 3]! + b[q * 4 + 3]! + slack;
-  return gapX * gapX + gapY * gapY + gapZ * gapZ < reach * reach;
+  const limit = a[p * 4 + 3]! + b[q * 4 + 3]! + margin;
+  return gapX * gapX + gapY * gapY + gapZ * gapZ < limit * limit;
 }
 
 /**
- * The pairs of capsules that may overlap in a frame if one dancer moves by up to `slack` metres: those whose bounding
- * spheres then meet, a few in a hundred.
+ * Broad phase of the collision test: the pairs of capsules that may overlap in a frame if one dancer is shifted by up to
+ * `margin` metres, those whose bounding spheres come that near. A few in a hundred remain.
  */
-export function closePairs(a: CapsuleBody, b: CapsuleBody, frame: number, slack = 0): CapsulePair[] {
+export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number, margin = 0): CapsulePair[] {
   const pairs: CapsulePair[] = [];
   a.radii.forEach((first, i) => {
     const p = frame * a.radii.length + i;
     b.radii.forEach((second, j) => {
       const q = frame * b.radii.length + j;
-      if (spheresMeet(a, p, b, q, 0, 0, slack)) pairs.push({ a: p, b: q, radii: first + second });
+      if (spheresOverlap(a, p, b, q, 0, 0, margin)) pairs.push({ a: p, b: q, radii: first + second });
     });
   });
   return pairs;
 }
 
 /**
- * Deepest overlap of these pairs, metres, 0 where there is none.
+ * Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none.
  * @param x with `z`: level shift of the second dancer, metres
  */
-export function deepest(a: CapsuleBody, b: CapsuleBody, pairs: readonly CapsulePair[], x = 0, z = 0): number {
+export function penetrationDepth(
+  a: CapsuleBody,
+  b: CapsuleBody,
+  pairs: readonly CapsulePair[],
+  x = 0,
+  z = 0,
+): number {
   let depth = 0;
   for (const pair of pairs) {
-    if (!spheresMeet(a, pair.a, b, pair.b, x, z, 0)) continue;
+    if (!spheresOverlap(a, pair.a, b, pair.b, x, z, 0)) continue;
     depth = Math.max(depth, pair.radii - segmentDistance(a.axes, pair.a * 6, b.axes, pair.b * 6, x, z));
   }
   return depth;

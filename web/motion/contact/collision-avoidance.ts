@@ -1,26 +1,26 @@
-import { type BodyRule, type CapsuleBody, capsuleBody, closePairs, deepest } from './capsules';
+import { type BodyRule, type CapsuleBody, capsuleBody, candidatePairs, penetrationDepth } from './capsules';
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
-import { cheapestDetour, FARTHEST, type Place, PLACES } from './viterbi-path';
-import { smoothed } from '../math/gaussian';
+import { type LevelShift, MAX_SHIFT, SHIFTS, viterbiPath } from './viterbi-path';
+import { gaussianFilter } from '../math/statistics';
 import { JOINT_COUNT, type JointName } from '../skeleton/skeleton';
 
-/** Arms hold and wind round the other in a dance; these joints end the bones that may. */
+/** Joints that end the bones of the arms. Partners hold each other, so arms may overlap. */
 const ARMS: ReadonlySet<JointName> = new Set(['left_elbow', 'left_wrist', 'right_elbow', 'right_wrist']);
-/** Places are looked for this often, and this long before and after bodies meet, seconds. */
-const EVERY = 0.1;
-const AROUND = 1.5;
-/** What overlap costs against standing aside, both in metres squared. */
-const OVERLAP = 20_000;
-/** Standard deviation of the filter that rounds the way, seconds; so many samples are that. */
-const ROUND = 0.2;
-const FELT = Math.round(ROUND / EVERY);
+/** Time between two samples of the shift, and how long before and after an overlap it may differ from zero, seconds. */
+const SAMPLE_INTERVAL = 0.1;
+const MARGIN = 1.5;
+/** Cost of a squared penetration depth, where a squared shift costs 1. */
+const PENETRATION_COST = 20_000;
+/** Standard deviation of the Gaussian filter over the shift, in seconds and in samples. */
+const SMOOTHING = 0.2;
+const SMOOTHING_SAMPLES = Math.round(SMOOTHING / SAMPLE_INTERVAL);
 
-/** Runs of samples no farther than `reach` from one that is true, `to` excluded. */
-function runsAround(hits: readonly boolean[], reach: number): { from: number; to: number }[] {
+/** Runs of samples no farther than `margin` samples from an overlap, `to` excluded. */
+function runsAround(overlaps: readonly boolean[], margin: number): { from: number; to: number }[] {
   const runs: { from: number; to: number }[] = [];
-  hits.forEach((hit, at) => {
-    if (!hit) return;
-    const [from, to] = [Math.max(0, at - reach), Math.min(hits.length, at + reach + 1)];
+  overlaps.forEach((overlap, sample) => {
+    if (!overlap) return;
+    const [from, to] = [Math.max(0, sample - margin), Math.min(overlaps.length, sample + margin + 1)];
     const last = runs.at(-1);
     if (last && from <= last.to) last.to = to;
     else runs.push({ from, to });
@@ -28,69 +28,77 @@ function runsAround(hits: readonly boolean[], reach: number): { from: number; to
   return runs;
 }
 
-/** How deep the second dancer would be in the first, at every one of `PLACES`, metres. */
-function depthsAt(a: CapsuleBody, b: CapsuleBody, frame: number): Float64Array {
-  const pairs = closePairs(a, b, frame, FARTHEST);
-  return Float64Array.from(PLACES, ({ x, z }) => deepest(a, b, pairs, x, z));
+/** Penetration depth in a frame with the second dancer shifted by every one of `SHIFTS`, metres. */
+function depthsOf(a: CapsuleBody, b: CapsuleBody, frame: number): Float64Array {
+  const pairs = candidatePairs(a, b, frame, MAX_SHIFT);
+  return Float64Array.from(SHIFTS, ({ x, z }) => penetrationDepth(a, b, pairs, x, z));
 }
 
-/** What the places cost at a sample. Overlap is felt a little early and late, since the way is rounded afterwards. */
-function costsAt(depths: readonly Float64Array[], sample: number): Float64Array {
-  const around = depths.slice(Math.max(0, sample - FELT), sample + FELT + 1);
-  return Float64Array.from(PLACES, ({ x, z }, place) => {
-    const depth = Math.max(...around.map((row) => row[place]!));
-    return OVERLAP * depth * depth + x * x + z * z;
+/**
+ * Cost of every one of `SHIFTS` at a sample. The deepest penetration within one standard deviation of the filter
+ * counts, since the path is smoothed afterwards.
+ */
+function costsOf(depths: readonly Float64Array[], sample: number): Float64Array {
+  const window = depths.slice(Math.max(0, sample - SMOOTHING_SAMPLES), sample + SMOOTHING_SAMPLES + 1);
+  return Float64Array.from(SHIFTS, ({ x, z }, shift) => {
+    const depth = Math.max(...window.map((row) => row[shift]!));
+    return PENETRATION_COST * depth * depth + x * x + z * z;
   });
 }
 
-/** Values of samples `step` frames apart, at every frame and rounded off. */
+/**
+ * Samples `step` frames apart, interpolated linearly to every frame and smoothed.
+ * @param deviation of the Gaussian filter, frames
+ */
 function everyFrame(
   samples: readonly number[],
   step: number,
   frames: number,
   deviation: number,
 ): Float64Array {
-  const between = Float64Array.from({ length: frames }, (_, frame) => {
-    const at = Math.floor(frame / step);
-    const here = samples[at]!;
-    return here + ((samples[at + 1] ?? here) - here) * (frame / step - at);
+  const linear = Float64Array.from({ length: frames }, (_, frame) => {
+    const sample = Math.floor(frame / step);
+    const value = samples[sample]!;
+    return value + ((samples[sample + 1] ?? value) - value) * (frame / step - sample);
   });
-  return smoothed(between, deviation);
+  return gaussianFilter(linear, deviation);
 }
 
 /**
- * The motion kept out of the other dancer's body: where trunks, heads or legs would be in each other, the whole dancer
- * stands a little aside for that while, on the cheapest smooth way over the floor (viterbi-path.ts), at most 0.63 m.
- * Arms may hold. Turns, heights and bone lengths stay; away from such moments everything does, and a motion without
- * them is returned as it is. Pure.
+ * Collision avoidance between two dancers: where trunks, heads or legs would overlap, the whole dancer is shifted level
+ * with the floor by at most 0.63 m, along the cheapest smooth path (viterbi-path.ts). Arms may overlap. Rotations,
+ * heights and bone lengths stay. More than 1.5 s away from an overlap nothing changes but for the filter, and a motion
+ * without overlap is returned as it is. Pure.
  *
+ * @param motion the dancer who is shifted
  * @param other the dancer who stays, of the same frames and rate
+ * @param rule capsules of the bodies, and the depth from which an overlap counts
  */
-export function keepApart(motion: SolvedMotion, other: MotionClip, rule: BodyRule): SolvedMotion {
+export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: BodyRule): SolvedMotion {
   const { frames, fps } = motion;
-  const solid = {
+  const withoutArms = {
     ...rule,
     capsules: rule.capsules.filter(({ from, to }) => !ARMS.has(from) && !ARMS.has(to)),
   };
-  const [a, b] = [capsuleBody(other, solid), capsuleBody(motion, solid)];
-  const step = Math.max(1, Math.round(EVERY * fps));
-  const hits = Array.from(
+  const [a, b] = [capsuleBody(other, withoutArms), capsuleBody(motion, withoutArms)];
+  const step = Math.max(1, Math.round(SAMPLE_INTERVAL * fps));
+  const overlaps = Array.from(
     { length: Math.ceil(frames / step) },
-    (_, sample) => deepest(a, b, closePairs(a, b, sample * step)) > rule.deep,
+    (_, sample) => penetrationDepth(a, b, candidatePairs(a, b, sample * step)) > rule.deep,
   );
-  if (!hits.includes(true)) return motion;
-  const way: Place[] = hits.map(() => ({ x: 0, z: 0 }));
-  for (const { from, to } of runsAround(hits, Math.round(AROUND / EVERY))) {
-    const depths = Array.from({ length: to - from }, (_, i) => depthsAt(a, b, (from + i) * step));
-    const costs = depths.map((_, sample) => costsAt(depths, sample));
-    way.splice(from, to - from, ...cheapestDetour(costs, { start: from > 0, end: to < hits.length }));
+  if (!overlaps.includes(true)) return motion;
+  const path: LevelShift[] = overlaps.map(() => ({ x: 0, z: 0 }));
+  for (const { from, to } of runsAround(overlaps, Math.round(MARGIN / SAMPLE_INTERVAL))) {
+    const depths = Array.from({ length: to - from }, (_, i) => depthsOf(a, b, (from + i) * step));
+    const costs = depths.map((_, sample) => costsOf(depths, sample));
+    path.splice(from, to - from, ...viterbiPath(costs, { start: from > 0, end: to < overlaps.length }));
   }
   const along = (axis: 'x' | 'z'): Float64Array =>
     everyFrame(
-      way.map((place) => place[axis]),
+      path.map((shift) => shift[axis]),
       step,
       frames,
-      ROUND * fps,
+      SMOOTHING * fps,
     );
   const [x, z] = [along('x'), along('z')];
   const shifted = (values: Float32Array, joints: number): Float32Array =>

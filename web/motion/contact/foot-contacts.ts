@@ -12,7 +12,7 @@ interface JointTrack {
   readonly horizontal: Float64Array;
 }
 
-function trackOf({ positions, frames, fps }: MotionClip, joint: number): JointTrack {
+function jointTrack({ positions, frames, fps }: MotionClip, joint: number): JointTrack {
   const at = (frame: number) => readVec(positions, frame * JOINT_COUNT + joint);
   const steps = Array.from({ length: Math.max(0, frames - 1) }, (_, frame) => sub(at(frame + 1), at(frame)));
   return {
@@ -47,7 +47,7 @@ export function footContacts(clip: MotionClip, rule: ContactRule): FootContacts 
   const inContact = new Uint8Array(steps * FEET.length);
   const speed = new Float64Array(steps * FEET.length);
   FEET.forEach((joint, foot) => {
-    const { heights, vertical, horizontal } = trackOf(clip, joint);
+    const { heights, vertical, horizontal } = jointTrack(clip, joint);
     const low = percentile(heights, rule.percentile) + rule.height;
     for (let frame = 0; frame < steps; frame++) {
       const sample = frame * FEET.length + foot;
@@ -58,18 +58,18 @@ export function footContacts(clip: MotionClip, rule: ContactRule): FootContacts 
   return { inContact, speed };
 }
 
-/** Speed over the floor below which a contact begins, and above which it is over, m/s. */
+/** Thresholds of the speed over the floor, m/s: a contact falls below the first, and ends above the second. */
 const CONTACT_SPEED = 0.5;
 export const RELEASE_SPEED = 0.9;
 /** A joint in contact rises or sinks slower than this, m/s. */
 const VERTICAL_SPEED = 0.2;
 /**
- * A joint in contact is at most this far above the height at which it usually rests, metres. Its lowest height would
- * say less: made feet dip below the floor while they swing, and hover where they stand.
+ * A joint in contact is at most this far above the median of its heights while it is slow, metres. Its lowest height
+ * would be no measure: generated feet dip below the floor while they swing, and hover while they stand.
  */
-const HEIGHT = 0.04;
+const MAX_HEIGHT = 0.04;
 /** Shortest contact, seconds. */
-const SHORTEST = 0.13;
+const MIN_DURATION = 0.13;
 
 /** Frames of a contact: from `first` on, up to and with `last`. */
 export interface ContactInterval {
@@ -78,29 +78,31 @@ export interface ContactInterval {
 }
 
 /**
- * The intervals in which a joint of the foot is meant to stand, although it may slide.
+ * The intervals in which a joint of the foot is in contact with the floor, although it may slide, by hysteresis
+ * thresholding of its speed (as in Canny 1986): an interval lasts while the joint is low and slower than
+ * `RELEASE_SPEED`, and it counts if the joint is slower than `CONTACT_SPEED` somewhere in it. A single threshold would
+ * split it wherever a slide is a little faster.
  *
- * Two speeds tell them (hysteresis): an interval is as long as the joint stays low and below the higher one, and it
- * counts when somewhere in it the joint nearly rests. One speed alone would cut it in two wherever a slide is a little
- * faster.
+ * @param joint index in the skeleton
  */
 export function contactIntervals(clip: MotionClip, joint: number): ContactInterval[] {
   const { frames, fps } = clip;
-  const { heights, vertical, horizontal } = trackOf(clip, joint);
+  const { heights, vertical, horizontal } = jointTrack(clip, joint);
   const speeds = horizontal.map((speed, frame) => (vertical[frame]! < VERTICAL_SPEED ? speed : Infinity));
-  const highest = median(heights.filter((_, frame) => speeds[frame]! < CONTACT_SPEED)) + HEIGHT;
+  const maxHeight = median(heights.filter((_, frame) => speeds[frame]! < CONTACT_SPEED)) + MAX_HEIGHT;
 
   const intervals: ContactInterval[] = [];
   let first = 0;
   let slowest = Infinity;
   for (let frame = 0; frame < frames; frame++) {
-    const low = frame + 1 < frames && Math.max(heights[frame]!, heights[frame + 1]!) < highest;
+    const low = frame + 1 < frames && Math.max(heights[frame]!, heights[frame + 1]!) < maxHeight;
     const speed = low ? speeds[frame]! : Infinity;
     if (speed < RELEASE_SPEED) {
       slowest = Math.min(slowest, speed);
       continue;
     }
-    if (slowest < CONTACT_SPEED && frame - first >= SHORTEST * fps) intervals.push({ first, last: frame });
+    if (slowest < CONTACT_SPEED && frame - first >= MIN_DURATION * fps)
+      intervals.push({ first, last: frame });
     first = frame + 1;
     slowest = Infinity;
   }

@@ -1,26 +1,26 @@
 import type { ContactInterval } from './foot-contacts';
 
-/** Weights of a joint that slides in contact and of a shift that bends over time, against a shift of zero. */
+/** Weights of a slide during contact and of the shift's second difference over time; that of a shift of zero is about 1. */
 const CONTACT_WEIGHT = 100;
 const SMOOTHNESS_WEIGHT = 12;
 
-/** A joint of the foot on one axis of the floor. */
+/** A joint of the foot along one axis of the floor. */
 export interface Track {
-  /** Place in metres, one a frame. */
-  readonly places: Float64Array;
+  /** Position in metres, one a frame. */
+  readonly positions: Float64Array;
   readonly contacts: readonly ContactInterval[];
 }
 
 /**
- * How far to shift a foot along one axis of the floor so that its joints rest while they are in contact: the shift s
- * that is least in, summed over the whole clip,
+ * Shift of a foot along one axis of the floor that keeps its joints in place during contact (footskate cleanup; Kovar,
+ * Schreiner and Gleicher 2002), as one penalised least-squares problem over the whole clip: the shift s that minimises
  *
- *     w_t s_t^2 + CONTACT_WEIGHT (p_(t+1) + s_(t+1) - p_t - s_t)^2 + SMOOTHNESS_WEIGHT (s_(t-1) - 2 s_t + s_(t+1))^2
+ *     sum w_t s_t^2 + CONTACT_WEIGHT (p_(t+1) + s_(t+1) - p_t - s_t)^2 + SMOOTHNESS_WEIGHT (s_(t-1) - 2 s_t + s_(t+1))^2
  *
- * with places p, and the second term for the joints and frames in contact only. A joint in contact thereby rests in the
- * middle of where it slid, the shift comes and goes smoothly between two contacts, and it vanishes in the air. A joint
- * that slides for long is not held for ever: the shift lags behind and the foot follows slowly. The system of normal
- * equations has five diagonals and is solved in place, as L D L^T.
+ * with positions p, and the second term for joints and frames in contact only. A joint in contact thereby rests in the
+ * middle of where it slid, the shift is smooth between two contacts, and it decays to zero in the air. A joint that
+ * slides for long is not held: the shift lags behind and the foot follows slowly. The normal equations have five
+ * diagonals and are solved in place by an L D L^T factorisation.
  *
  * @param tracks the joints of one foot
  * @param zeroWeights weight of a shift of zero, w in the sum, one a frame; 1 where nothing else asks for more
@@ -33,10 +33,10 @@ export function leastSquaresShift(tracks: readonly Track[], zeroWeights: Float64
   const next = new Float64Array(frames);
   const second = new Float64Array(frames);
   const shift = new Float64Array(frames);
-  for (const { places, contacts } of tracks) {
+  for (const { positions, contacts } of tracks) {
     for (const { first, last } of contacts) {
       for (let t = first; t < last; t++) {
-        const slide = places[t + 1]! - places[t]!;
+        const slide = positions[t + 1]! - positions[t]!;
         diagonal[t]! += CONTACT_WEIGHT;
         diagonal[t + 1]! += CONTACT_WEIGHT;
         next[t]! -= CONTACT_WEIGHT;

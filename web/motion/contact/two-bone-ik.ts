@@ -1,8 +1,11 @@
 import { aboutAxis, between, multiply, type Quat, rotate } from '../math/quat';
 import { add, cross, direction, dot, length, sub, type Vec3 } from '../math/vec3';
 
-/** A leg longer than this share of its bones has no bend left: a millimetre would turn the knee by centimetres. */
-const STRAIGHT = 0.985;
+/**
+ * Largest length of a leg that is asked for, as a share of its bones' lengths. Near a straight leg a millimetre at the
+ * ankle would move the knee by centimetres.
+ */
+const MAX_EXTENSION = 0.985;
 
 /** A leg as two bones, in world axes. */
 export interface Leg {
@@ -15,31 +18,32 @@ export interface Leg {
 }
 
 /**
- * Two-bone inverse kinematics, analytic by the law of cosines: the turns that bring the ankle to `target` with hip and
- * bone lengths kept. `thigh` and `shin` are to be applied in world axes to the bones as they are.
+ * Two-bone inverse kinematics, solved analytically by the law of cosines (Tolani, Goswami and Badler, Real-time inverse
+ * kinematics techniques for anthropomorphic limbs, 2000): the rotations that bring the ankle to `target` with the hip
+ * and the bone lengths kept. `thigh` and `shin` are rotations in world axes, to be applied to the bones as they are.
  *
- * First the knee bends about its own hinge until the leg is as long as the way to the target, then the whole leg
- * swings there the shortest way: the knee goes on looking where it looked. An ankle that stays where it is leaves the
- * leg as it is. Where the target is too far, the leg stretches towards it and stops short.
+ * The knee first bends about its hinge until the leg's length is the distance from hip to target. Then the whole leg
+ * turns by the shortest arc onto the target, so that the knee keeps its direction. With the ankle as target both
+ * rotations are the identity. Where the target is too far, the leg points at it fully stretched.
  */
 export function twoBoneIk(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
   const { hip, thigh, shin, hinge } = leg;
-  const wanted = sub(target, hip);
-  // |thigh + turned shin|^2 = |thigh|^2 + |shin|^2 + 2 (c cos + s sin) of the turn, largest where the knee is straight.
+  const toTarget = sub(target, hip);
+  // |thigh + turned shin|^2 = |thigh|^2 + |shin|^2 + 2 (c cos + s sin) of the angle, largest with a straight knee.
   const along = dot(hinge, shin);
   const c = dot(thigh, shin) - along * dot(hinge, thigh);
   const s = dot(thigh, cross(hinge, shin));
-  const product = (dot(wanted, wanted) - dot(thigh, thigh) - dot(shin, shin)) / 2;
-  const bent = Math.acos(Math.max(-1, Math.min(1, product / Math.hypot(c, s))));
-  // As much more as the target asks for: a knee that is bent the wrong way by noise comes through the straight leg
-  // without a jump.
-  const bend = aboutAxis(hinge, bent - Math.abs(Math.atan2(s, c)));
-  const reached = add(thigh, rotate(bend, shin));
-  const swing = between(direction(reached, wanted), direction(wanted, reached));
+  const product = (dot(toTarget, toTarget) - dot(thigh, thigh) - dot(shin, shin)) / 2;
+  const angle = Math.acos(Math.max(-1, Math.min(1, product / Math.hypot(c, s))));
+  // The difference to the present bend, without its sign: a knee that noise has bent forwards passes through the
+  // straight leg without a jump.
+  const bend = aboutAxis(hinge, angle - Math.abs(Math.atan2(s, c)));
+  const bentLeg = add(thigh, rotate(bend, shin));
+  const swing = between(direction(bentLeg, toTarget), direction(toTarget, bentLeg));
   return { thigh: swing, shin: multiply(swing, bend) };
 }
 
-/** The largest length of the leg, hip to ankle in metres, that is asked for: nearly straight, or as it was anyway. */
-export function longestLeg({ thigh, shin }: Leg): number {
-  return Math.max(length(add(thigh, shin)), STRAIGHT * (length(thigh) + length(shin)));
+/** The largest distance from hip to ankle that a leg may have, metres: nearly straight, or its present length if longer. */
+export function maxLegLength({ thigh, shin }: Leg): number {
+  return Math.max(length(add(thigh, shin)), MAX_EXTENSION * (length(thigh) + length(shin)));
 }

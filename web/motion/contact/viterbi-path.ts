@@ -1,63 +1,65 @@
-/** Distance between two places to step aside to, and of the farthest, metres. */
-const CELL = 0.07;
-const FARTHEST = 0.63;
-/** Longest step from one sample to the next, metres. */
-const STRIDE = 0.21;
-/** How much a step costs against standing as far aside, both squared. */
-const HASTE = 50;
+/** Spacing of the grid of shifts, metres. */
+const GRID_STEP = 0.07;
+/** Longest shift, metres. */
+export const MAX_SHIFT = 0.63;
+/** Largest change of the shift from one sample to the next, metres. */
+const MAX_CHANGE = 0.21;
+/** Cost of a squared change of the shift, where a squared shift costs 1. */
+const CHANGE_COST = 50;
+/** Rounding slack of comparisons on the grid, metres. */
+const EPSILON = 1e-9;
 
-/** A place to stand instead: level shift in metres. */
-export interface Place {
+/** A shift level with the floor, metres. */
+export interface LevelShift {
   readonly x: number;
   readonly z: number;
 }
 
-const REACH = Math.floor(FARTHEST / CELL + 1e-9);
-const LINE = Array.from({ length: 2 * REACH + 1 }, (_, i) => (i - REACH) * CELL);
+const CELLS = Math.floor(MAX_SHIFT / GRID_STEP + EPSILON);
+const AXIS = Array.from({ length: 2 * CELLS + 1 }, (_, i) => (i - CELLS) * GRID_STEP);
 
-/** All places on a square grid within a circle; the middle, where nobody steps aside, is one of them. */
-export const PLACES: readonly Place[] = LINE.flatMap((x) => LINE.map((z) => ({ x, z }))).filter(
-  ({ x, z }) => Math.hypot(x, z) <= FARTHEST + 1e-9,
+/** The states of the path: all shifts on a square grid within a circle, zero among them. */
+export const SHIFTS: readonly LevelShift[] = AXIS.flatMap((x) => AXIS.map((z) => ({ x, z }))).filter(
+  ({ x, z }) => Math.hypot(x, z) <= MAX_SHIFT + EPSILON,
 );
-export { FARTHEST };
 
-const HERE = PLACES.findIndex(({ x, z }) => x === 0 && z === 0);
+const ZERO_SHIFT = SHIFTS.findIndex(({ x, z }) => x === 0 && z === 0);
 
-/** From where each place can be reached in one step, and what the step costs. */
-const STEPS = PLACES.map(({ x, z }) =>
-  PLACES.flatMap((from, place) => {
-    const far = Math.hypot(from.x - x, from.z - z);
-    return far <= STRIDE + 1e-9 ? [{ place, cost: HASTE * far * far }] : [];
+/** The states from which each state can follow, and the cost of that transition. */
+const TRANSITIONS = SHIFTS.map(({ x, z }) =>
+  SHIFTS.flatMap((from, state) => {
+    const change = Math.hypot(from.x - x, from.z - z);
+    return change <= MAX_CHANGE + EPSILON ? [{ state, cost: CHANGE_COST * change * change }] : [];
   }),
 );
 
 /**
- * The cheapest way through places that cost something: dynamic programming over all ways (Viterbi), so that a way
- * round is found early where a late one would be long.
+ * The path of least total cost through the grid of shifts, by dynamic programming (Viterbi, Error bounds for
+ * convolutional codes, 1967): the sum of the states' costs and of the costs of changing the shift.
  *
- * @param costs one array a sample, at least one, with the cost of every one of `PLACES`
- * @param pinned whether the way begins, and ends, where nobody stepped aside
- * @returns a place for every sample
+ * @param costs one array a sample, at least one, with the cost of every one of `SHIFTS`
+ * @param zeroAt whether the path has to begin, and to end, with a shift of zero
+ * @returns one shift a sample
  */
-export function cheapestDetour(
+export function viterbiPath(
   costs: readonly Float64Array[],
-  pinned: { readonly start: boolean; readonly end: boolean },
-): Place[] {
-  let sums = costs[0]!.map((cost, place) => (pinned.start && place !== HERE ? Infinity : cost));
-  const before = costs.slice(1).map((cost) => {
-    const from = new Int16Array(PLACES.length);
-    sums = cost.map((here, place) => {
+  zeroAt: { readonly start: boolean; readonly end: boolean },
+): LevelShift[] {
+  let totals = costs[0]!.map((cost, state) => (zeroAt.start && state !== ZERO_SHIFT ? Infinity : cost));
+  const backpointers = costs.slice(1).map((cost) => {
+    const previous = new Int16Array(SHIFTS.length);
+    totals = cost.map((own, state) => {
       let least = Infinity;
-      for (const step of STEPS[place]!) {
-        const sum = sums[step.place]! + step.cost;
-        if (sum < least) [least, from[place]] = [sum, step.place];
+      for (const transition of TRANSITIONS[state]!) {
+        const total = totals[transition.state]! + transition.cost;
+        if (total < least) [least, previous[state]] = [total, transition.state];
       }
-      return least + here;
+      return least + own;
     });
-    return from;
+    return previous;
   });
-  let place = pinned.end ? HERE : sums.indexOf(Math.min(...sums));
-  const way = [place];
-  for (const from of before.reverse()) way.push((place = from[place]!));
-  return way.reverse().map((at) => PLACES[at]!);
+  let state = zeroAt.end ? ZERO_SHIFT : totals.indexOf(Math.min(...totals));
+  const path = [state];
+  for (const previous of backpointers.reverse()) path.push((state = previous[state]!));
+  return path.reverse().map((at) => SHIFTS[at]!);
 }

@@ -15,7 +15,7 @@ import {
 } from '../math/quat';
 import { restOffsets } from './rest-pose';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
-import { steadyHinges } from './twist';
+import { smoothHinges } from './twist';
 import {
   add,
   cross,
@@ -29,7 +29,7 @@ import {
   Y_AXIS,
 } from '../math/vec3';
 
-/** A limb whose upper bone gets its twist from the hinge below it. */
+/** A limb whose upper bone gets its twist from the hinge at its middle joint. */
 interface Limb {
   readonly part: 'pelvis' | 'chest';
   readonly start: number;
@@ -75,34 +75,34 @@ const LIMBS: readonly Limb[] = [
   },
 ];
 
-/** Trust in the foot as a witness of the leg's twist, against a knee bent at a right angle. */
-const FOOT_TRUST = 0.3;
+/** Weight of the foot's direction in the leg's twist, where a knee bent at a right angle has 1. */
+const FOOT_WEIGHT = 0.3;
 
-/** World hinge axes of a limb over time. */
+/** Hinge axis of a limb in world axes, one a frame. */
 function hingesOf(limb: Limb, poses: readonly Pose[], bones: Bones): Vec3[] {
   const rest = direction(bones.offsets[limb.middle]!, Y_AXIS);
   const directions: Vec3[] = [];
-  const seen: Vec3[] = [];
-  const guesses: Vec3[] = [];
+  const observed: Vec3[] = [];
+  const priors: Vec3[] = [];
   for (const pose of poses) {
-    const home = conjugate(pose[limb.part]);
+    const inverse = conjugate(pose[limb.part]);
     const bone = (from: number, to: number): Vec3 =>
-      direction(rotate(home, sub(pose.joints[to]!, pose.joints[from]!)), rest);
+      direction(rotate(inverse, sub(pose.joints[to]!, pose.joints[from]!)), rest);
     const upper = bone(limb.start, limb.middle);
     const lower = bone(limb.middle, limb.end);
     let hinge = cross(upper, lower);
     if (limb.toe !== null) {
-      hinge = add(hinge, scale(cross(bone(limb.end, limb.toe), lower), FOOT_TRUST));
+      hinge = add(hinge, scale(cross(bone(limb.end, limb.toe), lower), FOOT_WEIGHT));
     }
     directions.push(upper);
-    seen.push(hinge);
-    guesses.push(rotate(between(rest, upper), limb.hinge));
+    observed.push(hinge);
+    priors.push(rotate(between(rest, upper), limb.hinge));
   }
-  return steadyHinges(directions, seen, guesses).map((axis, t) => rotate(poses[t]![limb.part], axis));
+  return smoothHinges(directions, observed, priors).map((axis, t) => rotate(poses[t]![limb.part], axis));
 }
 
 /** World rotation of every joint of one pose, given the hinge axes of the four limbs. */
-function worldTurns(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
+function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   const turns: Quat[] = [];
   const aimed = (base: Quat, from: number, to: number): Quat => {
     const rest = rotate(base, direction(bones.offsets[to]!, Y_AXIS));
@@ -114,7 +114,7 @@ function worldTurns(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   turns[J.spine3] = pose.chest;
   const neck = aimed(pose.chest, J.neck, J.head);
   turns[J.neck] = neck;
-  // The head's own turn shows in no joint: it looks where the neck faces.
+  // No joint position shows the head's own rotation: it is that of the neck.
   turns[J.head] = neck;
   turns[J.left_collar] = aimed(pose.chest, J.left_collar, J.left_shoulder);
   turns[J.right_collar] = aimed(pose.chest, J.right_collar, J.right_shoulder);
@@ -132,12 +132,14 @@ function worldTurns(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
 }
 
 /**
- * Fits a skeleton with constant bone lengths to joint positions and finds its rotations.
+ * Inverse kinematics: fits a skeleton with constant bone lengths to joint positions and finds its rotations.
  *
- * Bone lengths are medians over time, the same left and right. Frame by frame the trunk is fitted as two rigid parts
- * joined by the spine, limbs reach for what was seen, and the root moves to where the error is least. Twists of the
- * limbs come from knees, feet and elbows, and are steady over time; what positions do not show (wrist and head turn)
- * stays at rest. Quaternions never change sign from frame to frame. Pure; the clip needs at least one frame.
+ * Bone lengths are medians over time, the same left and right. In every frame the trunk is fitted as two rigid parts
+ * joined by the spine, the limbs are fitted to the observed joints, and the root is where the squared error is least.
+ * Twists of the limbs come from knees, feet and elbows and are smoothed over time; rotations that positions do not show
+ * (wrists and head) are those of rest. Quaternions do not change sign from frame to frame. Pure.
+ *
+ * @param clip at least one frame
  */
 export function solve(clip: MotionClip): SolvedMotion {
   const { frames, fps } = clip;
@@ -151,7 +153,7 @@ export function solve(clip: MotionClip): SolvedMotion {
   const previous: Quat[] = [];
   poses.forEach((pose, frame) => {
     writeVec(root, frame, pose.joints[J.pelvis]!);
-    const turns = worldTurns(
+    const turns = worldRotations(
       pose,
       bones,
       hinges.map((axes) => axes[frame]!),

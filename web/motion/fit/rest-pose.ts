@@ -47,24 +47,24 @@ function boneLengths(clip: MotionClip): number[] {
   return lengths.map((own, joint) => (own + lengths[MIRROR[joint]!]!) / 2);
 }
 
-/** Median over time of a joint's bone as seen from a body part, whose turns back to rest are given frame by frame. */
-function localBone(clip: MotionClip, joint: number, homes: readonly Quat[]): Vec3 {
+/** Median over time of a joint's bone in the axes of a body part, whose inverse rotations are given frame by frame. */
+function localBone(clip: MotionClip, joint: number, inverses: readonly Quat[]): Vec3 {
   const axes = [0, 1, 2].map(() => new Float64Array(clip.frames));
-  homes.forEach((home, frame) => {
+  inverses.forEach((inverse, frame) => {
     const bone = sub(jointAt(clip, frame, joint), jointAt(clip, frame, PARENTS[joint]!));
-    rotate(home, bone).forEach((value, i) => (axes[i]![frame] = value));
+    rotate(inverse, bone).forEach((value, i) => (axes[i]![frame] = value));
   });
   return [median(axes[0]!), median(axes[1]!), median(axes[2]!)];
 }
 
-/** Share of frames in which a foot is taken to stand: those with the lowest toes. */
-const STANDING_SHARE = 25;
+/** Percentile of the toe's heights up to which a foot counts as standing. */
+const STANDING_PERCENTILE = 25;
 
-/** How far the toes of standing feet point down, as the sine of the angle. */
+/** Slope of standing feet from ankle to toe, as the sine of the angle, -0.9 to 0. */
 function toeDrop(clip: MotionClip): number {
   const sines = [J.left_foot, J.right_foot].flatMap((toe) => {
     const heights = Float64Array.from({ length: clip.frames }, (_, frame) => jointAt(clip, frame, toe)[1]);
-    const standing = percentile(heights, STANDING_SHARE);
+    const standing = percentile(heights, STANDING_PERCENTILE);
     return [...heights.keys()].flatMap((frame) => {
       if (heights[frame]! > standing) return [];
       const foot = sub(jointAt(clip, frame, toe), jointAt(clip, frame, PARENTS[toe]!));
@@ -75,7 +75,7 @@ function toeDrop(clip: MotionClip): number {
 }
 
 /**
- * The skeleton of a dancer in rest: a T-pose facing +z, arms along x, legs straight down, feet forward.
+ * The rest pose of a dancer's skeleton: a T-pose facing +z, arms along x, legs straight down, feet forward.
  *
  * Bones of pelvis and chest, and the shoulders, keep the shape that the clip shows; all others point where a T-pose
  * has them. Left and right mirror each other.
@@ -86,18 +86,18 @@ export function restOffsets(clip: MotionClip): Float32Array {
   const lengths = boneLengths(clip);
   const drop = toeDrop(clip);
   const forward = Math.sqrt(1 - drop * drop);
-  const homesOf = (frameOf: typeof pelvisFrame): Quat[] =>
+  const inversesOf = (frameOf: typeof pelvisFrame): Quat[] =>
     Array.from({ length: clip.frames }, (_, frame) => conjugate(frameOf(clip, frame)));
-  const shape = (joint: number, homes: readonly Quat[]): Vec3 => {
-    const own = localBone(clip, joint, homes);
-    const other = localBone(clip, MIRROR[joint]!, homes);
+  const shape = (joint: number, inverses: readonly Quat[]): Vec3 => {
+    const own = localBone(clip, joint, inverses);
+    const other = localBone(clip, MIRROR[joint]!, inverses);
     return direction([(own[0] - other[0]) / 2, (own[1] + other[1]) / 2, (own[2] + other[2]) / 2], Y_AXIS);
   };
   const side = (joint: number): number => (joint < MIRROR[joint]! ? 1 : -1);
   const directions = new Map<number, Vec3>();
-  const pelvis = homesOf(pelvisFrame);
+  const pelvis = inversesOf(pelvisFrame);
   for (const joint of [J.left_hip, J.right_hip, J.spine1]) directions.set(joint, shape(joint, pelvis));
-  const chest = homesOf(chestFrame);
+  const chest = inversesOf(chestFrame);
   for (const joint of [J.left_collar, J.right_collar, J.left_shoulder, J.right_shoulder]) {
     directions.set(joint, shape(joint, chest));
   }

@@ -1,6 +1,6 @@
 import { add, anyPerpendicular, cross, dot, scale, type Vec3 } from './vec3';
 
-/** Unit quaternion xyzw; `multiply(a, b)` turns first by b, then by a. */
+/** Unit quaternion xyzw; `multiply(a, b)` rotates first by b, then by a. */
 export type Quat = readonly [number, number, number, number];
 
 type Numbers = Float32Array | Float64Array;
@@ -26,12 +26,12 @@ export function multiply(a: Quat, b: Quat): Quat {
   ];
 }
 
-/** The opposite turn. */
+/** The inverse rotation. */
 export function conjugate(q: Quat): Quat {
   return [-q[0], -q[1], -q[2], q[3]];
 }
 
-/** The same turn written with all four signs changed. */
+/** The same rotation with all four signs changed. */
 export function negate(q: Quat): Quat {
   return [-q[0], -q[1], -q[2], -q[3]];
 }
@@ -45,20 +45,20 @@ export function normaliseQuat(q: Quat): Quat {
   return size > 0 ? [q[0] / size, q[1] / size, q[2] / size, q[3] / size] : IDENTITY;
 }
 
-/** The vector v turned by the unit quaternion q. */
+/** The vector v rotated by the unit quaternion q. */
 export function rotate(q: Quat, v: Vec3): Vec3 {
   const axis: Vec3 = [q[0], q[1], q[2]];
   const twice = scale(cross(axis, v), 2);
   return add(add(v, scale(twice, q[3])), cross(axis, twice));
 }
 
-/** The turn by `angle` radians about the unit vector `axis`. */
+/** The rotation by `angle` radians about the unit vector `axis`. */
 export function aboutAxis(axis: Vec3, angle: number): Quat {
   const s = Math.sin(angle / 2);
   return [axis[0] * s, axis[1] * s, axis[2] * s, Math.cos(angle / 2)];
 }
 
-/** The shortest turn that brings the unit vector `from` onto the unit vector `to`: a swing without twist. */
+/** The shortest rotation that brings the unit vector `from` onto the unit vector `to`: a swing without twist. */
 export function between(from: Vec3, to: Vec3): Quat {
   const cosine = dot(from, to);
   if (cosine < -0.999999) return aboutAxis(anyPerpendicular(from), Math.PI);
@@ -66,7 +66,7 @@ export function between(from: Vec3, to: Vec3): Quat {
   return normaliseQuat([axis[0], axis[1], axis[2], 1 + cosine]);
 }
 
-/** The turn whose columns are the given unit vectors; x and y are perpendicular, z is their cross product. */
+/** The rotation whose matrix has as columns the given unit vectors; x and y are perpendicular, z is their cross product. */
 export function fromAxes(x: Vec3, y: Vec3): Quat {
   const z = cross(x, y);
   const trace = x[0] + y[1] + z[2];
@@ -86,13 +86,13 @@ export function fromAxes(x: Vec3, y: Vec3): Quat {
   return normaliseQuat([(z[0] + x[2]) / s, (z[1] + y[2]) / s, s / 4, (x[1] - y[0]) / s]);
 }
 
-/** Spherical interpolation from a (t = 0) to b (t = 1) along the shorter way. */
+/** Spherical interpolation from a (t = 0) to b (t = 1) along the shorter arc (Shoemake 1985). */
 export function slerp(a: Quat, b: Quat, t: number): Quat {
   let cosine = quatDot(a, b);
   const end = cosine < 0 ? negate(b) : b;
   cosine = Math.min(1, Math.abs(cosine));
   const angle = Math.acos(cosine);
-  // Nearly equal turns: the sines below would be divided by a tiny number.
+  // Nearly equal rotations: the sines below would be divided by a tiny number.
   const [wa, wb] =
     angle < 1e-4
       ? [1 - t, t]

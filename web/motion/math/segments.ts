@@ -1,7 +1,7 @@
 /**
- * Smallest distance between two segments, each given by its two ends as six numbers from an offset; points are
- * allowed. `segment_distance` of training/evaluation/metrics/penetration.py: clamped closest points after Ericson, Real-Time
- * Collision Detection, 5.1.9. Written out, since a long dance asks for it some hundred thousand times.
+ * Smallest distance between two segments, each given by its two ends as six numbers from an offset; they may be
+ * points. `segment_distance` of training/evaluation/metrics/penetration.py: clamped closest points after Ericson, Real-Time
+ * Collision Detection, 5.1.9. Without vector objects, since a long dance takes some hundred thousand calls.
  * @param x with `z`: level shift of the second segment, metres
  */
 export function segmentDistance(
@@ -20,15 +20,15 @@ export function segmentDistance(
   const pq = px * qx + py * qy + pz * qz;
   const pg = px * gx + py * gy + pz * gz;
   const qg = qx * gx + qy * gy + qz * gz;
-  const across = pp * qq - pq * pq;
-  let s = across > TINY ? clamp((pq * qg - pg * qq) / across) : 0;
-  const t = clamp((pq * s + qg) / Math.max(qq, TINY));
-  s = pp > TINY ? clamp((pq * t - pg) / pp) : 0;
+  const determinant = pp * qq - pq * pq;
+  let s = determinant > EPSILON ? clamp((pq * qg - pg * qq) / determinant) : 0;
+  const t = clamp((pq * s + qg) / Math.max(qq, EPSILON));
+  s = pp > EPSILON ? clamp((pq * t - pg) / pp) : 0;
   return Math.sqrt((gx + s * px - t * qx) ** 2 + (gy + s * py - t * qy) ** 2 + (gz + s * pz - t * qz) ** 2);
 }
 
-const TINY = 1e-12;
+const EPSILON = 1e-12;
 
-function clamp(part: number): number {
-  return Math.min(1, Math.max(0, part));
+function clamp(share: number): number {
+  return Math.min(1, Math.max(0, share));
 }

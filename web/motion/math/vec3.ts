@@ -46,7 +46,7 @@ export function distance(a: Vec3, b: Vec3): number {
   return length(sub(a, b));
 }
 
-/** Point on the way from a (t = 0) to b (t = 1). */
+/** Linear interpolation from a (t = 0) to b (t = 1). */
 export function lerp(a: Vec3, b: Vec3, t: number): Vec3 {
   return [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t];
 }
@@ -62,7 +62,7 @@ export function perpendicular(a: Vec3, axis: Vec3, fallback: Vec3): Vec3 {
   return direction(sub(a, scale(axis, dot(a, axis))), fallback);
 }
 
-/** Some unit vector perpendicular to the unit vector `axis`. */
+/** Any unit vector perpendicular to the unit vector `axis`. */
 export function anyPerpendicular(axis: Vec3): Vec3 {
   const helper = Math.abs(axis[0]) < 0.6 ? X_AXIS : Z_AXIS;
   return perpendicular(helper, axis, Y_AXIS);

@@ -7,7 +7,7 @@ export interface MotionClip {
   readonly positions: Float32Array;
 }
 
-/** A clip solved onto a skeleton with constant bone lengths; what is drawn and what is exported. */
+/** A clip fitted to a skeleton with constant bone lengths, as it is drawn and exported. */
 export interface SolvedMotion {
   readonly fps: number;
   readonly frames: number;

@@ -3,7 +3,7 @@ import { JOINT_COUNT, PARENTS } from './skeleton';
 import { add, readVec, type Vec3, writeVec } from '../math/vec3';
 
 /**
- * Joint positions of a skeleton in motion.
+ * Forward kinematics: joint positions of a skeleton in motion.
  *
  * @param offsets 22 x 3 rest offsets from the parent, metres
  * @param root frames x 3 root positions, metres
@@ -18,16 +18,16 @@ export function forwardKinematics(
   const frames = root.length / 3;
   const positions = new Float32Array(frames * JOINT_COUNT * 3);
   const bones = PARENTS.map((_, joint) => readVec(offsets, joint));
-  const turns: Quat[] = [];
-  const places: Vec3[] = [];
+  const world: Quat[] = [];
+  const placed: Vec3[] = [];
   for (let frame = 0; frame < frames; frame++) {
     for (let joint = 0; joint < JOINT_COUNT; joint++) {
       const parent = PARENTS[joint]!;
       const local = readQuat(rotations, frame * JOINT_COUNT + joint);
-      turns[joint] = parent < 0 ? local : multiply(turns[parent]!, local);
+      world[joint] = parent < 0 ? local : multiply(world[parent]!, local);
       const place =
-        parent < 0 ? readVec(root, frame) : add(places[parent]!, rotate(turns[parent]!, bones[joint]!));
-      places[joint] = place;
+        parent < 0 ? readVec(root, frame) : add(placed[parent]!, rotate(world[parent]!, bones[joint]!));
+      placed[joint] = place;
       writeVec(positions, frame * JOINT_COUNT + joint, place);
     }
   }

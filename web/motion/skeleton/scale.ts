@@ -10,7 +10,7 @@ const LEGS = [
 ];
 
 /**
- * Length of leg plus spine in metres, the measure by which dancers are scaled to one another: the median over frames
+ * Body height: length of leg plus spine in metres, by which dancers are scaled to one another. The median over frames
  * of the mean leg (hip, knee, ankle) plus the chain from pelvis to head. It does not depend on the pose, unlike the
  * height of the head above the floor. The same measure as `body_height` of the training side.
  */

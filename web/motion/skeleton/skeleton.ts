@@ -51,7 +51,7 @@ export const MIRROR: readonly number[] = SMPL22.map((name) => {
 /** Ankles and toes, the joints that stand on the floor. */
 export const FEET: readonly number[] = [J.left_ankle, J.right_ankle, J.left_foot, J.right_foot];
 
-/** Joints that hang on each joint, in joint order. */
+/** Children of every joint, in joint order. */
 export const CHILDREN: readonly (readonly number[])[] = SMPL22.map((_, joint) =>
   PARENTS.flatMap((parent, child) => (parent === joint ? [child] : [])),
 );

@@ -92,7 +92,7 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
     head,
     ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
     ...fact('Frame rate', rateSelect(leader, services)),
-    ...fact('Skeleton', report.dialect),
+    ...fact('Skeleton', report.convention),
     ...fact('Joints', jointWords(report)),
     ...fact('Space', `${report.unit}, ${report.upAxis} up`),
   ];

@@ -1,10 +1,10 @@
 import type { LeaderReport } from '../../motion/bvh/read';
 
-type Joints = Pick<LeaderReport, 'joints' | 'filled' | 'recut'>;
+type Joints = Pick<LeaderReport, 'joints' | 'estimated' | 'retargeted'>;
 
 /** Joints that a file lacks. A spine with another number of joints lacks none. */
-function missing({ filled, recut }: Joints): string[] {
-  return filled.filter((joint) => !recut.includes(joint)).map((joint) => joint.replaceAll('_', ' '));
+function missing({ estimated, retargeted }: Joints): string[] {
+  return estimated.filter((joint) => !retargeted.includes(joint)).map((joint) => joint.replaceAll('_', ' '));
 }
 
 /** How many of the 22 joints a file has, a spine with another number of joints included. */
@@ -19,8 +19,8 @@ export function jointWords(report: Joints): string {
   const found =
     lacking.length > 0
       ? `${jointCount(report)} of ${all} found; filled in: ${lacking.join(', ')}`
-      : report.recut.length > 0
+      : report.retargeted.length > 0
         ? 'all found'
         : `all ${all} found`;
-  return report.recut.length > 0 ? `${found}; pelvis and spine placed along its back` : found;
+  return report.retargeted.length > 0 ? `${found}; pelvis and spine placed along its back` : found;
 }

@@ -25,7 +25,7 @@ function swinging(frames: number, period: number): { positions: Float32Array; fr
 const clicks = (first: number, every: number, frames: number): number[] =>
   Array.from({ length: Math.ceil((frames - first) / every) }, (_, index) => first + index * every);
 
-describe('the better shift', () => {
+describe('the best shift of the music', () => {
   const frames = 600;
   const leader = motionBeats(swinging(frames, 40), smoothing);
   const [still = 0] = leader;
@@ -40,7 +40,7 @@ describe('the better shift', () => {
     }
   });
 
-  it('tells far shifts apart where the beats are irregular', () => {
+  it('is found among large shifts where the beats are irregular', () => {
     const beats = [20, 47, 69, 110, 128, 171, 195, 240, 262, 303, 333, 350, 391, 420];
     for (const by of [-50, 23, 60])
       expect(
@@ -57,7 +57,7 @@ describe('the better shift', () => {
     expect(found?.score).toBeGreaterThan(0.9);
   });
 
-  it('is none where the beats meet already, within a frame', () => {
+  it('is none where the beats align already, within a frame', () => {
     expect(betterShift(leader, clicks(still, 20, frames))).toBeNull();
     expect(betterShift(leader, clicks(still + 1, 20, frames))).toBeNull();
   });

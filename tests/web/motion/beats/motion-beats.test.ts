@@ -16,7 +16,7 @@ describe('motion beats', () => {
       expect(motionBeats({ positions: metres, frames }, smoothing)).toEqual(beats);
     });
 
-    it(`fall on the music as in Python in ${frames} frames`, () => {
+    it(`align with the music as in Python in ${frames} frames`, () => {
       const ours = beatScores(beats, music, tolerance);
       expect(ours).toHaveLength(scores.length);
       ours.forEach((score, index) => expect(score).toBeCloseTo(scores[index] ?? NaN, 9));

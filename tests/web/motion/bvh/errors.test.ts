@@ -35,7 +35,7 @@ function expectFailure(text: string, code: ErrorCode, message: RegExp | string):
   for (const sentence of [error.message, error.hint]) expect(sentence).toMatch(/^[A-Z].{15,}\.$|\)\.?$/);
 }
 
-test('the file that is broken below is read when it is whole', () => {
+test('the file that is damaged below is read while it is intact', () => {
   expect(readBvh(good).clip.frames).toBe(12);
 });
 
@@ -48,7 +48,7 @@ describe('what is no BVH file', () => {
 });
 
 describe('cut off', () => {
-  test('at every place of the file, it is an error or its whole frames, and never a crash', () => {
+  test('at any character, it gives an error or the complete frames', () => {
     const starts = lines.map((_, i) => lines.slice(0, i).join('\n').length + 1);
     for (let end = 0; end < good.length; end += 97) {
       const whole = starts.filter((start, i) => i >= firstFrame && start <= end).length;
@@ -111,7 +111,7 @@ describe('cut off', () => {
     expectFailure(quick, 'truncated', 'The file breaks off: only 3 whole frames are there');
     expect(failure(upTo(1)).hint).toMatch(/download, copy or export it again/);
   });
-  test('nowhere, but wrong in the last line', () => {
+  test('not cut off, but wrong in the last line', () => {
     const at = firstFrame + 11;
     expectFailure(
       withLine(at, (line) => line.replace(/^\S+/, 'abc')),
@@ -129,7 +129,7 @@ describe('cut off', () => {
   });
 });
 
-describe('broken numbers', () => {
+describe('invalid numbers', () => {
   const at = firstFrame + 4;
   test.each([
     ['12.3.4', '"12.3.4" is not a number'],
@@ -178,7 +178,7 @@ describe('the wrong number of columns', () => {
   });
 });
 
-describe('a broken skeleton', () => {
+describe('an invalid skeleton', () => {
   test.each([
     [/\tOFFSET/, '\tOFFSETS', 'has no OFFSET'],
     [/Xrotation/, 'Xscale', '"Xscale" in mixamorig:Hips is no channel'],
@@ -197,7 +197,7 @@ describe('a broken skeleton', () => {
     const endless = 'HIERARCHY\nROOT a\n' + '{ OFFSET 0 0 0 JOINT b\n'.repeat(50_000);
     expectFailure(endless, 'bad-hierarchy', 'deep');
   });
-  test('several dancers in one file', () => {
+  test('several skeletons in one file', () => {
     const [body, motion] = good.split('MOTION') as [string, string];
     const two = body + body.replace('HIERARCHY\n', '') + 'MOTION' + motion;
     expectFailure(
@@ -229,13 +229,13 @@ describe('time', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 0 });
     expectFailure(text, 'too-few-frames', 'no frames');
   });
-  test('a blink', () => {
+  test('a few frames at a high rate', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 3, frameTime: '0.005' });
     expectFailure(text, 'too-few-frames', 'less than two frames');
   });
 });
 
-describe('a body that lacks something', () => {
+describe('missing joints', () => {
   const body = (names: Partial<BodyNames>, drop: readonly (keyof BodyNames)[]): string => {
     const kept = Object.fromEntries(
       Object.entries({ ...MIXAMO, ...names }).filter(([part]) => !drop.includes(part as keyof BodyNames)),

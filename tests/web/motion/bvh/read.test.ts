@@ -214,17 +214,17 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
   ],
 ];
 
-describe('families of joint names', () => {
-  test.each(FAMILIES)('%s %#', (dialect, names) => {
+describe('skeleton conventions', () => {
+  test.each(FAMILIES)('%s %#', (convention, names) => {
     const made = madeBvh({ joints: madeBody(names) });
     const file = readBvh(made.text);
-    expect(file.report.dialect).toBe(dialect);
+    expect(file.report.convention).toBe(convention);
     expect(file.clip).toMatchObject({ fps: 30, frames: 40 });
     const pairs = pairsOf(names);
     for (const [name, source] of pairs) expect(file.report.joints[name]).toBe(source);
     expectSame(file, made, pairs);
     const trunk = names.root === 'Pelvis' ? [] : ['pelvis', 'spine1', 'spine2', 'spine3'];
-    expect(file.report.filled.filter((name) => !/foot/.test(name))).toEqual(trunk);
+    expect(file.report.estimated.filter((name) => !/foot/.test(name))).toEqual(trunk);
     expect(file.report.warnings).toEqual([]);
   });
 
@@ -254,7 +254,7 @@ describe('units and axes', () => {
     expectSame(file, made, pairsOf(MIXAMO));
   });
 
-  test('a body in no unit is brought to the size of a person, and that is said', () => {
+  test('a body that no unit fits is scaled to an adult, with a warning', () => {
     const file = readBvh(madeBvh({ joints: madeBody(MIXAMO), unitsPerMetre: 1e5 }).text);
     expect(file.report.unit).toBe('unknown unit');
     expect(file.report.warnings.join()).toMatch(/scaled/);
@@ -271,7 +271,7 @@ describe('units and axes', () => {
     expect(joint(file, 0, 'head')[1]).toBeGreaterThan(1.2);
   });
 
-  test('the floor is at 0: planted toes rest three centimetres above it', () => {
+  test('the floor is at 0: the toes of standing feet are three centimetres above it', () => {
     const file = readBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
     expect(joint(file, 0, 'left_foot')[1]).toBeCloseTo(0.03, 5);
   });
@@ -294,7 +294,7 @@ describe('time', () => {
     expect(report.sourceDuration).toBeCloseTo(60 / fps, 9);
   });
 
-  test('a long dance is read whole', () => {
+  test('a long dance is read completely', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frames: 600 });
     expectSame(readBvh(made.text), made, pairsOf(MIXAMO));
   });
@@ -306,7 +306,7 @@ describe('time', () => {
     expectSame(file, made, pairsOf(MIXAMO), 4);
   });
 
-  test('a given rate counts, not the header', () => {
+  test('a given frame rate replaces that of the header', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frameTime: '0.00833333', frames: 121 });
     const file = readBvh(made.text, { fps: 60 });
     expect(file.report.sourceFps).toBe(60);
@@ -332,14 +332,14 @@ describe('time', () => {
     expect(distance(third, lerp(start, end, 1 / 3))).toBeLessThan(0.2 * distance(start, end));
   });
 
-  test('frames beyond the stated ones are left out, and that is said', () => {
+  test('frames beyond the stated number are left out, with a warning', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 40 });
     const { clip, report } = readBvh(text.replace('Frames: 40', 'Frames: 35'));
     expect(clip.frames).toBe(35);
     expect(report.warnings).toEqual(['5 frames beyond the 35 that the file states were left out.']);
   });
 
-  test('a dance at a multiple of its speed raises a question', () => {
+  test('a dance at a multiple of its speed raises a warning', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 400, swing: 25 });
     expect(readBvh(text).report.warnings).toEqual([]);
     expect(readBvh(text, { fps: 120 }).report.warnings.join()).toMatch(/frame rate of the file \(120\)/);
@@ -349,38 +349,38 @@ describe('time', () => {
 describe('joints that the file does not have', () => {
   const without = (part: keyof BodyNames, names = MIXAMO): BodyNames =>
     Object.fromEntries(Object.entries(names).filter(([name]) => name !== part)) as unknown as BodyNames;
-  const filled = (names: BodyNames): LeaderFile => readBvh(madeBvh({ joints: madeBody(names) }).text);
+  const read = (names: BodyNames): LeaderFile => readBvh(madeBvh({ joints: madeBody(names) }).text);
 
   test.each([
     ['collar', ['left_collar', 'right_collar']],
     ['head', ['head']],
     ['neck', ['neck']],
   ] as const)('%s is placed near where it belongs', (part, made) => {
-    const truth = filled(MIXAMO);
-    const file = filled(without(part));
-    expect(file.report.filled).toEqual(expect.arrayContaining([...made]));
+    const truth = read(MIXAMO);
+    const file = read(without(part));
+    expect(file.report.estimated).toEqual(expect.arrayContaining([...made]));
     for (const name of made) expect(file.report.joints[name]).toBeNull();
     const still = readBvh(madeBvh({ joints: madeBody(without(part)), swing: 0 }).text);
     const wanted = readBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
     for (const name of made)
       expect(distance(joint(still, 0, name), joint(wanted, 0, name))).toBeLessThan(0.07);
-    expect(truth.report.filled).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
+    expect(truth.report.estimated).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
   });
 
-  test('one joint of the file is never two of ours', () => {
+  test('no joint of the file stands for two joints', () => {
     const [, xsens] = FAMILIES.at(-1)!;
-    const file = filled(without('collar', xsens));
+    const file = read(without('collar', xsens));
     expect(file.report.joints).toMatchObject({ left_shoulder: 'LeftShoulder', left_collar: null });
     expect(distance(joint(file, 0, 'left_shoulder'), joint(file, 0, 'left_collar'))).toBeGreaterThan(0.05);
   });
 
-  test('toes come from the end of the foot', () => {
+  test('toes come from the end site of the foot', () => {
     const joints = madeBody(without('toe')).map((one) =>
       one.name.endsWith('Foot') ? { ...one, end: [0, -0.05, 0.12] as const } : one,
     );
     const made = madeBvh({ joints });
     const file = readBvh(made.text);
-    expect(file.report.filled).not.toContain('left_foot');
+    expect(file.report.estimated).not.toContain('left_foot');
     expect(file.report.joints.left_foot).toBe('end of mixamorig:LeftFoot');
     expectSame(file, made, [
       ['left_knee', 'mixamorig:LeftLeg'],
@@ -393,7 +393,7 @@ describe('joints that the file does not have', () => {
       one.name.endsWith('ToeBase') ? { ...one, offset: [0, -0.001, 0] as const } : one,
     );
     const file = readBvh(madeBvh({ joints }).text);
-    expect(file.report.filled).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
+    expect(file.report.estimated).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
     expect(file.report.joints.left_foot).toBeNull();
     expect(distance(joint(file, 0, 'left_foot'), joint(file, 0, 'left_ankle'))).toBeGreaterThan(0.08);
   });
@@ -403,7 +403,7 @@ describe('joints that the file does not have', () => {
     (up) => {
       const made = madeBvh({ joints: madeBody(without('toe')), up });
       const file = readBvh(made.text);
-      expect(file.report.filled).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
+      expect(file.report.estimated).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
       const ended = madeBody(without('toe')).map((one) =>
         one.name.endsWith('Foot') ? { ...one, end: [0, -0.05, 0.12] as const } : one,
       );
@@ -436,13 +436,13 @@ describe('joints that the file does not have', () => {
   });
 });
 
-describe('ways of writing', () => {
+describe('variants of the format', () => {
   test.each(['whole', 'added'] as const)('positions below the root that are %s', (positions) => {
     const made = madeBvh({ joints: madeBody(MIXAMO), positions });
     expectSame(readBvh(made.text), made, pairsOf(MIXAMO));
   });
 
-  test('line ends, byte order mark, small letters, braces on the line of the name', () => {
+  test('line ends, byte order mark, lower case, braces on the line of the name', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), newline: '\r\n' });
     expectSame(readBvh('\uFEFF' + made.text), made, pairsOf(MIXAMO));
     const odd = made.text
@@ -452,7 +452,7 @@ describe('ways of writing', () => {
     expectSame(readBvh(odd), made, pairsOf(MIXAMO));
   });
 
-  test('a file whose left is its right is questioned', () => {
+  test('a file with left and right exchanged raises a warning', () => {
     const swapped = { ...MIXAMO, sides: ['Right', 'Left'] as const };
     const { report } = readBvh(madeBvh({ joints: madeBody(swapped) }).text);
     expect(report.warnings.join()).toMatch(/left and right/);

@@ -23,9 +23,9 @@ describe.each(files)('%s', (file) => {
   const motion = solve(clip);
 
   test('is understood', () => {
-    expect(report.dialect).toBe(file.includes('daz') ? 'DAZ' : 'Character Creator');
+    expect(report.convention).toBe(file.includes('daz') ? 'DAZ' : 'Character Creator');
     expect(report).toMatchObject({ unit: 'centimetres', upAxis: 'y', sourceFps: 60 });
-    expect(report.filled).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
+    expect(report.estimated).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
     expect(clip.frames).toBe(Math.floor((report.sourceFrames - 1) / 2) + 1);
     expect(bodyHeight(clip)).toBeGreaterThan(1.2);
     expect(bodyHeight(clip)).toBeLessThan(1.6);
@@ -41,7 +41,7 @@ describe.each(files)('%s', (file) => {
     expect(readVec(clip.positions, J.head)[1]).toBeGreaterThan(1.2);
   });
 
-  test('is solved to millimetres and survives the way through a file', () => {
+  test('is solved to millimetres, and is the same after writing and reading', () => {
     expect(motion.fitError).toBeLessThan(0.005);
     const back = readBvh(writeBvh(motion)).clip;
     for (let i = 0; i < motion.positions.length / 3; i++) {

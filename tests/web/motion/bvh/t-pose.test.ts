@@ -57,9 +57,10 @@ describe('a rest pose before the dance is left out', () => {
     expect(meant.report.remarks).toEqual([]);
   };
 
-  test('where the dance begins', () => expectLeftOut(before(dance, pose(body, [0, 95, 18])), dance));
+  test('at the place where the dance begins', () =>
+    expectLeftOut(before(dance, pose(body, [0, 95, 18])), dance));
 
-  test('elsewhere, turned away, a little bent', () => {
+  test('at another place, rotated, with slightly bent limbs', () => {
     const bent = pose(body, [300, 90, -200], { LeftArm: 6, RightUpLeg: -5, LeftForeArm: 4 });
     bent[5] = 140;
     expectLeftOut(before(dance, bent), dance);
@@ -79,7 +80,7 @@ describe('a rest pose before the dance is left out', () => {
     expect(readBvh(before(text, half)).report.remarks).toEqual([]);
   });
 
-  test('with the hurried frames of a solver on its way out of it', () => {
+  test('with the fast frames in which a solver moves out of it', () => {
     // The arms are down from the first frame of the dance on, which then hardly moves.
     const calm = framesOf(madeBvh({ joints: body, frames: 60, swing: 1 }).text).map((values) => {
       values[column(body, 'LeftArm')]! -= 75;
@@ -97,7 +98,7 @@ describe('a rest pose before the dance is left out', () => {
   });
 });
 
-describe('a dance loses no frame', () => {
+describe('no frame is left out of a dance', () => {
   const remarks = (text: string): readonly string[] => readBvh(text).report.remarks;
 
   test('that begins in a T-pose, however quickly', () => {
@@ -146,7 +147,7 @@ describe('a dance loses no frame', () => {
     expect(remarks(before(dance, sitting))).toEqual([]);
   });
 
-  test('that is as sudden later on', () => {
+  test('that has as large jumps later on', () => {
     const rest = pose(body, [0, 95, 18]);
     const frames = framesOf(dance);
     const jumping = frames.map((values, i) =>
@@ -155,7 +156,7 @@ describe('a dance loses no frame', () => {
     expect(remarks(withFrames(dance, [rest, ...jumping]))).toEqual([]);
   });
 
-  test('that is too short to tell', () => {
+  test('that is too short to compare', () => {
     const frames = framesOf(dance).slice(0, 12);
     expect(remarks(withFrames(dance, [pose(body, [0, 95, 18]), ...frames]))).toEqual([]);
   });

@@ -2,7 +2,7 @@ import { Vector3 } from 'three';
 import { BVHLoader } from 'three/addons/loaders/BVHLoader.js';
 import { describe, expect, test } from 'vitest';
 import { readBvh } from '../../../../web/motion/bvh/read';
-import { BVH_NAMES } from '../../../../web/motion/bvh/joint-names';
+import { BVH_NAMES } from '../../../../web/motion/bvh/conventions';
 import { writeBvh } from '../../../../web/motion/bvh/write';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
@@ -32,15 +32,15 @@ const solved = solve({ ...spinner, positions: noisy(spinner.positions, 0.008) })
 const text = writeBvh(solved);
 
 describe('what is written is what was solved', () => {
-  test('our reader reads it back', () => {
+  test('readBvh reads the same motion', () => {
     const { clip, report } = readBvh(text);
     expect(clip).toMatchObject({ fps: 30, frames: 200 });
     expect(farthest(clip.positions, solved.positions)).toBeLessThan(MILLIMETRE / 50);
     expect(report).toMatchObject({
-      dialect: 'ReactDance',
+      convention: 'ReactDance',
       unit: 'centimetres',
       upAxis: 'y',
-      filled: [],
+      estimated: [],
       warnings: [],
     });
     expect(report.sourceDuration).toBeCloseTo(200 / 30, 9);
@@ -57,7 +57,7 @@ describe('what is written is what was solved', () => {
     expect(farthest(clip.positions, motion.positions)).toBeLessThan(MILLIMETRE / 50);
   });
 
-  test('a dancer who never touches the floor stays where they were', () => {
+  test('a dancer who never touches the floor keeps their height', () => {
     const high = solved.positions.map((value, i) => (i % 3 === 1 ? value + 0.05 : value));
     const motion = solve({ ...solved, positions: high });
     expect(farthest(readBvh(writeBvh(motion)).clip.positions, motion.positions)).toBeLessThan(
@@ -129,7 +129,7 @@ describe('what other programs need', () => {
     expect(Math.abs(angles.at(-1)![2]! - angles[0]![2]!)).toBeGreaterThan(3000);
   });
 
-  test('turns of every kind survive, those at the gimbal lock too', () => {
+  test('every rotation is written, at the gimbal lock too', () => {
     const made = madeDancer({ frames: 300, seed: 1 });
     const draw = random(99);
     const rotations = made.rotations.slice();

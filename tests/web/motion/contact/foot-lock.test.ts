@@ -46,7 +46,7 @@ const LEGS = [
 ] as const;
 const KNEES = LEGS.map(([, knee]) => knee);
 
-/** What must hold whatever was locked. */
+/** What holds for every locked motion: consistent positions, unit quaternions without sign flips, nothing above the knees moved. */
 function expectSound(free: SolvedMotion, locked: SolvedMotion): void {
   const again = forwardKinematics(locked.offsets, locked.root, locked.rotations);
   let apart = 0;
@@ -78,7 +78,7 @@ const sway = (frame: number): [number, number] => [
 ];
 
 describe('locked feet', () => {
-  test('rest where they slid, and the body above goes on', () => {
+  test('do not slide, and the body above moves as before', () => {
     const free = madeStander({ frames: 120, path: sway });
     const locked = lockFeet(free);
     expectSound(free, locked);
@@ -91,7 +91,7 @@ describe('locked feet', () => {
     }
   });
 
-  test('hold on to the floor through short steps, with the other foot in the air', () => {
+  test('lock the standing foot and leave the lifted one free', () => {
     const lift = (frame: number): number => eased(frame, 30, 36) - eased(frame, 54, 60);
     const free = madeStander({ frames: 90, path: sway, lift });
     const locked = lockFeet(free);
@@ -117,7 +117,7 @@ describe('locked feet', () => {
     for (const joint of [...FEET, ...KNEES]) expect(top(moves(still, rested, joint))).toBeLessThan(1e-6);
   });
 
-  test('follow slowly when they are carried on and on', () => {
+  test('follow slowly where a slide goes on for long', () => {
     const free = madeStander({ frames: 120, path: (frame) => [0, 1.2 * eased(frame, 30, 90)] });
     const locked = lockFeet(free);
     expectSound(free, locked);
@@ -127,7 +127,7 @@ describe('locked feet', () => {
     }
   });
 
-  test('are let go before a nearly straight leg would have to stretch, without a pop of the knee', () => {
+  test('are released before a nearly straight leg would have to stretch, without a jump of the knee', () => {
     const path = (frame: number): [number, number] => [0, 0.15 * Math.sin(frame / 9)];
     const free = madeStander({ frames: 150, path, bend: 0.2 });
     const locked = lockFeet(free);
@@ -145,7 +145,7 @@ describe('locked feet', () => {
     }
   });
 
-  test('keep the knees looking ahead', () => {
+  test('keep the direction of the knees', () => {
     const locked = lockFeet(madeStander({ frames: 120, path: sway }));
     for (const [hip, knee, ankle] of LEGS) {
       for (let frame = 0; frame < locked.frames; frame++) {
@@ -168,13 +168,13 @@ describe('locked feet', () => {
 });
 
 describe('contact intervals', () => {
-  test('are one where a slide is faster for a moment, and none of what never rests or is too short', () => {
+  test('are not split by a short faster slide, and leave out what never rests or is too short', () => {
     /** Carried on at these speeds in m/s, one a frame. */
     const carried = (speeds: readonly number[]) => {
-      const places = [0];
-      for (const speed of speeds) places.push(places.at(-1)! + speed / 30);
+      const positions = [0];
+      for (const speed of speeds) positions.push(positions.at(-1)! + speed / 30);
       return contactIntervals(
-        madeStander({ frames: places.length, path: (t) => [places[t]!, 0] }),
+        madeStander({ frames: positions.length, path: (t) => [positions[t]!, 0] }),
         J.left_foot,
       );
     };
@@ -199,16 +199,16 @@ describe('contact intervals', () => {
   });
 });
 
-describe('the shift', () => {
-  test('is the one of least squares: no single frame can be bettered', () => {
-    const places = Float64Array.from(
+describe('the least-squares shift', () => {
+  test('has the least cost: a change of any frame raises it', () => {
+    const positions = Float64Array.from(
       { length: 40 },
       (_, t) => 0.1 * Math.sin(t / 3) + 0.02 * Math.cos(t * t),
     );
     const tracks = [
-      { places, contacts: [{ first: 0, last: 12 }] },
+      { positions, contacts: [{ first: 0, last: 12 }] },
       {
-        places: places.map((place) => place ** 2),
+        positions: positions.map((position) => position ** 2),
         contacts: [
           { first: 8, last: 15 },
           { first: 30, last: 39 },
@@ -219,7 +219,7 @@ describe('the shift', () => {
     const cost = (shift: Float64Array): number => {
       let sum = 0;
       shift.forEach((s, t) => (sum += zeroWeights[t]! * s * s));
-      for (const { places: from, contacts } of tracks) {
+      for (const { positions: from, contacts } of tracks) {
         for (const { first, last } of contacts) {
           for (let t = first; t < last; t++)
             sum += 100 * (from[t + 1]! + shift[t + 1]! - from[t]! - shift[t]!) ** 2;
@@ -240,7 +240,7 @@ describe('the shift', () => {
   });
 });
 
-describe('reaching with a leg', () => {
+describe('two-bone inverse kinematics', () => {
   const bentBy = (angle: number): Leg => ({
     hip: [0.1, 0.9, 0],
     thigh: [0, -0.42, 0],
@@ -252,7 +252,7 @@ describe('reaching with a leg', () => {
     return add(leg.hip, add(rotate(thigh, leg.thigh), rotate(shin, leg.shin)));
   };
 
-  test.each([0.1, 0.6, 1.4])('brings the ankle there, bent by %f', (angle) => {
+  test.each([0.1, 0.6, 1.4])('brings the ankle to the target, knee bent by %f', (angle) => {
     for (const target of [
       [0.1, 0.1, 0],
       [0.2, 0.2, 0.1],
@@ -262,7 +262,7 @@ describe('reaching with a leg', () => {
     }
   });
 
-  test('stops short of what is too far, on the way there', () => {
+  test('stretches towards a target that is too far', () => {
     const target: Vec3 = [0.1, -0.3, 0.4];
     const leg = bentBy(0.6);
     const way = sub(ankleOf(leg, target), leg.hip);
@@ -270,7 +270,7 @@ describe('reaching with a leg', () => {
     expect(dot(way, sub(target, leg.hip))).toBeCloseTo(length(way) * distance(target, leg.hip), 9);
   });
 
-  test('leaves a leg as it is, even one that noise has bent the wrong way', () => {
+  test('leaves a leg as it is whose ankle is at the target, even with a knee bent forwards by noise', () => {
     for (const angle of [-0.1, -0.01, 0.01, 0.5]) {
       const leg = bentBy(angle);
       const { thigh, shin } = twoBoneIk(leg, add(leg.hip, add(leg.thigh, leg.shin)));

@@ -105,7 +105,7 @@ describe('a dancer on constant bones', () => {
     expect(meanDistance(solved.positions, made.positions)).toBeLessThan(0.0145);
   });
 
-  test('keeps planted feet where they were seen although the bones changed length', () => {
+  test('keeps standing feet in place although the observed bone lengths change', () => {
     const made = madeDancer({ frames: 120, seed: 21 });
     const positions = made.positions.slice();
     // Knees that wander by 2 cm: the legs' lengths change, the ankles do not.
@@ -165,7 +165,7 @@ describe('the rest pose', () => {
     expect([...readVec(offsets, J.pelvis)]).toEqual([0, 0, 0]);
   });
 
-  test('stands in the rest pose without any turn', () => {
+  test('has no rotation in the rest pose', () => {
     const made = madeDancer({ frames: 20, seed: 2 });
     const still = made.rotations.map((_, i) => (i % 4 === 3 ? 1 : 0));
     const posed = { ...made, positions: forwardKinematics(made.offsets, made.root, still) };
@@ -176,8 +176,8 @@ describe('the rest pose', () => {
   });
 });
 
-describe('turns over time', () => {
-  test('a dancer who spins twice a second turns smoothly, limbs untouched', () => {
+describe('rotations over time', () => {
+  test('a dancer who spins twice a second turns smoothly, limbs unchanged', () => {
     const slow = solve(madeDancer({ frames: 120, seed: 8, spin: 0 }));
     const fast = solve(madeDancer({ frames: 120, seed: 8, spin: 2 }));
     expect(fastestTurn(fast, J.pelvis)).toBeLessThan(25);
@@ -241,7 +241,7 @@ describe('turns over time', () => {
   });
 });
 
-test('a dancer in a mirror is solved as the mirror image', () => {
+test('a mirrored dancer is solved as the mirror image', () => {
   const made = madeDancer({ frames: 60, seed: 14, spin: 0.3 });
   const mirrored = made.positions.slice();
   for (let i = 0; i < made.frames * JOINT_COUNT; i++) {
@@ -283,7 +283,7 @@ test('a solved motion is solved to itself', () => {
   }
 });
 
-test('69 seconds of dance are solved in a blink', () => {
+test('69 seconds of dance are solved fast', () => {
   const made = madeDancer({ frames: 2066, seed: 17 });
   const clip = { ...made, positions: noisy(made.positions, 0.01) };
   solve(clip);

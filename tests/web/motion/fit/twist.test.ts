@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { steadyHinges } from '../../../../web/motion/fit/twist';
+import { smoothHinges } from '../../../../web/motion/fit/twist';
 import { dot, scale, type Vec3 } from '../../../../web/motion/math/vec3';
 
 const down: Vec3 = [0, -1, 0];
@@ -11,7 +11,7 @@ const frames = (count: number): number[] => Array.from({ length: count }, (_, t)
 describe('hinges over time', () => {
   test('are those of a bent limb', () => {
     const angles = frames(50).map((t) => Math.sin(t / 8));
-    const hinges = steadyHinges(
+    const hinges = smoothHinges(
       angles.map(() => down),
       angles.map((angle) => scale(axis(angle), 0.8)),
       angles.map(() => axis(0)),
@@ -19,9 +19,9 @@ describe('hinges over time', () => {
     hinges.forEach((hinge, t) => expect(Math.abs(angleOf(hinge) - angles[t]!)).toBeLessThan(0.02));
   });
 
-  test('go straight from one side to the other while the limb shows none', () => {
+  test('are interpolated linearly while the limb is straight', () => {
     const bent = (t: number): boolean => t < 20 || t >= 60;
-    const hinges = steadyHinges(
+    const hinges = smoothHinges(
       frames(80).map(() => down),
       frames(80).map((t) => scale(axis(t < 20 ? 0.2 : 2.2), bent(t) ? 1 : 1e-9)),
       frames(80).map(() => axis(0)),
@@ -35,8 +35,8 @@ describe('hinges over time', () => {
     expect(angleOf(hinges[75]!)).toBeCloseTo(2.2, 2);
   });
 
-  test('take the short way round', () => {
-    const hinges = steadyHinges(
+  test('take the shorter way round', () => {
+    const hinges = smoothHinges(
       frames(40).map(() => down),
       frames(40).map((t) => axis(t < 20 ? 3 : -3)),
       frames(40).map(() => axis(0)),
@@ -45,8 +45,8 @@ describe('hinges over time', () => {
     for (const hinge of hinges) expect(hinge[0]).toBeLessThan(-0.9);
   });
 
-  test('fall back to the guess of a limb that is never bent', () => {
-    const hinges = steadyHinges(
+  test('are those of the prior for a limb that is never bent', () => {
+    const hinges = smoothHinges(
       frames(30).map(() => down),
       frames(30).map(() => [0, 0, 0]),
       frames(30).map(() => axis(1)),
@@ -54,10 +54,10 @@ describe('hinges over time', () => {
     for (const hinge of hinges) expect(angleOf(hinge)).toBeCloseTo(1, 6);
   });
 
-  test('do not flip where the bone passes through the axis of the guess', () => {
+  test('do not flip where the bone passes through the axis of the prior', () => {
     // The bone turns about z, the hinge is z; it shows at the beginning and at the end only.
     const angles = frames(60).map((t) => 0.4 + (t / 60) * 2.2);
-    const hinges = steadyHinges(
+    const hinges = smoothHinges(
       angles.map((angle): Vec3 => [Math.sin(angle), -Math.cos(angle), 0]),
       angles.map((_, t) => (t < 8 || t >= 52 ? [0, 0, 1] : [0, 0, 0])),
       angles.map((): Vec3 => [1, 0, 0]),
@@ -65,12 +65,12 @@ describe('hinges over time', () => {
     for (const hinge of hinges) expect(hinge[2]).toBeGreaterThan(0.98);
   });
 
-  test('stay perpendicular to a bone that goes everywhere', () => {
+  test('stay perpendicular to a bone in every direction', () => {
     const bones = frames(200).map((t): Vec3 => {
       const [a, b] = [t / 9, t / 7];
       return [Math.cos(a) * Math.sin(b), Math.cos(b), Math.sin(a) * Math.sin(b)];
     });
-    const hinges = steadyHinges(
+    const hinges = smoothHinges(
       bones,
       bones.map((): Vec3 => [0, 0, 0]),
       bones.map(() => axis(0)),

@@ -10,8 +10,8 @@ function composed([z, x, y]: Vec3): Quat {
   return multiply(aboutAxis([0, 0, 1], z), tilt);
 }
 
-describe('angles in the order Z X Y', () => {
-  test('write every rotation', () => {
+describe('Euler angles in the order Z X Y', () => {
+  test('represent every rotation', () => {
     const draw = random(5);
     let before: Vec3 = [0, 0, 0];
     for (let i = 0; i < 500; i++) {
@@ -23,7 +23,7 @@ describe('angles in the order Z X Y', () => {
     }
   });
 
-  test('go on over the top: a somersault is one growing angle', () => {
+  test('are unwrapped: a somersault is one growing angle', () => {
     let before: Vec3 = [0, 0, 0];
     for (let i = 1; i <= 200; i++) {
       const angle = i * 0.05;
@@ -33,7 +33,7 @@ describe('angles in the order Z X Y', () => {
     }
   });
 
-  test('stay near the frame before at the very quarter turn', () => {
+  test('stay near the frame before at the gimbal lock', () => {
     for (const sign of [1, -1]) {
       const angles = eulerZxy(composed([0.7, (sign * Math.PI) / 2, 0.4]), [0.69, sign * 1.5, 0.41]);
       expect(angles[0]).toBeCloseTo(0.69, 1);

@@ -26,7 +26,7 @@ describe('body height', () => {
     expect(scaled.positions[2000]).toBeCloseTo(1.2 * clip.positions[2000]!, 5);
     expect(scaled).toMatchObject({ fps: 30, frames: 40 });
   });
-  test('is not misled by a few broken frames', () => {
+  test('is robust to a few broken frames', () => {
     const clip = madeDancer({ frames: 40 });
     clip.positions.fill(9, 0, 5 * 66);
     expect(bodyHeight(clip)).toBeCloseTo(HEIGHT, 5);
@@ -44,7 +44,7 @@ describe('percentiles', () => {
 });
 
 describe('the skeleton', () => {
-  test('lists parents before children and mirrors to itself', () => {
+  test('lists parents before children, and its mirror map is its own inverse', () => {
     expect(SMPL22).toHaveLength(22);
     PARENTS.forEach((parent, joint) => expect(parent).toBeLessThan(joint));
     MIRROR.forEach((other, joint) => {
