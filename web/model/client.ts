@@ -7,7 +7,7 @@ import type { CoarseRequest, GenerateRequest } from './sample/inputs';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
-import type { GenerateOptions, GenerateResult, Made, Preview } from './sample/pipeline';
+import type { GenerateOptions, GenerateResult, Preview } from './sample/pipeline';
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
@@ -18,7 +18,6 @@ export type {
   GenerateOptions,
   GenerateRequest,
   GenerateResult,
-  Made,
   Manifest,
   ModelFolder,
   Preference,

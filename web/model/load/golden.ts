@@ -1,4 +1,4 @@
-import { conditionClip } from '../sample/chunks';
+import { conditionClip } from '../sample/condition';
 import type { Manifest } from '../manifest';
 import { noise } from '../sample/noise';
 import { type NpzArray, readNpz } from './npz';

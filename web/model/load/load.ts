@@ -1,5 +1,5 @@
 import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
-import { conditionClip } from '../sample/chunks';
+import { conditionClip } from '../sample/condition';
 import { AppError } from '../../common/error';
 import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';

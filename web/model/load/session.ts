@@ -1,9 +1,15 @@
 /** The only module that speaks to onnxruntime: three graphs, one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
-import type { ConditionInput, ConditionRunner, DecodeInput, DecodeRunner } from '../sample/chunks';
 import { AppError } from '../../common/error';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
-import type { StepInput, StepRunner } from '../sample/sampler';
+import type {
+  ConditionInput,
+  ConditionRunner,
+  DecodeInput,
+  DecodeRunner,
+  StepInput,
+  StepRunner,
+} from '../sample/graphs';
 
 export type Provider = 'webgpu' | 'wasm';
 
