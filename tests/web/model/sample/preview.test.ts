@@ -1,7 +1,8 @@
 /** The block on view is generated first: near to its final motion, and without any effect on the result. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { GenerateRequest } from '../../../../web/model/sample/inputs';
-import { type GenerateResult, Pipeline, type Preview } from '../../../../web/model/sample/pipeline';
+import { Pipeline } from '../../../../web/model/sample/pipeline';
+import type { GenerateResult, Preview } from '../../../../web/model/sample/results';
 import { blockAt, fillAround, shouldPreview, shouldShowPart } from '../../../../web/model/sample/preview';
 import type { Progress } from '../../../../web/model/progress';
 import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
