@@ -2,7 +2,7 @@
  * Puts the page together, from top to bottom: the store, the features that change it, the stage, what panels may ask
  * for, the panels, and what is loaded at the start.
  */
-import { createPlayer, loadSong } from './audio/client';
+import { AudioPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
 import { readLeader } from './motion/client';
 import { keepPage } from './offline/register';
@@ -71,7 +71,7 @@ const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator, generation.generate);
 createCoarseLayer(store, model.generator);
-const playback = new PlaybackControl(store, createPlayer());
+const playback = new PlaybackControl(store, new AudioPlayer());
 createQuality(store, measureDance);
 const offline = import.meta.env.PROD
   ? keepPage(new URL('service-worker.js', document.baseURI), () => {

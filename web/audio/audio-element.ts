@@ -1,46 +1,39 @@
-/** One <audio> element that can begin and end without a click. */
-export interface Deck {
-  readonly element: HTMLAudioElement;
-  /** Lets the sound rise from silence when it starts next. */
-  readonly fadeIn: () => void;
-  /** Lets the sound fall to silence, pauses and calls back. */
-  readonly fadeOut: (then: () => void) => void;
-}
+/** Volumes of a fade. */
+const FADE_VOLUMES = [0.12, 0.35, 0.65, 1] as const;
+/** Time between two of them: short enough that the fade itself is not heard. */
+const FADE_STEP_MS = 4;
 
-/** Volumes of a fade, and the time from one to the next in milliseconds: short enough not to be heard as a fade. */
-const STEPS = [0.12, 0.35, 0.65, 1] as const;
-const STEP = 4;
+/** An <audio> element that starts and stops without a click. */
+export class FadingAudio {
+  readonly element = new Audio();
+  #timer: ReturnType<typeof setTimeout> | undefined;
 
-/** A deck whose element is empty. */
-export function createDeck(): Deck {
-  const element = new Audio();
-  element.preload = 'auto';
-  let timer: ReturnType<typeof setTimeout> | undefined;
+  constructor() {
+    this.element.preload = 'auto';
+  }
 
-  const fade = (volumes: readonly number[], then: () => void): void => {
-    clearTimeout(timer);
-    const [volume, ...rest] = volumes;
+  /** Fades the sound in when it starts next. */
+  fadeIn(): void {
+    this.element.volume = 0;
+    this.element.addEventListener('playing', () => this.#fade(FADE_VOLUMES, () => undefined), { once: true });
+  }
+
+  /** Fades the sound out, pauses and calls `onSilent`. */
+  fadeOut(onSilent: () => void): void {
+    this.#fade([...FADE_VOLUMES].reverse(), () => {
+      this.element.pause();
+      this.element.volume = 1;
+      onSilent();
+    });
+  }
+
+  #fade([volume, ...rest]: readonly number[], then: () => void): void {
+    clearTimeout(this.#timer);
     if (volume === undefined) {
       then();
       return;
     }
-    element.volume = volume;
-    timer = setTimeout(() => {
-      fade(rest, then);
-    }, STEP);
-  };
-  return {
-    element,
-    fadeIn: () => {
-      element.volume = 0;
-      element.addEventListener('playing', () => fade(STEPS, () => undefined), { once: true });
-    },
-    fadeOut: (then) => {
-      fade([...STEPS].reverse(), () => {
-        element.pause();
-        element.volume = 1;
-        then();
-      });
-    },
-  };
+    this.element.volume = volume;
+    this.#timer = setTimeout(() => this.#fade(rest, then), FADE_STEP_MS);
+  }
 }

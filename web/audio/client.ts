@@ -5,7 +5,7 @@ import { decodeSong } from './decode';
 import { type AudioRecipe, readRecipe } from './recipe';
 import type { AudioTasks } from './worker';
 
-export { createPlayer, type Player } from './player';
+export { AudioPlayer, type Player } from './player';
 
 /** A loaded song. */
 export interface Song extends Analysis {

@@ -45,7 +45,7 @@ interface TaskRunner {
     id: number,
     name: string,
     input: unknown,
-    report: (report: unknown) => Promise<void>,
+    report: (report: unknown) => void | Promise<void>,
   ): Promise<Outcome>;
   cancel(id: number): void;
 }

@@ -2,12 +2,12 @@ import { AppError } from '../common/error';
 import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
-import type { ModelFolder } from './load/folder';
+import type { ModelFolder } from './load/download';
 import type { CoarseRequest, GenerateRequest } from './sample/inputs';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
-import type { GenerateOptions, GenerateResult, Made, Preview } from './sample/pipeline';
+import type { GenerateOptions, GenerateResult, Preview } from './sample/results';
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
@@ -18,7 +18,6 @@ export type {
   GenerateOptions,
   GenerateRequest,
   GenerateResult,
-  Made,
   Manifest,
   ModelFolder,
   Preference,
@@ -30,28 +29,28 @@ export type {
 export interface GeneratorOptions {
   /** Address of the model's manifest.json. */
   readonly manifestUrl: string;
-  /** The model's files, where they come from the visitor and not from the address. */
+  /** The model's files, where the visitor chose them; by default they are fetched from beside the manifest. */
   readonly folder?: ModelFolder | undefined;
   /** Where to compute; 'auto' when not given. */
   readonly backend?: Preference | undefined;
-  /** So many wasm threads instead of as many as suit the machine; for measuring. */
+  /** Number of wasm threads, for measurements; by default as many as suit the machine. */
   readonly threads?: number | undefined;
   readonly onStatus?: ((status: Status) => void) | undefined;
 }
 
-/** The page's way to the model: one worker with one model, replaced by a fresh one after a crash. */
+/** Generates reactions for the page in a worker of its own, which is replaced after a crash. */
 export interface Generator {
   readonly manifest: Manifest;
-  /** Where the present worker computes, and why. */
+  /** Where the current worker computes, and why. */
   readonly backend: Backend;
   /**
-   * Compute the partner of a dancer.
+   * Generates the reaction to a leader, or the leader of a reactor.
    * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
   /**
-   * Compute the partner that the coarse layer alone of a reaction says.
+   * Decodes the coarse layer of a reaction without the fine one.
    * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
@@ -92,9 +91,9 @@ async function start(options: GeneratorOptions): Promise<LoadedWorker> {
 }
 
 class WorkerGenerator implements Generator {
-  /** The last worker that was loaded, perhaps crashed meanwhile. */
+  /** The last worker that was loaded; it may have crashed since. */
   #latest: LoadedWorker;
-  /** The one that is being loaded in its place. */
+  /** Its replacement while that is being loaded. */
   #next: Promise<LoadedWorker> | undefined;
   #disposed = false;
 
@@ -139,7 +138,7 @@ class WorkerGenerator implements Generator {
     return connection.call('coarse', request, { signal });
   }
 
-  /** The present worker, or a fresh one after a crash. */
+  /** The current worker, or a new one after a crash. */
   async #ready(signal: AbortSignal | undefined): Promise<WorkerConnection<ModelTasks>> {
     if (this.#disposed) throw disposal();
     signal?.throwIfAborted();

@@ -11,31 +11,35 @@ export interface Progress {
   readonly fraction: number;
 }
 
-type Told = ((progress: Progress) => void) | undefined;
+type ProgressListener = ((progress: Progress) => void) | undefined;
+type StageListener = (done: number, total: number) => void;
 
-// Shares of the whole, roughly as measured, so that the bar moves evenly.
-const SHARES: Record<Exclude<Stage, 'preview'>, readonly [from: number, to: number]> = {
+/** Fractions of the whole, roughly as measured, so that the bar moves evenly. */
+const FRACTIONS: Record<Exclude<Stage, 'preview'>, readonly [from: number, to: number]> = {
   condition: [0, 0.04],
   step: [0.04, 0.86],
   decode: [0.86, 0.94],
   solve: [0.94, 1],
 };
 
-/** Progress of one stage as progress of the whole. */
-export function tell(onProgress: Told, stage: keyof typeof SHARES): (done: number, total: number) => void {
-  const [from, to] = SHARES[stage];
+/** Turns the progress of one stage into progress of the whole generation. */
+export function stageProgress(onProgress: ProgressListener, stage: keyof typeof FRACTIONS): StageListener {
+  const [from, to] = FRACTIONS[stage];
   return (done, total) => onProgress?.({ stage, done, total, fraction: from + ((to - from) * done) / total });
 }
 
-/** Progress of preview or steps, which share the stretch of the steps: `before` blocks were done ahead of `runs`. */
-export function tellRuns(
-  onProgress: Told,
+/**
+ * The same for the preview and for the sampling steps, which share the fractions of `step` by their number of blocks.
+ * @param doneBefore blocks that were done before this stage
+ * @param allBlocks blocks of both stages
+ */
+export function blockProgress(
+  onProgress: ProgressListener,
   stage: 'preview' | 'step',
-  before: number,
-  runs: number,
-): (done: number, total: number) => void {
-  const [from, to] = SHARES.step;
-  const all = before + runs;
+  doneBefore: number,
+  allBlocks: number,
+): StageListener {
+  const [from, to] = FRACTIONS.step;
   return (done, total) =>
-    onProgress?.({ stage, done, total, fraction: from + ((to - from) * (before + done)) / all });
+    onProgress?.({ stage, done, total, fraction: from + ((to - from) * (doneBefore + done)) / allBlocks });
 }

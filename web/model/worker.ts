@@ -1,4 +1,4 @@
-/** The one worker that owns onnxruntime. */
+/** The worker that runs the model with onnxruntime. */
 import { serve, type TaskContext } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend } from './load/backend';
@@ -6,14 +6,15 @@ import { type LoadedModel, loadModel, type LoadOptions, type Status } from './lo
 import type { Manifest } from './manifest';
 import type { Progress } from './progress';
 import type { CoarseRequest, GenerateRequest } from './sample/inputs';
-import type { GenerateResult, Pipeline, Preview } from './sample/pipeline';
+import type { Pipeline } from './sample/pipeline';
+import type { GenerateResult, Preview } from './sample/results';
 
 export interface Loaded {
   readonly manifest: Manifest;
   readonly backend: Backend;
 }
 
-/** What is told of a generation under way. */
+/** What is reported while a generation runs. */
 type GenerateReport =
   | { readonly kind: 'progress'; readonly progress: Progress }
   | { readonly kind: 'preview'; readonly preview: Preview };
@@ -31,7 +32,7 @@ const tasks = {
     return { manifest: model.pipeline.manifest, backend: model.backend };
   },
 
-  /** `at`: the frame that someone looks at, where a preview is wanted. */
+  /** `at`: motion frame on view, undefined for no previews. */
   generate(
     { request, at }: { request: GenerateRequest; at: number | undefined },
     { signal, report }: TaskContext<GenerateReport>,

@@ -1,23 +1,22 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
-import { download } from './download';
-import { folderFetch, type ModelFolder } from './folder';
+import { download, folderFetch, type ModelFolder } from './download';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
 import type { Provider } from './session';
-import { fileStore, type KeptPart } from './cache';
+import { fileStore, type CachedPart } from './cache';
 
 /**
  * The WebAssembly file that each build of onnxruntime would fetch for itself. It is the largest thing that the page
- * loads, so it is fetched, shown and kept as a model is.
+ * loads, so it is fetched, reported and cached as a model is.
  */
 const RUNTIME: Readonly<Record<Provider, ManifestFile>> = { wasm: processor, webgpu: gpu };
 
-/** How far one part of what is downloaded has come, in bytes. */
+/** Progress of one part of the download, bytes. */
 export interface DownloadPart {
-  readonly name: KeptPart;
+  readonly name: CachedPart;
   readonly loaded: number;
   readonly total: number;
-  /** Bytes of `loaded` that were kept on this device and not downloaded. */
+  /** Bytes of `loaded` that came from the cache. */
   readonly kept: number;
 }
 
@@ -29,44 +28,44 @@ export interface Parts {
 
 export interface PartsOptions {
   readonly manifestUrl: string;
-  /** The model's files, where they come from the visitor; they need no second copy and are not kept. */
+  /** The model's files, where the visitor chose them; they are not cached. */
   readonly folder?: ModelFolder | undefined;
   readonly scope: typeof globalThis;
   readonly onProgress: (parts: readonly DownloadPart[]) => void;
-  /** Called once, when something could not be kept. */
-  readonly onUnkept: (reason: unknown) => void;
+  /** Called once, when a file could not be cached. */
+  readonly onCacheFailure: (reason: unknown) => void;
 }
 
 /**
- * The runtime and the graphs for a provider, both at once, from this device where it has them.
+ * Gets the runtime and the graphs for a provider, both at once, from the cache where it has them.
  * @throws {AppError} as `download`
  */
 export async function downloadParts(
   manifest: Manifest,
   provider: Provider,
-  { manifestUrl, folder, scope, onProgress, onUnkept }: PartsOptions,
+  { manifestUrl, folder, scope, onProgress, onCacheFailure }: PartsOptions,
 ): Promise<Parts> {
-  const here = new Map<KeptPart, DownloadPart>();
-  const report = (name: KeptPart) => (loaded: number, total: number, kept: number) => {
-    here.set(name, { name, loaded, total, kept });
-    const [runtime, model] = [here.get('runtime'), here.get('model')];
+  const progress = new Map<CachedPart, DownloadPart>();
+  const report = (name: CachedPart) => (loaded: number, total: number, kept: number) => {
+    progress.set(name, { name, loaded, total, kept });
+    const [runtime, model] = [progress.get('runtime'), progress.get('model')];
     // Both are looked up at the same time; a bar that knew only one of them would jump.
     if (runtime && model) onProgress([runtime, model]);
   };
-  let told = false;
-  const tellOnce = (reason: unknown): void => {
-    if (!told) onUnkept(reason);
-    told = true;
+  let reported = false;
+  const reportOnce = (reason: unknown): void => {
+    if (!reported) onCacheFailure(reason);
+    reported = true;
   };
   const graphs = GRAPHS.map((name) => manifest.graphs[name].files);
-  // A graphics card that fails its check falls back to the processor at each visit: what that needs stays too.
+  // A GPU that fails its check falls back to the processor at each visit, so files of both providers stay cached.
   const [[runtime], model] = await Promise.all([
     download(scope.location.href, [RUNTIME[provider]], {
       fetch,
       store: fileStore(scope, 'runtime', 'onnxruntime'),
-      spare: Object.values(RUNTIME).map(({ sha256 }) => sha256),
+      alsoKeep: Object.values(RUNTIME).map(({ sha256 }) => sha256),
       onProgress: report('runtime'),
-      onUnkept: tellOnce,
+      onCacheFailure: reportOnce,
     }),
     download(
       manifestUrl,
@@ -74,9 +73,9 @@ export async function downloadParts(
       {
         fetch: folder ? folderFetch(folder, manifestUrl) : fetch,
         store: folder ? undefined : fileStore(scope, 'model', manifest.id),
-        spare: graphs.flatMap((files) => Object.values(files).map(({ sha256 }) => sha256)),
+        alsoKeep: graphs.flatMap((files) => Object.values(files).map(({ sha256 }) => sha256)),
         onProgress: report('model'),
-        onUnkept: tellOnce,
+        onCacheFailure: reportOnce,
       },
     ),
   ]);

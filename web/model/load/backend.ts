@@ -10,17 +10,17 @@ export interface Backend {
   readonly threads: number;
 }
 
-/** What the choice depends on; in the page it is the worker's own global scope. */
-export interface Surroundings {
+/** What the browser offers, as far as the choice depends on it. */
+export interface Environment {
   readonly gpu?: Pick<GPU, 'requestAdapter'> | undefined;
   readonly crossOriginIsolated: boolean;
   readonly hardwareConcurrency: number;
 }
 
-// More threads gain little on matrices of this size.
-const MOST_THREADS = 4;
+/** More threads gain little on matrices of this size. */
+const MAX_THREADS = 4;
 
-export function surroundings(scope: typeof globalThis): Surroundings {
+export function environment(scope: typeof globalThis): Environment {
   const navigator = scope.navigator as Navigator & { gpu?: GPU };
   return {
     gpu: navigator.gpu,
@@ -30,18 +30,18 @@ export function surroundings(scope: typeof globalThis): Surroundings {
 }
 
 /**
- * Threads share memory, which a page has only when it is cross-origin isolated. One core is left to the page: who has
- * no graphics card for the model has often none for the stage either, which then is drawn by that core. On two cores a
- * dance takes a third longer, and twice as many pictures are drawn meanwhile.
+ * Threads share memory, which a page has only when it is cross-origin isolated. One core is left to the page:
+ * without a GPU for the model the stage is often rendered by the processor too. On two cores a generation takes a
+ * third longer for it, and twice as many frames are rendered meanwhile.
  */
-export function wasmThreads(around: Surroundings, asked?: number): number {
-  if (!around.crossOriginIsolated) return 1;
-  return asked ?? Math.max(1, Math.min(around.hardwareConcurrency - 1, MOST_THREADS));
+export function wasmThreads(environment: Environment, asked?: number): number {
+  if (!environment.crossOriginIsolated) return 1;
+  return asked ?? Math.max(1, Math.min(environment.hardwareConcurrency - 1, MAX_THREADS));
 }
 
 /** The adapter, or the reason why there is none worth using. */
 async function probe(
-  gpu: Surroundings['gpu'],
+  gpu: Environment['gpu'],
   software: boolean,
 ): Promise<{ adapter: GPUAdapter } | { without: string }> {
   if (gpu === undefined) return { without: 'this browser has no WebGPU' };
@@ -58,7 +58,7 @@ async function probe(
   return { adapter };
 }
 
-/** Names the hardware as far as the browser tells. */
+/** Name of the hardware, as far as the browser gives it. */
 function describe({ vendor, architecture, description }: GPUAdapterInfo): string {
   const name = description || [vendor, architecture].filter((part) => part !== '').join(' ');
   return name === '' ? 'a graphics adapter' : name;
@@ -71,18 +71,18 @@ function describe({ vendor, architecture, description }: GPUAdapterInfo): string
  */
 export async function chooseBackend(
   preference: Preference,
-  around: Surroundings,
+  environment: Environment,
   asked?: number,
 ): Promise<Backend> {
-  const threads = wasmThreads(around, asked);
+  const threads = wasmThreads(environment, asked);
   const onProcessor = threads === 1 ? 'Processor, one thread' : `Processor, ${threads} threads`;
   if (preference === 'wasm') return { name: 'wasm', reason: `${onProcessor}: chosen by hand.`, threads };
-  const probed = await probe(around.gpu, preference === 'webgpu');
+  const probed = await probe(environment.gpu, preference === 'webgpu');
   if ('without' in probed) return { name: 'wasm', reason: `${onProcessor}: ${probed.without}.`, threads };
   return { name: 'webgpu', reason: `WebGPU on ${describe(probed.adapter.info)}.`, threads };
 }
 
-/** WebGPU did not keep what the adapter promised. */
-export function demote(backend: Backend, why: string): Backend {
+/** The processor in place of a GPU that failed. @param why beginning of the reason, a main clause */
+export function fallBackToWasm(backend: Backend, why: string): Backend {
   return { ...backend, name: 'wasm', reason: `${why}, so the processor is used.` };
 }

@@ -1,12 +1,12 @@
 import { AppError } from '../../common/error';
 import type { ManifestFile } from '../manifest';
 
-/** Keeps verified files between visits; the page's is the Cache API. */
+/** Stores verified files between visits; in the page, the Cache API. */
 export interface FileStore {
   get(key: string): Promise<Uint8Array<ArrayBuffer> | undefined>;
-  /** @throws when the file cannot be kept, for example for want of space */
+  /** @throws when the file cannot be stored, for example because storage is full */
   put(key: string, bytes: Uint8Array<ArrayBuffer>): Promise<void>;
-  /** Forget every other file of the model. */
+  /** Deletes all other files of the same owner. */
   keepOnly(keys: readonly string[]): Promise<void>;
 }
 
@@ -14,13 +14,16 @@ export interface DownloadOptions {
   readonly fetch: typeof fetch;
   /** Undefined where the browser has no storage for the page. */
   readonly store?: FileStore | undefined;
-  /** Further files of the same owner that may be wanted again, by their SHA-256. */
-  readonly spare?: readonly string[] | undefined;
-  /** Bytes that are here, bytes in all, and how many of those the store had. */
+  /** SHA-256 of further files of the same owner that stay in the store. */
+  readonly alsoKeep?: readonly string[] | undefined;
+  /** Bytes that are loaded, bytes in all, and how many of the loaded ones came from the store. */
   readonly onProgress?: ((loaded: number, total: number, kept: number) => void) | undefined;
-  /** Called once, when a file could not be kept; the download goes on without keeping any. */
-  readonly onUnkept?: ((reason: unknown) => void) | undefined;
+  /** Called once, when a file could not be stored; the download goes on without storing any. */
+  readonly onCacheFailure?: ((reason: unknown) => void) | undefined;
 }
+
+/** A model's files by their path inside its folder, as in 'manifest.json'. */
+export type ModelFolder = Readonly<Record<string, Blob>>;
 
 const MISSING_HINT = 'Check that the model folder was copied to the server, then load the page again.';
 
@@ -67,7 +70,7 @@ export async function fetchFile(url: string, get: typeof fetch): Promise<Respons
   return response;
 }
 
-/** Read a body, telling how many bytes have come. */
+/** Reads a body and reports the bytes received so far. */
 async function readBody(
   response: Response,
   url: string,
@@ -99,7 +102,7 @@ async function readBody(
   return bytes;
 }
 
-/** Undefined when the bytes are what the manifest lists, otherwise what is wrong with them. */
+/** What is wrong with the bytes, compared to the manifest; undefined for nothing. */
 async function mismatch(bytes: Uint8Array<ArrayBuffer>, file: ManifestFile): Promise<string | undefined> {
   if (bytes.length !== file.bytes) return `${bytes.length} bytes instead of ${file.bytes}`;
   const sum = await sha256(bytes);
@@ -129,24 +132,24 @@ function lookUp(
 export async function download(
   base: string,
   files: readonly ManifestFile[],
-  { fetch: get, store, spare = [], onProgress, onUnkept }: DownloadOptions,
+  { fetch: get, store, alsoKeep = [], onProgress, onCacheFailure }: DownloadOptions,
 ): Promise<Uint8Array<ArrayBuffer>[]> {
   const total = files.reduce((sum, file) => sum + file.bytes, 0);
   const found = await lookUp(files, store);
   const kept = found.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
   let loaded = kept;
-  const tell = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, kept);
-  tell(0);
-  let full = false;
+  const report = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, kept);
+  report(0);
+  let storeFailed = false;
   const results: Uint8Array<ArrayBuffer>[] = [];
   for (const [index, file] of files.entries()) {
-    const here = found[index];
-    if (here !== undefined) {
-      results.push(here);
+    const stored = found[index];
+    if (stored !== undefined) {
+      results.push(stored);
       continue;
     }
     const url = new URL(file.path, base).href;
-    const bytes = await readBody(await fetchFile(url, get), url, tell);
+    const bytes = await readBody(await fetchFile(url, get), url, report);
     const wrong = await mismatch(bytes, file);
     if (wrong !== undefined) {
       throw new AppError(
@@ -156,15 +159,29 @@ export async function download(
       );
     }
     try {
-      if (!full) await store?.put(file.sha256, bytes);
+      if (!storeFailed) await store?.put(file.sha256, bytes);
     } catch (error) {
-      full = true;
-      onUnkept?.(error);
+      storeFailed = true;
+      onCacheFailure?.(error);
     }
     loaded += file.bytes;
-    tell(0);
+    report(0);
     results.push(bytes);
   }
-  await store?.keepOnly([...files.map((file) => file.sha256), ...spare]).catch(() => undefined);
+  await store?.keepOnly([...files.map((file) => file.sha256), ...alsoKeep]).catch(() => undefined);
   return results;
+}
+
+/**
+ * A `fetch` that answers from a folder of files, with 404 for any other address.
+ *
+ * @param root address that the paths are relative to; nothing is ever asked of it
+ */
+export function folderFetch(folder: ModelFolder, root: string): typeof fetch {
+  const files = new Map(Object.entries(folder).map(([path, file]) => [new URL(path, root).href, file]));
+  return (address) => {
+    const url = address instanceof Request ? address.url : String(address);
+    const file = files.get(url);
+    return Promise.resolve(file === undefined ? new Response(null, { status: 404 }) : new Response(file));
+  };
 }

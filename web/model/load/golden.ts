@@ -1,4 +1,4 @@
-import { conditionClip } from '../sample/chunks';
+import { conditionClip } from '../sample/condition';
 import type { Manifest } from '../manifest';
 import { noise } from '../sample/noise';
 import { type NpzArray, readNpz } from './npz';
@@ -20,7 +20,7 @@ export interface Golden {
   readonly reactor: Float32Array;
 }
 
-/** Pick the golden sampling out of the archive beside a manifest. */
+/** Reads the golden sampling from the archive beside a manifest. */
 export function readGolden(bytes: Uint8Array): Golden {
   const arrays = readNpz(bytes);
   const array = (name: string): NpzArray => {
@@ -44,7 +44,7 @@ export function readGolden(bytes: Uint8Array): Golden {
 }
 
 /**
- * Do the golden sampling on a session.
+ * Repeats the golden sampling on a session.
  * @returns metres between its joints and Python's where they differ most, NaN if a number is not finite
  */
 export async function goldenError(

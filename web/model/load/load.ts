@@ -1,8 +1,8 @@
-import { type Backend, chooseBackend, demote, type Preference, surroundings } from './backend';
-import { conditionClip } from '../sample/chunks';
+import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
+import { conditionClip } from '../sample/condition';
 import { AppError } from '../../common/error';
-import { folderFetch, type ModelFolder } from './folder';
 import { goldenError, readGolden } from './golden';
+import { folderFetch, type ModelFolder } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { type DownloadPart, downloadParts } from './assets';
@@ -10,21 +10,21 @@ import { Pipeline } from '../sample/pipeline';
 import { type ModelSession, openSession, type Provider } from './session';
 import { sample } from '../sample/sampler';
 import { ddim } from '../sample/schedule';
-import { type AnswerStore, answerStore } from './cache';
+import { type ResponseCache, responseCache } from './cache';
 
 export interface LoadOptions {
   /** Absolute address of manifest.json; the graphs' paths are relative to it. */
   readonly manifestUrl: string;
-  /** The model's files, where they come from the visitor and not from the address. */
+  /** The model's files, where the visitor chose them; by default they are fetched from beside the manifest. */
   readonly folder?: ModelFolder | undefined;
   readonly backend: Preference;
-  /** So many wasm threads instead of as many as suit the machine. */
+  /** Number of wasm threads; by default as many as suit the machine. */
   readonly threads?: number | undefined;
 }
 
 /** What happens while a model is being loaded. */
 export type Status =
-  /** First of all: what the model is, before its bytes. */
+  /** Comes first, before the graphs are downloaded. */
   | { readonly kind: 'manifest'; readonly manifest: Manifest }
   | { readonly kind: 'download'; readonly parts: readonly DownloadPart[] }
   | { readonly kind: 'open' | 'check' | 'warm-up' }
@@ -38,11 +38,11 @@ export interface LoadedModel {
   readonly backend: Backend;
 }
 
-// Metres. fp32 on another device differs by rounding only, which is far below; a broken driver is far above.
+/** Metres. Single precision on another device differs by rounding, far below this; a broken driver by far more. */
 const GOLDEN_TOLERANCE = 1e-3;
 
-async function fetchManifest(url: string, get: typeof fetch, store?: AnswerStore): Promise<Manifest> {
-  const bytes = await fetchLatest(url, get, store);
+async function fetchManifest(url: string, get: typeof fetch, cache?: ResponseCache): Promise<Manifest> {
+  const bytes = await fetchLatest(url, get, cache);
   let json: unknown;
   try {
     json = JSON.parse(new TextDecoder().decode(bytes));
@@ -63,14 +63,14 @@ async function checkGolden(
   session: ModelSession,
   url: string,
   get: typeof fetch,
-  store?: AnswerStore,
+  cache?: ResponseCache,
 ): Promise<number | undefined> {
   if (manifest.golden === undefined) return undefined;
-  const bytes = await fetchLatest(new URL(manifest.golden.path, url).href, get, store);
+  const bytes = await fetchLatest(new URL(manifest.golden.path, url).href, get, cache);
   return goldenError(manifest, session, readGolden(bytes));
 }
 
-/** The first run of a graph compiles it; better now than when somebody waits for a dance. */
+/** Runs each graph once on zeros: the first run compiles it, which would delay the first generation. */
 async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> {
   const { latent, audio, skeleton } = manifest;
   const [latents, frames] = [latent.block, latent.block * latent.stride];
@@ -96,7 +96,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
 }
 
 /**
- * Fetch, verify, open and try a model.
+ * Fetches, verifies, opens and tests a model.
  * @param scope the worker's global scope
  * @throws {AppError}
  */
@@ -106,10 +106,10 @@ export async function loadModel(
   onStatus: (status: Status) => void,
 ): Promise<LoadedModel> {
   const get = folder ? folderFetch(folder, manifestUrl) : fetch;
-  const answers = folder ? undefined : answerStore(scope);
-  const manifest = await fetchManifest(manifestUrl, get, answers);
+  const cache = folder ? undefined : responseCache(scope);
+  const manifest = await fetchManifest(manifestUrl, get, cache);
   onStatus({ kind: 'manifest', manifest });
-  let backend = await chooseBackend(preference, surroundings(scope), threads);
+  let backend = await chooseBackend(preference, environment(scope), threads);
 
   const open = async (provider: Provider): Promise<ModelSession> => {
     const { graphs, runtime } = await downloadParts(manifest, provider, {
@@ -119,7 +119,7 @@ export async function loadModel(
       onProgress: (parts) => {
         onStatus({ kind: 'download', parts });
       },
-      onUnkept: (reason) => {
+      onCacheFailure: (reason) => {
         onStatus({
           kind: 'notice',
           code: 'not-kept',
@@ -134,22 +134,22 @@ export async function loadModel(
 
   let session: ModelSession | undefined;
   if (backend.name === 'webgpu') {
-    let doubt: string | undefined;
+    let failure: string | undefined;
     try {
       session = await open('webgpu');
       onStatus({ kind: 'check' });
-      const error = await checkGolden(manifest, session, manifestUrl, get, answers);
+      const error = await checkGolden(manifest, session, manifestUrl, get, cache);
       if (error !== undefined) onStatus({ kind: 'checked', error });
-      // Written so that an error which is not a number is a doubt too.
+      // Written so that NaN is a failure too.
       if (error !== undefined && !(error <= GOLDEN_TOLERANCE)) {
-        doubt = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
+        failure = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
       }
     } catch (error) {
       if (error instanceof AppError) throw error;
-      doubt = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
+      failure = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
     }
-    if (doubt !== undefined) {
-      backend = demote(backend, doubt);
+    if (failure !== undefined) {
+      backend = fallBackToWasm(backend, failure);
       await session?.release();
       session = undefined;
     }

@@ -1,34 +1,34 @@
 import { fetchFile } from './download';
 import { AppError } from '../../common/error';
-import type { AnswerStore } from './cache';
+import type { ResponseCache } from './cache';
 
-/** A server that has not begun to answer by then is out of reach, milliseconds; counts only where a copy is kept. */
-const PATIENCE = 4000;
+/** How long to wait for the server to begin its response, where a stored copy can be used instead. */
+const TIMEOUT_MS = 4000;
 
 /**
- * A file whose newest version counts, as a manifest does, since it names the files that belong together: the server
- * is asked each time, and the copy that was kept last serves only while the server is out of reach.
- * @param patience milliseconds to wait for the server where a copy is kept
+ * Fetches a file whose newest version is needed, as a manifest's is, which names files that belong together: the
+ * server is asked each time, and the last stored copy is used only when it does not respond.
+ * @param timeoutMs milliseconds to wait for the server where a copy is stored
  * @throws {AppError} `model-missing` when the server says so; `download-failed` when there is no copy either
  */
 export async function fetchLatest(
   url: string,
   get: typeof fetch,
-  store?: AnswerStore,
-  patience = PATIENCE,
+  store?: ResponseCache,
+  timeoutMs = TIMEOUT_MS,
 ): Promise<Uint8Array<ArrayBuffer>> {
-  // A store that fails is as good as an empty one.
-  const kept = await store?.get(url).catch(() => undefined);
+  // A store that fails counts as empty.
+  const stored = await store?.get(url).catch(() => undefined);
   const limited: typeof fetch = (address, options) =>
-    get(address, kept === undefined ? options : { ...options, signal: AbortSignal.timeout(patience) });
+    get(address, stored === undefined ? options : { ...options, signal: AbortSignal.timeout(timeoutMs) });
   let bytes: Uint8Array<ArrayBuffer>;
   try {
     bytes = await body(await fetchFile(url, limited), url);
   } catch (error) {
-    if (kept !== undefined && error instanceof AppError && error.code === 'download-failed') return kept;
+    if (stored !== undefined && error instanceof AppError && error.code === 'download-failed') return stored;
     throw error;
   }
-  // Full storage is told by the large files, which come next.
+  // A full storage is reported for the large files, which come next.
   await store?.put(url, bytes).catch(() => undefined);
   return bytes;
 }

@@ -1,9 +1,15 @@
-/** The only module that speaks to onnxruntime: three graphs, one execution provider, one run at a time. */
+/** The only module that uses onnxruntime: three graphs, one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
-import type { ConditionInput, ConditionRunner, DecodeInput, DecodeRunner } from '../sample/chunks';
 import { AppError } from '../../common/error';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
-import type { StepInput, StepRunner } from '../sample/sampler';
+import type {
+  ConditionInput,
+  ConditionRunner,
+  DecodeInput,
+  DecodeRunner,
+  StepInput,
+  StepRunner,
+} from '../sample/graphs';
 
 export type Provider = 'webgpu' | 'wasm';
 
@@ -31,11 +37,11 @@ const OUTPUTS: Record<GraphName, readonly string[]> = {
 };
 
 // Overlapping runs on a WebGPU device hang for ever without an error, so all sessions share one queue.
-let tail: Promise<unknown> = Promise.resolve();
+let lastJob: Promise<unknown> = Promise.resolve();
 
-function inTurn<T>(job: () => Promise<T>): Promise<T> {
-  const result = tail.then(job);
-  tail = result.catch(() => undefined);
+function enqueue<T>(job: () => Promise<T>): Promise<T> {
+  const result = lastJob.then(job);
+  lastJob = result.catch(() => undefined);
   return result;
 }
 
@@ -67,7 +73,7 @@ async function open(
   provider: Provider,
 ): Promise<ort.InferenceSession> {
   const session = await runtime.InferenceSession.create(bytes, {
-    // Exactly one: with two, the second would stand in for the first without a word.
+    // Exactly one: with two, onnxruntime would fall back to the second without a notice.
     executionProviders: [provider],
     graphOptimizationLevel: 'all',
   });
@@ -122,9 +128,9 @@ export async function openSession(
   };
   try {
     for (const name of GRAPHS)
-      sessions[name] = await inTurn(() => open(runtime, name, graphs[name], provider));
+      sessions[name] = await enqueue(() => open(runtime, name, graphs[name], provider));
   } catch (error) {
-    await inTurn(release);
+    await enqueue(release);
     throw error;
   }
   // Compiled by now: its bytes need not stay in memory.
@@ -138,7 +144,7 @@ export async function openSession(
 
   return {
     condition: ({ leader, music, musicValid, role }: ConditionInput) =>
-      inTurn(async () => {
+      enqueue(async () => {
         const frames = musicValid.length;
         const results = await run(condition, {
           leader: tensor(leader, [frames, joints, 3]),
@@ -149,7 +155,7 @@ export async function openSession(
         return output(results, 'memory');
       }),
     step: ({ blocks, x, memory, valid, time, guidance, musicGuidance, coefficients }: StepInput) =>
-      inTurn(async () => {
+      enqueue(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
           x: tensor(x, state),
@@ -163,7 +169,7 @@ export async function openSession(
         return { x: output(results, 'x_next'), x0: output(results, 'x0') };
       }),
     decode: ({ latents, leader, layers: multipliers }: DecodeInput) =>
-      inTurn(async () => {
+      enqueue(async () => {
         const results = await run(decode, {
           latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
           leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
@@ -171,6 +177,6 @@ export async function openSession(
         });
         return output(results, 'reactor');
       }),
-    release: () => inTurn(release),
+    release: () => enqueue(release),
   };
 }

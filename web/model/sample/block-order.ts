@@ -1,74 +1,79 @@
-/** In which order the blocks of a sampling are computed: all of a step before the next, or outwards from a place. */
+/**
+ * In which order the blocks of a sampling are computed. Blocks of a step depend on each other only through the step
+ * before, so any order that computes those first gives the same result.
+ */
 import type { Block } from './blocks';
 
 /** Blocks of one step that can be computed together. */
-export interface Run {
+export interface StepBlocks {
   readonly step: number;
   readonly blocks: readonly Block[];
 }
 
-/** Runs after which the last step is done for `part`; they come in an order in which each finds what it needs. */
+/** A part of the clip and what remains to be computed for it, in an order in which each input is there. */
 export interface PlannedPart {
-  readonly runs: readonly Run[];
   readonly part: Block;
+  readonly work: readonly StepBlocks[];
 }
 
 /**
- * What has to be computed for growing parts of a clip. A block of one step needs the blocks of the step before that
- * lie under it, so with alternating partitions the work under a part is a cone; no block is computed twice, and
- * parts that end with the whole clip compute all blocks whatever the order.
- * @param partitions blocks of each step
- * @param parts in latent frames; each holds the one before
+ * Plans growing parts of a clip, each after the one before; no block is computed twice. A block needs the blocks of
+ * the step before that overlap it: with one partition just the same block, with alternating partitions one more at
+ * every earlier step.
+ * @param blocksByStep blocks of each step
+ * @param parts in latent frames; each contains the one before
  */
-export function planParts(partitions: readonly (readonly Block[])[], parts: readonly Block[]): PlannedPart[] {
+export function planParts(
+  blocksByStep: readonly (readonly Block[])[],
+  parts: readonly Block[],
+): PlannedPart[] {
   const planned = new Set<Block>();
   return parts.map((part) => {
-    const runs: Run[] = [];
-    let under = part;
-    for (const [step, blocks] of [...partitions.entries()].reverse()) {
-      const needed = blocks.filter((block) => overlap(block, under));
-      const fresh = needed.filter((block) => !planned.has(block));
-      for (const block of fresh) planned.add(block);
-      if (fresh.length > 0) runs.unshift({ step, blocks: fresh });
-      under = joined(needed);
+    const work: StepBlocks[] = [];
+    let needed = part;
+    for (const [step, blocks] of [...blocksByStep.entries()].reverse()) {
+      const overlapping = blocks.filter((block) => overlap(block, needed));
+      const missing = overlapping.filter((block) => !planned.has(block));
+      for (const block of missing) planned.add(block);
+      if (missing.length > 0) work.unshift({ step, blocks: missing });
+      needed = union(overlapping);
     }
-    return { runs, part };
+    return { part, work };
   });
 }
 
 /**
- * Parts of a clip around a place: three blocks, nine, and so on to the whole, as far as what is then left takes long
- * enough for someone to want to see them before.
- * @param place latent frame
- * @param worth whether a part is worth showing, by the share of all block computations that comes after it
+ * Parts of a clip that grow to both sides of a latent frame: 3 blocks, 9, 27 and so on, last of all the whole clip.
+ * @param shouldShow whether to keep a part before the last, given the share of all block computations that remains
+ * after it
  */
 export function partsAround(
-  partitions: readonly (readonly Block[])[],
-  place: number,
-  worth: (left: number) => boolean,
+  blocksByStep: readonly (readonly Block[])[],
+  frame: number,
+  shouldShow: (remainingShare: number) => boolean,
 ): Block[] {
-  const blocks = partitions.at(-1) ?? [];
-  const found = blocks.findIndex(({ start, length }) => place < start + length);
+  const blocks = blocksByStep.at(-1) ?? [];
+  const found = blocks.findIndex(({ start, length }) => frame < start + length);
   const centre = found < 0 ? blocks.length - 1 : found;
   const parts: Block[] = [];
   for (let extent = 1; extent < blocks.length; extent = 3 * extent + 1) {
-    parts.push(joined(blocks.slice(Math.max(0, centre - extent), centre + extent + 1)));
+    parts.push(union(blocks.slice(Math.max(0, centre - extent), centre + extent + 1)));
   }
-  const total = partitions.flat().length;
-  let left = total;
-  const shown = planParts(partitions, parts).filter(({ runs }) => {
-    left -= runs.reduce((sum, run) => sum + run.blocks.length, 0);
-    return left > 0 && worth(left / total);
+  const total = blocksByStep.flat().length;
+  let remaining = total;
+  const shown = planParts(blocksByStep, parts).filter(({ work }) => {
+    remaining -= work.flatMap((step) => step.blocks).length;
+    return remaining > 0 && shouldShow(remaining / total);
   });
-  return [...shown.map(({ part }) => part), joined(blocks)];
+  return [...shown.map(({ part }) => part), union(blocks)];
 }
 
 function overlap(a: Block, b: Block): boolean {
   return a.start < b.start + b.length && b.start < a.start + a.length;
 }
 
-/** One block over neighbours that follow each other. */
-function joined(blocks: readonly Block[]): Block {
+/** One block that covers adjacent blocks. */
+function union(blocks: readonly Block[]): Block {
   const start = blocks[0]?.start ?? 0;
   return { start, length: blocks.reduce((sum, { length }) => sum + length, 0) };
 }

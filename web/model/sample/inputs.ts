@@ -1,12 +1,12 @@
 import type { MotionClip } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
-import type { ConditionInput } from './chunks';
+import type { ConditionInput } from './graphs';
 import { AppError } from '../../common/error';
 import type { Manifest } from '../manifest';
 
-/** What a person asks for. */
+/** What to generate, and from what. */
 export interface GenerateRequest {
-  /** The dancer that is there, at the size of their file. */
+  /** The dancer to react to, at the size of their file. */
   readonly leader: MotionClip;
   /**
    * frames x features of the song; null for silence. The song starts at frame `start` of the clip, 0 when not given;
@@ -19,20 +19,20 @@ export interface GenerateRequest {
   } | null;
   /** streams x layers, s of the paper's Eq. 9. */
   readonly guidance: Float32Array;
-  /** How much of what the song changes is added. */
+  /** Weight of the guidance by music, which is added to Eq. 9. */
   readonly musicGuidance: number;
   readonly steps: number;
   /** Its lowest 32 bits count. */
   readonly seed: number;
-  /** Whose part is wanted; the reactor's when not given. */
+  /** Role to generate; the reactor when not given. */
   readonly role?: 'reactor' | 'leader' | undefined;
 }
 
-/** A reaction made before, of which less is wanted. */
+/** A reaction that was generated before, of which the coarse layer is to be decoded alone. */
 export interface CoarseRequest {
-  /** The dancer whom it answers, at the size of their file. */
+  /** The leader that it was generated for, at the size of their file. */
   readonly leader: MotionClip;
-  /** latents x layers x channels, as this model made them. */
+  /** latents x layers x channels, normalised, as this model generated them. */
   readonly latents: Float32Array;
 }
 

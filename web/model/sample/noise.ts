@@ -27,7 +27,7 @@ export function philox(
 ): [number, number, number, number] {
   let [c0, c1, c2, c3] = counter;
   let [k0, k1] = key;
-  for (let turn = 0; turn < ROUNDS; turn++) {
+  for (let round = 0; round < ROUNDS; round++) {
     const [high0, low0] = multiply(0xd2511f53, c0);
     const [high1, low1] = multiply(0xcd9e8d57, c2);
     c0 = (high1 ^ c1 ^ k0) >>> 0;

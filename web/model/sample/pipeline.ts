@@ -3,74 +3,40 @@ import { lockFeet } from '../../motion/contact/foot-lock';
 import { avoidCollisions } from '../../motion/contact/collision-avoidance';
 import { solve } from '../../motion/fit/ik';
 import type { Block } from './blocks';
-import { type ConditionInput, conditionClip } from './chunks';
+import { conditionClip } from './condition';
 import { AppError } from '../../common/error';
-import { checkCoarse, checkRequest, type CoarseRequest, type GenerateRequest, prepareInput } from './inputs';
+import type { ConditionInput } from './graphs';
+import {
+  checkCoarse,
+  checkRequest,
+  type CoarseRequest,
+  type GenerateRequest,
+  type ModelInput,
+  prepareInput,
+} from './inputs';
 import type { Manifest } from '../manifest';
 import { noise } from './noise';
-import { around, type Plan, planWork } from './preview';
-import { type Progress, tell, tellRuns } from '../progress';
+import { fillAround, type Plan, planWork } from './preview';
+import { blockProgress, stageProgress } from '../progress';
+import type { GenerateOptions, GenerateResult, Preview } from './results';
 import { sample, type Sampling } from './sampler';
 import { ddim } from './schedule';
 import type { ModelSession } from '../load/session';
 import { yieldToEvents } from '../../common/yield-to-events';
 
-/** The partner, at the leader's size and as long as the leader. */
-export interface Made {
-  readonly motion: SolvedMotion;
-  /** The same with its feet locked, made here because it would hold up the page. */
-  readonly locked: SolvedMotion;
-}
-
-/** A partner of whom one part is made already; around it stands what was there before. */
-export interface Preview extends Made {
-  /** Motion frames that are new, `to` excluded. */
-  readonly fresh: { readonly from: number; readonly to: number };
-}
-
-export interface GenerateResult extends Made {
-  /** What it was decoded from: latents x layers x channels, normalised. */
-  readonly latents: Float32Array;
-  /** Time of each stage; `condition` is near 0 when the last memory serves again. */
-  readonly seconds: Readonly<Record<'condition' | 'steps' | 'decode' | 'solve', number>>;
-}
-
-export interface GenerateOptions {
-  /** Stops the work before the next graph run; the promise is then rejected with the signal's reason. */
-  readonly signal?: AbortSignal | undefined;
-  readonly onProgress?: ((progress: Progress) => void) | undefined;
-  /**
-   * Motion frame that someone is looking at: its block is made first and handed to `onPreview`, then growing parts
-   * around it, as far as each is worth it.
-   */
-  readonly at?: number | undefined;
-  readonly onPreview?: ((preview: Preview) => void) | undefined;
-}
-
-// A minute of dance at a time bounds the memory of the convolutions; sixteen blocks that of attention.
-const LATENTS_PER_RUN = 480;
+/** A minute of dance at a time bounds the memory of the condition graph's convolutions. */
+const LATENTS_PER_CHUNK = 480;
+/** Bounds the memory of attention in the step graph. */
 const BLOCKS_PER_RUN = 16;
 
-function equal(a: Float32Array, b: Float32Array): boolean {
-  return a.length === b.length && a.every((value, i) => value === b[i]);
-}
-
-function sameInput(a: ConditionInput, b: ConditionInput): boolean {
-  return (
-    a.role === b.role &&
-    equal(a.leader, b.leader) &&
-    equal(a.musicValid, b.musicValid) &&
-    equal(a.music, b.music)
-  );
-}
-
-/** From a leader and a song to the partner's solved motion, on an open session. */
+/** From a leader and a song to the solved motion of the other dancer, on an open session. */
 export class Pipeline {
-  #memory: { input: ConditionInput; memory: Float32Array } | undefined;
-  /** Latents of the last whole run. */
+  /** Input and output of the last run of the condition graph. */
+  #condition: { input: ConditionInput; memory: Float32Array } | undefined;
+  /** Latents of the last generation. */
   #latents: Float32Array | undefined;
-  /** Seconds that one block took in one step of that run. */
-  #pace: number | undefined;
+  /** Time of one block in one step of that generation. */
+  #secondsPerBlock: number | undefined;
 
   /** `now` gives seconds. */
   constructor(
@@ -85,123 +51,59 @@ export class Pipeline {
    */
   async generate(request: GenerateRequest, options: GenerateOptions = {}): Promise<GenerateResult> {
     checkRequest(request, this.manifest);
-    const { condition, scale } = prepareInput(request, this.manifest);
-    const times = [this.now()];
-    const memory = await this.#remember(condition, options);
-    times.push(this.now());
-    const sampling = this.#sampling(request, memory, options);
-    const place =
-      options.onPreview && options.at !== undefined ? options.at / this.manifest.latent.stride : null;
-    const plan = planWork(sampling, place, this.#pace);
-    const every = this.manifest.latent.layers.map(() => 1);
-    const shape = (latents: Float32Array): Promise<MotionClip> =>
-      this.#decode(request.leader, latents, condition.leader, scale, every, options);
-    const show = async (part: Block, made: Float32Array): Promise<void> => {
-      options.onPreview?.(await this.#early(part, made, sampling, request.leader, shape, options));
-      await yieldToEvents(options.signal);
-    };
-    if (plan.block)
-      await show(plan.block, await this.#preview(request.seed, plan.block, sampling, plan, options));
-    const began = this.now();
-    const latents = await sample({
-      ...sampling,
-      parts: plan.parts,
-      onPart: show,
-      onProgress: tellRuns(options.onProgress, 'step', plan.before, plan.runs),
-    });
-    times.push(this.now());
-    this.#latents = latents;
-    this.#pace = (this.now() - began) / plan.runs;
-    const clip = await shape(latents);
-    tell(options.onProgress, 'decode')(1, 1);
-    times.push(this.now());
-    await yieldToEvents(options.signal);
-    const motion = this.#solve(clip, request.leader);
+    const { leader } = request;
+    const { signal, onProgress } = options;
+    const input = prepareInput(request, this.manifest);
+    const lap = lapTimer(this.now);
+    const memory = await this.#conditionMemory(input.condition, options);
+    const condition = lap();
+    const latents = await this.#sample(request, input, this.#sampling(request, memory, options), options);
+    const steps = lap();
+    const clip = await this.#decode(leader, input, latents, this.#allLayers(), signal);
+    stageProgress(onProgress, 'decode')(1, 1);
+    const decode = lap();
+    await yieldToEvents(signal);
+    const motion = this.#solve(clip, leader);
     const locked = lockFeet(motion);
-    times.push(this.now());
-    tell(options.onProgress, 'solve')(1, 1);
-    const [conditioned = 0, steps = 0, decoded = 0, solved = 0] = times
-      .slice(1)
-      .map((time, i) => time - (times[i] ?? 0));
+    stageProgress(onProgress, 'solve')(1, 1);
     return {
       motion,
       locked,
-      latents: latents.slice(), // given away, while these stay for the next preview
-      seconds: { condition: conditioned, steps, decode: decoded, solve: solved },
+      latents: latents.slice(), // transferred to the page, while the pipeline keeps its own for the next preview
+      seconds: { condition, steps, decode, solve: lap() },
     };
   }
 
   /**
-   * The partner that the coarse layer alone says, solved as the whole partner is.
+   * Decodes the coarse layer of a reaction without the fine one.
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
   async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
     checkCoarse(request, this.manifest);
     const { leader, latents } = request;
-    const { condition, scale } = prepareInput({ leader, music: null }, this.manifest);
+    const input = prepareInput({ leader, music: null }, this.manifest);
     const layers = this.manifest.latent.layers.map((layer) => (layer === 'coarse' ? 1 : 0));
-    const clip = await this.#decode(leader, latents, condition.leader, scale, layers, { signal });
+    const clip = await this.#decode(leader, input, latents, layers, signal);
     await yieldToEvents(signal);
     return this.#solve(clip, leader);
   }
 
-  /** The decoded partner as a body of its own beside the leader. */
-  #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
-    return avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
-  }
-
-  /** Latents of one block sampled for itself: without its neighbours it is not quite what it will be, but soon there. */
-  #preview(
-    seed: number,
-    { start, length }: Block,
-    sampling: Sampling,
-    { runs, before }: Plan,
-    { onProgress }: GenerateOptions,
-  ): Promise<Float32Array> {
-    const { latent } = this.manifest;
-    const width = latent.layers.length * latent.channels;
-    const remembered = latent.memory_width;
-    return sample({
-      ...sampling,
-      latents: length,
-      memory: sampling.memory.subarray(start * remembered, (start + length) * remembered),
-      noise: noise(seed, length, width, start),
-      onProgress: tellRuns(onProgress, 'preview', 0, before + runs),
-    });
-  }
-
-  /** The partner of whom a part is new. */
-  async #early(
-    part: Block,
-    made: Float32Array,
-    { latents }: Sampling,
-    leader: MotionClip,
-    shape: (latents: Float32Array) => Promise<MotionClip>,
-    { signal }: GenerateOptions,
-  ): Promise<Preview> {
-    const { latent } = this.manifest;
-    const width = latent.layers.length * latent.channels;
-    const earlier = this.#latents?.length === latents * width ? this.#latents : null;
-    const clip = await shape(around(made, part, earlier, latents, width));
-    await yieldToEvents(signal);
-    const motion = this.#solve(clip, leader);
-    const from = part.start * latent.stride;
-    const to = Math.min(clip.frames, (part.start + part.length) * latent.stride);
-    return { motion, locked: lockFeet(motion), fresh: { from, to } };
-  }
-
   /** Memory of this leader and song, computed once however often guidance, seed or steps change. */
-  async #remember(input: ConditionInput, options: GenerateOptions): Promise<Float32Array> {
-    if (this.#memory !== undefined && sameInput(this.#memory.input, input)) {
-      tell(options.onProgress, 'condition')(1, 1);
-      return this.#memory.memory;
+  async #conditionMemory(
+    input: ConditionInput,
+    { signal, onProgress }: GenerateOptions,
+  ): Promise<Float32Array> {
+    const listener = stageProgress(onProgress, 'condition');
+    if (this.#condition !== undefined && sameInput(this.#condition.input, input)) {
+      listener(1, 1);
+      return this.#condition.memory;
     }
-    const memory = await conditionClip(this.session.condition, input, this.manifest, LATENTS_PER_RUN, {
-      signal: options.signal,
-      onProgress: tell(options.onProgress, 'condition'),
+    const memory = await conditionClip(this.session.condition, input, this.manifest, LATENTS_PER_CHUNK, {
+      signal,
+      onProgress: listener,
     });
-    this.#memory = { input, memory };
+    this.#condition = { input, memory };
     return memory;
   }
 
@@ -216,25 +118,106 @@ export class Pipeline {
       memory,
       guidance: request.guidance,
       musicGuidance: request.musicGuidance,
-      noise: noise(request.seed, latents, latent.layers.length * latent.channels),
+      noise: noise(request.seed, latents, this.#width),
       runStep: this.session.step,
       blocksPerRun: BLOCKS_PER_RUN,
       signal,
     };
   }
 
-  /** Joints of the leader's own size and length; `layers` holds one multiplier per residual layer. */
+  /** Samples the latents of the whole clip; where a frame is on view, hands over previews on the way. */
+  async #sample(
+    request: GenerateRequest,
+    input: ModelInput,
+    sampling: Sampling,
+    options: GenerateOptions,
+  ): Promise<Float32Array> {
+    const { at, onPreview, onProgress, signal } = options;
+    const frame = onPreview && at !== undefined ? at / this.manifest.latent.stride : null;
+    const plan = planWork(sampling, frame, this.#secondsPerBlock);
+    const onPart = async (part: Block, latents: Float32Array): Promise<void> => {
+      onPreview?.(await this.#preview(part, latents, sampling.latents, request.leader, input, signal));
+      await yieldToEvents(signal);
+    };
+    if (plan.preview) {
+      await onPart(
+        plan.preview,
+        await this.#sampleAlone(plan.preview, request.seed, sampling, plan, options),
+      );
+    }
+    const { previewBlocks, totalBlocks, parts } = plan;
+    const began = this.now();
+    const latents = await sample({
+      ...sampling,
+      parts,
+      onPart,
+      onProgress: blockProgress(onProgress, 'step', previewBlocks, previewBlocks + totalBlocks),
+    });
+    this.#secondsPerBlock = (this.now() - began) / totalBlocks;
+    this.#latents = latents;
+    return latents;
+  }
+
+  /** Latents of one block sampled without its neighbours: near to the final ones, and soon there. */
+  #sampleAlone(
+    { start, length }: Block,
+    seed: number,
+    sampling: Sampling,
+    { previewBlocks, totalBlocks }: Plan,
+    { onProgress }: GenerateOptions,
+  ): Promise<Float32Array> {
+    const { memory_width: memoryWidth } = this.manifest.latent;
+    return sample({
+      ...sampling,
+      latents: length,
+      memory: sampling.memory.subarray(start * memoryWidth, (start + length) * memoryWidth),
+      noise: noise(seed, length, this.#width, start),
+      onProgress: blockProgress(onProgress, 'preview', 0, previewBlocks + totalBlocks),
+    });
+  }
+
+  /**
+   * The dancer with one new part.
+   * @param sampled latents of the part
+   * @param latents latent frames of the whole clip
+   */
+  async #preview(
+    part: Block,
+    sampled: Float32Array,
+    latents: number,
+    leader: MotionClip,
+    input: ModelInput,
+    signal: AbortSignal | undefined,
+  ): Promise<Preview> {
+    const { stride } = this.manifest.latent;
+    const earlier = this.#latents?.length === latents * this.#width ? this.#latents : null;
+    const filled = fillAround(sampled, part, earlier, latents, this.#width);
+    const clip = await this.#decode(leader, input, filled, this.#allLayers(), signal);
+    await yieldToEvents(signal);
+    const motion = this.#solve(clip, leader);
+    const from = part.start * stride;
+    const to = Math.min(clip.frames, (part.start + part.length) * stride);
+    return { motion, locked: lockFeet(motion), fresh: { from, to } };
+  }
+
+  /**
+   * Joints at the leader's own size and length.
+   * @param layers one multiplier per residual layer
+   */
   async #decode(
     { fps, frames }: MotionClip,
+    { condition, scale }: ModelInput,
     latents: Float32Array,
-    leader: Float32Array,
-    scale: number,
     layers: readonly number[],
-    options: GenerateOptions,
+    signal: AbortSignal | undefined,
   ): Promise<MotionClip> {
     const { skeleton } = this.manifest;
-    await yieldToEvents(options.signal);
-    const decoded = await this.session.decode({ latents, leader, layers: Float32Array.from(layers) });
+    await yieldToEvents(signal);
+    const decoded = await this.session.decode({
+      latents,
+      leader: condition.leader,
+      layers: Float32Array.from(layers),
+    });
     const positions = decoded.slice(0, frames * skeleton.joints.length * 3).map((value) => value / scale);
     if (!positions.every(Number.isFinite)) {
       throw new AppError(
@@ -245,4 +228,41 @@ export class Pipeline {
     }
     return { fps, frames, positions };
   }
+
+  /** Fits a skeleton to decoded joints and moves the body out of the leader's. */
+  #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
+    return avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
+  }
+
+  /** Numbers of one latent frame: layers x channels. */
+  get #width(): number {
+    return this.manifest.latent.layers.length * this.manifest.latent.channels;
+  }
+
+  #allLayers(): number[] {
+    return this.manifest.latent.layers.map(() => 1);
+  }
+}
+
+/** Returns a function that gives the seconds since its last call, or since this one. */
+function lapTimer(now: () => number): () => number {
+  let last = now();
+  return () => {
+    const before = last;
+    last = now();
+    return last - before;
+  };
+}
+
+function sameInput(a: ConditionInput, b: ConditionInput): boolean {
+  return (
+    a.role === b.role &&
+    equal(a.leader, b.leader) &&
+    equal(a.musicValid, b.musicValid) &&
+    equal(a.music, b.music)
+  );
+}
+
+function equal(a: Float32Array, b: Float32Array): boolean {
+  return a.length === b.length && a.every((value, i) => value === b[i]);
 }

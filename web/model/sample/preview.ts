@@ -1,74 +1,91 @@
-/** Which part of a clip is worth computing before the rest, and what stands around it until the rest is there. */
+/** Which part of a clip to compute and show first, and what surrounds it until the rest is there. */
 import type { Block } from './blocks';
-import { partitions, type Sampling } from './sampler';
+import { blocksByStep, type Sampling } from './sampler';
 import { partsAround } from './block-order';
 
-/** A run that is over sooner than this needs no preview, seconds. */
-const SOON = 0.3;
-/** A preview that costs more of the whole than this is not worth waiting for. */
-const WORTH = 0.5;
-/** Less than this of the whole is not worth drawing a picture before it. */
-const LAST = 0.2;
+/** Shortest wait that an early picture is worth, seconds. */
+const MIN_WAIT = 0.3;
+/** Largest cost of a preview, as a share of the block computations of the whole clip. */
+const MAX_PREVIEW_SHARE = 0.5;
+/** Smallest share of the block computations that must remain after a part for it to be shown. */
+const MIN_REMAINING_SHARE = 0.2;
 
-/** What a generation computes, counted in blocks that go through the step graph. */
+/** What a generation computes; work is counted in blocks that go through the step graph. */
 export interface Plan {
-  readonly runs: number;
-  /** Blocks of the preview, and the block that it is of. */
-  readonly before: number;
-  readonly block: Block | null;
-  /** Parts of the whole that are shown as they are done; the whole itself is the last. */
+  readonly totalBlocks: number;
+  /** Extra blocks that the preview costs, 0 without one. */
+  readonly previewBlocks: number;
+  /** The block that is sampled alone, before all else; null without a preview. */
+  readonly preview: Block | null;
+  /** Parts that are shown as they are done, the last of them the whole clip; undefined for only that. */
   readonly parts: readonly Block[] | undefined;
 }
 
 /**
- * The work of a sampling in the order that serves someone who looks at one place.
- * @param place latent frame, null when nobody looks
- * @param pace seconds that one block took in one step before; undefined when it was not measured
+ * Orders the work of a sampling around the latent frame that is on view.
+ * @param frame latent frame, null when none is on view
+ * @param secondsPerBlock time of one block in one step, as measured before; undefined when it was not
  */
-export function planWork(sampling: Sampling, place: number | null, pace: number | undefined): Plan {
-  const cut = partitions(sampling);
-  const runs = cut.flat().length;
-  const whole = { runs, before: 0, block: null, parts: undefined };
-  if (place === null) return whole;
-  const parts = partsAround(cut, place, (left) => worthShowing(left, runs, pace));
-  const block = blockAt(sampling.latents, sampling.latent.block, place);
-  const before = partitions({ ...sampling, latents: block.length }).flat().length;
-  return worthPreview(before, runs, pace) ? { runs, before, block, parts } : { ...whole, parts };
+export function planWork(
+  sampling: Sampling,
+  frame: number | null,
+  secondsPerBlock: number | undefined,
+): Plan {
+  const steps = blocksByStep(sampling);
+  const totalBlocks = steps.flat().length;
+  const plain: Plan = { totalBlocks, previewBlocks: 0, preview: null, parts: undefined };
+  if (frame === null) return plain;
+  const parts = partsAround(steps, frame, (remaining) =>
+    shouldShowPart(remaining, totalBlocks, secondsPerBlock),
+  );
+  const preview = blockAt(sampling.latents, sampling.latent.block, frame);
+  const previewBlocks = blocksByStep({ ...sampling, latents: preview.length }).flat().length;
+  return shouldPreview(previewBlocks, totalBlocks, secondsPerBlock)
+    ? { totalBlocks, previewBlocks, preview, parts }
+    : { ...plain, parts };
 }
 
-/** The block of the plain partition that holds a latent frame; frames outside the clip count as its ends. */
-export function blockAt(latents: number, size: number, latent: number): Block {
-  const held = Math.min(latents - 1, Math.max(0, Math.floor(latent)));
-  const start = held - (held % size);
+/** The block of the unshifted partition that contains a latent frame; frames outside the clip count as its ends. */
+export function blockAt(latents: number, size: number, frame: number): Block {
+  const inside = Math.min(latents - 1, Math.max(0, Math.floor(frame)));
+  const start = inside - (inside % size);
   return { start, length: Math.min(size, latents - start) };
 }
 
-/**
- * Whether showing one block early is worth its cost.
- * @param pace seconds that one block takes in one step, as measured before; undefined when it was not
- */
-export function worthPreview(preview: number, whole: number, pace: number | undefined): boolean {
-  return preview <= WORTH * whole && (pace === undefined || pace * whole >= SOON);
+/** Whether to sample one block alone first. Parameters as in `Plan` and `planWork`. */
+export function shouldPreview(
+  previewBlocks: number,
+  totalBlocks: number,
+  secondsPerBlock: number | undefined,
+): boolean {
+  if (previewBlocks > MAX_PREVIEW_SHARE * totalBlocks) return false;
+  return secondsPerBlock === undefined || secondsPerBlock * totalBlocks >= MIN_WAIT;
 }
 
 /**
- * Whether a part that is done is worth showing before the whole is.
- * @param left share of the block computations that come after it
- * @param pace as in `worthPreview`
+ * Whether to show a finished part before the whole clip is done.
+ * @param remainingShare share of `totalBlocks` that is computed after it
+ * @param secondsPerBlock as in `planWork`
  */
-export function worthShowing(left: number, whole: number, pace: number | undefined): boolean {
-  return left >= LAST && (pace === undefined || pace * whole * left >= SOON);
+export function shouldShowPart(
+  remainingShare: number,
+  totalBlocks: number,
+  secondsPerBlock: number | undefined,
+): boolean {
+  if (remainingShare < MIN_REMAINING_SHARE) return false;
+  return secondsPerBlock === undefined || secondsPerBlock * totalBlocks * remainingShare >= MIN_WAIT;
 }
 
 /**
- * Latents of a whole clip in which one part is new. What the decode graph makes of a part depends on its
- * neighbours and on the clip's statistics, so around it stand the latents of an earlier run; without one the block
- * itself, over and over, which keeps the statistics of a dance where zeros would not.
- * @param block length x width
- * @param earlier latents x width of another run over a clip as long
+ * Latents of a whole clip of which only one part is sampled so far. The decode graph needs the whole clip, because
+ * its output for a part depends on the neighbours and on statistics of the clip. The rest is filled from an earlier
+ * sampling; without one by repeating the part, which keeps the statistics of a dance where zeros would not.
+ * @param sampled latents of the part, length x width
+ * @param earlier latents x width of another sampling of a clip as long, or null
+ * @returns latents x width
  */
-export function around(
-  block: Float32Array,
+export function fillAround(
+  sampled: Float32Array,
   { start, length }: Block,
   earlier: Float32Array | null,
   latents: number,
@@ -78,9 +95,9 @@ export function around(
   if (earlier) out.set(earlier);
   else
     for (let frame = 0; frame < latents; frame++) {
-      const from = (((frame - start) % length) + length) % length;
-      out.set(block.subarray(from * width, (from + 1) * width), frame * width);
+      const source = (((frame - start) % length) + length) % length;
+      out.set(sampled.subarray(source * width, (source + 1) * width), frame * width);
     }
-  out.set(block, start * width);
+  out.set(sampled, start * width);
   return out;
 }

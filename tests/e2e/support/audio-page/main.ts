@@ -1,5 +1,5 @@
 /** The audio client without the app around it, for browser tests to call. */
-import { createPlayer, loadSong, type Song } from '../../../../web/audio/client';
+import { AudioPlayer, loadSong, type Song } from '../../../../web/audio/client';
 import { encodeWav } from '../../../../web/audio/wav';
 
 /** What a test asks to be loaded: a file of the server, or a made one. */
@@ -74,7 +74,7 @@ window.Audio = class extends Audio {
     elements.push(this);
   }
 };
-const player = createPlayer();
+const player = new AudioPlayer();
 
 export const page = {
   player,

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import { chooseBackend, demote, type Surroundings } from '../../../../web/model/load/backend';
+import { chooseBackend, fallBackToWasm, type Environment } from '../../../../web/model/load/backend';
 
 /** A machine whose WebGPU finds this adapter. */
-function machine(adapter: Partial<GPUAdapterInfo> | null | Error, isolated = true, cores = 8): Surroundings {
+function machine(adapter: Partial<GPUAdapterInfo> | null | Error, isolated = true, cores = 8): Environment {
   return {
     gpu: {
       requestAdapter: () =>
@@ -27,7 +27,7 @@ describe('chooseBackend', () => {
     });
   });
 
-  it.each<[string, Surroundings, RegExp]>([
+  it.each<[string, Environment, RegExp]>([
     [
       'no WebGPU',
       { crossOriginIsolated: true, hardwareConcurrency: 2 },
@@ -61,8 +61,8 @@ describe('chooseBackend', () => {
     });
   });
 
-  it('is demoted with a reason', async () => {
-    const backend = demote(await chooseBackend('auto', machine(card)), 'The GPU is upside down');
+  it('is fallBackToWasmd with a reason', async () => {
+    const backend = fallBackToWasm(await chooseBackend('auto', machine(card)), 'The GPU is upside down');
     expect(backend).toEqual({
       name: 'wasm',
       reason: 'The GPU is upside down, so the processor is used.',

@@ -99,7 +99,7 @@ describe('download', () => {
   it('does not forget files that may be wanted again', async () => {
     const { store, files } = memoryStore();
     files.set(b.sha256, bytesOf('graph bb'));
-    await download(BASE, [a], { fetch: both().get, store, spare: [b.sha256] });
+    await download(BASE, [a], { fetch: both().get, store, alsoKeep: [b.sha256] });
     expect([...files.keys()].sort()).toEqual([a.sha256, b.sha256].sort());
   });
 
@@ -117,7 +117,7 @@ describe('download', () => {
     const files = await download(BASE, [a, b], {
       fetch: both().get,
       store: memoryStore(true).store,
-      onUnkept: (reason) => reasons.push(reason),
+      onCacheFailure: (reason) => reasons.push(reason),
     });
     expect(files).toEqual([bytesOf('graph a'), bytesOf('graph bb')]);
     expect(reasons).toHaveLength(1);

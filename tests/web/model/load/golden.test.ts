@@ -2,7 +2,7 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import { conditionClip } from '../../../../web/model/sample/chunks';
+import { conditionClip } from '../../../../web/model/sample/condition';
 import { goldenError } from '../../../../web/model/load/golden';
 import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { fetchLatest } from '../../../../web/model/load/network-first';
-import type { AnswerStore } from '../../../../web/model/load/cache';
+import type { ResponseCache } from '../../../../web/model/load/cache';
 
 const URL = 'https://dance.example/models/salsa/manifest.json';
 const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
@@ -8,7 +8,7 @@ const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
 function store(kept?: string) {
   const files = new Map<string, Uint8Array<ArrayBuffer>>();
   if (kept !== undefined) files.set(URL, new TextEncoder().encode(kept));
-  const answers: AnswerStore = {
+  const answers: ResponseCache = {
     get: (key) => Promise.resolve(files.get(key)),
     put: (key, bytes) => Promise.resolve(void files.set(key, bytes)),
   };
@@ -58,7 +58,7 @@ describe('the latest version of a file', () => {
   });
 
   it('does not need a store that works', async () => {
-    const broken: AnswerStore = {
+    const broken: ResponseCache = {
       get: () => Promise.reject(new DOMException('denied', 'SecurityError')),
       put: () => Promise.reject(new DOMException('full', 'QuotaExceededError')),
     };

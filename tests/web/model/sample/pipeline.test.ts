@@ -1,6 +1,6 @@
 /** From a leader clip and a song to the partner's solved motion, on the tiny model in onnxruntime's wasm build. */
 import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import type { ConditionInput } from '../../../../web/model/sample/chunks';
+import type { ConditionInput } from '../../../../web/model/sample/graphs';
 import type { GenerateRequest } from '../../../../web/model/sample/inputs';
 import { Pipeline } from '../../../../web/model/sample/pipeline';
 import type { Progress } from '../../../../web/model/progress';

@@ -1,8 +1,9 @@
-/** The block under the playhead first: near to what it will be, and no change of what comes out in the end. */
+/** The block on view is generated first: near to its final motion, and without any effect on the result. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import type { GenerateRequest } from '../../../../web/model/sample/inputs';
-import { type GenerateResult, Pipeline, type Preview } from '../../../../web/model/sample/pipeline';
-import { around, blockAt, worthPreview, worthShowing } from '../../../../web/model/sample/preview';
+import { Pipeline } from '../../../../web/model/sample/pipeline';
+import type { GenerateResult, Preview } from '../../../../web/model/sample/results';
+import { blockAt, fillAround, shouldPreview, shouldShowPart } from '../../../../web/model/sample/preview';
 import type { Progress } from '../../../../web/model/progress';
 import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
@@ -12,7 +13,7 @@ beforeAll(async () => {
 }, 60_000);
 afterAll(() => model.session.release());
 
-/** On a machine so slow that a preview of the tiny model is worth its while. */
+/** On a machine so slow that a preview of the tiny model pays. */
 const open = (): Pipeline => new Pipeline(model.manifest, model.session, () => performance.now() / 10);
 
 /** Four blocks unless told otherwise: the golden leader, forth and back, so that it does not jump. */
@@ -20,8 +21,8 @@ function request(changes: Partial<GenerateRequest> = {}, blocks = 4): GenerateRe
   const { golden, manifest } = model;
   const [frames, there] = [blocks * 240 - 7, golden.leader.length / 66];
   const at = (frame: number): number => {
-    const turn = frame % (2 * there);
-    return turn < there ? turn : 2 * there - 1 - turn;
+    const phase = frame % (2 * there);
+    return phase < there ? phase : 2 * there - 1 - phase;
   };
   const pick = (values: Float32Array, width: number): Float32Array =>
     Float32Array.from(
@@ -55,8 +56,8 @@ async function generate(
   return { result, previews, progress };
 }
 
-describe('a generation with someone looking', { timeout: 90_000 }, () => {
-  it('hands over the block in view, and ends in the same motion as without', async () => {
+describe('a generation with a frame on view', { timeout: 90_000 }, () => {
+  it('hands over the block on view, and gives the same motion as without', async () => {
     const [plain, watched] = [open(), open()];
     const changes = { guidance: new Float32Array(6).fill(2), seed: 9 };
     const expected = await plain.generate(request(changes));
@@ -79,11 +80,11 @@ describe('a generation with someone looking', { timeout: 90_000 }, () => {
     const after = inside(expected.motion.positions);
     const early = inside(preview!.motion.positions);
     expect(preview!.motion.frames).toBe(request().leader.frames);
-    // Random weights lean on their neighbours, which a block alone does not have.
+    // With random weights a block depends on its neighbours, which it lacks when sampled alone.
     expect(mean(early, after)).toBeLessThan(0.7 * mean(before, after));
   });
 
-  it('spreads from there: what is shown grows, is exactly what stays, and costs nothing', async () => {
+  it('shows growing parts around it, which are part of the result and cost no more blocks', async () => {
     const blocks = 8;
     const [plain, watched] = [open(), open()];
     const steps: number[] = [0, 0];
@@ -122,7 +123,7 @@ describe('a generation with someone looking', { timeout: 90_000 }, () => {
     expect(previews[0]?.motion.positions.every(Number.isFinite)).toBe(true);
   });
 
-  it('keeps to the whole where that is over at once', async () => {
+  it('shows no preview of a generation that takes no time', async () => {
     const { leader, music } = request();
     const short = { ...leader, frames: 300, positions: leader.positions.slice(0, 300 * 66) };
     const { previews, progress } = await generate(open(), { leader: short, music }, 0);
@@ -146,29 +147,29 @@ describe('a generation with someone looking', { timeout: 90_000 }, () => {
   });
 });
 
-describe('what is worth a preview', () => {
-  it('is a small part of something that takes a while', () => {
-    expect(worthPreview(7, 22, undefined)).toBe(true);
-    expect(worthPreview(7, 12, undefined)).toBe(false);
-    expect(worthPreview(7, 22, 0.1)).toBe(true);
-    expect(worthPreview(7, 22, 0.01)).toBe(false);
+describe('what is previewed', () => {
+  it('is a small part of a generation that takes a while', () => {
+    expect(shouldPreview(7, 22, undefined)).toBe(true);
+    expect(shouldPreview(7, 12, undefined)).toBe(false);
+    expect(shouldPreview(7, 22, 0.1)).toBe(true);
+    expect(shouldPreview(7, 22, 0.01)).toBe(false);
   });
-  it('is a growing part while enough is left', () => {
-    expect(worthShowing(0.3, 22, undefined)).toBe(true);
-    expect(worthShowing(0.1, 22, undefined)).toBe(false);
-    expect(worthShowing(0.3, 22, 0.1)).toBe(true);
-    expect(worthShowing(0.3, 22, 0.01)).toBe(false);
+  it('is a growing part while enough work remains', () => {
+    expect(shouldShowPart(0.3, 22, undefined)).toBe(true);
+    expect(shouldShowPart(0.1, 22, undefined)).toBe(false);
+    expect(shouldShowPart(0.3, 22, 0.1)).toBe(true);
+    expect(shouldShowPart(0.3, 22, 0.01)).toBe(false);
   });
-  it('is the block that someone looks at', () => {
+  it('is the block that contains the frame on view', () => {
     expect(blockAt(100, 60, 59.9)).toEqual({ start: 0, length: 60 });
     expect(blockAt(100, 60, 60)).toEqual({ start: 60, length: 40 });
     expect(blockAt(100, 60, 500)).toEqual({ start: 60, length: 40 });
   });
-  it('stands among earlier latents, or among itself', () => {
+  it('is surrounded by earlier latents, or repeated', () => {
     const block = Float32Array.of(1, 2);
     const at = { start: 2, length: 2 };
-    expect([...around(block, at, Float32Array.of(9, 9, 9, 9, 9), 5, 1)]).toEqual([9, 9, 1, 2, 9]);
-    expect([...around(block, at, null, 5, 1)]).toEqual([1, 2, 1, 2, 1]);
+    expect([...fillAround(block, at, Float32Array.of(9, 9, 9, 9, 9), 5, 1)]).toEqual([9, 9, 1, 2, 9]);
+    expect([...fillAround(block, at, null, 5, 1)]).toEqual([1, 2, 1, 2, 1]);
   });
 });
 

@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import type { Block } from '../../../../web/model/sample/blocks';
 import { noise } from '../../../../web/model/sample/noise';
-import { partitions, sample, type Sampling, type StepRunner } from '../../../../web/model/sample/sampler';
+import type { StepRunner } from '../../../../web/model/sample/graphs';
+import { blocksByStep, sample, type Sampling } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
 import { partsAround } from '../../../../web/model/sample/block-order';
 import { small } from '../../support/small-manifest';
@@ -80,17 +81,17 @@ describe('sample', () => {
     [4, true],
     [5, true],
   ])(
-    'gives the same from any place outwards, each block computed once (%s steps, alternating: %s)',
+    'gives the same whatever frame is on view, each block computed once (%s steps, alternating: %s)',
     async (steps, alternatingPhase) => {
       const schedule = ddim(small.diffusion, steps);
       const plain = sampling(58, { schedule, alternatingPhase, blocksPerRun: 2 });
       const whole = await sample(plain);
-      for (const place of [0, 7, 30, 57, 1000]) {
+      for (const frame of [0, 7, 30, 57, 1000]) {
         const seen: Block[] = [];
         let computed = 0;
         const result = await sample({
           ...plain,
-          parts: partsAround(partitions(plain), place, () => true),
+          parts: partsAround(blocksByStep(plain), frame, () => true),
           runStep: (input) => {
             computed += input.blocks;
             return mixing(input);
@@ -102,11 +103,11 @@ describe('sample', () => {
           },
         });
         expect(result).toEqual(whole);
-        expect(computed).toBe(partitions(plain).flat().length);
+        expect(computed).toBe(blocksByStep(plain).flat().length);
         expect(seen.length).toBeGreaterThan(1);
         for (const { start, length } of seen) {
-          expect(start).toBeLessThanOrEqual(Math.min(place, 57));
-          expect(start + length).toBeGreaterThan(Math.min(place, 57));
+          expect(start).toBeLessThanOrEqual(Math.min(frame, 57));
+          expect(start + length).toBeGreaterThan(Math.min(frame, 57));
         }
       }
     },

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { chunks, conditionClip, type ConditionRunner } from '../../../../web/model/sample/chunks';
+import { chunks, conditionClip } from '../../../../web/model/sample/condition';
+import type { ConditionRunner } from '../../../../web/model/sample/graphs';
 import { small } from '../../support/small-manifest';
 
 const { latent, audio } = small;
@@ -24,13 +25,13 @@ const condition: ConditionRunner = ({ leader, music, musicValid, role }) => {
 };
 
 describe('chunks', () => {
-  it('wants every latent frame once, with its surroundings as far as the clip goes', () => {
+  it('cover every latent frame once, with the receptive field around as far as the clip goes', () => {
     expect(chunks(25, 10, 3)).toEqual([
-      { start: 0, end: 10, from: 0, to: 13 },
-      { start: 10, end: 20, from: 7, to: 23 },
-      { start: 20, end: 25, from: 17, to: 25 },
+      { start: 0, end: 10, inputStart: 0, inputEnd: 13 },
+      { start: 10, end: 20, inputStart: 7, inputEnd: 23 },
+      { start: 20, end: 25, inputStart: 17, inputEnd: 25 },
     ]);
-    expect(chunks(5, 10, 3)).toEqual([{ start: 0, end: 5, from: 0, to: 5 }]);
+    expect(chunks(5, 10, 3)).toEqual([{ start: 0, end: 5, inputStart: 0, inputEnd: 5 }]);
   });
 });
 
@@ -60,7 +61,7 @@ describe('a clip in chunks', () => {
     }
   });
 
-  it('tells its progress', async () => {
+  it('reports its progress', async () => {
     const progress: number[] = [];
     const onProgress = (done: number, total: number): void => void progress.push(done / total);
     await conditionClip(condition, silence(13), small, 4, { onProgress });

@@ -1,6 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { fetchFile } from '../../../../web/model/load/download';
-import { folderFetch } from '../../../../web/model/load/folder';
+import { fetchFile, folderFetch } from '../../../../web/model/load/download';
 
 const ROOT = 'https://page.example/models/manifest.json';
 const get = folderFetch(

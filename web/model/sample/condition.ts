@@ -1,0 +1,75 @@
+import type { Manifest } from '../manifest';
+import { yieldToEvents } from '../../common/yield-to-events';
+import type { ConditionInput, ConditionRunner } from './graphs';
+
+/** A piece of a clip in latent frames, ends excluded: its output, and the larger input that makes the output exact. */
+export interface Chunk {
+  readonly start: number;
+  readonly end: number;
+  readonly inputStart: number;
+  readonly inputEnd: number;
+}
+
+interface ConditionOptions {
+  readonly signal?: AbortSignal | undefined;
+  readonly onProgress?: ((done: number, total: number) => void) | undefined;
+}
+
+/**
+ * Cuts a clip into overlapping chunks, so that the memory a graph needs stays bounded. The graph pads the ends of its
+ * input with zeros; the overlap keeps that padding out of the output.
+ * @param latents latent frames of the clip
+ * @param size latent frames of one chunk's output
+ * @param receptiveField latent frames to each side that an output frame depends on
+ */
+export function chunks(latents: number, size: number, receptiveField: number): Chunk[] {
+  return Array.from({ length: Math.ceil(latents / size) }, (_, i) => {
+    const start = i * size;
+    const end = Math.min(start + size, latents);
+    return {
+      start,
+      end,
+      inputStart: Math.max(0, start - receptiveField),
+      inputEnd: Math.min(latents, end + receptiveField),
+    };
+  });
+}
+
+/**
+ * Runs the condition graph over a whole clip, chunk by chunk.
+ * @param size latent frames of one chunk
+ * @returns memory, latents x memory width
+ * @throws the signal's reason, between two chunks
+ */
+export async function conditionClip(
+  run: ConditionRunner,
+  input: ConditionInput,
+  manifest: Manifest,
+  size: number,
+  { signal, onProgress }: ConditionOptions = {},
+): Promise<Float32Array> {
+  const { latent, skeleton, audio } = manifest;
+  const latents = input.musicValid.length / latent.stride;
+  const width = latent.memory_width;
+  const memory = new Float32Array(latents * width);
+  const all = chunks(latents, size, latent.receptive_field.condition);
+  for (const [i, chunk] of all.entries()) {
+    await yieldToEvents(signal);
+    const output = await run({
+      leader: inputOf(chunk, input.leader, latent.stride * skeleton.joints.length * 3),
+      music: inputOf(chunk, input.music, latent.stride * audio.features),
+      musicValid: inputOf(chunk, input.musicValid, latent.stride),
+      role: input.role,
+    });
+    const first = chunk.start - chunk.inputStart;
+    const last = chunk.end - chunk.inputStart;
+    memory.set(output.subarray(first * width, last * width), chunk.start * width);
+    onProgress?.(i + 1, all.length);
+  }
+  return memory;
+}
+
+/** The input frames of a chunk. @param width numbers per latent frame */
+function inputOf({ inputStart, inputEnd }: Chunk, values: Float32Array, width: number): Float32Array {
+  return values.subarray(inputStart * width, inputEnd * width);
+}
