@@ -45,7 +45,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("downloads")
     node = shutil.which("node")
     assert node is not None
-    script = Path(__file__).with_name("write_downloads.mjs")
+    script = Path(__file__).parent / "support" / "write_downloads.mjs"
     subprocess.run([node, str(script), str(folder)], check=True, cwd=script.parents[2])
     return folder
 
