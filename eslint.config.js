@@ -111,7 +111,13 @@ export default defineConfig(
       eqeqeq: 'error',
     },
   },
-  { files: ['web/**/*.ts'], rules: { 'no-console': ['error', { allow: ['warn', 'error'] }] } },
+  {
+    files: ['web/**/*.ts'],
+    rules: {
+      'no-console': ['error', { allow: ['warn', 'error'] }],
+      'max-lines-per-function': ['error', 80],
+    },
+  },
   ...Object.entries(directions).map(([folder, patterns]) => ({
     files: [`web/${folder}/**/*.ts`],
     rules: { 'no-restricted-imports': ['error', { patterns: [everywhere, ...patterns] }] },
