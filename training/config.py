@@ -63,7 +63,7 @@ class ConditionConfig:
     drop_all: float = 0.1
     drop_leader: float = 0.1
     drop_music: float = 0.1
-    # Without these the model seems to learn the training dances by heart (training/LOG.md).
+    # Without these the model seems to learn the training dances by heart (docs/experiment-log.md).
     leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
     leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
     blurred: float = 0.25  # share of windows with a blurred leader

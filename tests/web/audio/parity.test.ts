@@ -11,7 +11,7 @@ import { processorSeconds } from '../support/processor-time';
  */
 const DIFFERENCE = 1e-4;
 
-/** Rows of the table that the README shows. */
+/** Rows of the table in docs/results.md. */
 const table: string[] = [];
 
 /** Holds our features of a song to librosa's. */
