@@ -15,7 +15,7 @@ export interface Plan {
   readonly totalBlocks: number;
   /** Extra blocks that the preview costs, 0 without one. */
   readonly previewBlocks: number;
-  /** The block that is sampled alone, before all else; null without a preview. */
+  /** The block that is sampled alone, before all else and once more with its neighbours; null without. */
   readonly preview: Block | null;
   /** Parts that are shown as they are done, the last of them the whole clip; undefined for only that. */
   readonly parts: readonly Block[] | undefined;
@@ -40,9 +40,11 @@ export function planWork(
   );
   const preview = blockAt(sampling.latents, sampling.latent.block, frame);
   const previewBlocks = blocksByStep({ ...sampling, latents: preview.length }).flat().length;
-  return shouldPreview(previewBlocks, totalBlocks, secondsPerBlock)
+  if (!shouldPreview(previewBlocks, totalBlocks, secondsPerBlock)) return { ...plain, parts };
+  // With one partition a block has no neighbours to wait for: alone it is what it will be, so nothing is extra.
+  return sampling.alternatingPhase
     ? { totalBlocks, previewBlocks, preview, parts }
-    : { ...plain, parts };
+    : { ...plain, parts: [preview, ...parts] };
 }
 
 /** The block of the unshifted partition that contains a latent frame; frames outside the clip count as its ends. */

@@ -57,6 +57,28 @@ async function generate(
 }
 
 describe('a generation with a frame on view', { timeout: 90_000 }, () => {
+  it('computes no block twice where blocks have no neighbours to wait for', async () => {
+    const { manifest, session } = model;
+    const diffusion = { ...manifest.diffusion, alternating_phase: false };
+    let computed = 0;
+    const counting = {
+      ...session,
+      step: (input: Parameters<typeof session.step>[0]) => {
+        computed += input.blocks;
+        return session.step(input);
+      },
+    };
+    const slow = (): number => performance.now() / 10;
+    const pipeline = new Pipeline({ ...manifest, diffusion }, counting, slow);
+    const expected = await pipeline.generate(request());
+    expect(computed).toBe(3 * 4);
+    computed = 0;
+    const { result, previews } = await generate(pipeline, {}, 500);
+    expect(computed).toBe(3 * 4);
+    expect(maxDifference(result.motion.positions, expected.motion.positions)).toBe(0);
+    expect(previews[0]?.fresh).toEqual({ from: 480, to: 720 });
+  });
+
   it('hands over the block on view, and gives the same motion as without', async () => {
     const [plain, watched] = [open(), open()];
     const changes = { guidance: new Float32Array(6).fill(2), seed: 9 };
