@@ -6,7 +6,7 @@ import type { DancerName, OtherMode } from './dancer/dancers';
 import { createDynamicResolution } from './dynamic-resolution';
 import { createFrameLoop, idleLoop, type FrameLoop } from './frame-loop';
 import { isSoftwareRendered } from './frame-presenter';
-import type { VisibleOverlays } from './overlays/overlays';
+import type { VisibleOverlays } from '../common/visible-overlays';
 import { createSplitLabels, type Labels, type SplitLabels } from './split-labels';
 import { StageRenderer } from './stage-renderer';
 import { LOOKS, ROLES, type Role, type Theme } from './theme';

@@ -3,7 +3,8 @@ import { listen, together } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS } from '../store/overlays';
-import type { AppState, Camera, Overlays } from '../store/state';
+import type { VisibleOverlays } from '../../common/visible-overlays';
+import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRolled, rolledSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemClosed } from '../store/actions/notices';
@@ -138,7 +139,7 @@ function toggleCamera(store: Store, camera: Camera): void {
 }
 
 /** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
-function toggleOverlay(store: Store, what: keyof Overlays): void {
+function toggleOverlay(store: Store, what: keyof VisibleOverlays): void {
   apply(store, overlayToggled(what));
   const { overlays, openPanel, firstVisit } = store.getState();
   const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());

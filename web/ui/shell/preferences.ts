@@ -1,6 +1,6 @@
 import * as v from 'valibot';
 import { together } from '../widgets/dom';
-import { NO_OVERLAYS } from '../store/overlays';
+import { NO_OVERLAYS } from '../../common/visible-overlays';
 import type { AppState, Theme } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
 import { SPEEDS, themeSet } from '../store/actions/view';

@@ -1,22 +1,12 @@
-import type { Overlays } from './state';
+import type { VisibleOverlays } from '../../common/visible-overlays';
 
 /** Something the stage can draw in addition to the dancers: its name on the page, the key that toggles it, a hint. */
 export interface Overlay {
-  readonly what: keyof Overlays;
+  readonly what: keyof VisibleOverlays;
   readonly label: string;
   readonly key: string;
   readonly hint: string;
 }
-
-/** The overlays of a first visit. */
-export const NO_OVERLAYS: Overlays = {
-  skeleton: false,
-  trails: false,
-  contacts: false,
-  facing: false,
-  hands: false,
-  ghost: false,
-};
 
 export const OVERLAYS: readonly Overlay[] = [
   { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The partner without the fine layer' },

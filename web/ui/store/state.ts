@@ -1,3 +1,4 @@
+import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
@@ -208,16 +209,6 @@ export interface VideoProgress {
   readonly secondsLeft: number | null;
 }
 
-/** What is drawn on the stage in addition to the dancers; `ghost` is the motion of the coarse layer alone. */
-export interface Overlays {
-  readonly skeleton: boolean;
-  readonly trails: boolean;
-  readonly contacts: boolean;
-  readonly facing: boolean;
-  readonly hands: boolean;
-  readonly ghost: boolean;
-}
-
 /** The generated dancer decoded from the coarse layer alone. While it is being decoded, the previous one stays. */
 export interface CoarseLayer {
   readonly motion: SolvedMotion | null;
@@ -237,7 +228,7 @@ export interface Saved {
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
-  readonly overlays: Overlays;
+  readonly overlays: VisibleOverlays;
   readonly coarse: CoarseLayer;
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;

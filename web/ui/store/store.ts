@@ -1,4 +1,4 @@
-import { NO_OVERLAYS } from './overlays';
+import { NO_OVERLAYS } from '../../common/visible-overlays';
 import type { AppState, Theme } from './state';
 import { NO_HISTORY, withUndo } from './history';
 import { createStore, type StoreApi } from 'zustand/vanilla';

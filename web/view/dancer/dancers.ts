@@ -4,7 +4,7 @@ import type { BodyLibrary } from '../body/library';
 import { measureCouple, type Couple } from '../camera/framing';
 import type { Viewport } from '../canvas';
 import type { Figure } from '../overlays/overlay';
-import { NO_OVERLAYS, type VisibleOverlays } from '../overlays/overlays';
+import { NO_OVERLAYS, type VisibleOverlays } from '../../common/visible-overlays';
 import { ROLES, type Look, type Role } from '../theme';
 import type { BodyMaterial } from './body-material';
 import { Dancer } from './dancer';

@@ -1,4 +1,5 @@
 import { Group } from 'three';
+import { NO_OVERLAYS, type VisibleOverlays } from '../../common/visible-overlays';
 import type { Look } from '../theme';
 import { createBones } from './bones';
 import { createContactRings } from './contact-rings';
@@ -6,25 +7,6 @@ import { createFacing } from './facing';
 import { createHandLinks } from './hand-links';
 import type { Figure, Overlay } from './overlay';
 import { createTrails } from './trails';
-
-/** Which overlays are on. `skeleton` makes the bodies see-through, `ghost` shows the coarse layer as a dancer of its own. */
-export interface VisibleOverlays {
-  readonly skeleton: boolean;
-  readonly trails: boolean;
-  readonly contacts: boolean;
-  readonly facing: boolean;
-  readonly hands: boolean;
-  readonly ghost: boolean;
-}
-
-export const NO_OVERLAYS: VisibleOverlays = {
-  skeleton: false,
-  trails: false,
-  contacts: false,
-  facing: false,
-  hands: false,
-  ghost: false,
-};
 
 type DrawnOverlay = Exclude<keyof VisibleOverlays, 'ghost'>;
 

@@ -1,6 +1,7 @@
 /** Playback, camera, theme, overlays and floating panels. */
 import { danceDuration } from '../selectors';
-import type { AppState, Camera, CoarseLayer, Playback, Overlays, Theme } from '../state';
+import type { VisibleOverlays } from '../../../common/visible-overlays';
+import type { AppState, Camera, CoarseLayer, Playback, Theme } from '../state';
 import type { Change } from '../store';
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;
@@ -27,7 +28,7 @@ export function updateSet(update: boolean): Change {
 }
 
 /** Turns an overlay on or off. */
-export function overlayToggled(what: keyof Overlays): Change {
+export function overlayToggled(what: keyof VisibleOverlays): Change {
   return ({ overlays }) => ({ overlays: { ...overlays, [what]: !overlays[what] } });
 }
 
