@@ -44,7 +44,7 @@ for (const [folder, above] of Object.entries(motionFolders))
 directions['audio/dsp'] = [
   ...directions.audio,
   towards(
-    'client|worker|decode|analyse|features|player|playback-clock|wav|audio-element',
+    'client|worker|decode|analyse|features|player|playback-clock|wav|audio-element|audio-element-pair',
     'audio/dsp imports the recipe only',
     '\\.\\./',
   ),

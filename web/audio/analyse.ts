@@ -3,27 +3,27 @@ import type { AudioRecipe } from './recipe';
 import { resample } from './dsp/resample';
 import { encodeWav } from './wav';
 
-/** Everything that is computed from the samples of a song. */
+/** What is computed from the samples of a song. */
 export interface Analysis extends MusicFeatures {
   /** Mean of the channels at the recipe's rate. */
   readonly pcm: Float32Array;
   /** The decoded sound as a WAV file, for playing. */
   readonly sound: Blob;
-  /** Whether nothing in the song is loud enough to be heard. */
+  /** Whether no sample of the song is louder than -80 decibels. */
   readonly silent: boolean;
 }
 
-/** Share of the running time that mixing and resampling take, measured; only the progress depends on it. */
+/** Share of the running time that mixing and resampling take, as measured; used for the progress only. */
 const RESAMPLING_SHARE = 0.3;
 
-/** Largest sample (full scale is 1) up to which a song counts as silent: -80 decibels. */
-const SILENCE = 1e-4;
+/** Largest amplitude of a silent song (full scale is 1): -80 decibels. */
+const MAX_SILENT_AMPLITUDE = 1e-4;
 
 /**
- * Mixes, resamples and describes a decoded song.
+ * Mixes a decoded song to mono, resamples it and computes its features.
  *
  * @param channels samples of each channel at `sampleRate`, at least one channel and one sample
- * @param onProgress hears ascending fractions of the work done, the last one 1
+ * @param onProgress called with ascending fractions of the work done, the last one 1
  */
 export function analyse(
   channels: readonly Float32Array[],
@@ -41,7 +41,7 @@ export function analyse(
     ...music,
     pcm,
     sound: encodeWav(channels, sampleRate),
-    silent: pcm.every((sample) => Math.abs(sample) <= SILENCE),
+    silent: pcm.every((sample) => Math.abs(sample) <= MAX_SILENT_AMPLITUDE),
   };
 }
 

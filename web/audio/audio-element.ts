@@ -1,6 +1,6 @@
 /** Volumes of a fade. */
 const FADE_VOLUMES = [0.12, 0.35, 0.65, 1] as const;
-/** Time between two of them: short enough that the fade itself is not heard. */
+/** Time between two volumes: so short that the fade itself is inaudible. */
 const FADE_STEP_MS = 4;
 
 /** An <audio> element that starts and stops without a click. */

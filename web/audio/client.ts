@@ -15,29 +15,29 @@ export interface Song extends Analysis {
   readonly sampleRate: number;
 }
 
-export interface LoadProgress {
+interface LoadProgress {
   readonly stage: 'decode' | 'features';
   /** Of the whole loading, 0 to 1. */
   readonly fraction: number;
 }
 
-export interface LoadOptions {
+interface LoadOptions {
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: LoadProgress) => void;
 }
 
-/** Share of the loading that decoding takes; the browser says nothing while it lasts. */
+/** Share of the loading time that decoding takes; the browser reports no progress of it. */
 const DECODING_SHARE = 0.15;
 
-/** Songs whose analysis is remembered. */
-const REMEMBERED = 3;
+/** Number of songs whose analysis is cached. */
+const MAX_CACHED_SONGS = 3;
 
-/** Analyses by the hash of file and recipe, the most recently used last. */
-const analyses = new Map<string, Song>();
+/** Analysed songs by `cacheKey`, the most recently used last. */
+const cachedSongs = new Map<string, Song>();
 
 /**
- * Decodes and analyses a song. The samples never leave the page; the heavy part runs in a worker. A file that was
- * loaded before, by content, comes back at once.
+ * Decodes and analyses a song. The samples never leave the page; the analysis runs in a worker. A file with the
+ * same content as one that was loaded before is taken from the cache.
  *
  * @param audioBlock the manifest's `audio` block, checked here
  * @throws {AppError} (see its codes), or the signal's reason when it is aborted
@@ -51,10 +51,10 @@ export async function loadSong(
   const blob = file instanceof Blob ? file : new Blob([file]);
   const recipe = readRecipe(audioBlock);
   onProgress({ stage: 'decode', fraction: 0 });
-  const key = await fingerprint(blob, recipe);
-  const song = (key !== null && analyses.get(key)) || (await load(blob, recipe, signal, onProgress));
+  const key = await cacheKey(blob, recipe);
+  const song = (key !== null && cachedSongs.get(key)) || (await load(blob, recipe, signal, onProgress));
   signal?.throwIfAborted();
-  if (key !== null) remember(key, song);
+  if (key !== null) cacheSong(key, song);
   onProgress({ stage: 'features', fraction: 1 });
   return song;
 }
@@ -67,7 +67,7 @@ async function load(
 ): Promise<Song> {
   const decoded = await decodeSong(file);
   signal?.throwIfAborted();
-  // Every song gets a worker of its own, so that cancelling ends its analysis at once.
+  // Each song gets its own worker, so that cancelling ends its analysis at once.
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'audio' });
   const analysis = await runInWorker<AudioTasks, 'analyse'>(
     worker,
@@ -78,13 +78,13 @@ async function load(
       transfers: decoded.channels.map((channel) => channel.buffer),
       onReport: (fraction) =>
         onProgress({ stage: 'features', fraction: DECODING_SHARE + (1 - DECODING_SHARE) * fraction }),
-      toError: crash,
+      toError: workerError,
     },
   );
   return { ...analysis, duration: decoded.duration, sampleRate: recipe.sample_rate };
 }
 
-function crash(reason: string): AppError {
+function workerError(reason: string): AppError {
   return new AppError(
     'worker-crashed',
     `The analysis of the song stopped unexpectedly (${reason}).`,
@@ -92,8 +92,8 @@ function crash(reason: string): AppError {
   );
 }
 
-/** SHA-256 of the file, with the recipe; null where the browser offers no hash (pages without a secure origin). */
-async function fingerprint(file: Blob, recipe: AudioRecipe): Promise<string | null> {
+/** SHA-256 of the file, and the recipe; null where the browser offers no hash (insecure origins). */
+async function cacheKey(file: Blob, recipe: AudioRecipe): Promise<string | null> {
   const subtle = globalThis.crypto.subtle as SubtleCrypto | undefined;
   if (!subtle || file.size === 0) return null;
   const bytes = await file.arrayBuffer().catch(() => null);
@@ -102,9 +102,10 @@ async function fingerprint(file: Blob, recipe: AudioRecipe): Promise<string | nu
   return `${Array.from(hash, (byte) => byte.toString(16).padStart(2, '0')).join('')} ${JSON.stringify(recipe)}`;
 }
 
-function remember(key: string, song: Song): void {
-  analyses.delete(key);
-  analyses.set(key, song);
-  const [oldest] = analyses.keys();
-  if (analyses.size > REMEMBERED && oldest !== undefined) analyses.delete(oldest);
+/** Adds a song to the cache as the most recently used one; the least recently used is dropped (LRU). */
+function cacheSong(key: string, song: Song): void {
+  cachedSongs.delete(key);
+  cachedSongs.set(key, song);
+  const [oldest] = cachedSongs.keys();
+  if (cachedSongs.size > MAX_CACHED_SONGS && oldest !== undefined) cachedSongs.delete(oldest);
 }

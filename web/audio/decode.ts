@@ -1,16 +1,16 @@
 import { AppError } from '../common/error';
 
 /**
- * Hz at which songs are decoded and played: common, and far enough above the recipe's rate that the browser's own
- * resampling leaves what is analysed untouched.
+ * Hz at which songs are decoded and played: a common rate, and so far above the recipe's that the browser's own
+ * resampling does not change the frequencies that are analysed.
  */
 const DECODING_RATE = 48000;
 
-/** Longest song that is taken, seconds: decoded sound needs 23 MB a minute. */
-const LONGEST = 15 * 60;
+/** Largest duration of a song, seconds: decoded sound needs 23 MB a minute. */
+const MAX_DURATION = 15 * 60;
 
-/** How long to wait for a file's header to tell its duration, milliseconds. */
-const PROBE_PATIENCE = 5000;
+/** How long to wait for the duration in a file's header. */
+const HEADER_TIMEOUT_MS = 5000;
 
 /** A song as the browser decodes it. */
 export interface DecodedSong {
@@ -23,7 +23,8 @@ export interface DecodedSong {
 }
 
 /**
- * Decodes any sound file that the browser knows; the sound of a film too. Needs a window: workers have no decoder.
+ * Decodes any audio file that the browser supports, also the sound of a video. Runs on the page only: workers have no
+ * decoder.
  *
  * Encoders put silence before an MP3, M4A or Opus song. Chromium removes it where the file says how much (measured:
  * no offset against the same song as WAV); an MP3 without a LAME header stays about 25 ms late, less than one frame.
@@ -38,7 +39,7 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
       'Choose another file, or copy this one again.',
     );
   }
-  refuseLong(await probeDuration(file));
+  checkDuration(await headerDuration(file));
   const buffer = await decode(await readBytes(file));
   if (buffer.length === 0) {
     throw new AppError(
@@ -47,31 +48,32 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
       'Choose a file that plays in a music player.',
     );
   }
-  refuseLong(buffer.duration);
+  checkDuration(buffer.duration);
   const channels = Array.from({ length: buffer.numberOfChannels }, (_, index) =>
     buffer.getChannelData(index).slice(),
   );
   return { channels, sampleRate: buffer.sampleRate, duration: buffer.duration };
 }
 
-function refuseLong(duration: number): void {
-  if (duration <= LONGEST) return;
+/** @throws {AppError} too-long */
+function checkDuration(duration: number): void {
+  if (duration <= MAX_DURATION) return;
   const minutes = (duration / 60).toFixed(1);
   throw new AppError(
     'too-long',
-    `The song lasts ${minutes} minutes; songs of up to ${LONGEST / 60} minutes are taken.`,
+    `The song lasts ${minutes} minutes; songs of up to ${MAX_DURATION / 60} minutes are taken.`,
     'Cut out the part to dance to with a sound editor and load that.',
   );
 }
 
-/** Seconds that the file's header claims, without decoding it; 0 when it doesn't say. */
-async function probeDuration(file: Blob): Promise<number> {
+/** Duration in the file's header, seconds, without decoding the file; 0 when the header has none. */
+async function headerDuration(file: Blob): Promise<number> {
   const address = URL.createObjectURL(file);
   const element = new Audio();
   element.preload = 'metadata';
   try {
     return await new Promise<number>((resolve) => {
-      setTimeout(resolve, PROBE_PATIENCE, 0);
+      setTimeout(resolve, HEADER_TIMEOUT_MS, 0);
       element.onerror = () => resolve(0);
       element.onloadedmetadata = () => resolve(Number.isFinite(element.duration) ? element.duration : 0);
       element.src = address;

@@ -2,7 +2,7 @@ import { trackBeats } from './dsp/beats';
 import { chromaFilters, normalizeRow } from './dsp/chroma';
 import { delta } from './dsp/delta';
 import { applyToPower } from './dsp/filters';
-import { separate } from './dsp/hpss';
+import { separateHarmonicPercussive } from './dsp/hpss';
 import { melFilters } from './dsp/mel';
 import { cepstrum } from './dsp/mfcc';
 import { onsetStrength } from './dsp/onset';
@@ -10,18 +10,18 @@ import { type AudioRecipe, frameCount } from './recipe';
 import { magnitudes } from './dsp/stft';
 import { beatPeriod } from './dsp/tempo';
 
-/** What a song tells the model, and what the page shows of it. */
+/** The features of a song that the model is conditioned on, and its tempo and beats. */
 export interface MusicFeatures {
   readonly frames: number;
   /** frames x recipe.features: MFCC, their deltas, chroma, onset strength, beat */
   readonly features: Float32Array;
-  /** Beats per minute; 0 when no onset was heard. */
+  /** Beats per minute; 0 when the song has no onset. */
   readonly tempo: number;
   /** Seconds of the beats, ascending. */
   readonly beats: number[];
 }
 
-/** Shares of the running time, measured on a three-minute song; only the progress depends on them. */
+/** Shares of the running time, as measured on a three-minute song; used for the progress only. */
 const SPECTRUM_SHARE = 0.25;
 const SEPARATION_SHARE = 0.7;
 
@@ -29,7 +29,7 @@ const SEPARATION_SHARE = 0.7;
  * The music features of a whole song, as training/music/features.py computes them with librosa 0.11.
  *
  * @param audio mono samples at the recipe's rate; may be shorter than a window, digital silence gives zeros
- * @param onProgress hears fractions of the work done, about a hundred times, the last one 1
+ * @param onProgress called about a hundred times with the fraction of the work done, the last time with 1
  */
 export function musicFeatures(
   audio: Float32Array,
@@ -48,7 +48,7 @@ export function musicFeatures(
   const mel = new Float64Array(frames * mels);
   const percussiveMel = new Float64Array(frames * mels);
   const pitches = new Float64Array(frames * chroma);
-  separate(
+  separateHarmonicPercussive(
     spectrogram,
     recipe,
     (frame, harmonic, percussive) => {
@@ -62,9 +62,9 @@ export function musicFeatures(
 
   const cepstra = cepstrum(mel, recipe);
   const onset = onsetStrength(percussiveMel, recipe);
-  const heard = onset.some((value) => value !== 0);
-  const period = heard ? beatPeriod(onset, recipe) : 0;
-  const beatFrames = heard ? trackBeats(onset, period, recipe.tightness) : [];
+  const hasOnsets = onset.some((value) => value !== 0);
+  const period = hasOnsets ? beatPeriod(onset, recipe) : 0;
+  const beatFrames = hasOnsets ? trackBeats(onset, period, recipe.tightness) : [];
   const beats = new Float64Array(frames);
   for (const frame of beatFrames) beats[frame] = 1;
 
@@ -80,7 +80,7 @@ export function musicFeatures(
   return {
     frames,
     features,
-    tempo: heard ? (60 * framesPerSecond) / period : 0,
+    tempo: hasOnsets ? (60 * framesPerSecond) / period : 0,
     beats: beatFrames.map((frame) => frame / framesPerSecond),
   };
 }

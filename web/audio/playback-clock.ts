@@ -1,9 +1,9 @@
 /** Longest time that is extrapolated between two readings of the song's position, seconds. */
 const MAX_EXTRAPOLATION = 0.1;
 
-/** Where a sounding song is: its position and length in seconds, and when in the dance it begins. */
-export interface SongPosition {
-  /** Seconds of the song that have been heard. */
+/** Position of the song that is playing. */
+interface SongPosition {
+  /** Seconds since the start of the song. */
   readonly position: number;
   /** Seconds; NaN until the header has been read. */
   readonly length: number;
@@ -11,7 +11,7 @@ export interface SongPosition {
   readonly songStart: number;
 }
 
-/** The time of the dance: that of the song while it sounds, else that of the computer's clock. Never runs backwards. */
+/** The time of the dance: taken from the song while it plays, else from the computer's clock. Never runs backwards. */
 export class PlaybackClock {
   /** Seconds of the dance. */
   duration = 0;
@@ -19,7 +19,7 @@ export class PlaybackClock {
   speed = 1;
   /** Last start, in seconds of the dance and in milliseconds of `performance.now()`. */
   #start = { time: 0, atMs: 0 };
-  /** Latest new song position; `atMs` is -1 until it has been seen to move. */
+  /** Last song position that differed from the one before; `atMs` is -1 until the position has changed once. */
   #reading = { position: -1, atMs: -1 };
   /** Last time returned: a song that is just starting may read a hundredth of a second back. */
   #latest = 0;
@@ -36,7 +36,7 @@ export class PlaybackClock {
     this.#latest = this.#start.time;
   }
 
-  /** Time in seconds while playing. @param song null while none sounds */
+  /** Time in seconds while playing. @param song null while none plays */
   read(song: SongPosition | null): number {
     const time = song ? this.#songTime(song) : this.#start.time + this.#elapsed(this.#start.atMs);
     this.#latest = Math.max(this.#latest, this.#clamp(time));

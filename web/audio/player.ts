@@ -1,4 +1,4 @@
-import { FadingAudio } from './audio-element';
+import { AudioElementPair } from './audio-element-pair';
 import { AppError } from '../common/error';
 import { PlaybackClock } from './playback-clock';
 
@@ -8,7 +8,7 @@ interface Loop {
   readonly to: number;
 }
 
-/** What playback does next by itself, and when in the dance, seconds. */
+/** What playback does next without a call, and when in the dance, seconds. */
 interface PlannedEvent {
   readonly kind: 'loop' | 'song-start';
   readonly time: number;
@@ -21,30 +21,27 @@ const SYNC_TOLERANCE = 1e-3;
 const MIN_TIMER_MS = 4;
 
 /**
- * Plays a song with <audio> elements, which keep the pitch at any speed and report the position of what is heard,
- * output delay included. Decoded sound as WAV is seeked to the sample; compressed files are not. Before, after and
- * without a song the time comes from the computer's clock. A loop alternates between two elements: the idle one waits
- * at the start of the loop, so that neither a gap nor a click is heard.
+ * Plays a song with <audio> elements, which keep the pitch at any speed and report the position that is audible now,
+ * output delay included. In WAV files they seek to the exact sample, in compressed files they do not. Before, after
+ * and without a song the time comes from the computer's clock. A loop alternates between two elements, of which the
+ * idle one waits at the start of the loop, so that there is neither a gap nor a click.
  */
 export class AudioPlayer {
-  #active = new FadingAudio();
-  #idle = new FadingAudio();
+  readonly #elements = new AudioElementPair();
   readonly #clock = new PlaybackClock();
-  /** Object URL of the song. */
-  #source: string | null = null;
   #songStart = 0;
   #loop: Loop | null = null;
   #playing = false;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor() {
-    for (const audio of [this.#active, this.#idle]) this.#listen(audio);
+    for (const element of this.#elements.both) this.#listen(element);
   }
 
-  /** Seconds into the dance; while the song sounds, of what is heard at this moment. */
+  /** Seconds into the dance; while the song plays, of what is audible now. */
   get time(): number {
     if (!this.#playing) return this.#clock.latest;
-    const { paused, ended, currentTime, duration } = this.#active.element;
+    const { paused, ended, currentTime, duration } = this.#elements.active;
     if (paused || ended) return this.#clock.read(null);
     return this.#clock.read({ position: currentTime, length: duration, songStart: this.#songStart });
   }
@@ -62,20 +59,13 @@ export class AudioPlayer {
    */
   load(sound: Blob | null, duration: number): void {
     this.#changeKeepingTime(() => {
-      this.#pauseElements();
-      if (this.#source !== null) URL.revokeObjectURL(this.#source);
-      this.#source = sound && URL.createObjectURL(sound);
+      this.#elements.setSource(sound);
       this.#clock.duration = duration;
     });
-    for (const element of this.#elements) {
-      if (this.#source === null) element.removeAttribute('src');
-      else element.src = this.#source;
-      element.load();
-    }
-    this.#applySpeed();
+    this.#elements.setSpeed(this.#clock.speed);
   }
 
-  /** Sets when in the dance the song begins, seconds; below 0 its beginning is not heard. Keeps the time. */
+  /** Sets when in the dance the song begins, seconds; below 0 its beginning is cut off. Keeps the time. */
   setSongStart(seconds: number): void {
     if (seconds === this.#songStart) return;
     this.#changeKeepingTime(() => {
@@ -119,7 +109,7 @@ export class AudioPlayer {
     clearTimeout(this.#timer);
     this.#clock.restart(this.time);
     this.#playing = false;
-    this.#pauseElements();
+    this.#elements.pause();
   }
 
   /** Jumps to a time in seconds, kept within the duration. */
@@ -134,28 +124,12 @@ export class AudioPlayer {
     this.#changeKeepingTime(() => {
       this.#clock.speed = speed;
     });
-    this.#applySpeed();
+    this.#elements.setSpeed(speed);
   }
 
   dispose(): void {
     this.pause();
     this.load(null, 0);
-  }
-
-  get #elements(): HTMLAudioElement[] {
-    return [this.#active.element, this.#idle.element];
-  }
-
-  #pauseElements(): void {
-    for (const element of this.#elements) element.pause();
-  }
-
-  /** Loading an element resets its rate to the default one, so both are set. */
-  #applySpeed(): void {
-    for (const element of this.#elements) {
-      element.defaultPlaybackRate = this.#clock.speed;
-      element.playbackRate = this.#clock.speed;
-    }
   }
 
   /** Changes something that the time depends on without a jump in time. */
@@ -166,36 +140,36 @@ export class AudioPlayer {
     this.#schedule();
   }
 
-  #listen(audio: FadingAudio): void {
-    const { element } = audio;
+  #listen(element: HTMLAudioElement): void {
     element.onended = () => {
-      if (this.#playing && audio === this.#active) this.#clock.restart(element.duration + this.#songStart);
+      if (this.#playing && element === this.#elements.active)
+        this.#clock.restart(element.duration + this.#songStart);
     };
     element.onloadedmetadata = () => {
-      if (audio === this.#active) this.#syncInBackground();
+      if (element === this.#elements.active) this.#syncInBackground();
       else this.#cueIdle();
     };
-    // A song that is longer than the dance stops with it.
+    // A song that is longer than the dance stops at the end of the dance.
     element.ontimeupdate = () => {
-      if (!this.#playing || audio !== this.#active) return;
+      if (!this.#playing || element !== this.#elements.active) return;
       if (element.currentTime + this.#songStart < this.#clock.duration) return;
       this.#clock.restart(this.#clock.duration);
       element.pause();
     };
   }
 
-  /** Whether the song has sound at this time of the dance. */
+  /** Whether the song covers this time of the dance. */
   #hasSong(time: number): boolean {
     const position = time - this.#songStart;
-    if (this.#source === null || position < 0 || time >= this.#clock.duration) return false;
+    if (!this.#elements.hasSource || position < 0 || time >= this.#clock.duration) return false;
     // A song whose header has not been read yet has no duration: NaN.
-    return !(position >= this.#active.element.duration - SYNC_TOLERANCE);
+    return !(position >= this.#elements.active.duration - SYNC_TOLERANCE);
   }
 
   /** Moves the song to the current time and starts it if playing. */
   async #syncSong(): Promise<void> {
     const { time } = this;
-    const { element } = this.#active;
+    const element = this.#elements.active;
     if (!this.#hasSong(time)) {
       element.pause();
       return;
@@ -216,10 +190,10 @@ export class AudioPlayer {
   /** Moves the idle element to the start of the loop. */
   #cueIdle(): void {
     if (this.#loop && this.#hasSong(this.#loop.from))
-      this.#idle.element.currentTime = this.#loop.from - this.#songStart;
+      this.#elements.idle.currentTime = this.#loop.from - this.#songStart;
   }
 
-  /** Sets a timer for what comes next by itself. */
+  /** Sets a timer for the next planned event. */
   #schedule(): void {
     clearTimeout(this.#timer);
     if (!this.#playing) return;
@@ -232,7 +206,7 @@ export class AudioPlayer {
 
   #nextEvent(time: number): PlannedEvent | null {
     const loopEnd = this.#loop && (time < this.#loop.to ? this.#loop.to : this.#clock.duration);
-    const songAhead = this.#source !== null && time < this.#songStart;
+    const songAhead = this.#elements.hasSource && time < this.#songStart;
     if (songAhead && (loopEnd === null || this.#songStart < loopEnd))
       return { kind: 'song-start', time: this.#songStart };
     return loopEnd === null ? null : { kind: 'loop', time: loopEnd };
@@ -253,11 +227,7 @@ export class AudioPlayer {
 
   #restartLoop(from: number): void {
     this.#clock.restart(from);
-    if (this.#hasSong(from)) {
-      [this.#active, this.#idle] = [this.#idle, this.#active];
-      this.#active.fadeIn();
-      this.#idle.fadeOut(() => this.#cueIdle());
-    }
+    if (this.#hasSong(from)) this.#elements.swap(() => this.#cueIdle());
     this.#syncInBackground();
     this.#schedule();
   }

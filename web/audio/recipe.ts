@@ -8,7 +8,7 @@ const odd = v.pipe(
   v.check((value) => value % 2 === 1, 'Expected an odd number'),
 );
 
-/** The manifest's `audio` block. Authored in training/music/recipe.py, which says what each number is for. */
+/** The manifest's `audio` block. It comes from training/music/recipe.py, which explains each number. */
 const schema = v.pipe(
   v.object({
     /** Hz of the mono signal that is analysed. */

@@ -11,7 +11,7 @@ import { median } from './onset';
  */
 export function trackBeats(onset: Float64Array, period: number, tightness: number): number[] {
   const score = localScore(scaledToUnitDeviation(onset), period);
-  const { previous, total } = bestChains(score, period, tightness);
+  const { previous, total } = bestSequences(score, period, tightness);
   const beats: number[] = [];
   for (let frame = lastBeat(total); frame >= 0; frame = previous[frame]!) beats.unshift(frame);
   return trimmed(beats, score);
@@ -39,15 +39,15 @@ function localScore(onset: Float64Array, period: number): Float64Array {
   });
 }
 
-/** For every frame the best score of a chain of beats that ends there, and the beat before it (-1: none). */
-function bestChains(
+/** For each frame, the best total score of a beat sequence that ends there, and the beat before it (-1: none). */
+function bestSequences(
   score: Float64Array,
   period: number,
   tightness: number,
 ): { previous: Int32Array; total: Float64Array } {
   const previous = new Int32Array(score.length).fill(-1);
   const total = new Float64Array(score.length);
-  const nearest = roundHalfToEven(period / 2);
+  const minDistance = roundHalfToEven(period / 2);
   const penalty = Float64Array.from(
     { length: 2 * period + 1 },
     (_, distance) => tightness * (Math.log(distance) - Math.log(period)) ** 2,
@@ -56,15 +56,15 @@ function bestChains(
   let started = false;
   for (let frame = 0; frame < score.length; frame++) {
     let best = -Infinity;
-    let link = -1;
-    for (let distance = nearest; distance <= 2 * period && distance <= frame; distance++) {
+    let bestPrevious = -1;
+    for (let distance = minDistance; distance <= 2 * period && distance <= frame; distance++) {
       const candidate = total[frame - distance]! - penalty[distance]!;
-      if (candidate > best) [best, link] = [candidate, frame - distance];
+      if (candidate > best) [best, bestPrevious] = [candidate, frame - distance];
     }
-    total[frame] = score[frame]! + (link >= 0 ? best : 0);
-    // A chain begins at the first frame that isn't silent.
+    total[frame] = score[frame]! + (bestPrevious >= 0 ? best : 0);
+    // A sequence begins at the first frame that isn't silent.
     if (started || score[frame]! >= threshold) {
-      previous[frame] = link;
+      previous[frame] = bestPrevious;
       started = true;
     }
   }
@@ -108,7 +108,7 @@ function rootMeanSquare(values: readonly number[]): number {
   return Math.sqrt(values.reduce((sum, value) => sum + value ** 2, 0) / values.length);
 }
 
-/** numpy's rounding. */
+/** Rounds as numpy does: halves to the even neighbour. */
 function roundHalfToEven(value: number): number {
   const below = Math.floor(value);
   return value - below === 0.5 ? below + (below % 2) : Math.round(value);

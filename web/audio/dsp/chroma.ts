@@ -8,7 +8,7 @@ const SEMITONES_FROM_A_TO_C = 3;
 const A0_HZ = 440 / 16;
 
 /**
- * Filters that sum a power spectrum into pitch classes, C first: Gaussian bumps around every octave of the class,
+ * Filters that sum a power spectrum into pitch classes, C first: Gaussians around every octave of the class,
  * weighted by a Gaussian over octaves (Ellis 2007; `librosa.filters.chroma`, norm 2).
  */
 export function chromaFilters(recipe: AudioRecipe): FilterBank {
@@ -16,22 +16,22 @@ export function chromaFilters(recipe: AudioRecipe): FilterBank {
   const bins = size / 2 + 1;
   const positions = pitchPositions(recipe, bins + 1);
   const rows = Array.from({ length: chroma }, () => new Float64Array(bins));
-  const bumps = new Float64Array(chroma);
+  const gaussians = new Float64Array(chroma);
   for (let bin = 0; bin < bins; bin++) {
     const position = positions[bin]!;
     const width = Math.max(positions[bin + 1]! - position, 1);
     let norm = 0;
     for (let pitch = 0; pitch < chroma; pitch++) {
       const distance = (2 * wrap(position - pitch, chroma)) / width;
-      const bump = Math.exp(-0.5 * distance ** 2);
-      bumps[pitch] = bump;
-      norm += bump ** 2;
+      const value = Math.exp(-0.5 * distance ** 2);
+      gaussians[pitch] = value;
+      norm += value ** 2;
     }
     const octaves = (position / chroma - recipe.chroma_octave) / recipe.chroma_octave_width;
     const weight = Math.exp(-0.5 * octaves ** 2) / Math.sqrt(norm);
     for (let pitch = 0; pitch < chroma; pitch++) {
       const fromC = (pitch - SEMITONES_FROM_A_TO_C * Math.floor(chroma / 12) + chroma) % chroma;
-      rows[fromC]![bin] = bumps[pitch]! * weight;
+      rows[fromC]![bin] = gaussians[pitch]! * weight;
     }
   }
   return filterBank(rows);

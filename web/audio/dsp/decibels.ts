@@ -1,7 +1,7 @@
 /**
  * Powers as decibels above `reference`, nothing more than `topDb` below the loudest (`librosa.power_to_db`).
  *
- * @param amin powers below this, the reference too, count as this
+ * @param amin least power: smaller ones, also a smaller reference, are replaced by it
  */
 export function powerToDecibels(
   power: Float64Array,

@@ -1,4 +1,4 @@
-/** A bank of linear filters over the bins of a spectrum; each keeps only the bins from its first to its last weight. */
+/** A bank of linear filters over the bins of a spectrum; each stores only the bins from its first to its last non-zero weight. */
 export interface FilterBank {
   readonly filters: readonly { readonly first: number; readonly weights: Float64Array }[];
 }

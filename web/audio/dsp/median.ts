@@ -1,6 +1,6 @@
 /**
- * Replaces one value of a sorted run by another and keeps it sorted. Neighbouring windows of a median filter differ
- * by one value, and the entering value usually lands near the leaving one: few moves, against a sort for each output.
+ * Replaces one value of a sorted run by another and keeps the run sorted. Neighbouring windows of a median filter
+ * differ by one value, and the new value is usually close to the old one, so this is faster than sorting each window.
  *
  * @param sorted holds the run of `size` ascending values from index `start` on; must contain `leaving`
  */
@@ -30,15 +30,15 @@ export function replaceSorted(
   sorted[low] = entering;
 }
 
-/** Index inside 0 .. length - 1 that a signal mirrored at its ends (d c b a | a b c d | d c b a) has at `index`. */
-export function mirror(index: number, length: number): number {
+/** Index into a signal of `length` values that is extended by reflection (d c b a | a b c d | d c b a). */
+export function reflectedIndex(index: number, length: number): number {
   const period = 2 * length;
   const inPeriod = ((index % period) + period) % period;
   return inPeriod < length ? inPeriod : period - 1 - inPeriod;
 }
 
 /**
- * Running median of one row, mirrored at its ends (`scipy.ndimage.median_filter`, mode 'reflect').
+ * Running median of one row, extended by reflection (`scipy.ndimage.median_filter`, mode 'reflect').
  *
  * @param values holds the row of `length` values from index `offset` on
  * @param kernel odd width of the median
@@ -53,7 +53,7 @@ export function medianOfRow(
 ): void {
   const half = (kernel - 1) / 2;
   const window = new Float32Array(kernel);
-  for (let k = 0; k < kernel; k++) window[k] = values[offset + mirror(k - half, length)]!;
+  for (let k = 0; k < kernel; k++) window[k] = values[offset + reflectedIndex(k - half, length)]!;
   window.sort();
   out[0] = window[half]!;
   for (let i = 1; i < length; i++) {
@@ -63,8 +63,8 @@ export function medianOfRow(
       window,
       0,
       kernel,
-      values[offset + (leaving >= 0 ? leaving : mirror(leaving, length))]!,
-      values[offset + (entering < length ? entering : mirror(entering, length))]!,
+      values[offset + (leaving >= 0 ? leaving : reflectedIndex(leaving, length))]!,
+      values[offset + (entering < length ? entering : reflectedIndex(entering, length))]!,
     );
     out[i] = window[half]!;
   }

@@ -3,7 +3,7 @@ import type { AudioRecipe } from '../recipe';
 
 /**
  * Onset strength: the median over the mel bands of the rise in decibels since `onset_lag` frames before, delayed by
- * half a window because a centred frame hears an onset before it happens (`librosa.onset.onset_strength`, aggregate
+ * half a window because a centred frame contains an onset half a window early (`librosa.onset.onset_strength`, aggregate
  * median).
  *
  * @param mel frames x mels powers

@@ -1,28 +1,29 @@
-/**
- * The low-pass filter that soxr's 'HQ' quality puts under librosa's resampling, fitted to its impulse response to 6e-5
- * of the peak. Browsers resample with short filters of their own, which bend the highest mel bands by a third of a
- * standard deviation; that is why songs are decoded at a high rate and brought down here.
- */
-const SOXR = {
+/** A low-pass filter: a sinc function under a Kaiser window. */
+interface Filter {
   /** Edge of the pass band at half amplitude, relative to half the lower rate. */
-  cutoff: 0.9568586,
-  /** Shape of the Kaiser window. */
-  beta: 14.6532,
+  readonly cutoff: number;
+  /** Shape parameter of the Kaiser window. */
+  readonly beta: number;
   /** Half the length of the window, in samples at the lower rate. */
-  reach: 105.279,
-};
+  readonly halfLength: number;
+}
 
-/** The filter of the halvings: its stop band begins where aliases of the kept frequencies would come from. */
-const HALVING = { cutoff: 1, beta: 12.27, reach: 12 };
+/**
+ * The filter of soxr's 'HQ' quality, which librosa resamples with, fitted to its impulse response to 6e-5 of the peak.
+ * Browsers resample with shorter filters, which change the highest mel bands by a third of a standard deviation; that
+ * is why songs are decoded at a high rate and resampled here.
+ */
+const SOXR: Filter = { cutoff: 0.9568586, beta: 14.6532, halfLength: 105.279 };
 
-type Filter = typeof SOXR;
+/** The filter that halves the rate: it removes the frequencies that would alias into those that are kept. */
+const HALVING: Filter = { cutoff: 1, beta: 12.27, halfLength: 12 };
 
 /**
  * Resamples to a lower rate like `librosa.resample` does (linear phase, no delay).
  *
  * @param from Hz, whole
  * @param to Hz, whole, at most `from`
- * @param onProgress hears ascending fractions of the work done
+ * @param onProgress called with ascending fractions of the work done
  * @returns ceil(samples * to / from) samples
  */
 export function resample(
@@ -34,13 +35,13 @@ export function resample(
   if (from === to) return audio;
   const length = Math.ceil((audio.length * to) / from);
   if (from < 3 * to || from % 2 === 1) return convert(audio, length, from, to, SOXR, onProgress);
-  // Far above the wanted rate a short filter is enough to halve it: half the work for the long one. The zeros at both
-  // ends, a whole number of samples at either rate, keep what the short filter spreads over the ends.
+  // From a much higher rate, a short filter halves the rate first, which leaves half the work for the long filter. The
+  // zeros at both ends, a whole number of samples at either rate, hold what the short filter spreads over the ends.
   const divisor = greatestCommonDivisor(from, to);
-  const blocks = Math.ceil((2 * HALVING.reach * divisor) / from);
-  const lead = (blocks * from) / divisor;
-  const padded = new Float32Array(audio.length + 2 * lead);
-  padded.set(audio, lead);
+  const blocks = Math.ceil((2 * HALVING.halfLength * divisor) / from);
+  const padding = (blocks * from) / divisor;
+  const padded = new Float32Array(audio.length + 2 * padding);
+  padded.set(audio, padding);
   const halved = convert(padded, Math.ceil(padded.length / 2), from, from / 2, HALVING);
   const start = (blocks * to) / divisor;
   return convert(halved, start + length, from / 2, to, SOXR, onProgress).slice(start);
@@ -57,7 +58,7 @@ function convert(
 ): Float32Array {
   const divisor = greatestCommonDivisor(from, to);
   const [up, down] = [to / divisor, from / divisor];
-  const half = Math.ceil((filter.reach * from) / to);
+  const half = Math.ceil((filter.halfLength * from) / to);
   const taps = 2 * half + 1;
   const phases = Array.from({ length: up }, (_, phase) =>
     Float64Array.from({ length: taps }, (_, tap) => kernel(tap - half - phase / up, from, to, filter)),
@@ -65,7 +66,7 @@ function convert(
   const padded = new Float64Array(signal.length + taps + 1);
   padded.set(signal, half);
   const out = new Float32Array(length);
-  // Where an output lies beyond the signal it is zero.
+  // Outputs beyond the end of the signal are zero.
   const inside = Math.min(length, Math.ceil((signal.length * up) / down));
   for (let first = 0; first < up; first++) {
     onProgress(first / up);
@@ -78,9 +79,9 @@ function convert(
 }
 
 /** Weight of a sample `distance` input samples away from the output sample. */
-function kernel(distance: number, from: number, to: number, { cutoff, beta, reach }: Filter): number {
+function kernel(distance: number, from: number, to: number, { cutoff, beta, halfLength }: Filter): number {
   const time = (distance * to) / from;
-  const inside = 1 - (time / reach) ** 2;
+  const inside = 1 - (time / halfLength) ** 2;
   if (inside <= 0) return 0;
   const angle = Math.PI * cutoff * time;
   const sinc = angle === 0 ? 1 : Math.sin(angle) / angle;
@@ -104,7 +105,7 @@ function dot(weights: Float64Array, values: Float64Array, start: number): number
   return sum;
 }
 
-/** Outputs `first`, `first + up` ..., four in all: they share their weights, which halves what is read. */
+/** Computes four outputs, `first`, `first + up` and so on, with the same weights, which halves what is read. */
 function dot4(
   weights: Float64Array,
   values: Float64Array,

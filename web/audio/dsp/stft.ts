@@ -1,4 +1,4 @@
-import { fourier } from './fft';
+import Meyda from 'meyda';
 import { type AudioRecipe, frameCount } from '../recipe';
 
 /** A matrix of numbers over time: `frames` rows of `bins`. */
@@ -9,7 +9,7 @@ export interface Spectrogram {
   readonly values: Float32Array;
 }
 
-/** Hears of `done` of `total` units of work. */
+/** Called when `done` of `total` units of work are done. */
 export type Progress = (done: number, total: number) => void;
 
 /**
@@ -32,9 +32,26 @@ export function magnitudes(audio: Float32Array, recipe: AudioRecipe, progress?: 
   for (let frame = 0; frame < frames; frame++) {
     const start = frame * recipe.hop - size / 2;
     for (let i = 0; i < size; i++) windowed[i] = (audio[start + i] ?? 0) * window[i]!;
-    const { real, imag } = fourier(windowed);
+    const { real, imag } = fft(windowed);
     for (let bin = 0; bin < bins; bin++) values[frame * bins + bin] = Math.hypot(real[bin]!, imag[bin]!);
     progress?.(frame + 1, frames);
   }
   return { frames, bins, values };
+}
+
+/** Real and imaginary parts of the bins 0 .. n - 1. */
+interface ComplexSpectrum {
+  readonly real: ArrayLike<number>;
+  readonly imag: ArrayLike<number>;
+}
+
+/**
+ * Fourier transform of a real frame whose length is a power of two. Meyda's own window is switched off, because it is
+ * the symmetric Hann window and librosa's is the periodic one. Its settings are global, so they are set at every call.
+ */
+function fft(frame: Float64Array): ComplexSpectrum {
+  Meyda.bufferSize = frame.length;
+  Meyda.windowingFunction = 'rect';
+  // Meyda accepts and returns doubles here, in spite of its declared type.
+  return Meyda.extract('complexSpectrum', frame) as unknown as ComplexSpectrum;
 }

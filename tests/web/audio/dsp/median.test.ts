@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { medianOfRow, mirror, replaceSorted } from '../../../../web/audio/dsp/median';
+import { medianOfRow, reflectedIndex, replaceSorted } from '../../../../web/audio/dsp/median';
 
 /** Reproducible values with many ties, as spectra of silence have. */
 function values(length: number): Float32Array {
@@ -12,7 +12,10 @@ function values(length: number): Float32Array {
 
 function sortedMedian(row: Float32Array, centre: number, kernel: number): number {
   const half = (kernel - 1) / 2;
-  const window = Array.from({ length: kernel }, (_, k) => row[mirror(centre + k - half, row.length)]!);
+  const window = Array.from(
+    { length: kernel },
+    (_, k) => row[reflectedIndex(centre + k - half, row.length)]!,
+  );
   return window.sort((a, b) => a - b)[half]!;
 }
 
@@ -25,8 +28,8 @@ describe('the running median', () => {
     expect(Array.from(out)).toEqual(expected);
   });
 
-  it('mirrors at both ends, as often as needed', () => {
-    const shown = [-5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7].map((index) => mirror(index, 3));
+  it('extends a row by reflection at both ends, repeatedly where needed', () => {
+    const shown = [-5, -4, -3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7].map((index) => reflectedIndex(index, 3));
     expect(shown).toEqual([1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
   });
 
