@@ -18,13 +18,13 @@ export type Task<Input, Output, Report = never> = (
   context: TaskContext<Report>,
 ) => Output | Promise<Output>;
 
-export type Tasks = Readonly<Record<string, Task<never, unknown, never>>>;
+type Tasks = Readonly<Record<string, Task<never, unknown, never>>>;
 
 type InputOf<T extends Tasks[string]> = Parameters<T>[0];
 type OutputOf<T extends Tasks[string]> = Awaited<ReturnType<T>>;
 type ReportOf<T extends Tasks[string]> = Parameters<T>[1] extends TaskContext<infer R> ? R : never;
 
-export interface CallOptions<Report = never> {
+interface CallOptions<Report = never> {
   /** Cancels the call. */
   readonly signal?: AbortSignal | undefined;
   readonly onReport?: ((report: Report) => void) | undefined;

@@ -12,7 +12,7 @@ export interface About {
   readonly settings: object;
   /** Start of the song after the start of the dance, frames. */
   readonly shift: number;
-  /** Whether feet in contact with the floor were picked from sliding, for the dancer that the model made. */
+  /** Whether feet in contact with the floor were kept from sliding, for the dancer that the model made. */
   readonly footLock: boolean;
 }
 

@@ -1,5 +1,5 @@
 /** An array of a .npy file, row-major. */
-export type NpyArray =
+type NpyArray =
   | { readonly shape: readonly number[]; readonly data: Float32Array | Float64Array }
   | { readonly shape: readonly number[]; readonly data: readonly string[] };
 

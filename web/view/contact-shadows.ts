@@ -11,7 +11,7 @@ import { FEET, footMatrix } from './dancer/foot-placement';
 import type { Look } from './theme';
 
 /** Dark spots under feet that are close to the floor, which make them look as if they stood on it. */
-export interface ContactShadows {
+interface ContactShadows {
   readonly object: InstancedMesh;
   /** @param dancers joint positions (22 x 3, metres), at most two dancers. */
   update(dancers: readonly Float32Array[]): void;

@@ -12,7 +12,7 @@ import { SOLE } from './body/leg';
 import type { Look } from './theme';
 
 /** The floor: lit in the middle, with a grid that fades out and the shadows that fall on it, in one pass. */
-export interface Floor {
+interface Floor {
   readonly object: Mesh;
   /** Keeps the lit part under the couple (x, z in metres); the grid stays where it is. */
   setCentre(x: number, z: number): void;
@@ -42,7 +42,7 @@ void main() {
 // Colours are mixed as they are seen (sRGB), like those of the interface around the stage.
 const FRAGMENT = /* glsl */ `
 uniform vec3 background;
-uniform vec3 pool;
+uniform vec3 litFloor;
 uniform vec3 line;
 uniform float lineOpacity;
 uniform float shadow;
@@ -73,7 +73,7 @@ float noise(vec2 p) {
 void main() {
   float fromCentre = distance(vPlace, centre);
   float light = 1.0 - smoothstep(0.0, 5.0, fromCentre);
-  vec3 colour = mix(background, pool, light);
+  vec3 colour = mix(background, litFloor, light);
   float strength = max(lines(1.0, 0.009), 0.5 * lines(0.5, 0.007)) * lineOpacity;
   colour = mix(colour, line, strength * (1.0 - smoothstep(1.6, ${RADIUS.toFixed(1)}, fromCentre)));
   colour *= 1.0 - shadow * (1.0 - getShadowMask());
@@ -84,7 +84,7 @@ export function createFloor(): Floor {
   const circle = new CircleGeometry(RADIUS, SEGMENTS).rotateX(-Math.PI / 2);
   const own = {
     background: { value: new Color() },
-    pool: { value: new Color() },
+    litFloor: { value: new Color() },
     line: { value: new Color() },
     lineOpacity: { value: 0 },
     shadow: { value: 0 },
@@ -109,7 +109,7 @@ export function createFloor(): Floor {
     },
     setLook(look) {
       own.background.value.setHex(look.background, LinearSRGBColorSpace);
-      own.pool.value.setHex(look.pool, LinearSRGBColorSpace);
+      own.litFloor.value.setHex(look.litFloor, LinearSRGBColorSpace);
       own.line.value.setHex(look.line, LinearSRGBColorSpace);
       own.lineOpacity.value = look.lineOpacity;
       own.shadow.value = look.shadow;

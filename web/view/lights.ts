@@ -6,7 +6,7 @@ import type { Look } from './theme';
  * always has light and shade. There is no environment map: filtering one blocks the page for seconds without a graphics card, and
  * on a matt body a fill light does the same.
  */
-export interface Lights {
+interface Lights {
   readonly object: Group;
   /** Places the lights around the couple for a camera that looks along `heading` (radians about y). */
   place(x: number, z: number, heading: number): void;

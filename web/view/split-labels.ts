@@ -4,7 +4,7 @@ export interface Labels {
   readonly right: string;
 }
 
-/** The line between the halves of a split view, with the name of each half at its foot. */
+/** The line between the halves of a split view, with the name of each half at its lower end. */
 export interface SplitLabels {
   /** Shows the names, or hides line and names. */
   show(labels: Labels | null): void;
@@ -17,8 +17,8 @@ export function createSplitLabels(host: HTMLElement): SplitLabels {
     element.className = className;
     return element;
   };
-  const [left, right] = [make('half a'), make('half b')];
-  const line = make('halves');
+  const [left, right] = [make('split-label a'), make('split-label b')];
+  const line = make('split-labels');
   line.append(left, right);
   line.hidden = true;
   host.append(line);

@@ -8,7 +8,7 @@ import { screenBounds } from './edge-smoothing';
 import { StageScene } from './scene';
 
 /** What a renderer is made for. */
-export interface RendererOptions {
+interface RendererOptions {
   readonly library: BodyLibrary;
   /** Whether WebGL is drawn by software, without a graphics card. */
   readonly softwareRendered: boolean;

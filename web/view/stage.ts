@@ -13,7 +13,7 @@ import { LOOKS, ROLES, type Role, type Theme } from './theme';
 
 export type { PictureSize };
 
-export interface StageStats {
+interface StageStats {
   /** Draw calls of the last frame, shadow passes included. */
   readonly drawCalls: number;
   /** Triangles of the last frame, shadow passes included. */
@@ -33,7 +33,7 @@ export interface DancerOptions {
 }
 
 /** Another take to compare with the one on the stage. */
-export interface OtherTake {
+interface OtherTake {
   readonly motion: SolvedMotion;
   /** `ghost`: see-through in the same picture; else the half of a split view that it has, the first take has the other. */
   readonly mode: OtherMode;

@@ -13,7 +13,7 @@ export interface Look {
   readonly contrast: number;
   readonly background: number;
   /** Colour of the lit floor in the middle. */
-  readonly pool: number;
+  readonly litFloor: number;
   readonly line: number;
   readonly lineOpacity: number;
   readonly fill: number;
@@ -35,7 +35,7 @@ export const LOOKS: Readonly<Record<Theme, Look>> = {
     other: 0xf0705a,
     contrast: 0xf4f1ec,
     background: 0x121417,
-    pool: 0x1e2226,
+    litFloor: 0x1e2226,
     line: 0xffffff,
     lineOpacity: 0.17,
     fill: 0.75,
@@ -54,7 +54,7 @@ export const LOOKS: Readonly<Record<Theme, Look>> = {
     other: 0xc8432c,
     contrast: 0x2b3036,
     background: 0xe9ebed,
-    pool: 0xf6f7f8,
+    litFloor: 0xf6f7f8,
     line: 0x5c646d,
     lineOpacity: 0.2,
     fill: 1,

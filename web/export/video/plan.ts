@@ -2,7 +2,7 @@ import type { AudioCodec, VideoCodec } from 'mediabunny';
 import { canEncodeAudio, canEncodeVideo } from 'mediabunny';
 import { canEncodeAac } from './aac';
 
-export type Container = 'mp4' | 'webm';
+type Container = 'mp4' | 'webm';
 
 /** How a video will be written. */
 export type VideoPlan =

@@ -10,7 +10,7 @@ export interface VideoSource {
   readonly sound: Soundtrack | null;
 }
 
-export interface Soundtrack {
+interface Soundtrack {
   /** A sound file that the browser can decode. */
   readonly file: Blob;
   /** Moment of the dance at which the song begins, seconds; negative when its beginning is cut off. */

@@ -5,13 +5,13 @@
 import type { Block } from './blocks';
 
 /** Blocks of one step that can be computed together. */
-export interface StepBlocks {
+interface StepBlocks {
   readonly step: number;
   readonly blocks: readonly Block[];
 }
 
 /** A part of the clip and what remains to be computed for it, in an order in which each input is there. */
-export interface PlannedPart {
+interface PlannedPart {
   readonly part: Block;
   readonly work: readonly StepBlocks[];
 }

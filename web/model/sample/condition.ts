@@ -3,7 +3,7 @@ import { yieldToEvents } from '../../common/yield-to-events';
 import type { ConditionInput, ConditionRunner } from './graphs';
 
 /** A piece of a clip in latent frames, ends excluded: its output, and the larger input that makes the output exact. */
-export interface Chunk {
+interface Chunk {
   readonly start: number;
   readonly end: number;
   readonly inputStart: number;

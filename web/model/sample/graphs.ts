@@ -35,7 +35,7 @@ export interface StepInput {
 }
 
 /** Outputs of the step graph, both blocks x block x width. */
-export interface StepOutput {
+interface StepOutput {
   readonly x: Float32Array;
   readonly x0: Float32Array;
 }

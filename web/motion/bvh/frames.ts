@@ -3,7 +3,7 @@ import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
 import { AppError } from '../../common/error';
 
 /** The frames of a file, checked. */
-export interface ReadFrames {
+interface ReadFrames {
   readonly frameLines: readonly string[];
   /** Sentences about what was left out. */
   readonly warnings: readonly string[];

@@ -4,7 +4,7 @@ import type { BvhFile } from './text';
 import { readVec, sub, type Vec3, writeVec } from '../math/vec3';
 
 /** Local transforms of every node in chosen frames. */
-export interface BvhPoses {
+interface BvhPoses {
   /** frames x nodes x 4, xyzw. */
   readonly rotations: Float32Array;
   /** frames x nodes x 3, from the parent, in the file's unit. */

@@ -4,7 +4,7 @@ import { segmentDistance } from '../math/segments';
 import { J, JOINT_COUNT, type JointName } from '../skeleton/skeleton';
 
 /** A capsule around a bone: a segment with a radius. */
-export interface Capsule {
+interface Capsule {
   readonly from: JointName;
   readonly to: JointName;
   /** Metres, on a body of the reference height. */
@@ -61,7 +61,7 @@ export function capsuleBody(clip: MotionClip, { capsules, reference_height }: Bo
 }
 
 /** A capsule of one dancer and one of the other, as rows of their `axes` and `spheres`, and the sum of their radii. */
-export interface CapsulePair {
+interface CapsulePair {
   readonly a: number;
   readonly b: number;
   readonly radii: number;

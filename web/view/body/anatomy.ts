@@ -5,7 +5,7 @@ import { pair, type Build, type Part, type BodyPlan, type Shape, type Side } fro
 import { head, neck, shoulderSlope, torso } from './trunk';
 
 /** The body of a dancer in the bind pose. */
-export interface Anatomy {
+interface Anatomy {
   /** Shapes whose smooth union it is, in this order. */
   readonly shapes: readonly Shape[];
   /** The solids among them with skin weights. */

@@ -34,7 +34,7 @@ export const cross = (a: Vec3, b: Vec3): Vec3 => [
 ];
 export const unit = (a: Vec3): Vec3 => scale(a, 1 / (length(a) || 1));
 
-export const clamp01 = (t: number): number => (t < 0 ? 0 : t > 1 ? 1 : t);
+const clamp01 = (t: number): number => (t < 0 ? 0 : t > 1 ? 1 : t);
 /** 0 below `from`, 1 above `to`, between them the cubic 3t² - 2t³. */
 export const smoothstep = (from: number, to: number, value: number): number => {
   const t = clamp01((value - from) / (to - from));

@@ -3,7 +3,7 @@ import type { Build } from './part';
 import type { Body } from './simplify';
 import type { BodyTasks } from './worker';
 
-/** A cache of bodies by skeleton and build; meshes the others in a worker. */
+/** A cache of bodies by skeleton and build; bodies that are not cached are meshed in a worker. */
 export interface BodyLibrary {
   /** The body for a skeleton (22 x 3 offsets, metres), or one for nearly the same: its `offsets` say for which. */
   request(offsets: ArrayLike<number>, build: Build): Promise<Body>;
@@ -14,10 +14,10 @@ export interface BodyLibrary {
  * A body fits skeletons whose offsets are this near on every axis, metres: every generation solves a slightly different
  * one, and the skin follows the exact bones anyway.
  */
-const NEAR = 0.01;
-const KEPT = 8;
+const MAX_OFFSET_DIFFERENCE = 0.01;
+const MAX_CACHED_BODIES = 8;
 
-interface Kept {
+interface CachedBody {
   readonly offsets: Float32Array;
   readonly build: Build;
   readonly body: Promise<Body>;
@@ -25,13 +25,13 @@ interface Kept {
 
 export function createBodyLibrary(): BodyLibrary {
   let connection: WorkerConnection<BodyTasks> | null = null;
-  let bodies: Kept[] = [];
+  let bodies: CachedBody[] = [];
 
   async function mesh(offsets: Float32Array, build: Build): Promise<Body> {
     try {
       return await inWorker(offsets, build);
     } catch (error) {
-      // Slower and felt, but a stage without its worker still shows the dance.
+      // This blocks the page for a moment, but the stage works without its worker.
       console.warn('Bodies are made on the main thread, their worker failed:', error);
       const { makeBody } = await import('./simplify');
       return makeBody(offsets, build);
@@ -49,13 +49,14 @@ export function createBodyLibrary(): BodyLibrary {
   return {
     request(offsets, build) {
       const found = bodies.find(
-        (kept) =>
-          kept.build === build && kept.offsets.every((value, i) => Math.abs(value - offsets[i]!) < NEAR),
+        (cached) =>
+          cached.build === build &&
+          cached.offsets.every((value, i) => Math.abs(value - offsets[i]!) < MAX_OFFSET_DIFFERENCE),
       );
       if (found) return found.body;
       const own = Float32Array.from(offsets);
       const body = mesh(own, build);
-      bodies = [...bodies, { offsets: own, build, body }].slice(-KEPT);
+      bodies = [...bodies, { offsets: own, build, body }].slice(-MAX_CACHED_BODIES);
       return body;
     },
     dispose() {

@@ -57,7 +57,7 @@ export interface Part extends Shape {
 }
 
 /** A blend width that is the same everywhere, or one that varies up to `max`, metres. */
-export type Blend = number | { readonly max: number; readonly at: Field };
+type Blend = number | { readonly max: number; readonly at: Field };
 
 const blendOf = (blend: Blend): Pick<Shape, 'blend' | 'maxBlend'> =>
   typeof blend === 'number'

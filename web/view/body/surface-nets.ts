@@ -17,7 +17,7 @@ export interface Grid {
   readonly cell: number;
 }
 
-/** Corners of a cell are numbered by bits: 1 = +x, 2 = +y, 4 = +z. EdgeSmoothing join corners that differ in one bit. */
+/** Corners of a cell are numbered by bits: 1 = +x, 2 = +y, 4 = +z. Edges join corners that differ in one bit. */
 const EDGES: readonly (readonly [number, number])[] = [
   [0, 1],
   [2, 3],

@@ -2,7 +2,7 @@ import { serve } from '../../common/run-in-worker';
 import { makeBody, type Body } from './simplify';
 import type { Build } from './part';
 
-/** Meshing off the main thread: a third of a second of arithmetic that must not be felt. */
+/** Meshing off the main thread, which it would block for a third of a second. */
 const tasks = {
   build: ({ offsets, build }: { offsets: Float32Array; build: Build }): Promise<Body> =>
     makeBody(offsets, build),

@@ -16,7 +16,7 @@ export interface FollowInput {
   readonly mayZoom: boolean;
 }
 
-export interface FollowStep {
+interface FollowStep {
   /** By how much eye and target move, metres. */
   readonly shift: readonly [x: number, z: number];
   /** The new distance, or null where it stays. */

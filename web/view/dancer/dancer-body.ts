@@ -10,7 +10,7 @@ import type { Rig } from './rig';
  * How a body is drawn: solid; see-through around the skeleton overlay's bones; as the ghost of the coarse layer; as the
  * ghost of another take.
  */
-export type BodyStyle = 'solid' | 'translucent' | 'coarse' | 'other';
+type BodyStyle = 'solid' | 'translucent' | 'coarse' | 'other';
 
 const OPACITY: Readonly<Record<Exclude<BodyStyle, 'solid'>, GhostOpacity>> = {
   translucent: { facing: 0.14, grazing: 0.75 },

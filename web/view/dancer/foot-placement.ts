@@ -2,7 +2,7 @@ import type { Matrix4 } from 'three';
 import { J } from '../../motion/skeleton/skeleton';
 import { SOLE } from '../body/leg';
 
-export interface Foot {
+interface Foot {
   readonly ankle: number;
   readonly toe: number;
 }

@@ -11,7 +11,7 @@ import { createTrails } from './trails';
 type DrawnOverlay = Exclude<keyof VisibleOverlays, 'ghost'>;
 
 /** All overlays but the ghost, which is a dancer. An overlay that is off costs nothing. */
-export interface Overlays {
+interface Overlays {
   readonly object: Group;
   setVisible(visible: VisibleOverlays): void;
   update(figures: readonly Figure[], seconds: number): void;

@@ -1,7 +1,7 @@
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, ShaderMaterial } from 'three';
 
 /** Ribbons along curves that face the camera, in one mesh. */
-export interface Ribbons {
+interface Ribbons {
   readonly object: Mesh;
   /** Removes all ribbons. */
   clear(): void;
@@ -14,7 +14,7 @@ export interface Ribbons {
   dispose(): void;
 }
 
-export interface Rgb {
+interface Rgb {
   readonly r: number;
   readonly g: number;
   readonly b: number;
