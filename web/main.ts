@@ -5,8 +5,8 @@
 import { AudioPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
 import { readLeader } from './motion/client';
-import { keepPage } from './offline/register';
-import { clearKept, measureKept } from './offline/storage-usage';
+import { registerServiceWorker } from './offline/register';
+import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, standAside } from './stage-binding';
 import { createStage, type Stage } from './view/stage';
@@ -74,7 +74,7 @@ createCoarseLayer(store, model.generator);
 const playback = new PlaybackControl(store, new AudioPlayer());
 createQuality(store, measureDance);
 const offline = import.meta.env.PROD
-  ? keepPage(new URL('service-worker.js', document.baseURI), () => {
+  ? registerServiceWorker(new URL('service-worker.js', document.baseURI), () => {
       apply(store, updateSet(true));
     })
   : null;
@@ -116,13 +116,13 @@ const services: Services = {
     project.clear();
     void openDemo();
   },
-  measureStorage: () => measureKept(globalThis),
+  measureStorage: () => measureStorage(globalThis),
   clearStorage: () =>
-    clearKept(globalThis).then(
+    clearStorage(globalThis).then(
       () => true,
       () => false,
     ),
-  loadUpdate: () => offline?.takeUpdate(),
+  loadUpdate: () => offline?.activateUpdate(),
 };
 
 // ---- panels ----

@@ -1,7 +1,7 @@
 /** Binds a stage to the state: which dancers and overlays it shows, and when. Opens stages for videos. */
 import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
-import { together } from './ui/widgets/dom';
+import { combineDisposers } from './ui/widgets/dom';
 import type { VideoStage } from './ui/download/downloads';
 import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
@@ -16,7 +16,7 @@ const BUSY_AFTER_MS = 1000;
 
 /** Keeps a stage in step with the state; returns how to stop that. */
 export function bindStage(stage: Stage, store: Store): () => void {
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.theme,
@@ -70,7 +70,7 @@ function bindDancers(stage: Stage, store: Store): () => void {
 /** Lets the stage leave the page time while a reaction is generated, and shortly afterwards. */
 function bindBusy(stage: Stage, store: Store): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.job !== null,

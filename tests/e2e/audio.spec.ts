@@ -5,7 +5,7 @@ import { servePage } from '../../tools/bench/built-page.mjs';
 import { agreement, beatAgreement, beatFrames } from '../web/support/feature-parity';
 import { fixture, recipe } from '../web/support/audio-fixtures';
 import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/real-songs';
-import type { Heard, Source, Told } from './support/audio-page/main';
+import type { Heard, Source, ExplainedError } from './support/audio-page/main';
 
 /** Seconds of the ticks that tests/fixtures/make_audio.py put into the clicks. */
 const TICKS = [0.2, 0.5, 0.75, 1.1];
@@ -31,14 +31,14 @@ function call<T>(page: Page, name: string, ...values: unknown[]): Promise<T> {
 }
 
 async function load(page: Page, source: Source): Promise<Heard> {
-  const result = await call<Heard | { error: Told }>(page, 'load', source, recipe);
+  const result = await call<Heard | { error: ExplainedError }>(page, 'load', source, recipe);
   if ('error' in result) throw new Error(`${result.error.code}: ${result.error.message}`);
   return result;
 }
 
-async function refusal(page: Page, source: Source, abortAt?: number): Promise<Told> {
+async function refusal(page: Page, source: Source, abortAt?: number): Promise<ExplainedError> {
   const values = [source, recipe, ...(abortAt === undefined ? [] : [abortAt])];
-  const result = await call<Heard | { error: Told }>(page, 'load', ...values);
+  const result = await call<Heard | { error: ExplainedError }>(page, 'load', ...values);
   if (!('error' in result)) throw new Error('the song was taken');
   return result.error;
 }

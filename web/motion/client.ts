@@ -3,7 +3,7 @@ import type { LeaderFile } from './bvh/read';
 import type { SolvedMotion } from './skeleton/clip';
 import type { MotionTasks } from './worker';
 
-export interface LeaderQuestion {
+export interface LeaderRequest {
   readonly text: string;
   /** Frame rate instead of the file's own. */
   readonly fps: number | null;
@@ -20,7 +20,7 @@ export interface ReadLeader {
  * @throws {AppError} what is wrong with the file
  * @throws the signal's reason
  */
-export async function readLeader(question: LeaderQuestion, signal?: AbortSignal): Promise<ReadLeader> {
+export async function readLeader(question: LeaderRequest, signal?: AbortSignal): Promise<ReadLeader> {
   signal?.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
   return runInWorker<MotionTasks, 'read'>(worker, 'read', question, { signal });

@@ -1,52 +1,52 @@
-/** The page's side of its service worker. */
-export interface OfflinePage {
-  /** Takes the new build that is waiting and loads the page from it. */
-  readonly takeUpdate: () => void;
+/** How a newer build, which the service worker has cached, comes to be used. */
+interface ServiceWorkerUpdates {
+  /** Activates the newer build and reloads the page from it. */
+  readonly activateUpdate: () => void;
 }
 
 /**
- * Keeps the page for visits without a connection. Where the browser can't or won't, the page works from the network
- * as before, so nothing is told.
+ * Registers the service worker, which caches the page for use offline. Where the browser has none or refuses it, the
+ * page is loaded from the network as before, and no failure is reported.
  * @param script address of the service worker
- * @param onUpdate called when a newer build is here and waits to be taken
+ * @param onUpdate called when a newer build is cached and waits to be activated
  */
-export function keepPage(script: URL, onUpdate: () => void): OfflinePage {
+export function registerServiceWorker(script: URL, onUpdate: () => void): ServiceWorkerUpdates {
   let waiting: ServiceWorker | null = null;
   const container = navigator.serviceWorker as ServiceWorkerContainer | undefined;
-  // A page that came from the server is what will be kept first: nothing newer waits for it. Asked now, for WebKit
-  // may tell that a worker was installed only when that one has already taken the page over.
-  const wasKept = Boolean(container?.controller);
+  // A page without a controlling service worker came from the server, so no newer build waits. This is read now because
+  // WebKit may report an installed worker only after that worker controls the page.
+  const wasControlled = Boolean(container?.controller);
 
   const offer = (worker: ServiceWorker | null): void => {
-    if (!worker || !wasKept) return;
+    if (!worker || !wasControlled) return;
     waiting = worker;
     onUpdate();
   };
   const register = async (): Promise<void> => {
     try {
-      // Asked of the server each time: a host that lets scripts be cached would hide new builds.
+      // The script is fetched from the server each time: a host that lets scripts be cached would hide new builds.
       const registration = await container?.register(script, { updateViaCache: 'none' });
       if (!registration) return;
       offer(registration.waiting);
-      const follow = (coming: ServiceWorker | null): void => {
-        coming?.addEventListener('statechange', () => {
-          if (coming.state === 'installed') offer(registration.waiting);
+      const offerWhenInstalled = (worker: ServiceWorker | null): void => {
+        worker?.addEventListener('statechange', () => {
+          if (worker.state === 'installed') offer(registration.waiting);
         });
       };
-      follow(registration.installing);
+      offerWhenInstalled(registration.installing);
       registration.addEventListener('updatefound', () => {
-        follow(registration.installing);
+        offerWhenInstalled(registration.installing);
       });
     } catch {
-      // Forbidden, out of space, or a build that is just being replaced on the server.
+      // Registering is forbidden, storage is full, or the build is just being replaced on the server.
     }
   };
-  // What the page itself needs comes first.
+  // The page's own files are downloaded first.
   if (document.readyState === 'complete') void register();
   else addEventListener('load', () => void register(), { once: true });
 
   return {
-    takeUpdate: () => {
+    activateUpdate: () => {
       if (!waiting) return;
       container?.addEventListener(
         'controllerchange',

@@ -1,8 +1,8 @@
-/** Serves the page from this device. The build writes it anew with the list of its files (tools/vite/service-worker.mjs). */
-import { forgetOthers, fromShell, keepShell, type Shell, type ShellScope } from './shell';
+/** The service worker: serves the page from its cache. The build adds the list of files (tools/vite/service-worker.mjs). */
+import { deleteOtherShells, matchShell, cacheShell, type Shell, type ShellScope } from './shell';
 
 declare const self: ServiceWorkerGlobalScope;
-/** Put in by the build. */
+/** Defined by the build. */
 declare const SHELL: Shell;
 
 const scope: ShellScope = {
@@ -12,10 +12,10 @@ const scope: ShellScope = {
 };
 
 self.addEventListener('install', (event) => {
-  event.waitUntil(keepShell(SHELL, scope));
+  event.waitUntil(cacheShell(SHELL, scope));
 });
 
-// A new build waits until the pages of the old one are closed, or until one of them asks for it.
+// A newer build waits until all pages of the older one are closed, or until one of them activates it.
 self.addEventListener('message', (event) => {
   if (event.data === 'take-over') void self.skipWaiting();
 });
@@ -25,7 +25,7 @@ self.addEventListener('activate', (event) => {
     (async () => {
       const windows = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
       // Other open pages may still need files of the build that they were loaded from.
-      if (windows.length <= 1) await forgetOthers(SHELL, scope);
+      if (windows.length <= 1) await deleteOtherShells(SHELL, scope);
       await self.clients.claim();
     })(),
   );
@@ -33,7 +33,7 @@ self.addEventListener('activate', (event) => {
 
 self.addEventListener('fetch', (event) => {
   const { request } = event;
-  const kept = fromShell(request, SHELL, scope);
-  // What the visitor cleared away comes from the server again.
-  if (kept) event.respondWith(kept.then((response) => response ?? self.fetch(request)));
+  const cached = matchShell(request, SHELL, scope);
+  // After the visitor has cleared the cache, files come from the server again.
+  if (cached) event.respondWith(cached.then((response) => response ?? self.fetch(request)));
 });

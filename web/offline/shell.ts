@@ -1,16 +1,16 @@
-/** The shell: everything that the page is made of but runtime and models, which have caches of their own. */
+/** The app shell: all files of the page except the runtime and models, which have caches of their own. */
 export interface Shell {
-  /** Another build has another one. */
+  /** Differs between builds. */
   readonly version: string;
   /** Every file by its path from the page's folder, with its `integrity`, as in 'sha256-…'. */
   readonly files: Readonly<Record<string, string>>;
-  /** Headers that the page needs whoever serves it: without them it computes on one thread. */
+  /** Headers of cross-origin isolation, set on every cached response: without them the page computes on one thread. */
   readonly headers: Readonly<Record<string, string>>;
 }
 
 const PREFIX = 'reactdance-shell-';
 
-/** Where the shell's files come from and go to; in the page it is the service worker's own scope. */
+/** The caches and the fetch that the shell uses; in the page those of the service worker. */
 export interface ShellScope {
   readonly caches: CacheStorage;
   readonly fetch: typeof fetch;
@@ -21,19 +21,19 @@ export interface ShellScope {
 const cacheName = ({ version }: Shell): string => PREFIX + version;
 
 /**
- * Keeps all files of a build, or none: a page with missing pieces would be worse than no page.
- * @throws when a file can't be had, is not the one of this build, or can't be kept
+ * Caches all files of a build, or none: a page with missing files would be worse than no page.
+ * @throws when a file can't be fetched, is not the one of this build, or can't be stored
  */
-export async function keepShell(shell: Shell, scope: ShellScope): Promise<void> {
+export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void> {
   try {
     const cache = await scope.caches.open(cacheName(shell));
     await Promise.all(
       Object.entries(shell.files).map(async ([path, integrity]) => {
         const address = new URL(path, scope.base).href;
-        // The integrity refuses a file of another build that a cache on the way still holds.
+        // The integrity check rejects a file of another build that an HTTP cache still holds.
         const response = await scope.fetch(address, { integrity, cache: 'no-cache' });
         if (!response.ok) throw new Error(`The server answered ${response.status} for ${path}.`);
-        await cache.put(address, await complete(response, shell.headers));
+        await cache.put(address, await storable(response, shell.headers));
       }),
     );
   } catch (error) {
@@ -42,8 +42,8 @@ export async function keepShell(shell: Shell, scope: ShellScope): Promise<void> 
   }
 }
 
-/** The response as it is kept: unpacked, with its true length and the headers that the page needs. */
-async function complete(response: Response, needed: Shell['headers']): Promise<Response> {
+/** The response as it is stored: decompressed, with its own length and the headers that the page needs. */
+async function storable(response: Response, needed: Shell['headers']): Promise<Response> {
   const body = await response.arrayBuffer();
   const headers = new Headers(response.headers);
   headers.delete('content-encoding');
@@ -52,17 +52,18 @@ async function complete(response: Response, needed: Shell['headers']): Promise<R
   return new Response(body, { headers });
 }
 
-/** Forgets the shells of other builds. */
-export async function forgetOthers(shell: Shell, { caches }: ShellScope): Promise<void> {
+/** Deletes the cached shells of other builds. */
+export async function deleteOtherShells(shell: Shell, { caches }: ShellScope): Promise<void> {
   for (const name of await caches.keys())
     if (name.startsWith(PREFIX) && name !== cacheName(shell)) await caches.delete(name);
 }
 
 /**
- * The kept answer to a request, or null for one that is none of the shell's business.
- * Files in assets/ carry a hash of their content, so a page of an older build gets its own as long as they are kept.
+ * The cached response to a request, or null for a request that the shell does not answer.
+ * Files in assets/ have a hash of their content in their name, so a page of an older build finds its own files as long
+ * as they are cached.
  */
-export function fromShell(
+export function matchShell(
   request: Pick<Request, 'url' | 'method' | 'headers'>,
   shell: Shell,
   { caches, base }: ShellScope,

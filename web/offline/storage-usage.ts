@@ -1,46 +1,46 @@
-/** What the page has kept on this device for the next visit, bytes. */
-export interface Kept {
+/** Bytes that the page has cached on this device, by part. */
+export interface StorageUsage {
   readonly page: number;
   readonly runtime: number;
   readonly model: number;
 }
 
-/** The caches of the page: those of the shell carry its version, the others are named after what they hold. */
-const CACHE = /^reactdance-(shell|runtime|model)(-|$)/;
+/** Names of the page's caches; that of the shell ends in its version. */
+const CACHE_NAME = /^reactdance-(shell|runtime|model)(-|$)/;
 
 const PARTS = { shell: 'page', runtime: 'runtime', model: 'model' } as const;
 
-/** Adds up what is kept; null where the browser gives the page no storage. */
-export async function measureKept(scope: typeof globalThis): Promise<Kept | null> {
+/** Adds up the sizes of the page's caches; null where the browser gives the page no storage. */
+export async function measureStorage(scope: typeof globalThis): Promise<StorageUsage | null> {
   try {
-    const kept = { page: 0, runtime: 0, model: 0 };
+    const usage = { page: 0, runtime: 0, model: 0 };
     for (const name of await scope.caches.keys()) {
       const part = partOf(name);
-      if (part) kept[part] += await size(await scope.caches.open(name));
+      if (part) usage[part] += await size(await scope.caches.open(name));
     }
-    return kept;
+    return usage;
   } catch {
     return null;
   }
 }
 
 /**
- * Removes all of it, and the service worker too, so that the next visit begins like the first.
- * What the visitor made is kept elsewhere and stays.
+ * Deletes the page's caches and unregisters its service worker, so that the next visit begins like the first.
+ * The visitor's own songs, leaders and takes are in a database (ui/project/storage.ts) and stay.
  * @throws when the browser refuses
  */
-export async function clearKept(scope: typeof globalThis): Promise<void> {
+export async function clearStorage(scope: typeof globalThis): Promise<void> {
   for (const name of await scope.caches.keys()) if (partOf(name)) await scope.caches.delete(name);
   const container = scope.navigator.serviceWorker as ServiceWorkerContainer | undefined;
   await (await container?.getRegistration())?.unregister();
 }
 
-function partOf(name: string): keyof Kept | null {
-  const part = CACHE.exec(name)?.[1];
+function partOf(name: string): keyof StorageUsage | null {
+  const part = CACHE_NAME.exec(name)?.[1];
   return part === undefined ? null : PARTS[part as keyof typeof PARTS];
 }
 
-/** Every file is kept with its length, so none has to be read. */
+/** Size of a cache in bytes, from the content-length of its responses: none has to be read. */
 async function size(cache: Cache): Promise<number> {
   const responses = await Promise.all((await cache.keys()).map((request) => cache.match(request)));
   return responses.reduce((sum, response) => sum + Number(response?.headers.get('content-length') ?? 0), 0);

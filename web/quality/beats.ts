@@ -1,10 +1,10 @@
 import { beatScores } from '../motion/beats/beat-match';
-import { concern, type Measure, type MomentKind, type Scale, worstMoments, worstOf } from './moments';
+import { severity, type Measure, type MomentKind, type Scale, worstMoments, worstOf } from './moments';
 import { motionBeats } from '../motion/beats/motion-beats';
 import type { Duet, Rules } from './rules';
 
 /** Beat alignment with a reference; NaN where the reference has no beats. */
-export interface Alignment {
+interface Alignment {
   /** Mean score of the reference's beats, 0 to 1: `beat_alignment` of training/evaluation/metrics/beats.py. */
   readonly value: number;
   /** The same by chance: the mean over all shifts of the reactor's beats, `chance_alignment` in Python. */
@@ -60,7 +60,7 @@ function chanceAlignment(
 }
 
 /** Beat alignment with the reference, and its value by chance. */
-export function alignment(
+function alignment(
   reference: readonly number[],
   beats: readonly number[],
   frames: number,
@@ -81,7 +81,7 @@ const WINDOW = 1.5;
 const MIN_WEIGHT = 2;
 
 /** The score around every frame, 0 to 1; NaN where the reference has too few beats. */
-export function localScore(
+function localScore(
   reference: readonly number[],
   scores: readonly number[],
   frames: number,
@@ -126,7 +126,7 @@ export function measureBeats(duet: Duet, rules: Rules): Measure<BeatAlignment> {
   };
   const judge = (kind: MomentKind, reference: readonly number[], as: Alignment) => {
     const local = localScore(reference, beatScores(reference, reactor, tolerance), frames, fps);
-    const row = local.map((score) => concern(score, scaleBy(as)));
+    const row = local.map((score) => severity(score, scaleBy(as)));
     return { row, worst: worstMoments(row, fps, kind, (frame) => local[frame]!) };
   };
   const rows = [judge('leader', leader, whole.leader)];

@@ -6,18 +6,18 @@ import type { QualityTasks } from './worker';
 export type { Moment, MomentKind } from './moments';
 export type { Duet, Report, Rules };
 
-export interface QualityQuestion {
+export interface QualityRequest {
   readonly duet: Duet;
   readonly rules: Rules;
 }
 
 /**
- * Measures a dance in a worker of its own, which the signal ends at once: a newer question need not wait for an older
- * one's answer.
+ * Measures a dance in a worker of its own, which is ended at once when the signal is aborted, so that a newer request
+ * need not wait for an older one.
  * @throws the signal's reason
  */
-export async function measureDance(question: QualityQuestion, signal: AbortSignal): Promise<Report> {
+export async function measureDance(request: QualityRequest, signal: AbortSignal): Promise<Report> {
   signal.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'quality' });
-  return runInWorker<QualityTasks, 'measure'>(worker, 'measure', question, { signal });
+  return runInWorker<QualityTasks, 'measure'>(worker, 'measure', request, { signal });
 }

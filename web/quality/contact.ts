@@ -1,9 +1,9 @@
 import { footContacts, type FootContacts, RELEASE_SPEED } from '../motion/contact/foot-contacts';
 import { FEET } from '../motion/skeleton/skeleton';
-import { concern, type Measure, type Scale, worstMoments } from './moments';
+import { severity, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
-/** Foot skating over the whole dance: `foot_skating` of training/metrics/contact.py. */
+/** Foot skating over the whole dance: `foot_skating` of training/evaluation/metrics/contact.py. */
 export interface FootSkating {
   /** Share of contact samples (a joint of a foot in a frame) that slide. */
   readonly skateShare: number;
@@ -14,7 +14,7 @@ export interface FootSkating {
 }
 
 /** The numbers of the whole dance; without any contact there is nothing to slide and both slides are NaN. */
-export function footSkating({ inContact, speed }: FootContacts, rule: Rules['contact']): FootSkating {
+function footSkating({ inContact, speed }: FootContacts, rule: Rules['contact']): FootSkating {
   let standing = 0;
   let skating = 0;
   let slide = 0;
@@ -31,7 +31,7 @@ export function footSkating({ inContact, speed }: FootContacts, rule: Rules['con
   };
 }
 
-/** Factor over the limit at which a slide has concern 2. */
+/** Factor over the limit at which a slide has severity 2. */
 const BAD_FACTOR = 4;
 /** Frames to either side over which a slide is averaged. */
 const HALF_WINDOW = 4;
@@ -70,7 +70,7 @@ export function measureFeet(duet: Duet, rules: Rules): Measure<FootSkating> {
   const found = footContacts({ ...duet, positions: duet.reactor }, rule);
   const scale: Scale = { fine: 0, limit: rule.slide_speed, bad: BAD_FACTOR * rule.slide_speed };
   const slides = visibleSlide(found);
-  const row = slides.map((slide) => concern(slide, scale));
+  const row = slides.map((slide) => severity(slide, scale));
   return {
     whole: footSkating(found, rule),
     rows: [row],

@@ -7,14 +7,14 @@ export interface Moment {
   /** In the measure's own unit. */
   readonly value: number;
   /** How bad that is, as on `Scale`: above 1. */
-  readonly concern: number;
+  readonly severity: number;
 }
 
 /** One measure of a dance. */
 export interface Measure<Whole> {
   /** The numbers of the whole dance, as Python gives them; NaN where there is nothing to measure. */
   readonly whole: Whole;
-  /** Concern per frame, one row or several, drawn above each other; NaN where there is nothing to measure. */
+  /** Severity per frame, one row or several, drawn above each other; NaN where there is nothing to measure. */
   readonly rows: readonly Float32Array[];
   /** A few moments past the limit, the worst first. */
   readonly worst: readonly Moment[];
@@ -22,7 +22,7 @@ export interface Measure<Whole> {
 
 /**
  * How values of one measure are judged, so that measures of different units can be drawn and ranked together:
- * concern is 0 at `fine`, 1 at `limit` and 2 at `bad`, linear between and beyond. `fine` may be above or below
+ * severity is 0 at `fine`, 1 at `limit` and 2 at `bad`, linear between and beyond. `fine` may be above or below
  * `bad`.
  */
 export interface Scale {
@@ -31,8 +31,8 @@ export interface Scale {
   readonly bad: number;
 }
 
-/** The concern for a value, never below 0; NaN stays NaN. */
-export function concern(value: number, { fine, limit, bad }: Scale): number {
+/** The severity for a value, never below 0; NaN stays NaN. */
+export function severity(value: number, { fine, limit, bad }: Scale): number {
   const past = (value - limit) / (bad - limit);
   return past > 0 ? 1 + past : Math.max(0, (value - fine) / (limit - fine));
 }
@@ -47,19 +47,19 @@ const MIN_DISTANCE_SHARE = 1 / 30;
 /** The few moments past the limit, the worst first. */
 export function worstOf(moments: readonly Moment[]): Moment[] {
   return moments
-    .filter(({ concern }) => concern > 1)
-    .sort((a, b) => b.concern - a.concern)
+    .filter(({ severity }) => severity > 1)
+    .sort((a, b) => b.severity - a.severity)
     .slice(0, MAX_MOMENTS);
 }
 
 /** Least number of frames between two moments of one measure. */
-export function apart(frames: number, fps: number): number {
+function minDistanceFrames(frames: number, fps: number): number {
   return Math.ceil(Math.max(MIN_DISTANCE * fps, MIN_DISTANCE_SHARE * frames));
 }
 
 /**
  * The worst moments of a row: local maxima above 1 (non-maximum suppression within the least distance).
- * @param row concern per frame
+ * @param row severity per frame
  * @param value the measure's own value at a frame
  */
 export function worstMoments(
@@ -68,7 +68,7 @@ export function worstMoments(
   kind: MomentKind,
   value: (frame: number) => number,
 ): Moment[] {
-  const radius = apart(row.length, fps);
+  const radius = minDistanceFrames(row.length, fps);
   const peaks: Moment[] = [];
   row.forEach((here, frame) => {
     if (!(here > 1)) return;
@@ -80,7 +80,7 @@ export function worstMoments(
       // Of several that are equally bad the first one counts.
       if (row[other]! > here || (row[other] === here && other < frame)) return;
     }
-    peaks.push({ kind, frame, value: value(frame), concern: here });
+    peaks.push({ kind, frame, value: value(frame), severity: here });
   });
   return worstOf(peaks);
 }

@@ -8,7 +8,7 @@ import {
 import { percentile } from '../motion/math/statistics';
 import { distance, readVec } from '../motion/math/vec3';
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
-import { concern, type Measure, type Scale, worstMoments } from './moments';
+import { severity, type Measure, type Scale, worstMoments } from './moments';
 import type { Duet, Rules } from './rules';
 
 /** Distance and penetration of the dancers: `penetration` of training/evaluation/metrics/penetration.py and `root_distance` of distance.py. */
@@ -38,9 +38,9 @@ export function overlapDepth({ leader, reactor, frames, fps }: Duet, rule: BodyR
   );
 }
 
-/** Factor over the limit at which an overlap has concern 2. */
+/** Factor over the limit at which an overlap has severity 2. */
 const BAD_FACTOR = 5;
-/** Concern of the distance between the roots, metres: below 1 at any distance, as only an overlap is past the limit. */
+/** Severity of the distance between the roots, metres: below 1 at any distance, as only an overlap is past the limit. */
 const DISTANCE_SCALE: Scale = { fine: 1.2, limit: 0, bad: -1 };
 
 /** Closest distance and overlap of the two dancers. */
@@ -50,7 +50,7 @@ export function measureCloseness(duet: Duet, rules: Rules): Measure<Closeness> {
   const roots = rootDistance(duet);
   const scale: Scale = { fine: 0, limit: deep, bad: BAD_FACTOR * deep };
   const row = Float32Array.from(depth, (overlap, frame) =>
-    Math.max(concern(overlap, scale), concern(roots[frame]!, DISTANCE_SCALE)),
+    Math.max(severity(overlap, scale), severity(roots[frame]!, DISTANCE_SCALE)),
   );
   return {
     whole: {
@@ -65,7 +65,7 @@ export function measureCloseness(duet: Duet, rules: Rules): Measure<Closeness> {
   };
 }
 
-/** Distance between the roots in every frame, metres: `root_distance` of training/metrics/distance.py. */
+/** Distance between the roots in every frame, metres: `root_distance` of training/evaluation/metrics/distance.py. */
 function rootDistance({ leader, reactor, frames }: Duet): Float64Array {
   return Float64Array.from({ length: frames }, (_, frame) => {
     const root = frame * JOINT_COUNT;

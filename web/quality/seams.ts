@@ -1,5 +1,5 @@
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
-import { concern, type Measure, type Moment, type Scale, worstOf } from './moments';
+import { severity, type Measure, type Moment, type Scale, worstOf } from './moments';
 import type { Duet, Rules } from './rules';
 
 /** Jitter where the blocks of the model meet; NaN without a seam. */
@@ -74,9 +74,9 @@ export function measureSeams(duet: Duet, rules: Rules): Measure<SeamJitter> {
   const row = new Float32Array(duet.frames).fill(NaN);
   const moments = seams.map((seam): Moment => {
     const value = jitterRatio([seam]);
-    const judged = concern(value, SCALE);
+    const judged = severity(value, SCALE);
     row.fill(judged, Math.max(0, seam - clear), seam + clear);
-    return { kind: 'seam', frame: seam, value, concern: judged };
+    return { kind: 'seam', frame: seam, value, severity: judged };
   });
   return {
     whole: {

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Page } from '@playwright/test';
-import type { Told } from '../support/model-page/main';
+import type { ExplainedError } from '../support/model-page/main';
 import { expect, shipped, test, tinyFolder } from '../support/model-site';
 
 const TINY = { manifestUrl: 'tiny/manifest.json', backend: 'wasm' } as const;
@@ -15,7 +15,7 @@ test.beforeEach(async ({ page }) => {
 const open = (page: Page, threads?: number) =>
   page.evaluate((options) => model.open(options), { ...TINY, threads });
 
-async function refusal(page: Page): Promise<Told> {
+async function refusal(page: Page): Promise<ExplainedError> {
   const opened = await open(page);
   if (!('error' in opened)) throw new Error('the model was taken');
   return opened.error;
@@ -144,7 +144,7 @@ test('a full disk is survived and told', async ({ page, context, modelSite }) =>
   const notices = statuses.filter(({ kind }) => kind === 'notice');
   expect(notices).toHaveLength(1);
   expect(notices[0]).toMatchObject({
-    code: 'not-kept',
+    code: 'not-cached',
     message: expect.stringContaining('QuotaExceededError'),
   });
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));

@@ -1,29 +1,30 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { keepPage } from '../../../web/offline/register';
+import { registerServiceWorker } from '../../../web/offline/register';
 
 const SCRIPT = new URL('https://dance.example/studio/service-worker.js');
 
-/** A worker as it looks when it has just been installed and waits. */
+/** A service worker that has just been installed and waits. */
 const installed = (): ServiceWorker =>
   Object.assign(new EventTarget(), { state: 'installed' }) as ServiceWorker;
 
 /**
- * A browser that has kept a build before, or has not, and installs one while the page is open. Like WebKit at its
- * busiest, it lets the new worker take the page over before it tells of its installation.
+ * Registers in a browser that installs a build while the page is open, and returns how often an update was offered.
+ * As WebKit may do, the new worker controls the page before its installation is reported.
+ * @param cachedBefore whether an earlier visit has cached a build
  */
-async function visit(keptBefore: boolean): Promise<number> {
+async function visit(cachedBefore: boolean): Promise<number> {
   const coming = installed();
   const workers: Pick<ServiceWorkerRegistration, 'installing'> & { waiting: ServiceWorker | null } = {
     installing: coming,
     waiting: null,
   };
   const registration = Object.assign(new EventTarget(), workers);
-  const page: { controller: ServiceWorker | null } = { controller: keptBefore ? installed() : null };
+  const page: { controller: ServiceWorker | null } = { controller: cachedBefore ? installed() : null };
   const container = Object.assign(new EventTarget(), page, { register: () => Promise.resolve(registration) });
   vi.stubGlobal('navigator', { serviceWorker: container });
   vi.stubGlobal('document', { readyState: 'complete' });
   let offers = 0;
-  keepPage(SCRIPT, () => offers++);
+  registerServiceWorker(SCRIPT, () => offers++);
   await Promise.resolve();
   await Promise.resolve();
   registration.waiting = coming;
@@ -32,14 +33,14 @@ async function visit(keptBefore: boolean): Promise<number> {
   return offers;
 }
 
-describe('keeping the page for the next visit', () => {
+describe('registering the service worker', () => {
   afterEach(() => vi.unstubAllGlobals());
 
-  it('offers a build that came after the one that the page was loaded from', async () => {
+  it('offers a newer build than the one that the page was loaded from', async () => {
     expect(await visit(true)).toBe(1);
   });
 
-  it('offers nothing on the first visit, whenever the browser tells that the page was kept', async () => {
+  it('offers nothing on the first visit, even if the installation is reported late', async () => {
     expect(await visit(false)).toBe(0);
   });
 });

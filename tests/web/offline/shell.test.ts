@@ -1,9 +1,15 @@
 import { describe, expect, it } from 'vitest';
-import { forgetOthers, fromShell, keepShell, type Shell, type ShellScope } from '../../../web/offline/shell';
+import {
+  deleteOtherShells,
+  matchShell,
+  cacheShell,
+  type Shell,
+  type ShellScope,
+} from '../../../web/offline/shell';
 
 const BASE = 'https://dance.example/studio/';
 
-/** A browser's caches in memory, as far as the shell asks of them. */
+/** A CacheStorage in memory with the methods that the shell uses. @param room files that fit into a cache */
 function memoryCaches(room = Infinity) {
   const all = new Map<string, Map<string, Response>>();
   const caches = {
@@ -49,24 +55,24 @@ const server =
       }),
     );
 
-async function kept(build = 'one', memory = memoryCaches()) {
+async function cached(build = 'one', memory = memoryCaches()) {
   const scope: ShellScope = { caches: memory.caches, fetch: server(build), base: BASE };
-  await keepShell(shell(build), scope);
+  await cacheShell(shell(build), scope);
   const ask = (path: string, request: Partial<Request> = {}) =>
-    fromShell({ url: BASE + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
+    matchShell({ url: BASE + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
   return { ...memory, scope, ask };
 }
 
-describe('the shell', () => {
-  it('answers with what was kept, whatever the question mark says', async () => {
-    const { ask } = await kept();
+describe('the cached app shell', () => {
+  it('answers with the cached file, whatever query or fragment the address has', async () => {
+    const { ask } = await cached();
     for (const path of ['', 'index.html', '?model=mine/manifest.json', '#top'])
       expect(await (await ask(path))?.text()).toMatch(/^one/);
     expect(await (await ask('assets/main-one.js'))?.text()).toContain('main-one.js');
   });
 
-  it('brings the headers of isolation, and the server’s own but those of its packing', async () => {
-    const { ask } = await kept();
+  it('adds the headers of cross-origin isolation and keeps the server’s own, except those of the compression', async () => {
+    const { ask } = await cached();
     const response = await ask('');
     expect(response?.headers.get('cross-origin-embedder-policy')).toBe('require-corp');
     expect(response?.headers.get('content-security-policy')).toBe("default-src 'self'");
@@ -75,40 +81,40 @@ describe('the shell', () => {
   });
 
   it('leaves models, parts of files and other sites to the network', async () => {
-    const { ask } = await kept();
+    const { ask } = await cached();
     expect(ask('models/salsa/step.onnx')).toBeNull();
     expect(ask('index.html', { headers: new Headers({ range: 'bytes=0-9' }) })).toBeNull();
     expect(ask('', { method: 'POST' })).toBeNull();
     expect(ask('', { url: 'https://elsewhere.example/index.html' })).toBeNull();
   });
 
-  it('serves a page of the older build its own pieces as long as they are kept', async () => {
-    const older = await kept('one');
-    const newer = await kept('two', older);
+  it('serves a page of an older build its own files until they are deleted', async () => {
+    const older = await cached('one');
+    const newer = await cached('two', older);
     expect(await (await newer.ask(''))?.text()).toMatch(/^two/);
     expect(await (await newer.ask('assets/main-one.js'))?.text()).toMatch(/^one/);
-    await forgetOthers(shell('two'), newer.scope);
+    await deleteOtherShells(shell('two'), newer.scope);
     expect(await newer.ask('assets/main-one.js')).toBeUndefined();
     expect(await (await newer.ask(''))?.text()).toMatch(/^two/);
   });
 
-  it('is kept whole or not at all', async () => {
+  it('is cached completely or not at all', async () => {
     const full = memoryCaches(1);
-    await expect(kept('one', full)).rejects.toThrow('full');
+    await expect(cached('one', full)).rejects.toThrow('full');
     expect(full.all.size).toBe(0);
-    const torn = memoryCaches();
+    const incomplete = memoryCaches();
     const missing: typeof fetch = (address, options) =>
       (address as string).endsWith('.js')
         ? Promise.resolve(new Response('', { status: 404 }))
         : server('one')(address, options);
     await expect(
-      keepShell(shell('one'), { caches: torn.caches, fetch: missing, base: BASE }),
+      cacheShell(shell('one'), { caches: incomplete.caches, fetch: missing, base: BASE }),
     ).rejects.toThrow('404');
-    expect(torn.all.size).toBe(0);
+    expect(incomplete.all.size).toBe(0);
   });
 
-  it('is empty, not broken, when the visitor has cleared it', async () => {
-    const { ask, all } = await kept();
+  it('answers with nothing after the visitor has cleared the cache', async () => {
+    const { ask, all } = await cached();
     all.clear();
     expect(await ask('')).toBeUndefined();
   });

@@ -17,16 +17,16 @@ export interface DownloadPart {
   readonly loaded: number;
   readonly total: number;
   /** Bytes of `loaded` that came from the cache. */
-  readonly kept: number;
+  readonly cached: number;
 }
 
-export interface Parts {
+interface Parts {
   readonly graphs: Readonly<Record<GraphName, Uint8Array>>;
   /** onnxruntime's WebAssembly. */
   readonly runtime: Uint8Array<ArrayBuffer>;
 }
 
-export interface PartsOptions {
+interface PartsOptions {
   readonly manifestUrl: string;
   /** The model's files, where the visitor chose them; they are not cached. */
   readonly folder?: ModelFolder | undefined;
@@ -46,8 +46,8 @@ export async function downloadParts(
   { manifestUrl, folder, scope, onProgress, onCacheFailure }: PartsOptions,
 ): Promise<Parts> {
   const progress = new Map<CachedPart, DownloadPart>();
-  const report = (name: CachedPart) => (loaded: number, total: number, kept: number) => {
-    progress.set(name, { name, loaded, total, kept });
+  const report = (name: CachedPart) => (loaded: number, total: number, cached: number) => {
+    progress.set(name, { name, loaded, total, cached });
     const [runtime, model] = [progress.get('runtime'), progress.get('model')];
     // Both are looked up at the same time; a bar that knew only one of them would jump.
     if (runtime && model) onProgress([runtime, model]);

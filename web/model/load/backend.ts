@@ -34,7 +34,7 @@ export function environment(scope: typeof globalThis): Environment {
  * without a GPU for the model the stage is often rendered by the processor too. On two cores a generation takes a
  * third longer for it, and twice as many frames are rendered meanwhile.
  */
-export function wasmThreads(environment: Environment, asked?: number): number {
+function wasmThreads(environment: Environment, asked?: number): number {
   if (!environment.crossOriginIsolated) return 1;
   return asked ?? Math.max(1, Math.min(environment.hardwareConcurrency - 1, MAX_THREADS));
 }

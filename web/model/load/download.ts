@@ -10,14 +10,14 @@ export interface FileStore {
   keepOnly(keys: readonly string[]): Promise<void>;
 }
 
-export interface DownloadOptions {
+interface DownloadOptions {
   readonly fetch: typeof fetch;
   /** Undefined where the browser has no storage for the page. */
   readonly store?: FileStore | undefined;
   /** SHA-256 of further files of the same owner that stay in the store. */
   readonly alsoKeep?: readonly string[] | undefined;
   /** Bytes that are loaded, bytes in all, and how many of the loaded ones came from the store. */
-  readonly onProgress?: ((loaded: number, total: number, kept: number) => void) | undefined;
+  readonly onProgress?: ((loaded: number, total: number, cached: number) => void) | undefined;
   /** Called once, when a file could not be stored; the download goes on without storing any. */
   readonly onCacheFailure?: ((reason: unknown) => void) | undefined;
 }
@@ -28,7 +28,7 @@ export type ModelFolder = Readonly<Record<string, Blob>>;
 const MISSING_HINT = 'Check that the model folder was copied to the server, then load the page again.';
 
 /** Lower-case hexadecimal SHA-256; undefined on an insecure origin, where the browser does not offer it. */
-export async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | undefined> {
+async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | undefined> {
   const subtle = (globalThis.crypto as Crypto | undefined)?.subtle;
   if (subtle === undefined) return undefined;
   const digest = new Uint8Array(await subtle.digest('SHA-256', bytes));
@@ -136,9 +136,9 @@ export async function download(
 ): Promise<Uint8Array<ArrayBuffer>[]> {
   const total = files.reduce((sum, file) => sum + file.bytes, 0);
   const found = await lookUp(files, store);
-  const kept = found.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
-  let loaded = kept;
-  const report = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, kept);
+  const cached = found.reduce((sum, bytes) => sum + (bytes?.length ?? 0), 0);
+  let loaded = cached;
+  const report = (more: number): void => onProgress?.(Math.min(loaded + more, total), total, cached);
   report(0);
   let storeFailed = false;
   const results: Uint8Array<ArrayBuffer>[] = [];

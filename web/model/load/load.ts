@@ -30,7 +30,7 @@ export type Status =
   | { readonly kind: 'open' | 'check' | 'warm-up' }
   /** On WebGPU: metres between its golden sampling and Python's. */
   | { readonly kind: 'checked'; readonly error: number }
-  | { readonly kind: 'notice'; readonly code: 'not-kept'; readonly message: string; readonly hint: string }
+  | { readonly kind: 'notice'; readonly code: 'not-cached'; readonly message: string; readonly hint: string }
   | { readonly kind: 'ready'; readonly backend: Backend };
 
 export interface LoadedModel {
@@ -122,7 +122,7 @@ export async function loadModel(
       onCacheFailure: (reason) => {
         onStatus({
           kind: 'notice',
-          code: 'not-kept',
+          code: 'not-cached',
           message: `The browser could not keep the model (${reason instanceof Error ? reason.name : String(reason)}).`,
           hint: 'It works, but is downloaded again at the next visit; free some storage to avoid that.',
         });

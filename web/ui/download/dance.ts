@@ -1,12 +1,12 @@
 import type { Dance } from '../../export/client';
 import { otherRole } from '../store/roles';
-import type { Named } from './file-name';
+import type { FileNameParts } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
-import type { AppState, Who } from '../store/state';
+import type { AppState, DancerSelection } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 
-/** What the files of the reaction on the stage are named after; null without a reaction. */
-export function namedAfter(state: AppState): Named | null {
+/** What the file names of the reaction on the stage are made from; null without a reaction. */
+export function fileNameParts(state: AppState): FileNameParts | null {
   const { reaction, footLock } = state;
   return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state) };
 }
@@ -18,7 +18,7 @@ function titleOnStage(state: AppState): string | null {
 }
 
 /** The motions to be written: both dancers on the stage or one of them; null without a reaction. */
-export function danceOf(state: AppState, who: Who): Dance | null {
+export function danceOf(state: AppState, who: DancerSelection): Dance | null {
   const { reaction, manifest, footLock } = state;
   const motion = reactorMotion(state);
   if (!reaction || !motion) return null;

@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
+import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { createDownloadMotion } from './download-motion';
 import { createDownloadVideo } from './download-video';
 import { icon, type IconName } from '../widgets/icons';
@@ -12,7 +12,7 @@ import { panelToggled } from '../store/actions/view';
 interface MenuButton {
   readonly element: HTMLButtonElement;
   readonly ring: HTMLElement;
-  readonly sign: SVGSVGElement;
+  readonly symbol: SVGSVGElement;
 }
 
 /**
@@ -39,7 +39,7 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     project,
   );
   menu.hidden = true;
-  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   const elements = [wide.element, narrow.element, menu, spoken];
   root.append(...elements);
 
@@ -57,13 +57,13 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     if (!menu.hidden && !inside) toggle();
   };
   document.addEventListener('pointerdown', closeOutside);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.reaction, state.videoProgress, state.saved],
       (state) => {
         for (const button of buttons) showButton(button, state);
-        setText(spoken, spokenWords(state));
+        setText(spoken, announcement(state));
       },
     ),
     watch(store, (state) => state.openPanel === 'download', showOpen),
@@ -84,12 +84,12 @@ function createButton(
 ): MenuButton {
   const attributes = { type: 'button', 'aria-haspopup': 'dialog', 'aria-label': 'Download' };
   const ring = el('span', { class: 'ring', attributes: { 'aria-hidden': true } });
-  const sign = icon(iconName);
-  const element = el('button', { class: className, attributes, on: { click: onClick } }, ring, sign, text);
-  return { element, ring, sign };
+  const symbol = icon(iconName);
+  const element = el('button', { class: className, attributes, on: { click: onClick } }, ring, symbol, text);
+  return { element, ring, symbol };
 }
 
-function showButton({ element, ring, sign }: MenuButton, { reaction, videoProgress }: AppState): void {
+function showButton({ element, ring, symbol }: MenuButton, { reaction, videoProgress }: AppState): void {
   const share = videoProgress ? videoProgress.frame / videoProgress.frames : 0;
   element.disabled = reaction === null && !videoProgress;
   element.title = videoProgress
@@ -98,12 +98,12 @@ function showButton({ element, ring, sign }: MenuButton, { reaction, videoProgre
       ? ''
       : 'Ready when a reactor is on the stage';
   ring.hidden = !videoProgress;
-  sign.toggleAttribute('hidden', videoProgress !== null);
+  symbol.toggleAttribute('hidden', videoProgress !== null);
   setVariable(ring, '--part', share);
 }
 
-/** What is announced: the start, the middle and the end of a video, not every frame. */
-function spokenWords({ videoProgress, saved }: AppState): string {
+/** Text for screen readers at the start, the middle and the end of a video, not at every frame. */
+function announcement({ videoProgress, saved }: AppState): string {
   if (!videoProgress) return saved ? `Saved ${saved.name}.` : '';
   return videoProgress.frame / videoProgress.frames < 0.5
     ? 'The video is being written.'

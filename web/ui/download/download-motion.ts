@@ -1,6 +1,6 @@
 import { estimateBytes, type MotionFormat } from '../../export/client';
-import { danceOf, namedAfter } from './dance';
-import { el, setText, together } from '../widgets/dom';
+import { danceOf, fileNameParts } from './dance';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { motionFileName } from './file-name';
 import { byteSize } from '../store/format';
@@ -24,7 +24,7 @@ const IMPORT_HINTS: Partial<Record<MotionFormat, string>> = {
 };
 
 /** Part of the download menu: whose motion, in which format, under which name. */
-export interface DownloadMotion {
+interface DownloadMotion {
   readonly parts: readonly HTMLElement[];
   /** Puts the focus on the format that was saved last. */
   readonly focus: () => void;
@@ -76,7 +76,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
       const { format } = store.getState().download;
       rows.find((row) => row.format === format)?.button.focus();
     },
-    dispose: together(
+    dispose: combineDisposers(
       watchAll(
         store,
         (state) => [state.reaction, state.footLock, state.download, state.writing, state.saved],
@@ -113,14 +113,14 @@ function createFormatRow(
   { save, preview }: { readonly save: () => void; readonly preview: (on: boolean) => void },
 ): FormatRow {
   const size = el('em');
-  const words = el('span', { text: purpose });
+  const purposeText = el('span', { text: purpose });
   const previewIs = (on: boolean) => (): void => {
     preview(on);
   };
   const button = el(
     'button',
     {
-      class: 'it',
+      class: 'menu-item',
       attributes: { type: 'button', title: IMPORT_HINTS[format] },
       on: {
         click: save,
@@ -131,14 +131,14 @@ function createFormatRow(
       },
     },
     el('b', { text: name }),
-    words,
+    purposeText,
     size,
   );
   return {
     format,
     button,
     show: ({ download, reaction, writing }) => {
-      setText(words, format === 'bvh' && download.who === 'both' ? TWO_FILES : purpose);
+      setText(purposeText, format === 'bvh' && download.who === 'both' ? TWO_FILES : purpose);
       button.disabled = reaction === null;
       button.classList.toggle('last', format === download.format);
       button.setAttribute('aria-busy', String(writing === format));
@@ -161,7 +161,7 @@ function createFileNameLine(): {
   return {
     root,
     show: (state, previewed) => {
-      const named = namedAfter(state);
+      const named = fileNameParts(state);
       const { who, format } = state.download;
       const name = named ? motionFileName(named, who, previewed ?? format) : '';
       const { saved } = state;

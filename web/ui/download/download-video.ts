@@ -1,7 +1,7 @@
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
-import { namedAfter } from './dance';
+import { fileNameParts } from './dance';
 import { textButton } from '../widgets/button';
-import { el, setText, setVariable, together } from '../widgets/dom';
+import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { videoFileName } from './file-name';
 import { byteSize, duration } from '../store/format';
@@ -44,22 +44,22 @@ export function createDownloadVideo(
     progress.show(state.videoProgress);
     if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
   };
-  let lastQuestion = 0;
+  let lastRequest = 0;
   /** Asks the browser how it can write the video, while the menu is open; only the latest answer counts. */
   const ask = async (state: AppState): Promise<void> => {
     if (state.openPanel !== 'download') return;
     const pixels = services.stageSize();
     sizes.label('stage', pixels ? `As on stage, ${pixels.width} × ${pixels.height}` : 'As on stage');
-    const question = ++lastQuestion;
-    // A question that fails, because the page has gone offline, is asked again when the menu is opened again.
+    const request = ++lastRequest;
+    // A request that fails, because the page is offline, is repeated when the menu is opened again.
     const answer = await services.planVideo().catch(() => undefined);
-    if (question !== lastQuestion) return;
+    if (request !== lastRequest) return;
     plan = answer;
     show(store.getState());
   };
   return {
     part,
-    dispose: together(
+    dispose: combineDisposers(
       watchAll(
         store,
         (state) => [state.videoProgress, state.reaction, state.footLock, state.download, state.saved],
@@ -98,8 +98,8 @@ function createHead(services: Services): {
       cancel.hidden = !running;
       share.hidden = running || !savedVideo(plan, state)?.shareable;
       save.disabled = !state.reaction || !plan;
-      setText(about, services.stageSize() ? aboutWords(plan, state) : 'A video needs the 3D picture.');
-      const named = namedAfter(state);
+      setText(about, services.stageSize() ? videoText(plan, state) : 'A video needs the 3D picture.');
+      const named = fileNameParts(state);
       save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
     },
     focus: ({ videoProgress }) => {
@@ -138,8 +138,8 @@ function savedVideo(plan: Plan, { saved }: AppState): Saved | null {
   return plan && saved?.name.endsWith(`.${plan.container}`) ? saved : null;
 }
 
-/** Beside the heading: what will be written, what was, or why it cannot be. */
-function aboutWords(plan: Plan, state: AppState): string {
+/** Text beside the heading: what will be written, what was, or why no video can be written. */
+function videoText(plan: Plan, state: AppState): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);

@@ -7,7 +7,7 @@ import {
   writeMotion,
   writeVideo,
 } from '../../export/client';
-import { danceOf, namedAfter } from './dance';
+import { danceOf, fileNameParts } from './dance';
 import {
   downloadChosen,
   videoProgressChanged,
@@ -38,13 +38,13 @@ export interface VideoStage {
 }
 
 /** What the downloads need of the rest of the page. */
-export interface DownloadTools {
+interface DownloadTools {
   /** Opens a stage for a video, framed as the one on the page; null without a stage. */
   readonly openVideoStage: ((size: Pixels) => Promise<VideoStage>) | null;
   readonly stageSize: () => Pixels | null;
 }
 
-export type Downloads = Pick<
+type Downloads = Pick<
   Services,
   'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'stageSize'
 >;
@@ -56,7 +56,7 @@ const PROGRESS_INTERVAL_MS = 400;
 /** Size of a video as on stage where there is no stage. */
 const FALLBACK_SIZE: Pixels = { width: 1280, height: 720 };
 
-/** Writes motions and videos to files. A failure is shown in words and changes nothing else. */
+/** Writes motions and videos to files. A failure is reported as a problem and changes nothing else. */
 export function createDownloads(store: Store, tools: DownloadTools): Downloads {
   let lastSaved: File | null = null;
   const save: SaveFile = (file, name) => {
@@ -81,7 +81,7 @@ export function createDownloads(store: Store, tools: DownloadTools): Downloads {
 async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): Promise<void> {
   const state = store.getState();
   const { who } = state.download;
-  const named = namedAfter(state);
+  const named = fileNameParts(state);
   const dance = danceOf(state, who);
   if (!named || !dance || state.writing) return;
   apply(store, downloadChosen({ format }));
@@ -138,7 +138,7 @@ async function writeDance(
   signal: AbortSignal,
 ): Promise<void> {
   const state = store.getState();
-  const named = namedAfter(state);
+  const named = fileNameParts(state);
   if (!named || !tools.openVideoStage) return;
   const size = videoSize(store, tools);
   const sound = soundOf(store);

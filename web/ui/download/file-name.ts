@@ -2,10 +2,10 @@ import { motionExtension, type MotionFormat } from '../../export/client';
 import { otherRole } from '../store/roles';
 import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
-import type { Inputs, Who } from '../store/state';
+import type { Inputs, DancerSelection } from '../store/state';
 
 /** What a file name is made from. */
-export interface Named {
+export interface FileNameParts {
   readonly inputs: Inputs;
   readonly footLock: boolean;
   /** Name of the take or its number in words, if the reaction is one. */
@@ -17,7 +17,7 @@ export interface Named {
  * the loaded dancer alone is named after the inputs only. Where body parts differ, `c` and `f` are their means; `m`, the
  * guidance of the music, is there only with a song.
  */
-export function motionFileName(named: Named, who: Who, format: MotionFormat): string {
+export function motionFileName(named: FileNameParts, who: DancerSelection, format: MotionFormat): string {
   const parts =
     who === otherRole(named.inputs.settings.role)
       ? inputParts(named.inputs)
@@ -26,7 +26,7 @@ export function motionFileName(named: Named, who: Who, format: MotionFormat): st
 }
 
 /** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm`. */
-export function videoFileName(named: Named, size: string, container: string): string {
+export function videoFileName(named: FileNameParts, size: string, container: string): string {
   return `${[...inputParts(named.inputs), ...settingsParts(named), size].join('_')}.${container}`;
 }
 
@@ -34,7 +34,7 @@ function inputParts({ song, leader }: Inputs): string[] {
   return [song ? slug(song.name, 'song') : 'no-song', slug(leader.name, 'leader')];
 }
 
-function settingsParts({ inputs: { song, settings }, footLock, take }: Named): string[] {
+function settingsParts({ inputs: { song, settings }, footLock, take }: FileNameParts): string[] {
   const [coarse, fine] = [columnOf(settings.guidance, 'coarse'), columnOf(settings.guidance, 'fine')];
   return [
     ...(take ? [slug(take, 'take')] : []),

@@ -35,7 +35,7 @@ const schema = v.object({
   ),
 });
 
-export interface DemoReaders {
+interface DemoReaders {
   /** The motion in a BVH file that this page wrote. */
   readonly readReactor: (bvh: string) => Promise<SolvedMotion>;
   /** Resolves when the manifest has given the settings their defaults. */
@@ -57,7 +57,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
       reactor ? get(reactor.file, folder).then((response) => response.text()) : null,
     ]);
     if (isUntouched(store)) {
-      const coming = files.openSong(songFile, demo.song.name, demo.song.label);
+      const songLoading = files.openSong(songFile, demo.song.name, demo.song.label);
       const leader = await files.openLeader(leaderText, demo.leader.name, demo.leader.label);
       if (leader && store.getState().leader === leader) apply(store, playbackSet({ time: demo.poster }));
       apply(store, demoChanged('ready'));
@@ -66,11 +66,11 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
         await showReaction(
           store,
           { motion, leader, label: reactor.label, settings: reactor.settings },
-          coming,
+          songLoading,
           readers,
         );
       }
-      await coming;
+      await songLoading;
     }
     apply(store, demoChanged('ready'));
   } catch {
@@ -83,7 +83,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
 async function showReaction(
   store: Store,
   made: { motion: SolvedMotion; leader: LoadedLeader; label: string; settings: Settings },
-  coming: Promise<LoadedSong | null>,
+  songLoading: Promise<LoadedSong | null>,
   readers: DemoReaders,
 ): Promise<void> {
   const { motion, leader, label, settings } = made;
@@ -98,7 +98,7 @@ async function showReaction(
   apply(store, reactionAdded(shown(null)));
   await readers.manifest();
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
-  const song = await coming;
+  const song = await songLoading;
   if (song && store.getState().leader === leader) apply(store, reactionAdded(shown(song)));
 }
 

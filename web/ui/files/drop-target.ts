@@ -1,12 +1,12 @@
-import { el, listen, together } from '../widgets/dom';
+import { el, listen, combineDisposers } from '../widgets/dom';
 import { droppedFiles } from './dropped';
 import type { Mount } from '../store/services';
 
-/** Takes files that are dropped anywhere on the page; while they hover, the stage says so. */
+/** Opens files that are dropped anywhere on the page; while they are dragged over it, the stage shows an overlay. */
 export const mountDropTarget: Mount = (root, _store, services) => {
   const overlay = el(
     'div',
-    { class: 'landing', attributes: { 'aria-hidden': 'true' } },
+    { class: 'drop-overlay', attributes: { 'aria-hidden': 'true' } },
     el('b', { text: 'Drop it anywhere' }),
     el('span', { text: 'A song, a leader as BVH, or both at once; a project; a model as a folder' }),
   );
@@ -20,7 +20,7 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     depth = Math.max(0, depth + change);
     overlay.hidden = depth === 0;
   };
-  return together(
+  return combineDisposers(
     listen(window, 'dragenter', (event) => {
       if (carriesFiles(event)) show(1);
     }),

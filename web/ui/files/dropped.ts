@@ -5,7 +5,7 @@ import type { DroppedFile, Files } from '../store/services';
 import { apply, type Store } from '../store/store';
 import type { ModelLink } from './model-link';
 
-/** All files that were dropped, also those in folders. To be called in the event's handler: later the list is empty. */
+/** All files that were dropped, also those in folders. To be called in the event's handler: after it the list is empty. */
 export async function droppedFiles(transfer: DataTransfer): Promise<DroppedFile[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry());
   const plain = [...transfer.files].map((file) => ({ path: file.name, file }));

@@ -1,9 +1,9 @@
 import { loadedRole, roleName } from '../store/roles';
 import { duration, tempo } from '../store/format';
-import { jointCount } from './joint-words';
-import { el, setText, setVariable, together } from '../widgets/dom';
+import { jointCount } from './joint-text';
+import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
-import { rateWords } from '../store/selectors';
+import { rateText } from '../store/selectors';
 import type { Services } from '../store/services';
 import type { AppState, InputKind } from '../store/state';
 import { watchAll, type Store } from '../store/store';
@@ -20,7 +20,7 @@ export function mountFileChip(
   const name = el('b');
   const short = el('span');
   const long = el('span', { class: 'long' });
-  const foot = el('span', { class: 'foot', attributes: { 'aria-hidden': 'true' } });
+  const progress = el('span', { class: 'reading-progress', attributes: { 'aria-hidden': 'true' } });
   const sign = el('span', { class: 'sign' }, icon(side));
   const chip = el(
     'button',
@@ -35,31 +35,33 @@ export function mountFileChip(
     },
     sign,
     name,
-    // Read together, name and facts are words of their own.
+    // A space, so that screen readers do not join name and details.
     ' ',
-    el('span', { class: 'm' }, short, long),
-    foot,
+    el('span', { class: 'details' }, short, long),
+    progress,
   );
   root.append(chip);
 
   const show = (state: AppState): void => {
-    const words = describe(state, side);
-    chip.classList.toggle('refused', words.refused);
-    chip.classList.toggle('empty', words.name === null);
-    setText(name, words.name ?? ASK[side]);
-    setText(short, words.short);
-    setText(long, words.long);
-    foot.hidden = words.fraction === null;
-    setVariable(foot, '--part', words.fraction ?? 0);
-    chip.title = words.name ?? '';
+    const content = describe(state, side);
+    chip.classList.toggle('refused', content.refused);
+    chip.classList.toggle('empty', content.name === null);
+    setText(name, content.name ?? ASK[side]);
+    setText(short, content.short);
+    setText(long, content.long);
+    progress.hidden = content.fraction === null;
+    setVariable(progress, '--part', content.fraction ?? 0);
+    chip.title = content.name ?? '';
     const role = loadedRole(state);
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
     // Contains the visible text, so that speech control finds the button by it.
-    const what = words.name ? `${title}: ${words.name} ${words.short}${words.long}` : `No ${side} yet`;
-    chip.setAttribute('aria-label', `${what}. Choose ${words.name ? 'another' : 'one'}`);
+    const what = content.name
+      ? `${title}: ${content.name} ${content.short}${content.long}`
+      : `No ${side} yet`;
+    chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
-  return together(
+  return combineDisposers(
     watchAll(store, (state) => [state[side], state.reading[side], state.problem, state.settings?.role], show),
     () => {
       chip.remove();
@@ -67,7 +69,7 @@ export function mountFileChip(
   );
 }
 
-interface Words {
+interface ChipContent {
   readonly name: string | null;
   readonly short: string;
   readonly long: string;
@@ -75,7 +77,7 @@ interface Words {
   readonly fraction: number | null;
 }
 
-function describe(state: AppState, side: InputKind): Words {
+function describe(state: AppState, side: InputKind): ChipContent {
   const reading = state.reading[side];
   if (reading)
     return { name: reading.name, short: 'reading', long: '', refused: false, fraction: reading.fraction };
@@ -92,7 +94,7 @@ function describe(state: AppState, side: InputKind): Words {
     const { name, label, file } = state.leader;
     if (label) return { name, short: label, long: '', ...plain };
     const { clip, report } = file;
-    const long = ` · ${jointCount(report)} joints · ${rateWords(report.sourceFps, clip.fps)}`;
+    const long = ` · ${jointCount(report)} joints · ${rateText(report.sourceFps, clip.fps)}`;
     return { name, short: duration(clip.frames / clip.fps), long, ...plain };
   }
   return { name: null, short: '', long: '', ...plain };

@@ -55,14 +55,14 @@ export class FileLoader implements Files {
 
   openSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
     return this.runSong(blob, name, label, (song) => {
-      if (this.isOvertaken('song', label)) this.endReading('song');
+      if (this.isSuperseded('song', label)) this.endReading('song');
       else this.put(songLoaded(song), label);
     });
   }
 
   openLeader(text: string, name: string, label: string | null): Promise<LoadedLeader | null> {
     return this.runLeader(text, name, label, null, (leader) => {
-      if (this.isOvertaken('leader', label)) this.endReading('leader');
+      if (this.isSuperseded('leader', label)) this.endReading('leader');
       else this.putLeader(leader);
     });
   }
@@ -185,8 +185,8 @@ export class FileLoader implements Files {
     this.put(leaderLoaded(leader), leader.label);
   }
 
-  /** Whether a file of the page's own finds another one, which came while it was being read, as by undoing. */
-  private isOvertaken(side: InputKind, label: string | null): boolean {
+  /** Whether a file of the page's own is no longer wanted, because another one has been loaded while it was read. */
+  private isSuperseded(side: InputKind, label: string | null): boolean {
     return label !== null && this.store.getState()[side] !== null;
   }
 

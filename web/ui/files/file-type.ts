@@ -1,7 +1,7 @@
 /** The type of a file, from its first bytes; from its name only where they do not tell. */
-export type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
+type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
 
-/** Bytes that that `fileKind` looks at. */
+/** Bytes that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;

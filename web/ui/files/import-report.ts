@@ -1,9 +1,9 @@
 import type { Manifest } from '../../model/client';
 import { loadedRole, roleName } from '../store/roles';
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import { clockTime, rate, tempo } from '../store/format';
-import { guidanceWords } from '../store/guidance-matrix';
-import { jointWords } from './joint-words';
+import { guidanceText } from '../store/guidance-matrix';
+import { jointText } from './joint-text';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState, LoadedLeader, ModelState, Reaction } from '../store/state';
@@ -12,17 +12,17 @@ import { watchAll } from '../store/store';
 /** Common frame rates of motion capture, for files whose own is wrong. */
 const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
 
-/** What was read from the files, so that a wrong guess is seen before a partner is generated. */
+/** The import report: what was read from the files, so that a wrong guess is noticed before a partner is generated. */
 export const mountImportReport: Mount = (root, store, services) => {
   const facts = el('dl', { class: 'facts' });
   const list = el('ul', { class: 'notes', attributes: { 'aria-label': 'Notes' } });
   const section = el(
     'section',
-    { class: 'sec', attributes: { 'aria-labelledby': 'understood-head' } },
+    { class: 'sec', attributes: { 'aria-labelledby': 'import-report-head' } },
     el(
       'div',
       { class: 'head' },
-      el('h2', { text: 'What was understood', attributes: { id: 'understood-head' } }),
+      el('h2', { text: 'Import report', attributes: { id: 'import-report-head' } }),
     ),
     facts,
     list,
@@ -38,11 +38,11 @@ export const mountImportReport: Mount = (root, store, services) => {
       ...(state.manifest ? modelFacts(state.manifest, state.model) : []),
     );
     list.replaceChildren(
-      ...notes(state).map(({ text, look }) => el('li', { text, class: look ? 'look' : '' })),
+      ...notes(state).map(({ text, isWarning }) => el('li', { text, class: isWarning ? 'warning' : '' })),
     );
     if (focused) document.getElementById(focused)?.focus();
   };
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [
@@ -93,7 +93,7 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
     ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Skeleton', report.convention),
-    ...fact('Joints', jointWords(report)),
+    ...fact('Joints', jointText(report)),
     ...fact('Space', `${report.unit}, ${report.upAxis} up`),
   ];
 }
@@ -127,7 +127,7 @@ function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElemen
   return [
     group(role, roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
-    ...fact('Guidance', guidanceWords(inputs.settings)),
+    ...fact('Guidance', guidanceText(inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
       ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)

@@ -1,4 +1,4 @@
-import { rolledSeed } from '../store/actions/settings';
+import { randomSeed } from '../store/actions/settings';
 import type { Generator, Manifest, ModelFolder, Status } from '../../model/client';
 import { modelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
@@ -32,7 +32,7 @@ export function createModelLink(
 
   const onStatus = (status: Status): void => {
     if (status.kind === 'manifest') {
-      if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, rolledSeed()));
+      if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, randomSeed()));
       resolveManifest(status.manifest);
     } else if (status.kind === 'notice') apply(store, noticeAdded(`${status.message} ${status.hint}`));
     else apply(store, modelChanged(stateOf(status)));
@@ -74,7 +74,7 @@ export function createModelLink(
         // The present model's manifest stays until the other one is ready.
         const made = await create((status) => status.kind !== 'manifest' && onStatus(status), folder);
         current = Promise.resolve(made);
-        apply(store, modelOpened(made.manifest, rolledSeed()));
+        apply(store, modelOpened(made.manifest, randomSeed()));
         resolveManifest(made.manifest);
         before.then(
           (old) => old.dispose(),

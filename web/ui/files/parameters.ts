@@ -1,5 +1,5 @@
 /** What the page's address can set. */
-export interface Parameters {
+interface Parameters {
   /** Absolute address of the model's manifest; always of this page's own origin. */
   readonly manifestUrl: string;
   readonly backend: 'auto' | 'webgpu' | 'wasm';

@@ -1,4 +1,4 @@
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { footLockSet } from '../store/actions/reaction';
 import { apply, watch } from '../store/store';
@@ -23,7 +23,7 @@ export const mountFootLock: Mount = (root, store) => {
   );
   const section = el('section', { class: 'sec', attributes: { 'aria-label': 'Motion' } }, control);
   root.append(section);
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.footLock,

@@ -7,7 +7,7 @@ import type {
 } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { generationProblem, isAbort } from '../store/problems';
-import { reactorMotion, rememberLocked } from '../store/reactor-motion';
+import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { guidanceMatrix, sameInputs, readyInputs } from '../store/selectors';
 import { splice } from './splice';
 import type { Inputs, Reaction } from '../store/state';
@@ -142,7 +142,7 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
 
 /** The model's result as a reaction that can be shown. */
 export function reactionOf({ motion, locked, latents, seconds }: GenerateResult, inputs: Inputs): Reaction {
-  rememberLocked(motion, locked);
+  cacheLocked(motion, locked);
   const total = Object.values(seconds).reduce((sum, part) => sum + part, 0);
   return { motion, latents, inputs, label: null, seconds: total };
 }

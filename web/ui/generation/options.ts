@@ -2,13 +2,13 @@ import { mountVariationCards } from './variation-cards';
 import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
 import { iconButton, textButton } from '../widgets/button';
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountSeedBox } from './seed-box';
 import { isReading, upToDate } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
-import { rolesSwapped, seedRolled, stepsSet, rolledSeed } from '../store/actions/settings';
+import { rolesSwapped, seedRandomized, stepsSet, randomSeed } from '../store/actions/settings';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** One or several controls and how they follow the state. */
@@ -22,7 +22,7 @@ export const mountOptions: Mount = (root, store, services) => {
   const steps = createStepControl(store);
   const swap = createSwapButton(store);
   const generate = createGenerateButton(store, services);
-  const three = createVariationsButton(store, services);
+  const variations = createVariationsButton(store, services);
   const head = el(
     'div',
     { class: 'head' },
@@ -37,10 +37,10 @@ export const mountOptions: Mount = (root, store, services) => {
   const seed = mountSeedBox(head, store, services);
   const cards = mountVariationCards(section, store, services);
   section.append(
-    el('div', { class: 'make' }, ...generate.elements, ...three.elements),
+    el('div', { class: 'make' }, ...generate.elements, ...variations.elements),
     el('div', { class: 'option-row' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
   );
-  return together(
+  return combineDisposers(
     seed,
     cards,
     watchAll(
@@ -57,7 +57,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.job !== null,
       ],
       (state) => {
-        for (const control of [steps, swap, generate, three]) control.show(state);
+        for (const control of [steps, swap, generate, variations]) control.show(state);
       },
     ),
     () => {
@@ -119,7 +119,7 @@ function createSwapButton(store: Store): Controls {
 function createGenerateButton(store: Store, services: Services): Controls {
   const button = textButton('btn tint', '', () => {
     const state = store.getState();
-    if (upToDate(state) && !state.seedLocked) apply(store, seedRolled(rolledSeed()));
+    if (upToDate(state) && !state.seedLocked) apply(store, seedRandomized(randomSeed()));
     else services.generate();
   });
   return {

@@ -1,6 +1,6 @@
 import { generatedRole } from '../store/roles';
-import { el, setText, setVariable, together } from '../widgets/dom';
-import { jobWords } from '../store/selectors';
+import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { jobText } from '../store/selectors';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { watchAll } from '../store/store';
@@ -10,7 +10,7 @@ const SHOW_AFTER_MS = 400;
 
 /** The progress of the reaction that is being made, over the stage, with a button to cancel it. */
 export const mountProgress: Mount = (root, store, services) => {
-  const words = el('span', { class: 'soft' });
+  const stageText = el('span', { class: 'soft' });
   const fill = el('i');
   const meter = el(
     'span',
@@ -40,10 +40,10 @@ export const mountProgress: Mount = (root, store, services) => {
     el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
   );
   const title = el('b');
-  const box = el('div', { class: 'float progress' }, el('span', {}, title, words), meter, cancel);
+  const box = el('div', { class: 'float progress' }, el('span', {}, title, stageText), meter, cancel);
   box.hidden = true;
   // Announced at the start, half way and at the end, not at every step.
-  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   root.append(box, spoken);
 
   let timer: ReturnType<typeof setTimeout> | null = null;
@@ -62,11 +62,11 @@ export const mountProgress: Mount = (root, store, services) => {
     }, SHOW_AFTER_MS);
     if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${generatedRole(state)} is half made.`);
     setText(title, generatedRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
-    setText(words, jobWords(job, state));
+    setText(stageText, jobText(job, state));
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));
   };
-  return together(
+  return combineDisposers(
     watchAll(store, (state) => [state.job, state.model], show),
     () => {
       if (timer !== null) clearTimeout(timer);

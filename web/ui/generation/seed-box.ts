@@ -1,11 +1,11 @@
 import { iconButton } from '../widgets/button';
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import type { Mount } from '../store/services';
-import { seedLockSet, seedRolled, seedSet, rolledSeed } from '../store/actions/settings';
+import { seedLockSet, seedRandomized, seedSet, randomSeed } from '../store/actions/settings';
 import { apply, watchAll } from '../store/store';
 
-/** The seed: typed, rolled, or locked so that nothing but typing changes it. */
+/** The seed: typed, chosen at random, or locked so that nothing but typing changes it. */
 export const mountSeedBox: Mount = (root, store) => {
   const input = el('input', {
     attributes: {
@@ -25,7 +25,7 @@ export const mountSeedBox: Mount = (root, store) => {
     },
   });
   const roll = iconButton('icon', 'dice', { label: 'Roll a new seed' }, () => {
-    apply(store, seedRolled(rolledSeed()));
+    apply(store, seedRandomized(randomSeed()));
   });
   const lock = iconButton('icon lock', 'unlock', { label: 'Lock the seed' }, () => {
     apply(store, seedLockSet(!store.getState().seedLocked));
@@ -44,7 +44,7 @@ export const mountSeedBox: Mount = (root, store) => {
     lock.setAttribute('aria-pressed', String(seedLocked));
     lock.replaceChildren(icon(seedLocked ? 'lock' : 'unlock'));
   };
-  return together(
+  return combineDisposers(
     watchAll(store, (state) => [state.settings, state.seedLocked], show),
     () => {
       label.remove();

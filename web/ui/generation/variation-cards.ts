@@ -1,6 +1,6 @@
 import { VARIATION_COUNT } from '../store/actions/variations';
 import { generatedRole } from '../store/roles';
-import { el, setAttribute, setText, setVariable, together } from '../widgets/dom';
+import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { headingOf } from '../../motion/skeleton/heading';
 import { drawFigure } from '../widgets/figure';
 import { icon } from '../widgets/icons';
@@ -64,7 +64,7 @@ export const mountVariationCards: Mount = (root, store, services) => {
     { class: 'variations', attributes: { role: 'radiogroup', 'aria-label': 'Reactions to pick from' } },
     ...cards.map(({ button }) => button),
   );
-  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
+  const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   root.append(group, spoken);
 
   const figures = throttle(() => {
@@ -72,13 +72,13 @@ export const mountVariationCards: Mount = (root, store, services) => {
   }, DRAW_INTERVAL_MS);
   const sizes = new ResizeObserver(figures.run);
   sizes.observe(group);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.variations, state.reaction, state.settings],
       (state) => {
         showCards(cards, state);
-        setText(spoken, state.variations ? madeWords(state.variations.list) : '');
+        setText(spoken, state.variations ? madeText(state.variations.list) : '');
       },
     ),
     watchAll(
@@ -157,7 +157,7 @@ function showCards(cards: readonly Card[], state: AppState): void {
   });
 }
 
-function madeWords(list: readonly Variation[]): string {
+function madeText(list: readonly Variation[]): string {
   return `${list.filter(({ reaction }) => reaction).length} of ${VARIATION_COUNT} reactions made.`;
 }
 

@@ -15,7 +15,7 @@ import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, upToDate, readyInputs } from '../store/selectors';
 import type { Variation } from '../store/state';
 import { reactionAdded } from '../store/actions/reaction';
-import { rolledSeed, seedRolled, settingsSet } from '../store/actions/settings';
+import { randomSeed, seedRandomized, settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
@@ -45,7 +45,7 @@ export class VariationMaker {
     const others = allVariationsMade(this.#store.getState().variations);
     if (others) {
       apply(this.#store, variationsDropped());
-      apply(this.#store, seedRolled(rolledSeed()));
+      apply(this.#store, seedRandomized(randomSeed()));
     }
     const inputs = readyInputs(this.#store.getState());
     if (!inputs) return;

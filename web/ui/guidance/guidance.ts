@@ -1,5 +1,5 @@
 import { iconButton } from '../widgets/button';
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import { createFader } from '../widgets/fader';
 import { columnOf } from '../store/guidance-matrix';
 import { mountMatrix } from './matrix';
@@ -43,7 +43,7 @@ export const mountGuidance: Mount = (root, store, services) => {
   const music = mountMusicFader(section, store, services);
   const matrix = mountMatrix(section, store, services);
 
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.settings, state.manifest, state.job !== null],

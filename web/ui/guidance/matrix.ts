@@ -1,5 +1,5 @@
 import type { Manifest } from '../../model/client';
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { columnOf, guidanceAt } from '../store/guidance-matrix';
 import { icon } from '../widgets/icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
@@ -34,7 +34,7 @@ export const mountMatrix: Mount = (root, store) => {
   root.append(fold, grid);
 
   let cells: readonly Cell[] = [];
-  return together(
+  return combineDisposers(
     watch(
       store,
       ({ manifest }) => manifest,

@@ -1,5 +1,5 @@
 import { el, setText, setVariable } from '../widgets/dom';
-import { type FaderEvents, type FaderRange, connectFaderInput, valueWords } from '../widgets/fader';
+import { type FaderEvents, type FaderRange, connectFaderInput, valueText } from '../widgets/fader';
 
 export interface MiniFader {
   readonly root: HTMLElement;
@@ -7,18 +7,18 @@ export interface MiniFader {
   readonly show: (range: FaderRange | null, value: number) => void;
 }
 
-/** Share of the range above which the number stands on the other side of the handle. */
+/** Share of the range above which the number is on the other side of the handle. */
 const HIGH_SHARE = 0.7;
 
 /**
  * A small fader, as in a cell of the matrix. Its hint is in the tooltip only.
- * @param words what a screen reader says of a value
+ * @param describe text of a value for screen readers
  */
 export function createMiniFader(
   label: string,
   hint: string,
   on: FaderEvents,
-  words: (value: number) => string = valueWords,
+  describe: (value: number) => string = valueText,
 ): MiniFader {
   const value = el('output');
   const input = el('input', {
@@ -41,7 +41,7 @@ export function createMiniFader(
       input.max = String(range.max);
       input.step = String(range.step);
       if (input.valueAsNumber !== current) input.value = String(current);
-      input.setAttribute('aria-valuetext', words(current));
+      input.setAttribute('aria-valuetext', describe(current));
       const share = (current - range.min) / (range.max - range.min);
       setVariable(root, '--v', share);
       root.classList.toggle('high', share > HIGH_SHARE);

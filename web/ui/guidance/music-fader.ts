@@ -1,4 +1,4 @@
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { createMiniFader } from './mini-fader';
 import type { Mount } from '../store/services';
 import { musicReset, musicSet } from '../store/actions/settings';
@@ -19,7 +19,7 @@ export const mountMusicFader: Mount = (root, store) => {
         apply(store, musicReset());
       },
     },
-    musicWords,
+    musicText,
   );
   const note = el('small');
   const row = el(
@@ -30,7 +30,7 @@ export const mountMusicFader: Mount = (root, store) => {
     note,
   );
   root.append(row);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       ({ settings, manifest, song }) => [settings?.music, manifest, song !== null],
@@ -46,9 +46,9 @@ export const mountMusicFader: Mount = (root, store) => {
   );
 };
 
-/** What a screen reader says of a value. */
-export function musicWords(value: number): string {
-  const words =
+/** Text of a value for screen readers. */
+function musicText(value: number): string {
+  const strength =
     value === 0 ? 'as it comes' : value < 2 ? 'a little more' : value < 3.5 ? 'clearly' : 'strongly';
-  return `${value.toFixed(2)}, the song is heard ${words}`;
+  return `${value.toFixed(2)}, the song is heard ${strength}`;
 }

@@ -1,4 +1,4 @@
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { type Preset, presetOf, presets } from './presets';
 import type { Mount } from '../store/services';
@@ -22,7 +22,7 @@ export const mountPresetMenu: Mount = (root, store) => {
   });
   const box = el('span', { class: 'btn preset' }, name, icon('fold'), menu);
   root.append(box);
-  return together(
+  return combineDisposers(
     watch(
       store,
       ({ manifest }) => manifest,
@@ -40,7 +40,7 @@ export const mountPresetMenu: Mount = (root, store) => {
         const chosen = presetOf(list, settings);
         menu.selectedIndex = chosen ? list.indexOf(chosen) : list.length;
         setText(name, chosen?.name ?? CUSTOM);
-        menu.title = chosen ? chosen.words : 'Your own mix. Choose a preset to start from.';
+        menu.title = chosen ? chosen.description : 'Your own mix. Choose a preset to start from.';
       },
     ),
     () => {
@@ -57,7 +57,10 @@ function optionGroups(list: readonly Preset[]): HTMLElement[] {
       ...list
         .filter((preset) => preset.group === group)
         .map((preset) =>
-          el('option', { text: `${preset.name}  ${numbers(preset)}`, attributes: { title: preset.words } }),
+          el('option', {
+            text: `${preset.name}  ${numbers(preset)}`,
+            attributes: { title: preset.description },
+          }),
         ),
     ),
   );

@@ -6,7 +6,7 @@ import type { Guidance, Settings } from '../store/state';
 export interface Preset {
   readonly name: string;
   /** What to expect of it, in a sentence. */
-  readonly words: string;
+  readonly description: string;
   readonly group: 'This model' | 'From the paper, Table 4';
   readonly guidance: Guidance;
   readonly music: number;
@@ -16,7 +16,7 @@ export interface Preset {
  * Rows of the paper's Table 4, S = [coarse, fine], with what they did best there. The exported graphs follow the
  * paper's Eq. 9, so the numbers mean the same here; the descriptions are of the paper's model and dances.
  */
-const TABLE_4: readonly (readonly [coarse: number, fine: number, name: string, words: string])[] = [
+const TABLE_4: readonly (readonly [coarse: number, fine: number, name: string, description: string])[] = [
   [1, 1, 'Lightest', 'The least guidance that the paper tried.'],
   [1, 1.2, 'Finer detail', 'More of the detail, a light hand on the shape.'],
   [1, 1.5, 'Closest couple', 'The couple moved most like real couples.'],
@@ -30,14 +30,14 @@ export function presets(manifest: Pick<Manifest, 'latent' | 'guidance'>): Preset
   const { streams, layers } = manifest.latent;
   const own: Preset = {
     name: 'Balanced',
-    words: 'What suits this model best.',
+    description: 'What suits this model best.',
     group: 'This model',
     guidance: defaultGuidance(manifest),
     music: manifest.guidance.music.default,
   };
-  const paper = TABLE_4.map(([coarse, fine, name, words]): Preset => ({
+  const paper = TABLE_4.map(([coarse, fine, name, description]): Preset => ({
     name,
-    words,
+    description,
     group: 'From the paper, Table 4',
     guidance: uniform(streams, layers, (layer) => (layer === 'coarse' ? coarse : fine)),
     // Eq. 9 has no separate guidance by the music.

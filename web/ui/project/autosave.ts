@@ -89,11 +89,11 @@ export class Autosave {
         this.anythingStored = true;
         await this.storage.write(storedProject(state));
         this.hasFitted = true;
-        this.report('kept');
+        this.report('stored');
       } else if (this.anythingStored) {
         await this.storage.clear();
         this.anythingStored = false;
-        this.report('kept');
+        this.report('stored');
       }
     } catch (error) {
       this.report(isFull(error) ? 'full' : 'refused');

@@ -40,14 +40,14 @@ export function unpackMotion(
 ): SolvedMotion {
   const values = unpackFloats(bytes);
   let at = 0;
-  const take = (length: number): Float32Array => values.slice(at, (at += length));
+  const next = (length: number): Float32Array => values.slice(at, (at += length));
   return {
     fps,
     frames,
     fitError,
-    offsets: take(SKELETON_FLOATS),
-    root: take(frames * 3),
-    rotations: take(frames * JOINT_COUNT * 4),
-    positions: take(frames * JOINT_COUNT * 3),
+    offsets: next(SKELETON_FLOATS),
+    root: next(frames * 3),
+    rotations: next(frames * JOINT_COUNT * 4),
+    positions: next(frames * JOINT_COUNT * 3),
   };
 }

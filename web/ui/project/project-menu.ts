@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/close-button';
-import { el, listen, setAttribute, setText, together } from '../widgets/dom';
+import { el, listen, setAttribute, setText, combineDisposers } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
@@ -7,8 +7,8 @@ import { apply, watch, watchAll } from '../store/store';
 import { panelToggled } from '../store/actions/view';
 import { hasVisitorContent } from './schema';
 
-const HEADS: Readonly<Record<AutosaveStatus, string>> = {
-  kept: 'Kept in this browser until you start afresh',
+const HEADINGS: Readonly<Record<AutosaveStatus, string>> = {
+  stored: 'Kept in this browser until you start afresh',
   full: 'Not all of it is kept: this browser’s space is full',
   refused: 'This browser keeps nothing for the page',
 };
@@ -30,7 +30,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
   const elements = build(services, toggle);
   const { opener, menu, head, save, clear } = elements;
   root.append(opener, menu);
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.openPanel === 'project',
@@ -42,7 +42,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
       store,
       (state) => state.autosave,
       (status) => {
-        setText(head, HEADS[status]);
+        setText(head, HEADINGS[status]);
       },
     ),
     watchAll(
@@ -81,8 +81,8 @@ function build(services: Services, toggle: () => void): Elements {
     },
     icon('folder'),
   );
-  const entry = (sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement =>
-    menuEntry(sign, name, hint, () => {
+  const entry = (symbol: IconName, name: string, hint: string, run: () => void): HTMLButtonElement =>
+    menuEntry(symbol, name, hint, () => {
       toggle();
       run();
     });
@@ -114,11 +114,11 @@ function build(services: Services, toggle: () => void): Elements {
   return { opener, menu, head, save, open, clear };
 }
 
-function menuEntry(sign: IconName, name: string, hint: string, run: () => void): HTMLButtonElement {
+function menuEntry(symbol: IconName, name: string, hint: string, run: () => void): HTMLButtonElement {
   return el(
     'button',
-    { class: 'it', attributes: { type: 'button' }, on: { click: run } },
-    icon(sign),
+    { class: 'menu-item', attributes: { type: 'button' }, on: { click: run } },
+    icon(symbol),
     el('span', {}, el('b', { text: name }), el('small', { text: hint })),
   );
 }

@@ -1,4 +1,4 @@
-import { rolledSeed } from '../store/actions/settings';
+import { randomSeed } from '../store/actions/settings';
 import type { Files, FileReaders } from '../store/services';
 import { projectProblem } from '../store/problems';
 import { slug } from '../store/format';
@@ -8,7 +8,7 @@ import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
 import { projectCleared, projectOpened, takesRestored, visitRestored } from '../store/actions/project';
 import { Autosave } from './autosave';
-import { rememberId, storedProject } from './schema';
+import { assignId, storedProject } from './schema';
 import { readProject, writeProject } from './project-file';
 import { Restorer, type StoredFileReaders } from './restore';
 import type { ProjectStorage } from './storage';
@@ -47,13 +47,13 @@ export class Project {
     apply(store, firstVisitEnded());
     const before = store.getState();
     await this.readers.manifest();
-    const restorer = new Restorer(stored, rememberId);
+    const restorer = new Restorer(stored, assignId);
     await restorer.readPage(this.foreground);
     const now = store.getState();
     // Files that the visitor has chosen in the meantime stay.
-    const overtaken = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
+    const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
     const content = restorer.content(now);
-    apply(store, overtaken ? takesRestored(content.takes ?? []) : visitRestored(content));
+    apply(store, superseded ? takesRestored(content.takes ?? []) : visitRestored(content));
     this.autosave.start();
     void restorer.readRest(this.background).then(() => {
       apply(store, takesRestored(restorer.content(store.getState()).takes ?? []));
@@ -79,7 +79,7 @@ export class Project {
       const content = restorer.content(now);
       if (stored.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
-      apply(store, toastShown(openedWords(store.getState())));
+      apply(store, toastShown(openedText(store.getState())));
       for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
       return true;
     } catch (error) {
@@ -106,7 +106,7 @@ export class Project {
 
   /** Empties the page and, by autosave, the storage; undo brings everything back. */
   clear(): void {
-    apply(this.store, projectCleared(this.store.getState().manifest, rolledSeed()));
+    apply(this.store, projectCleared(this.store.getState().manifest, randomSeed()));
   }
 
   dispose(): void {
@@ -139,7 +139,7 @@ function projectName({ song, leader }: AppState): string {
 }
 
 /** `Opened: descarga.mp3, lead_0412.bvh, 3 takes`. */
-export function openedWords({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
+export function openedText({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
   const count = takes.length === 1 ? '1 take' : `${takes.length || 'no'} takes`;
   return `Opened: ${[song?.name ?? 'no song', leader?.name ?? 'no leader', count].join(', ')}`;
 }

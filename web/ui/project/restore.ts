@@ -25,13 +25,13 @@ export class Restorer {
   private readonly leaders = new Map<string, LoadedLeader | null>();
   private readonly motions: ReadonlyMap<string, StoredMotion>;
 
-  /** @param remember is told the id of each part that is restored */
+  /** @param onRestored called with each part that is restored and its id */
   constructor(
     private readonly stored: StoredProject,
-    private readonly remember: (part: object, id: string) => void = () => undefined,
+    private readonly onRestored: (part: object, id: string) => void = () => undefined,
   ) {
     this.motions = new Map(stored.motions.map((motion) => [motion.id, motion]));
-    for (const [id, { motion }] of this.motions) remember(motion, id);
+    for (const [id, { motion }] of this.motions) onRestored(motion, id);
   }
 
   /** Reads the song and the leader of the page. */
@@ -89,9 +89,9 @@ export class Restorer {
         .filter(({ id }) => this.leaders.get(id) === null)
         .map(({ id, name }) => {
           const count = takes.filter((take) => take.leader === id).length;
-          const along =
+          const lostTakes =
             count === 0 ? '' : count === 1 ? '; its take is left out' : `; its ${count} takes are left out`;
-          return `The leader ${name} could not be read again${along}.`;
+          return `The leader ${name} could not be read again${lostTakes}.`;
         }),
       ...songs
         .filter(({ id }) => this.songs.get(id) === null)
@@ -101,13 +101,13 @@ export class Restorer {
 
   private async readSong(song: StoredSong, readers: StoredFileReaders): Promise<void> {
     const read = await readers.song(song);
-    if (read) this.remember(read, song.id);
+    if (read) this.onRestored(read, song.id);
     this.songs.set(song.id, read);
   }
 
   private async readLeader(leader: StoredLeader, readers: StoredFileReaders): Promise<void> {
     const read = await readers.leader(leader);
-    if (read) this.remember(read, leader.id);
+    if (read) this.onRestored(read, leader.id);
     this.leaders.set(leader.id, read);
   }
 

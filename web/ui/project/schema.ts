@@ -27,7 +27,7 @@ export interface StoredMotion {
 }
 
 /** What a motion was decoded from, as in `Reaction`. */
-export interface StoredLatents {
+interface StoredLatents {
   /** The decoder they are for, as `decoderOf` names it. */
   readonly decoder: string;
   readonly values: Float32Array;
@@ -96,7 +96,7 @@ function idOf(part: object): string {
 }
 
 /** Gives a restored object the id under which it is stored already. */
-export function rememberId(part: object, id: string): void {
+export function assignId(part: object, id: string): void {
   ids.set(part, id);
 }
 

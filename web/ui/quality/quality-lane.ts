@@ -5,24 +5,24 @@ import type { Mark } from './quality-marks';
 import type { MeasureRow } from '../widgets/info-card';
 import type { Span } from '../store/time-scale';
 
-/** A mark with its name and what its card says. */
-export interface MarkWords {
+/** A mark with its label and the content of its info card. */
+interface LabelledMark {
   readonly mark: Mark;
-  readonly words: string;
-  readonly explained: CardContent;
+  readonly label: string;
+  readonly card: CardContent;
 }
 
 /** What a lane shows. */
-export interface LanePicture {
+export interface LaneContent {
   readonly value: string;
   readonly sentence: string;
   /** Shown in the lane's card, with the sentence below where `sentenceInCard` is set. */
   readonly measures: readonly MeasureRow[];
   readonly sentenceInCard: boolean;
-  /** How bad each frame is (1 is the limit of what is acceptable), in one row or several above each other. */
+  /** Severity per frame (1 is the limit of what is acceptable), in one row or several above each other. */
   readonly rows: readonly Float32Array[];
   readonly fps: number;
-  readonly marks: readonly MarkWords[];
+  readonly marks: readonly LabelledMark[];
   /** The part of the dance that is shown, seconds. */
   readonly shown: Span;
 }
@@ -30,7 +30,7 @@ export interface LanePicture {
 export interface QualityLane {
   readonly label: HTMLElement;
   readonly lane: HTMLElement;
-  readonly draw: (picture: LanePicture) => void;
+  readonly draw: (content: LaneContent) => void;
   readonly setStale: (stale: boolean) => void;
 }
 
@@ -85,29 +85,29 @@ export function createQualityLane(
       lane.classList.toggle('stale', stale);
       label.classList.toggle('stale', stale);
     },
-    draw: (picture) => {
-      setText(value, picture.value);
-      const { measures, sentenceInCard, sentence } = picture;
+    draw: (content) => {
+      setText(value, content.value);
+      const { measures, sentenceInCard, sentence } = content;
       card.set(label, { title: name, aside: '', rows: measures, text: sentenceInCard ? sentence : '' });
-      canvas.setAttribute('aria-label', `${name} ${picture.value}: ${picture.sentence}`);
-      drawHeat(canvas, picture);
-      const { from, to } = picture.shown;
-      picture.marks.forEach(({ mark, words, explained }, index) => {
+      canvas.setAttribute('aria-label', `${name} ${content.value}: ${content.sentence}`);
+      drawHeatMap(canvas, content);
+      const { from, to } = content.shown;
+      content.marks.forEach(({ mark, label: markLabel, card: markCard }, index) => {
         const flag = button(index, mark);
-        const at = (mark.moment.frame / picture.fps - from) / Math.max(1e-9, to - from);
+        const at = (mark.moment.frame / content.fps - from) / Math.max(1e-9, to - from);
         flag.hidden = at < 0 || at > 1;
         setText(flag, String(mark.rank));
-        setAttribute(flag, 'aria-label', `${mark.rank}. ${words}`);
+        setAttribute(flag, 'aria-label', `${mark.rank}. ${markLabel}`);
         setVariable(flag, '--at', at);
-        card.set(flag, { ...explained, title: `${mark.rank}. ${explained.title}` });
+        card.set(flag, { ...markCard, title: `${mark.rank}. ${markCard.title}` });
       });
-      for (const { flag } of buttons.splice(picture.marks.length)) flag.remove();
+      for (const { flag } of buttons.splice(content.marks.length)) flag.remove();
     },
   };
 }
 
 /** Draws the heat map: neutral up to the limit, in the warning colour above it; a cell shows its worst frame. */
-function drawHeat(canvas: HTMLCanvasElement, { rows, fps, shown }: LanePicture): void {
+function drawHeatMap(canvas: HTMLCanvasElement, { rows, fps, shown }: LaneContent): void {
   const on = surface(canvas);
   if (!on || shown.to <= shown.from) return;
   const { context, width, height } = on;

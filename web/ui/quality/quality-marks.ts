@@ -1,5 +1,5 @@
 import type { Moment, Report } from '../../quality/client';
-import type { Part } from './quality-words';
+import type { Part } from './quality-text';
 
 /** A moment with its rank: 1 is the worst of the dance. */
 export interface Mark {
@@ -8,9 +8,9 @@ export interface Mark {
   readonly moment: Moment;
 }
 
-/** Number of marks over all lanes. */
+/** Largest number of marks over all lanes. */
 const MAX_MARKS = 5;
-/** Number of marks in the one lane of low windows and phones. */
+/** Largest number of marks in the single lane of low windows and phones. */
 const MAX_IN_ONE_LANE = 3;
 
 /** The worst moments of all measures, the worst first. */
@@ -18,7 +18,7 @@ export function marksOf(report: Report): Mark[] {
   const parts: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
   return parts
     .flatMap((part) => report[part].worst.map((moment) => ({ part, moment })))
-    .sort((a, b) => b.moment.concern - a.moment.concern)
+    .sort((a, b) => b.moment.severity - a.moment.severity)
     .slice(0, MAX_MARKS)
     .map((mark, index) => ({ ...mark, rank: index + 1 }));
 }
@@ -36,7 +36,7 @@ export function marksInOne(marks: readonly Mark[], minDistance: number): Mark[] 
   return chosen;
 }
 
-/** The largestMagnification value of several rows in every frame; NaN where all are NaN. */
+/** The largest value of several rows in every frame; NaN where all are NaN. */
 export function worstRow(rows: readonly Float32Array[]): Float32Array {
   const worst = new Float32Array(Math.max(0, ...rows.map(({ length }) => length))).fill(NaN);
   for (const row of rows) {

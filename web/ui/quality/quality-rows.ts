@@ -1,7 +1,7 @@
 import type { MeasureRow, Verdict } from '../widgets/info-card';
 import type { Reference } from '../store/state';
 import type { Report } from '../../quality/client';
-import type { Part } from './quality-words';
+import type { Part } from './quality-text';
 
 const NOTHING = '–';
 const percent = (share: number): string => `${Math.round(share * 100)} %`;
@@ -17,23 +17,23 @@ const [GOOD_GAIN, FAIR_GAIN] = [0.75, 0.25];
 const EQUAL_WITHIN = 0.03;
 
 /** The verdict on a number that should not be larger than its reference. */
-export function atMost(value: number, reference: number | null | undefined): Verdict | null {
+export function verdictAtMost(value: number, reference: number | null | undefined): Verdict | null {
   if (missing(reference) || Number.isNaN(value)) return null;
   if (value <= reference * GOOD_TIMES) return 'good';
   return value <= reference * FAIR_TIMES ? 'so-so' : 'poor';
 }
 
 /** The verdict on a number that should be neither much less nor much more than its reference. */
-export function about(value: number, reference: number | null | undefined): Verdict | null {
+export function verdictNear(value: number, reference: number | null | undefined): Verdict | null {
   if (missing(reference) || Number.isNaN(value)) return null;
-  return atMost(Math.max(value, reference), Math.min(value, reference));
+  return verdictAtMost(Math.max(value, reference), Math.min(value, reference));
 }
 
 /**
  * The verdict on a score that should be as far above chance as that of recorded dancers. Where theirs is not above
  * chance either, a score at chance says nothing and counts as so-so.
  */
-export function aboveChance(
+export function verdictAboveChance(
   value: number,
   chance: number,
   recorded: number | null | undefined,
@@ -69,7 +69,7 @@ export function measureRows(
     beside: Number.isNaN(beat.value)
       ? ''
       : [recorded(known, score), `by chance ${score(beat.chance)}`].filter(Boolean).join(', '),
-    verdict: aboveChance(beat.value, beat.chance, known),
+    verdict: verdictAboveChance(beat.value, beat.chance, known),
   });
   const { whole: foot } = feet;
   const { whole: close } = closeness;
@@ -82,14 +82,14 @@ export function measureRows(
         hint: 'of their time on the floor',
         value: write(foot.skateShare, percent),
         beside: recorded(reference?.skateShare, percent),
-        verdict: atMost(foot.skateShare, reference?.skateShare),
+        verdict: verdictAtMost(foot.skateShare, reference?.skateShare),
       },
       {
         name: 'Feet on the floor',
         hint: 'of the dance',
         value: write(foot.contactShare, percent),
         beside: recorded(reference?.contactShare, percent),
-        verdict: about(foot.contactShare, reference?.contactShare),
+        verdict: verdictNear(foot.contactShare, reference?.contactShare),
       },
     ],
     closeness: [
@@ -98,7 +98,7 @@ export function measureRows(
         hint: `${deep}; hips never nearer than ${close.closest.toFixed(2)} m`,
         value: percent(close.overlapShare),
         beside: recorded(reference?.overlapShare, percent),
-        verdict: atMost(close.overlapShare, reference?.overlapShare),
+        verdict: verdictAtMost(close.overlapShare, reference?.overlapShare),
       },
     ],
     beats: [
@@ -111,7 +111,7 @@ export function measureRows(
         hint: 'times the change elsewhere',
         value: seams.whole.seams === 0 ? NOTHING : write(seams.whole.ratio, score),
         beside: seams.whole.seams === 0 ? '' : 'unseen around 1',
-        verdict: seams.whole.seams === 0 ? null : atMost(seams.whole.ratio, 1.1),
+        verdict: seams.whole.seams === 0 ? null : verdictAtMost(seams.whole.ratio, 1.1),
       },
     ],
   };

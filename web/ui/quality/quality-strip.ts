@@ -1,9 +1,9 @@
-import { together } from '../widgets/dom';
+import { combineDisposers } from '../widgets/dom';
 import { InfoCard } from '../widgets/info-card';
-import { createQualityLane, type LanePicture, type QualityLane } from './quality-lane';
+import { createQualityLane, type LaneContent, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
-import { laneWords, momentExplained, momentWords, type Part, PART_NAMES } from './quality-words';
+import { laneTexts, momentCard, momentLabel, type Part, PART_NAMES } from './quality-text';
 import { reactorMotion } from '../store/reactor-motion';
 import { danceDuration, danceFps, upToDate } from '../store/selectors';
 import type { Manifest } from '../../model/client';
@@ -19,7 +19,7 @@ const LEAD_IN = 0.5;
 const MARK_WIDTH = 28;
 
 /** All of the dance. */
-function whole(state: AppState): Span {
+function wholeDance(state: AppState): Span {
   return { from: 0, to: danceDuration(state) };
 }
 
@@ -33,7 +33,7 @@ export function mountQualityStrip(
   root: HTMLElement,
   store: Store,
   services: Services,
-  visibleSpan: (state: AppState) => Span = whole,
+  visibleSpan: (state: AppState) => Span = wholeDance,
 ): () => void {
   const jumpTo = ({ moment }: Mark): void => {
     const { playback, quality } = store.getState();
@@ -56,7 +56,7 @@ export function mountQualityStrip(
     draw(store.getState());
   });
   sizes.observe(root);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => {
@@ -96,7 +96,7 @@ function drawLanes(
   state: AppState,
   shown: Span,
 ): void {
-  const empty: LanePicture = {
+  const empty: LaneContent = {
     value: '',
     sentence: 'Nothing to measure yet.',
     measures: [],
@@ -113,7 +113,7 @@ function drawLanes(
   }
   const marksApart =
     (MARK_WIDTH * (shown.to - shown.from) * quality.reactor.fps) / worstLane.lane.clientWidth;
-  const { parts, worst } = lanePictures(empty, quality, manifest, state, marksApart);
+  const { parts, worst } = laneContents(empty, quality, manifest, state, marksApart);
   parts.forEach((picture, index) => {
     partLanes[index]?.draw(picture);
   });
@@ -125,42 +125,42 @@ function drawLanes(
  * @param empty what a lane without measures shows
  * @param marksApart least distance of two marks in the one lane of the worst, frames
  */
-function lanePictures(
-  empty: LanePicture,
+function laneContents(
+  empty: LaneContent,
   { report, reactor }: Quality,
   manifest: Manifest,
   state: AppState,
   marksApart: number,
-): { readonly parts: readonly LanePicture[]; readonly worst: LanePicture } {
+): { readonly parts: readonly LaneContent[]; readonly worst: LaneContent } {
   const { fps } = reactor;
   const reference = state.reference?.model === manifest.id ? state.reference : null;
   const blockSeconds = (manifest.latent.block * manifest.latent.stride) / manifest.fps;
-  const words = laneWords(report, blockSeconds, reference);
+  const texts = laneTexts(report, blockSeconds, reference);
   const measures = measureRows(report, reference);
   const marks = marksOf(report);
-  const withWords = (some: readonly Mark[]): LanePicture['marks'] =>
+  const labelled = (some: readonly Mark[]): LaneContent['marks'] =>
     some.map((mark) => ({
       mark,
-      words: momentWords(mark.moment, fps),
-      explained: momentExplained(mark.moment, fps, report, manifest.quality),
+      label: momentLabel(mark.moment, fps),
+      card: momentCard(mark.moment, fps, report, manifest.quality),
     }));
   return {
     parts: PARTS.map((part) => ({
       ...empty,
-      ...words[part],
+      ...texts[part],
       measures: measures[part],
       rows: report[part].rows,
       fps,
-      marks: withWords(marks.filter((mark) => mark.part === part)),
+      marks: labelled(marks.filter((mark) => mark.part === part)),
     })),
     worst: {
       ...empty,
-      sentence: PARTS.map((part) => words[part].sentence).join('\n\n'),
+      sentence: PARTS.map((part) => texts[part].sentence).join('\n\n'),
       measures: PARTS.flatMap((part) => measures[part]),
       sentenceInCard: false,
       rows: [worstRow(PARTS.flatMap((part) => report[part].rows))],
       fps,
-      marks: withWords(marksInOne(marks, marksApart)),
+      marks: labelled(marksInOne(marks, marksApart)),
     },
   };
 }

@@ -1,4 +1,4 @@
-import type { Duet, QualityQuestion, Report } from '../../quality/client';
+import type { Duet, QualityRequest, Report } from '../../quality/client';
 import { isAbort } from '../store/problems';
 import { reactorMotion } from '../store/reactor-motion';
 import { musicBeats } from '../store/song-shift';
@@ -36,7 +36,7 @@ function duetOf(state: AppState): Duet | null {
  */
 export function createQuality(
   store: Store,
-  measure: (question: QualityQuestion, signal: AbortSignal) => Promise<Report>,
+  measure: (question: QualityRequest, signal: AbortSignal) => Promise<Report>,
 ): () => void {
   let running = new AbortController();
 

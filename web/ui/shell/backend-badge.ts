@@ -1,5 +1,5 @@
 import { mountDeviceCard } from './device-card';
-import { el, setText, setVariable, together } from '../widgets/dom';
+import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { bytesOf } from '../store/format';
 import type { Mount } from '../store/services';
@@ -9,7 +9,7 @@ import { panelToggled } from '../store/actions/view';
 
 const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
 
-/** What computes and why; while the model is being downloaded, how much of it is here. */
+/** The backend and why it was chosen; while the model is being downloaded, the progress of that. */
 export const mountBackendBadge: Mount = (root, store, services) => {
   const title = el('b');
   const fill = el('i');
@@ -60,12 +60,12 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     about.title = '';
     if (model.phase === 'loading') {
       const part = model.total > 0 ? model.received / model.total : 0;
-      const words = loadingWords(model);
-      setText(title, words.title);
-      setText(bytes, words.detail);
-      about.title = `${words.title} ${words.detail}`.trim();
+      const text = loadingText(model);
+      setText(title, text.title);
+      setText(bytes, text.detail);
+      about.title = `${text.title} ${text.detail}`.trim();
       setVariable(fill, '--part', part);
-      meter.setAttribute('aria-label', words.title);
+      meter.setAttribute('aria-label', text.title);
       meter.setAttribute('aria-valuenow', String(Math.round(part * 100)));
     } else if (model.phase === 'ready') {
       setText(title, BACKENDS[model.backend]);
@@ -78,7 +78,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       about.title = model.problem.title;
     }
   };
-  return together(
+  return combineDisposers(
     watch(store, (state) => state.model, show),
     card,
     () => {
@@ -89,20 +89,20 @@ export const mountBackendBadge: Mount = (root, store, services) => {
 
 type Loading = Extract<ModelState, { readonly phase: 'loading' }>;
 
-/** What is being downloaded and how much of it is here: `Runtime`, `12.0 of 14.2 MB, model from this device`. */
-export function loadingWords({ label, received, total, parts = [] }: Loading): {
+/** What is being downloaded and the progress of that: `Runtime`, `12.0 of 14.2 MB, model from this device`. */
+export function loadingText({ label, received, total, parts = [] }: Loading): {
   readonly title: string;
   readonly detail: string;
 } {
   if (parts.length === 0) return { title: label, detail: total > 0 ? bytesOf(received, total) : '' };
-  const coming = parts.filter(({ kept, total }) => kept < total);
-  const here = parts.filter(({ kept, total }) => kept >= total);
-  if (coming.length === 0) return { title: capital(named(here)), detail: 'from this device' };
-  const loaded = coming.reduce((sum, part) => sum + part.loaded, 0);
-  const whole = coming.reduce((sum, part) => sum + part.total, 0);
+  const downloading = parts.filter(({ cached, total }) => cached < total);
+  const fromCache = parts.filter(({ cached, total }) => cached >= total);
+  if (downloading.length === 0) return { title: capitalised(named(fromCache)), detail: 'from this device' };
+  const loaded = downloading.reduce((sum, part) => sum + part.loaded, 0);
+  const whole = downloading.reduce((sum, part) => sum + part.total, 0);
   return {
-    title: capital(named(coming)),
-    detail: bytesOf(loaded, whole) + (here.length > 0 ? `, ${named(here)} from this device` : ''),
+    title: capitalised(named(downloading)),
+    detail: bytesOf(loaded, whole) + (fromCache.length > 0 ? `, ${named(fromCache)} from this device` : ''),
   };
 }
 
@@ -110,6 +110,6 @@ function named(parts: readonly { readonly name: string }[]): string {
   return parts.map(({ name }) => name).join(' and ');
 }
 
-function capital(words: string): string {
-  return words.charAt(0).toUpperCase() + words.slice(1);
+function capitalised(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }

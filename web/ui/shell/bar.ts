@@ -1,6 +1,6 @@
 import { mountBackendBadge } from './backend-badge';
 import { mountFileChip } from '../files/file-chip';
-import { el, setAttribute, together } from '../widgets/dom';
+import { el, setAttribute, combineDisposers } from '../widgets/dom';
 import { mountDownloadMenu } from '../download/download-menu';
 import { brandMark, icon } from '../widgets/icons';
 import { mountProjectMenu } from '../project/project-menu';
@@ -53,7 +53,7 @@ export const mountBar: Mount = (root, store, services) => {
   root.append(keys, theme);
   const download = mountDownloadMenu(root, store, services);
 
-  return together(
+  return combineDisposers(
     song,
     leader,
     badge,

@@ -1,8 +1,9 @@
 import { closeButton } from '../widgets/close-button';
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { byteSize } from '../store/format';
 import type { Services } from '../store/services';
-import type { Kept, ModelState } from '../store/state';
+import type { ModelState } from '../store/state';
+import type { StorageUsage } from '../../offline/storage-usage';
 import { apply, watch, watchAll, type Store } from '../store/store';
 import { panelToggled } from '../store/actions/view';
 
@@ -10,7 +11,7 @@ const PARTS = [
   ['page', 'Page and demo'],
   ['runtime', 'Runtime'],
   ['model', 'Model'],
-] as const satisfies readonly (readonly [keyof Kept, string])[];
+] as const satisfies readonly (readonly [keyof StorageUsage, string])[];
 
 interface Elements {
   readonly card: HTMLElement;
@@ -39,7 +40,7 @@ export function mountDeviceCard(
     if (!card.hidden && !inside) toggle();
   };
   document.addEventListener('pointerdown', closeOutside);
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.openPanel === 'device',
@@ -53,8 +54,8 @@ export function mountDeviceCard(
       ({ openPanel, model }) => {
         if (openPanel !== 'device') return;
         setText(why, reason(model));
-        void services.measureStorage().then((kept) => {
-          showStorage(elements, kept, keptWords(kept));
+        void services.measureStorage().then((usage) => {
+          showStorage(elements, usage, storageText(usage));
         });
       },
     ),
@@ -97,14 +98,14 @@ function showOpen({ card, close }: Elements, opener: HTMLElement, open: boolean)
 }
 
 /** Bytes by part, and a sentence below them. */
-function showStorage({ facts, sum, clear }: Elements, kept: Kept | null, sentence: string): void {
+function showStorage({ facts, sum, clear }: Elements, usage: StorageUsage | null, sentence: string): void {
   facts.replaceChildren(
     ...PARTS.flatMap(([part, name]) => [
       el('dt', { text: name }),
-      el('dd', { text: kept && kept[part] > 0 ? byteSize(kept[part]) : 'not kept' }),
+      el('dd', { text: usage && usage[part] > 0 ? byteSize(usage[part]) : 'not kept' }),
     ]),
   );
-  clear.disabled = totalBytes(kept) === 0;
+  clear.disabled = totalBytes(usage) === 0;
   setText(sum, sentence);
 }
 
@@ -128,12 +129,12 @@ function reason(model: ModelState): string {
   return 'The partner is computed here, but its model could not be loaded.';
 }
 
-function keptWords(kept: Kept | null): string {
-  if (!kept) return 'This browser gives the page no storage: each visit downloads everything.';
-  const bytes = totalBytes(kept);
+function storageText(usage: StorageUsage | null): string {
+  if (!usage) return 'This browser gives the page no storage: each visit downloads everything.';
+  const bytes = totalBytes(usage);
   return bytes > 0 ? `${byteSize(bytes)} kept for offline use` : 'Nothing is kept for offline use.';
 }
 
-function totalBytes(kept: Kept | null): number {
-  return kept ? kept.page + kept.runtime + kept.model : 0;
+function totalBytes(usage: StorageUsage | null): number {
+  return usage ? usage.page + usage.runtime + usage.model : 0;
 }

@@ -1,5 +1,5 @@
 import { duration } from '../store/format';
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { howItWorks, opensHowItWorks, steps } from './how-it-works';
 import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
@@ -26,18 +26,18 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   const about = el('small');
   const block = el(
     'section',
-    { class: 'first', attributes: { 'aria-label': 'Start' } },
+    { class: 'first-visit', attributes: { 'aria-label': 'Start' } },
     el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
     el('p', {
-      class: 'lede',
+      class: 'intro',
       text: 'Your browser dances the reacting partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
-      half(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
-      half(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
+      fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
+      fileChoice(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
     ),
     steps(opensHowItWorks('Where from?', 'link')),
     el(
@@ -61,9 +61,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';
-    setText(about, demoWords(state));
+    setText(about, demoText(state));
   };
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.firstVisit, state.demo, state.reaction, state.leader, state.song],
@@ -76,14 +76,20 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   );
 };
 
-function demoWords(state: AppState): string {
+function demoText(state: AppState): string {
   if (state.demo === 'loading') return 'Loading the demo';
   if (state.demo === 'missing') return 'The demo is not here. Your own files work.';
   const length = duration(danceDuration(state));
   return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
 }
 
-function half(services: Services, side: InputKind, name: string, kinds: string, ask: string): HTMLElement {
+function fileChoice(
+  services: Services,
+  side: InputKind,
+  name: string,
+  kinds: string,
+  ask: string,
+): HTMLElement {
   return el(
     'div',
     {},

@@ -1,11 +1,11 @@
 import { coarseIsMissing } from '../generation/coarse-layer';
-import { listen, together } from '../widgets/dom';
+import { listen, combineDisposers } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS } from '../store/overlays';
 import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { AppState, Camera } from '../store/state';
-import { guidanceReset, seedRolled, rolledSeed } from '../store/actions/settings';
+import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemClosed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
@@ -40,7 +40,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
   const onRelease = (event: KeyboardEvent): void => {
     if (event.key === ' ' && byPointer && event.target instanceof HTMLButtonElement) event.preventDefault();
   };
-  return together(
+  return combineDisposers(
     listen(window, 'keydown', onKey),
     listen(window, 'keyup', onRelease),
     listen(
@@ -86,7 +86,7 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   v: () => focusFader('Fine guidance'),
   m: () => focusFader('Music guidance'),
   r: ({ store }) => apply(store, guidanceReset()),
-  d: ({ store }) => apply(store, seedRolled(rolledSeed())),
+  d: ({ store }) => apply(store, seedRandomized(randomSeed())),
   f: ({ store }) => toggleCamera(store, 'follow'),
   t: ({ store }) => toggleCamera(store, 'top'),
   x: ({ store }) => toggleCamera(store, 'side'),

@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/close-button';
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from '../store/overlays';
 import { apply, watch } from '../store/store';
@@ -48,7 +48,7 @@ export const mountKeysDialog: Mount = (root, store) => {
   dialog.hidden = true;
   root.append(dialog);
   let before: Element | null = null;
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.openPanel === 'keys',

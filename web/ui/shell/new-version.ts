@@ -1,15 +1,15 @@
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { updateSet } from '../store/actions/view';
 
 /** Says that a newer build of the page is ready; it is not loaded by itself, since the visitor may be at work. */
 export const mountNewVersion: Mount = (root, store, services) => {
-  const words = el('span');
+  const text = el('span');
   const note = el(
     'div',
     { class: 'float update', attributes: { role: 'status' } },
-    words,
+    text,
     el('button', {
       class: 'btn tint',
       text: 'Reload',
@@ -32,14 +32,14 @@ export const mountNewVersion: Mount = (root, store, services) => {
     }),
   );
   root.append(note);
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.update,
       (update) => {
         note.hidden = !update;
         // Set when it is shown, so that it is read out.
-        setText(words, update ? 'A new version is ready.' : '');
+        setText(text, update ? 'A new version is ready.' : '');
       },
     ),
     () => {

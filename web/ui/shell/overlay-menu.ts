@@ -1,5 +1,5 @@
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
-import { el, setAttribute, setText, together } from '../widgets/dom';
+import { el, setAttribute, setText, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import { OVERLAYS, type Overlay } from '../store/overlays';
 import type { AppState, Reaction } from '../store/state';
@@ -31,7 +31,7 @@ export const mountOverlayMenu: Mount = (root, store, services) => {
     if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, panelToggled('overlays'));
   };
   document.addEventListener('pointerdown', closeOutside);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.overlays, state.coarse, state.reaction, besideStage(state), state.job === null],
@@ -85,13 +85,13 @@ function build(store: Store, services: Services): Elements {
   const [ghost, ...others] = toggles;
   const menu = el(
     'div',
-    { class: 'float show', attributes: { role: 'dialog', 'aria-label': 'Show on the stage' } },
+    { class: 'float overlay-menu', attributes: { role: 'dialog', 'aria-label': 'Show on the stage' } },
     ghost ?? null,
     note,
     ...others,
   );
   menu.hidden = true;
-  const corner = el('div', { class: 'over shows' }, button, menu);
+  const corner = el('div', { class: 'over stage-corner' }, button, menu);
   return { corner, button, count, menu, toggles, note, noteText, generate };
 }
 
@@ -99,11 +99,11 @@ function overlayToggle({ label, key, hint }: Overlay, toggle: () => void): HTMLB
   return el(
     'button',
     {
-      class: 'it',
+      class: 'menu-item',
       attributes: { type: 'button', title: hint, 'aria-keyshortcuts': key, 'aria-label': label },
       on: { click: toggle },
     },
-    el('span', { class: 'led', attributes: { 'aria-hidden': true } }),
+    el('span', { class: 'indicator', attributes: { 'aria-hidden': true } }),
     el('span', { class: 'name', text: label }),
     el('kbd', { class: 'desk', text: key, attributes: { 'aria-hidden': true } }),
   );
@@ -119,9 +119,9 @@ function showState({ button, count, toggles, note, noteText, generate }: Element
   const on = OVERLAYS.filter(({ what }) => overlays[what]).length;
   setText(count, on > 0 ? String(on) : '');
   button.setAttribute('aria-label', on > 0 ? `Show, ${on} on` : 'Show');
-  const words = noteWords(state);
-  note.hidden = words === '';
-  setText(noteText, words);
+  const text = ghostNote(state);
+  note.hidden = text === '';
+  setText(noteText, text);
   generate.hidden = !coarseIsMissing(state) || job !== null;
 }
 
@@ -134,15 +134,15 @@ function showOpen({ button, menu, toggles }: Elements, open: boolean): void {
 }
 
 /** Why the coarse ghost can't be seen; empty when it can. */
-function noteWords(state: AppState): string {
+function ghostNote(state: AppState): string {
   const { reaction, coarse, job } = state;
-  if (reaction && coarseIsMissing(state)) return job ? 'Being generated' : missingWords(reaction);
+  if (reaction && coarseIsMissing(state)) return job ? 'Being generated' : missingText(reaction);
   if (coarse.decoding) return 'Decoding the coarse layer';
   const beside = besideStage(state);
-  return beside && coarseIsMissing({ reaction: beside }) ? `Beside it: ${missingWords(beside)}` : '';
+  return beside && coarseIsMissing({ reaction: beside }) ? `Beside it: ${missingText(beside)}` : '';
 }
 
-function missingWords({ label }: Reaction): string {
+function missingText({ label }: Reaction): string {
   return label === null
     ? 'This take was made by another model, or kept without its layers.'
     : `The ${label} came ready-made, without its layers.`;

@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { together } from '../widgets/dom';
+import { combineDisposers } from '../widgets/dom';
 import { NO_OVERLAYS } from '../../common/visible-overlays';
 import type { AppState, Theme } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
@@ -32,7 +32,7 @@ const schema = v.object({
 });
 
 /** Theme, camera and other choices in localStorage; takes and settings are stored by `Project`. */
-export type Preferences = v.InferOutput<typeof schema>;
+type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
   ({ theme, camera, speed, loop, footLock, seedLocked, shown: overlays }: Preferences): Change =>
@@ -62,7 +62,7 @@ const chosen = (
 export type PreferenceStorage = Pick<Storage, 'getItem' | 'setItem'>;
 
 /** Calls back when the system changes its theme; returns the unsubscription. */
-export type WatchTheme = (change: (theme: Theme) => void) => () => void;
+type WatchTheme = (change: (theme: Theme) => void) => () => void;
 
 /**
  * Restores the preferences of earlier visits and stores those of this one.
@@ -80,7 +80,7 @@ export function syncPreferences(
   let theme = first.theme;
   let shown = store.getState().theme;
   let bySystem = false;
-  return together(
+  return combineDisposers(
     watchSystem((system) => {
       if (theme !== null) return;
       bySystem = true;

@@ -1,4 +1,4 @@
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
@@ -26,7 +26,7 @@ export const mountProblemDialog: Mount = (root, store, services) => {
     root.classList.add('dimmed');
     dialog.querySelector('button')?.focus();
   };
-  return together(
+  return combineDisposers(
     watch(store, (state) => state.problem, show),
     close,
   );
@@ -52,7 +52,7 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
   return el(
     'section',
     {
-      class: 'float err',
+      class: 'float problem',
       attributes: {
         role: 'alertdialog',
         'aria-labelledby': 'problem-title',
@@ -64,9 +64,9 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
     el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
     el(
       'div',
-      { class: 'acts' },
+      { class: 'actions' },
       remedy && action(remedy.text, 'primary', remedy.run),
-      action(keepWords(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
+      action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
     ),
   );
 }
@@ -102,8 +102,8 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
   }
 }
 
-/** Names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
-export function keepWords(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
+/** The label of the button that closes the dialog. It names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+export function dismissLabel(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
   if (!problem.refused) return 'Close';
   const { kind } = problem.refused;
   const kept = kind ? [{ song, leader }[kind]] : [song, leader];

@@ -1,4 +1,4 @@
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import { coarseMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
@@ -37,7 +37,7 @@ const mountStageTools: Mount = (root, store, services) => {
   );
   tools.append(frame);
   root.append(tools);
-  return together(undo, () => {
+  return combineDisposers(undo, () => {
     tools.remove();
   });
 };
@@ -95,7 +95,7 @@ export const mountStageControls: Mount = (root, store, services) => {
   const views = el('div', { class: 'over views' }, group, frame);
   root.append(legend, views);
 
-  return together(
+  return combineDisposers(
     mountOverlayMenu(root, store, services),
     mountStageTools(root, store, services),
     watch(

@@ -1,7 +1,7 @@
 import { generatedRole } from '../store/roles';
 import type { Theme } from '../store/state';
 import { type Store, watch } from '../store/store';
-import { together } from '../widgets/dom';
+import { combineDisposers } from '../widgets/dom';
 
 const system = (): MediaQueryList => matchMedia('(prefers-color-scheme: light)');
 
@@ -23,7 +23,7 @@ export function watchSystemTheme(change: (theme: Theme) => void): () => void {
 
 /** Gives the style sheets the theme and the generated dancer's role, which they colour some controls by. */
 export function mountTheme(store: Store): () => void {
-  return together(
+  return combineDisposers(
     watch(store, (state) => state.theme, showTheme),
     watch(store, generatedRole, (role) => {
       document.documentElement.dataset['made'] = role;

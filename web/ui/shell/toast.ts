@@ -1,4 +1,4 @@
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { toastShown } from '../store/actions/notices';
@@ -8,37 +8,37 @@ const TOAST_MS = 7000;
 
 /** Toasts: a sentence about what has just happened, at the stage's upper edge. */
 export const mountToast: Mount = (root, store) => {
-  const words = el('span');
-  const pill = el(
+  const text = el('span');
+  const box = el(
     'div',
     {
-      class: 'float news',
+      class: 'float toast',
       on: {
         click: () => {
           apply(store, toastShown(null));
         },
       },
     },
-    words,
+    text,
   );
-  const spoken = el('p', { class: 'vh', attributes: { role: 'status' } });
-  root.append(pill, spoken);
+  const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
+  root.append(box, spoken);
   let timer: ReturnType<typeof setTimeout> | undefined;
-  return together(
+  return combineDisposers(
     watch(
       store,
       (state) => state.toast,
       (toast) => {
         clearTimeout(timer);
-        pill.hidden = toast === null;
-        setText(words, toast ?? '');
+        box.hidden = toast === null;
+        setText(text, toast ?? '');
         setText(spoken, toast ?? '');
         if (toast !== null) timer = setTimeout(() => void apply(store, toastShown(null)), TOAST_MS);
       },
     ),
     () => {
       clearTimeout(timer);
-      pill.remove();
+      box.remove();
       spoken.remove();
     },
   );

@@ -3,8 +3,8 @@ import type { AppState, Inputs, Reaction, Take } from './state';
 import { sealed } from './history';
 import { takeOnStage, withTake } from './take';
 
-/** What a new take gets from outside: an identity, and the time in milliseconds since 1970. */
-export interface Stamp {
+/** Identity and creation time of a new take, the latter in milliseconds since 1970. */
+export interface TakeStamp {
   readonly id: string;
   readonly at: number;
 }
@@ -18,7 +18,7 @@ const SAME_DRAG_MS = 4000;
 /** Most takes in the list; beyond it the oldest that are neither starred nor named are removed. */
 export const MAX_TAKES = 40;
 
-export function newStamp(): Stamp {
+export function newStamp(): TakeStamp {
   const at = Date.now();
   return { id: `${at.toString(36)}-${Math.random().toString(36).slice(2, 8)}`, at };
 }
@@ -27,7 +27,7 @@ export function newStamp(): Stamp {
 export function withReaction(
   state: AppState,
   reaction: Reaction,
-  stamp: Stamp,
+  stamp: TakeStamp,
 ): Pick<AppState, 'takes' | 'takesMade' | 'history'> {
   const { takes, takesMade } = state;
   const before = takeOnStage(state);
@@ -78,7 +78,7 @@ function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
   return sameInputs({ ...a, settings: { ...a.settings, guidance, music } }, b);
 }
 
-/** At most `MOST_TAKES`, unless more are starred, named or in use. */
+/** At most `MAX_TAKES`, unless more are starred, named or in use. */
 function withoutOldest(takes: readonly Take[], inUse: readonly (string | null)[]): readonly Take[] {
   let surplus = takes.length - MAX_TAKES;
   if (surplus <= 0) return takes;

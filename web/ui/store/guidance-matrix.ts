@@ -89,7 +89,7 @@ export function clampedToStep(value: number, { min, max, step }: Range): number 
 }
 
 /** `1.20 coarse, 0.60 fine, 3.00 music`, with `about` where the body parts differ. */
-export function guidanceWords({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): string {
+export function guidanceText({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): string {
   const layers = (['coarse', 'fine'] as const).map((layer) => {
     const { value, mixed } = columnOf(guidance, layer);
     return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;

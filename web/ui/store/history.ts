@@ -34,7 +34,7 @@ export const NO_HISTORY: History = { past: [], future: [], open: false };
 
 const MAX_STEPS = 100;
 
-/** A fader that rests this long has been released. */
+/** Longest pause between two changes of one gesture, such as a drag of a fader. */
 const SAME_GESTURE_MS = 1000;
 
 /** Completes the last step: the next change is a step of its own. */
@@ -117,7 +117,7 @@ function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppSta
   for (const { before, after: since } of edits)
     if (before) takes = withTake(takes, edited(takes, before));
     else takes = takes.filter(({ id }) => id !== since?.id);
-  // The take that was on the stage may have been folded into the next one or have made room: it comes back.
+  // The take that was on the stage may have been replaced by the next one or removed as the oldest: it comes back.
   if (stage && !back.takes && stage.reaction === after.reaction && !takes.some(sameAs(stage)))
     takes = withTake(takes, {
       ...edited(takes, stage),

@@ -1,13 +1,13 @@
 import type { Problem, InputKind } from './state';
 
-/** What the project's own errors have in common: a sentence, and what to do about it. */
-interface Told {
+/** An error with a code, a sentence for the visitor and a hint what to do, as `AppError` is. */
+interface ExplainedError {
   readonly code: string;
   readonly message: string;
   readonly hint: string;
 }
 
-function isTold(error: unknown): error is Told {
+function isExplained(error: unknown): error is ExplainedError {
   return (
     error instanceof Error &&
     'code' in error &&
@@ -25,7 +25,7 @@ export function isAbort(error: unknown): boolean {
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
   const refused = { kind, name };
-  if (isTold(error))
+  if (isExplained(error))
     return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
     code: 'unreadable-file',
@@ -43,11 +43,11 @@ function named(name: string, sentence: string): string {
 
 /** A project file that could not be opened, or written. */
 export function projectProblem(error: unknown, name: string, remedy: Problem['remedy']): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'unreadable-file',
-    title: told ? named(name, error.message) : `${name} could not be read.`,
-    hint: told ? error.hint : 'Choose it again. Everything on the page is unchanged.',
+    code: explained ? error.code : 'unreadable-file',
+    title: explained ? named(name, error.message) : `${name} could not be read.`,
+    hint: explained ? error.hint : 'Choose it again. Everything on the page is unchanged.',
     remedy,
     refused: { kind: null, name },
   };
@@ -68,11 +68,11 @@ export function fullProblem(): Problem {
 
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'model-failed',
-    title: told ? error.message : 'The model could not be started.',
-    hint: told ? error.hint : 'Reload the page; if it happens again, try another browser.',
+    code: explained ? error.code : 'model-failed',
+    title: explained ? error.message : 'The model could not be started.',
+    hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
     remedy: 'model',
     refused: null,
   };
@@ -80,11 +80,11 @@ export function modelProblem(error: unknown): Problem {
 
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'generation-failed',
-    title: told ? error.message : 'The reactor could not be made.',
-    hint: told ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+    code: explained ? error.code : 'generation-failed',
+    title: explained ? error.message : 'The reactor could not be made.',
+    hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
     remedy: 'generate',
     refused: null,
   };
@@ -92,11 +92,11 @@ export function generationProblem(error: unknown): Problem {
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'coarse-failed',
-    title: told ? error.message : 'The coarse layer of this reaction could not be decoded.',
-    hint: told ? error.hint : 'Show it again, or generate the reaction again.',
+    code: explained ? error.code : 'coarse-failed',
+    title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
+    hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
     remedy: 'generate',
     refused: null,
   };
@@ -104,11 +104,11 @@ export function coarseProblem(error: unknown): Problem {
 
 /** A failure to play. */
 export function playbackProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'playback-failed',
-    title: told ? error.message : 'The song could not be played.',
-    hint: told ? error.hint : 'Press play again.',
+    code: explained ? error.code : 'playback-failed',
+    title: explained ? error.message : 'The song could not be played.',
+    hint: explained ? error.hint : 'Press play again.',
     remedy: 'none',
     refused: null,
   };
@@ -116,11 +116,11 @@ export function playbackProblem(error: unknown): Problem {
 
 /** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'saving-failed',
-    title: told ? error.message : 'The file could not be written.',
-    hint: told ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
+    code: explained ? error.code : 'saving-failed',
+    title: explained ? error.message : 'The file could not be written.',
+    hint: explained ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
     remedy: 'none',
     refused: null,
   };
@@ -128,11 +128,11 @@ export function savingProblem(error: unknown): Problem {
 
 /** A failure of the 3D picture; everything else goes on working. */
 export function stageProblem(error: unknown): Problem {
-  const told = isTold(error);
+  const explained = isExplained(error);
   return {
-    code: told ? error.code : 'stage-failed',
-    title: told ? error.message : 'The 3D picture could not be started.',
-    hint: told
+    code: explained ? error.code : 'stage-failed',
+    title: explained ? error.message : 'The 3D picture could not be started.',
+    hint: explained
       ? error.hint
       : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
     remedy: 'none',

@@ -6,7 +6,7 @@ import type { AppState } from './state';
 const locked = new WeakMap<SolvedMotion, SolvedMotion>();
 
 /** A motion as it is drawn: as generated, or with its feet locked; the same object for the same motion. */
-export function asDrawn(motion: SolvedMotion, footLock: boolean): SolvedMotion {
+function asDrawn(motion: SolvedMotion, footLock: boolean): SolvedMotion {
   if (!footLock) return motion;
   let result = locked.get(motion);
   if (!result) locked.set(motion, (result = lockFeet(motion)));
@@ -43,6 +43,6 @@ export function otherCoarseMotion({
 }
 
 /** Caches a motion whose feet a worker has locked. */
-export function rememberLocked(motion: SolvedMotion, result: SolvedMotion): void {
+export function cacheLocked(motion: SolvedMotion, result: SolvedMotion): void {
   locked.set(motion, result);
 }

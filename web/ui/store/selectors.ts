@@ -72,8 +72,8 @@ export function barAt(beats: readonly number[], time: number): { bar: number; co
   return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
 }
 
-/** The stage a job is in, in words. */
-export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
+/** The stage of a job as a text for the visitor. */
+export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
   switch (job.stage) {
     case 'waiting':
       return model.phase === 'loading' && model.total > 0
@@ -84,7 +84,7 @@ export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' |
     case 'preview':
       return 'what plays now first';
     case 'step':
-      return stepWords(job, settings?.steps ?? job.total);
+      return stepText(job, settings?.steps ?? job.total);
     case 'decode':
       return 'shaping the dance';
     case 'solve':
@@ -93,7 +93,7 @@ export function jobWords(job: Job, { model, settings }: Pick<AppState, 'model' |
 }
 
 /** A step may run in several pieces; only the steps of the settings are counted. */
-function stepWords({ done, total }: Job, steps: number): string {
+function stepText({ done, total }: Job, steps: number): string {
   return `step ${Math.min(steps, Math.floor((done / Math.max(1, total)) * steps) + 1)} of ${steps}`;
 }
 
@@ -120,7 +120,7 @@ export function isReading({ reading }: Pick<AppState, 'reading'>): [boolean, boo
 }
 
 const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
-  kept: null,
+  stored: null,
   full:
     'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
     'Delete takes that you don’t need, or save a project file.',
@@ -128,10 +128,10 @@ const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
     'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
 };
 
-/** A sentence worth reading before trusting the result; `look` marks one that may affect it. */
+/** A sentence about the inputs; a warning is about something that may make the result worse. */
 export interface Note {
   readonly text: string;
-  readonly look: boolean;
+  readonly isWarning: boolean;
 }
 
 /** Notes on the song and the leader. */
@@ -139,32 +139,32 @@ function fileNotes(state: AppState): Note[] {
   const { song, leader } = state;
   const list: Note[] = [];
   const length = lengthNote(state);
-  if (length) list.push({ text: length, look: false });
+  if (length) list.push({ text: length, isWarning: false });
   if (song?.data.silent)
-    list.push({ text: 'The song is silent: it carries no beat to dance to.', look: true });
+    list.push({ text: 'The song is silent: it carries no beat to dance to.', isWarning: true });
   else if (song && song.data.beats.length === 0)
-    list.push({ text: 'No steady beat was found in the song.', look: true });
-  for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, look: true });
-  for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, look: false });
+    list.push({ text: 'No steady beat was found in the song.', isWarning: true });
+  for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, isWarning: true });
+  for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, isWarning: false });
   return list;
 }
 
 /** All notes. */
 export function notes(state: AppState): Note[] {
   const list = fileNotes(state);
-  const keeping = AUTOSAVE_NOTES[state.autosave];
-  if (keeping) list.push({ text: keeping, look: true });
-  for (const remark of state.notices) list.push({ text: remark, look: true });
+  const autosaveNote = AUTOSAVE_NOTES[state.autosave];
+  if (autosaveNote) list.push({ text: autosaveNote, isWarning: true });
+  for (const remark of state.notices) list.push({ text: remark, isWarning: true });
   return list;
 }
 
-/** The first note on the files where there is room for one only: one that may affect the result, if there is any. */
+/** The first note on the files, where there is room for one only: a warning if there is any. */
 export function firstNote(state: AppState): Note | null {
   const list = fileNotes(state);
-  return list.find(({ look }) => look) ?? list[0] ?? null;
+  return list.find(({ isWarning }) => isWarning) ?? list[0] ?? null;
 }
 
 /** `60 to 30 fps`, or `30 fps` when nothing is resampled. */
-export function rateWords(sourceFps: number, fps: number): string {
+export function rateText(sourceFps: number, fps: number): string {
   return Math.abs(sourceFps - fps) < 0.01 ? `${rate(fps)} fps` : `${rate(sourceFps)} to ${rate(fps)} fps`;
 }

@@ -1,8 +1,9 @@
 import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
-import type { LeaderQuestion, ReadLeader } from '../../motion/client';
-import type { Kept, LoadedLeader, LoadedSong, InputKind } from './state';
+import type { LeaderRequest, ReadLeader } from '../../motion/client';
+import type { StorageUsage } from '../../offline/storage-usage';
+import type { LoadedLeader, LoadedSong, InputKind } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
@@ -21,7 +22,7 @@ export interface FileReaders {
     recipe: Manifest['audio'],
     options: { signal: AbortSignal; onProgress: (progress: { readonly fraction: number }) => void },
   ) => Promise<Song>;
-  readonly readLeader: (question: LeaderQuestion, signal: AbortSignal) => Promise<ReadLeader>;
+  readonly readLeader: (request: LeaderRequest, signal: AbortSignal) => Promise<ReadLeader>;
   /** Songs are analysed by the audio recipe of the model's manifest. */
   readonly manifest: () => Promise<Manifest>;
 }
@@ -45,7 +46,7 @@ export interface Files {
   ) => Promise<LoadedLeader | null>;
 }
 
-/** What panels may ask for. They change the state through the store, and do everything with effects through these. */
+/** Actions with effects that panels start. The state itself they change through the store. */
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
@@ -85,7 +86,7 @@ export interface Services {
   /** Empties the page and loads the demo; undo brings back what was there. */
   readonly clearProject: () => void;
   /** Bytes of the page that are cached on this device; null where the browser gives no storage. */
-  readonly measureStorage: () => Promise<Kept | null>;
+  readonly measureStorage: () => Promise<StorageUsage | null>;
   /** Empties that cache; false when the browser refuses. */
   readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */

@@ -4,26 +4,26 @@ import type { AppState, LoadedLeader, LoadedSong } from './state';
 
 type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;
 
-/** Time of the dance at which the song begins, seconds; below 0 its beginning is not heard. */
+/** Time of the dance at which the song begins, seconds; below 0 its beginning is cut off. */
 export function songStart({ leader, shift }: Pick<AppState, 'leader' | 'shift'>): number {
   return leader ? shift / leader.file.clip.fps : 0;
 }
 
-/** Beats of the song in seconds of the dance, as they are heard; the first ones may be before its start. */
+/** Beats of the song in seconds of the dance; the first ones may be before its start. */
 export function musicBeats(parts: Parts): number[] {
   const start = songStart(parts);
   return parts.song?.data.beats.map((beat) => beat + start) ?? [];
 }
 
-/** Range of shifts at which at least a second of the song is heard, frames; 0 to 0 without song or leader. */
+/** Range of shifts at which the song plays for at least a second of the dance, frames; 0 to 0 without song or leader. */
 export function shiftRange({ song, leader }: Pick<AppState, 'song' | 'leader'>): {
   readonly min: number;
   readonly max: number;
 } {
   if (!song || !leader) return { min: 0, max: 0 };
   const { fps, frames } = leader.file.clip;
-  const heard = Math.floor(song.data.duration * fps);
-  return { min: -Math.max(0, heard - fps), max: Math.max(0, frames - fps) };
+  const songFrames = Math.floor(song.data.duration * fps);
+  return { min: -Math.max(0, songFrames - fps), max: Math.max(0, frames - fps) };
 }
 
 /** `+7`, `−12`, `0`. */
@@ -32,20 +32,21 @@ export function signed(frames: number): string {
 }
 
 /** `+7 frames`, `−1 frame`. */
-export function frameWords(frames: number): string {
+export function frameCountText(frames: number): string {
   return `${signed(frames)} ${Math.abs(frames) === 1 ? 'frame' : 'frames'}`;
 }
 
 /** `+7 frames, 0.23 s later`; without a leader there is nothing to shift against. */
-export function shiftWords(frames: number, { leader }: Pick<AppState, 'leader'>): string {
+export function shiftText(frames: number, { leader }: Pick<AppState, 'leader'>): string {
   if (frames === 0 || !leader) return 'as the files begin';
   const seconds = (Math.abs(frames) / leader.file.clip.fps).toFixed(2);
-  return `${frameWords(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
+  return `${frameCountText(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
 }
 
-/** A better shift of the song, or why none is suggested, in a few words and in a sentence. */
-export type ShiftAdvice =
-  { readonly better: BestShift } | { readonly better: null; readonly words: string; readonly reason: string };
+/** A better shift of the song, or why none is suggested, as a short and as a full text. */
+type ShiftAdvice =
+  | { readonly better: BestShift }
+  | { readonly better: null; readonly summary: string; readonly reason: string };
 
 let cached: { leader: LoadedLeader; song: LoadedSong; shift: number; answer: ShiftAdvice } | null = null;
 
@@ -76,7 +77,7 @@ function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Shi
   if (best === null)
     return {
       better: null,
-      words: 'too few beats',
+      summary: 'too few beats',
       reason: 'Leader and song have too few beats together to tell how they fit. Drag the song to shift it.',
     };
   const now = `The leader's accents, the moments of least speed, meet the song's beats by ${percent(best.before)}`;
@@ -86,7 +87,7 @@ function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Shi
       ? ', the best within two seconds'
       : `; the best within two seconds is ${percent(best.score)}, ${seconds} s ${best.by > 0 ? 'later' : 'earlier'}` +
         (best.clear ? '' : ', too little to tell from accident');
-  return { better: null, words: 'no better shift', reason: `${now}${other}. Drag the song to shift it.` };
+  return { better: null, summary: 'no better shift', reason: `${now}${other}. Drag the song to shift it.` };
 }
 
 /** `58 %`. */

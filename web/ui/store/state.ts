@@ -4,12 +4,9 @@ import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { LeaderFile } from '../../motion/bvh/read';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Kept } from '../../offline/storage-usage';
 import type { Report } from '../../quality/client';
 import type { History } from './history';
 import type { Span } from './time-scale';
-
-export type { Kept };
 
 export type Theme = 'dark' | 'light';
 export type Camera = 'orbit' | 'follow' | 'top' | 'side';
@@ -91,7 +88,7 @@ export interface Take {
 export type Letter = 'A' | 'B';
 
 /** Whether autosave works: everything is stored, the browser's space is full, or it gives the page none. */
-export type AutosaveStatus = 'kept' | 'full' | 'refused';
+export type AutosaveStatus = 'stored' | 'full' | 'refused';
 
 /** How the other take is drawn: not at all, beside the one on the stage, or as a ghost in the same place. */
 export type Compare = 'off' | 'side' | 'ghost';
@@ -191,11 +188,11 @@ export interface Playback {
   readonly region: Span | null;
 }
 
-export type Who = 'reactor' | 'leader' | 'both';
+export type DancerSelection = 'reactor' | 'leader' | 'both';
 
 /** The choices in the download menu. */
 export interface DownloadChoice {
-  readonly who: Who;
+  readonly who: DancerSelection;
   readonly format: MotionFormat;
   readonly size: VideoSize;
 }

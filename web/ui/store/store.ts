@@ -35,7 +35,7 @@ export function initialState(theme: Theme): AppState {
     letter: 'A',
     compare: 'off',
     history: NO_HISTORY,
-    autosave: 'kept',
+    autosave: 'stored',
     footLock: true,
     quality: null,
     reference: null,

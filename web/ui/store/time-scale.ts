@@ -15,9 +15,9 @@ export interface TimeScale extends Span {
 }
 
 /** Shortest span that can be shown, seconds. */
-const SHORTEST_SPAN = 1;
+const MIN_SPAN = 1;
 /** Where the playhead is placed when the lanes are scrolled to it, as a fraction of their width. */
-const LANDING_FRACTION = 0.05;
+const PLAYHEAD_FRACTION = 0.05;
 
 /** The mapping that all lanes share. An empty span maps every time to 0. */
 export function timeScale({ from, to }: Span, width: number): TimeScale {
@@ -38,7 +38,7 @@ export function timeScale({ from, to }: Span, width: number): TimeScale {
  * @param around the time whose x stays the same, seconds
  */
 export function zoomed({ from, to }: Span, whole: number, factor: number, around: number): Span {
-  const length = Math.min(whole, Math.max(Math.min(SHORTEST_SPAN, whole), (to - from) / factor));
+  const length = Math.min(whole, Math.max(Math.min(MIN_SPAN, whole), (to - from) / factor));
   const part = to > from ? (around - from) / (to - from) : 0;
   return clampedSpan(around - part * length, length, whole);
 }
@@ -52,7 +52,7 @@ export function scrolled({ from, to }: Span, whole: number, by: number): Span {
 export function spanShowing(span: Span, whole: number, time: number): Span {
   if (time >= span.from && time <= span.to) return span;
   const length = span.to - span.from;
-  return clampedSpan(time - LANDING_FRACTION * length, length, whole);
+  return clampedSpan(time - PLAYHEAD_FRACTION * length, length, whole);
 }
 
 /** How many times larger than in a view of the whole dance a span is drawn; 1 shows all of it. */
@@ -62,7 +62,7 @@ export function magnification({ from, to }: Span, whole: number): number {
 
 /** Largest magnification of a dance. */
 export function largestMagnification(whole: number): number {
-  return Math.max(1, whole / SHORTEST_SPAN);
+  return Math.max(1, whole / MIN_SPAN);
 }
 
 function clampedSpan(from: number, length: number, whole: number): Span {

@@ -1,4 +1,4 @@
-import { el, listen, setAttribute, together } from '../widgets/dom';
+import { el, listen, setAttribute, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState, Compare, Letter } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
@@ -33,7 +33,7 @@ export const mountCompareSwitch =
     modes.root.hidden = !drawn;
     const bar = el('div', { class: 'over compare-switch' }, letters.root, modes.root);
     root.append(bar);
-    return together(
+    return combineDisposers(
       flipByKey(store),
       watchAll(
         store,
@@ -112,7 +112,7 @@ function createModes(store: Store): Group {
 function flipByKey(store: Store): () => void {
   let pressedAt: number | null = null;
   const isB = ({ key }: KeyboardEvent): boolean => key.toLowerCase() === 'b';
-  return together(
+  return combineDisposers(
     listen(window, 'keydown', (event) => {
       if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.repeat || pressedAt !== null || isTyping(event)) return;

@@ -14,7 +14,7 @@ export interface OtherDancer {
 }
 
 /** A stage that can show a second reactor. */
-export interface ComparingStage {
+interface ComparingStage {
   readonly setOther: (other: OtherDancer | null) => void;
 }
 

@@ -1,8 +1,8 @@
 import { el, setText } from '../widgets/dom';
-import { LONGEST_NAME } from '../store/actions/takes';
+import { MAX_TAKE_NAME_LENGTH } from '../store/actions/takes';
 
 /** The name of a take, as text or as a field while it is edited. */
-export interface TakeName {
+interface TakeName {
   readonly root: HTMLElement;
   readonly show: (title: string) => void;
   readonly edit: () => void;
@@ -13,12 +13,12 @@ export interface TakeName {
  * @param onLeave is called when editing was ended by key, so that the focus can be moved on
  */
 export function createTakeName(onRename: (name: string) => void, onLeave: () => void): TakeName {
-  const words = el('b');
+  const text = el('b');
   const field = el('input', {
     attributes: {
       type: 'text',
       'aria-label': 'Name of the take',
-      maxlength: LONGEST_NAME,
+      maxlength: MAX_TAKE_NAME_LENGTH,
       spellcheck: 'false',
     },
     on: {
@@ -40,19 +40,19 @@ export function createTakeName(onRename: (name: string) => void, onLeave: () => 
   const close = (keep: boolean): void => {
     if (field.hidden) return;
     field.hidden = true;
-    words.hidden = false;
-    if (keep && field.value !== words.textContent) onRename(field.value);
+    text.hidden = false;
+    if (keep && field.value !== text.textContent) onRename(field.value);
   };
   return {
-    root: el('div', { class: 'name' }, words, field),
+    root: el('div', { class: 'name' }, text, field),
     show: (title) => {
-      setText(words, title);
-      words.title = title;
+      setText(text, title);
+      text.title = title;
     },
     edit: () => {
-      field.value = words.textContent ?? '';
+      field.value = text.textContent ?? '';
       field.hidden = false;
-      words.hidden = true;
+      text.hidden = true;
       field.focus();
       field.select();
     },

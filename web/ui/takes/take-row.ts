@@ -12,7 +12,7 @@ import {
 } from '../store/actions/takes';
 import { letterOf, takeTitle } from '../store/take';
 import { createTakeName } from './take-name';
-import { allTakeWords, takeWords } from './take-words';
+import { fullTakeText, takeText } from './take-text';
 
 const LETTERS: readonly Letter[] = ['A', 'B'];
 
@@ -41,7 +41,7 @@ export function createTakeRow(store: Store, id: string): TakeRow {
       root.focus();
     },
   );
-  const words = el('small');
+  const details = el('small');
   const rename = iconButton('icon', 'rename', {}, name.edit);
   const remove = iconButton('icon', 'remove', {}, () => {
     apply(store, takeDeleted(id));
@@ -63,7 +63,7 @@ export function createTakeRow(store: Store, id: string): TakeRow {
       },
     },
     cell('mark', star),
-    cell('about', name.root, words),
+    cell('about', name.root, details),
     cell('actions', rename, remove),
     cell('letters', ...letters),
   );
@@ -73,8 +73,8 @@ export function createTakeRow(store: Store, id: string): TakeRow {
     show: (take, state, tabStop) => {
       const title = takeTitle(take);
       name.show(title);
-      setText(words, takeWords(take, state));
-      words.title = allTakeWords(take);
+      setText(details, takeText(take, state));
+      details.title = fullTakeText(take);
       setAttribute(root, 'aria-selected', String(take.reaction === state.reaction));
       setAttribute(star, 'aria-pressed', String(take.starred));
       setAttribute(star, 'aria-label', `Star ${title}`);

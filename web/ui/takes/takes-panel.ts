@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/close-button';
-import { el, listen, setText, together } from '../widgets/dom';
+import { el, listen, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -44,7 +44,7 @@ export const mountTakes: Mount = (root, store, services) => {
     empty.hidden = takes.some(({ reaction }) => reaction.label === null);
     setText(count, takes.length > 1 ? String(takes.length) : '');
   };
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       ({ takes, reaction, other, letter, leader, song, manifest }) => [
@@ -100,7 +100,7 @@ export const mountTakesButton: Mount = (root, store) => {
     count,
   );
   root.append(button);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       ({ takes, openPanel }) => [takes.length, openPanel === 'takes'],

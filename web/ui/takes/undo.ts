@@ -1,5 +1,5 @@
 import { iconButton } from '../widgets/button';
-import { listen, together } from '../widgets/dom';
+import { listen, combineDisposers } from '../widgets/dom';
 import type { IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import { apply, type Change, type Store, watchAll } from '../store/store';
@@ -14,7 +14,7 @@ export const mountUndo: Mount = (root, store) => {
   const undo = button('undo', 'Undo', 'Undo (Ctrl Z)', undone());
   const redo = button('redo', 'Redo', 'Redo (Ctrl Y)', redone());
   root.append(undo, redo);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.history],

@@ -5,7 +5,7 @@ import type { Span, TimeScale } from '../store/time-scale';
 import { danceFps } from '../store/selectors';
 
 /** The blocks in which the model makes a dance, under its curve, each filled as far as a new reaction is made. */
-export interface BlockRow {
+interface BlockRow {
   readonly root: HTMLElement;
   /** Places the blocks. */
   readonly draw: (state: AppState, scale: TimeScale) => void;
@@ -22,7 +22,7 @@ export function createBlockRow(): BlockRow {
     cells.forEach((cell, index) => {
       const block = blocks[index];
       if (!block) return;
-      const { from, to } = doneOf(block, blocks, job);
+      const { from, to } = donePart(block, blocks, job);
       setVariable(cell, '--done-from', from);
       setVariable(cell, '--done', to - from);
     });
@@ -73,7 +73,7 @@ export function blocksOf(frames: number, length: number): Span[] {
  * The part of a block that is made, as shares of the block from 0 to 1: the frames that are shown already where the
  * job tells them, else an estimate as if blocks were made one after the other.
  */
-export function doneOf(block: Span, blocks: readonly Span[], job: Job | null): Span {
+export function donePart(block: Span, blocks: readonly Span[], job: Job | null): Span {
   if (!job) return { from: 0, to: 0 };
   const length = block.to - block.from;
   if (job.previewed) {

@@ -29,7 +29,7 @@ export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, colum
   return { low, high };
 }
 
-/** The largestMagnification absolute sample of a song, at least 0.001 so that it can be divided by. */
+/** The largest absolute sample of a song, at least 0.001 so that it can be divided by. */
 export function loudest(pcm: Float32Array): number {
   return pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 1e-3);
 }

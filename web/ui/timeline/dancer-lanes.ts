@@ -1,16 +1,16 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Manifest } from '../../model/client';
 import { createBlockRow } from './block-row';
-import { createMotionLane, type DrawnMotion, drawnMotion, type MotionPicture } from './motion-lane';
+import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
 import { generatedRole, otherRole } from '../store/roles';
-import { danceFps, jobWords, upToDate } from '../store/selectors';
+import { danceFps, jobText, upToDate } from '../store/selectors';
 import type { AppState, Role } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
 import { el } from '../widgets/dom';
 
 /** Speed that the upper edge of a lane stands for at least, m/s, so that standing still looks still. */
 const MIN_TOP_SPEED = 1;
-/** The upper edge over the fastest usual speed. */
+/** Speed of the upper edge divided by the fastest usual speed. */
 const HEADROOM = 1.2;
 /** Share of the frames whose speeds are usual: a single quick turn must not flatten all the rest. */
 const USUAL_SHARE = 0.98;
@@ -52,7 +52,7 @@ export class DancerLanes {
     const { job } = state;
     const fps = danceFps(state);
     const made = generatedRole(state);
-    const loadedPicture: MotionPicture = {
+    const loadedView: MotionLaneView = {
       scale,
       musicBeats,
       tolerance: state.manifest?.quality.beats.tolerance ?? 0,
@@ -60,36 +60,38 @@ export class DancerLanes {
       stale: false,
       fresh: null,
     };
-    const madePicture: MotionPicture = {
-      ...loadedPicture,
+    const madeView: MotionLaneView = {
+      ...loadedView,
       stale: job !== null && !upToDate(state),
       fresh: job?.previewed ? { from: job.previewed.from / fps, to: job.previewed.to / fps } : null,
     };
     for (const role of ['leader', 'reactor'] as const)
-      this.#lanes[role].draw(this.#motions[role], role === made ? madePicture : loadedPicture);
+      this.#lanes[role].draw(this.#motions[role], role === made ? madeView : loadedView);
     const { root } = this.#lanes[made];
     if (this.#blocks.root.parentElement !== root) root.prepend(this.#blocks.root);
     this.#blocks.draw(state, scale);
-    this.#showWords(state);
+    this.#showText(state);
   }
 
   /** Shows how far the job has come. */
   showProgress(state: AppState): void {
     this.#blocks.fill(state);
-    this.#showWords(state);
+    this.#showText(state);
   }
 
-  /** What a lane without a motion says. */
-  #showWords(state: AppState): void {
+  /** Shows a text in each lane without a motion. */
+  #showText(state: AppState): void {
     const { leader, reading, reaction, job } = state;
     const made = generatedRole(state);
-    this.#lanes[otherRole(made)].say(leader ? '' : reading.leader ? 'Reading the leader' : 'No leader yet');
-    const waiting = job ? capitalised(jobWords(job, state)) : 'Not made yet';
-    this.#lanes[made].say(leader && !reaction ? waiting : '');
+    this.#lanes[otherRole(made)].showMessage(
+      leader ? '' : reading.leader ? 'Reading the leader' : 'No leader yet',
+    );
+    const waiting = job ? capitalised(jobText(job, state)) : 'Not made yet';
+    this.#lanes[made].showMessage(leader && !reaction ? waiting : '');
   }
 }
 
-/** The largestMagnification of the usual speeds; `speeds` are sorted in place. */
+/** The largest of the usual speeds; `speeds` are sorted in place. */
 function usualTopSpeed(speeds: number[]): number {
   return speeds.sort((a, b) => a - b)[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
 }

@@ -1,4 +1,4 @@
-import { el, setVariable, together } from '../widgets/dom';
+import { el, setVariable, combineDisposers } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { onPinch } from '../widgets/pinch';
 import { danceDuration } from '../store/selectors';
@@ -24,7 +24,7 @@ export function mountLaneZoom(
   scale: () => TimeScale,
 ): () => void {
   const timeAt = (x: number): number => scale().time(x - tracks.getBoundingClientRect().left);
-  return together(
+  return combineDisposers(
     followPlayhead(store),
     onWheel(store, lanes, timeAt, (pixels) => {
       const { from, to, width } = scale();
@@ -76,7 +76,7 @@ function mountScrollBar(store: Store, lanes: HTMLElement): () => void {
   const bar = el('div', { class: 'scroll', attributes: { 'aria-hidden': 'true' } }, thumb);
   lanes.append(bar);
   let before = { from: 0, to: 0 };
-  return together(
+  return combineDisposers(
     draggable(thumb, {
       begin: () => {
         before = visibleSpan(store.getState());

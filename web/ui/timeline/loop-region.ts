@@ -1,4 +1,4 @@
-import { el, setAttribute, setVariable, together } from '../widgets/dom';
+import { el, setAttribute, setVariable, combineDisposers } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { clockTime } from '../store/format';
 import { danceDuration, danceFps } from '../store/selectors';
@@ -9,7 +9,7 @@ import { regionEndSet, regionSet } from '../store/actions/timeline';
 import type { Span, TimeScale } from '../store/time-scale';
 
 /** The elements that the region lies on. */
-export interface LoopPlaces {
+interface LoopPlaces {
   /** A drag here draws a region, a click jumps, a double click removes the region. */
   readonly ruler: HTMLElement;
   /** Lies over all lanes and holds the band. */
@@ -50,7 +50,7 @@ export class LoopRegion {
     ruler.addEventListener('dblclick', clear);
     // Its first click may move the playhead's handle under the pointer.
     overlay.addEventListener('dblclick', clear);
-    this.dispose = together(
+    this.dispose = combineDisposers(
       watchAll(
         store,
         ({ playback, zoom }) => [playback.region, playback.loop, zoom],

@@ -31,7 +31,7 @@ export function drawnMotion(motion: SolvedMotion, manifest: Manifest | null): Dr
 }
 
 /** How a lane is drawn now. */
-export interface MotionPicture {
+export interface MotionLaneView {
   readonly scale: TimeScale;
   /** Seconds of the dance. */
   readonly musicBeats: readonly number[];
@@ -46,23 +46,23 @@ export interface MotionPicture {
 }
 
 /** The lane of one dancer: speed as a curve, motion beats as dots. */
-export interface MotionLane {
+interface MotionLane {
   readonly root: HTMLElement;
-  readonly draw: (motion: DrawnMotion | null, picture: MotionPicture) => void;
-  /** What the lane says while there is no motion. */
-  readonly say: (word: string) => void;
+  readonly draw: (motion: DrawnMotion | null, picture: MotionLaneView) => void;
+  /** Sets the text that the lane shows while there is no motion. */
+  readonly showMessage: (text: string) => void;
 }
 
 /** @param under lies below the curve */
 export function createMotionLane(role: Role, className: string, under: HTMLElement): MotionLane {
   const canvas = el('canvas');
-  const word = el('span', { class: 'word' });
-  const root = el('div', { class: className, attributes: { role: 'img' } }, under, canvas, word);
+  const message = el('span', { class: 'word' });
+  const root = el('div', { class: className, attributes: { role: 'img' } }, under, canvas, message);
   const name = roleName(role);
   return {
     root,
-    say: (text) => {
-      setText(word, text);
+    showMessage: (text) => {
+      setText(message, text);
     },
     draw: (motion, { scale, musicBeats, tolerance, top, stale, fresh }) => {
       const on = surface(canvas);
@@ -79,7 +79,7 @@ export function createMotionLane(role: Role, className: string, under: HTMLEleme
         time: frame / motion.fps,
         onMusic: (scores[index] ?? 0) >= MIN_ON_MUSIC,
       }));
-      root.setAttribute('aria-label', words(name, motion, beats.filter(({ onMusic }) => onMusic).length));
+      root.setAttribute('aria-label', describe(name, motion, beats.filter(({ onMusic }) => onMusic).length));
       if (!on) return;
       const line = token(root, `--${role}`);
       const colours = { line, fill: token(root, `--${role}-soft`), ground: token(root, '--raised') };
@@ -103,8 +103,8 @@ export function createMotionLane(role: Role, className: string, under: HTMLEleme
   };
 }
 
-/** The lane in words, for screen readers. */
-function words(name: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
+/** A description of the lane for screen readers. */
+function describe(name: string, { speed, fps, beats }: DrawnMotion, onMusic: number): string {
   let sum = 0;
   let max = 0;
   let maxFrame = 0;

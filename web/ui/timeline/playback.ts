@@ -7,7 +7,7 @@ import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
-import { together } from '../widgets/dom';
+import { combineDisposers } from '../widgets/dom';
 import type { Span } from '../store/time-scale';
 
 /** Connects player and store: the audio is the clock, and the store takes its time once per drawn frame. */
@@ -20,7 +20,7 @@ export class PlaybackControl {
   constructor(store: Store, player: Player) {
     this.#store = store;
     this.#player = player;
-    this.#unsubscribe = together(
+    this.#unsubscribe = combineDisposers(
       watchAll(
         store,
         (state) => [state.song, state.leader],

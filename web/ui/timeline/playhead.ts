@@ -1,4 +1,4 @@
-import { el, setVariable, together } from '../widgets/dom';
+import { el, setVariable, combineDisposers } from '../widgets/dom';
 import { DRAG_THRESHOLD_PX } from '../widgets/drag';
 import { barAt, danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
@@ -38,7 +38,7 @@ export class Playhead {
       },
       this.#line,
     );
-    this.dispose = together(
+    this.dispose = combineDisposers(
       this.#listen(lanes),
       watchAll(
         store,

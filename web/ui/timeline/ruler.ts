@@ -3,7 +3,7 @@ import { clockTime } from '../store/format';
 import type { TimeScale } from '../store/time-scale';
 
 /** The ruler over the lanes: bars, or seconds where there are no beats. */
-export interface RulerLane {
+interface RulerLane {
   readonly label: HTMLElement;
   readonly root: HTMLElement;
   /** @param beats seconds of the dance, ascending */
@@ -33,7 +33,7 @@ export function createRulerLane(): RulerLane {
 }
 
 /** What the ruler shows. */
-export interface RulerMarks {
+interface RulerMarks {
   /** `Bars` or `Time`. */
   readonly name: string;
   /** Texts with their place in the picture, 0 to 1. */

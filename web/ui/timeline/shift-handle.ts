@@ -1,8 +1,8 @@
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
-import { shiftRange, shiftWords } from '../store/song-shift';
+import { shiftRange, shiftText } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
@@ -17,13 +17,13 @@ export interface ShiftHandleOptions {
 
 /** Frames that an arrow key with Shift moves the song. */
 const LARGE_STEP = 10;
-/** How long a shift by keyboard is shown in words. */
-const WORDS_SHOWN_MS = 1500;
+/** How long the text of a shift by keyboard is shown. */
+const TEXT_SHOWN_MS = 1500;
 
 /** Direction of a step, by key. */
 const ARROWS: Readonly<Record<string, number>> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
-/** The slider over the lane that shifts the song by pointer or keys, and the words that tell the shift meanwhile. */
+/** The slider over the lane that shifts the song by pointer or keys, and the text that shows the shift meanwhile. */
 export class ShiftHandle {
   readonly handle = el('div', {
     class: 'shift-handle',
@@ -35,7 +35,7 @@ export class ShiftHandle {
       title: 'Drag to shift the song against the leader, double click to put it back; a click jumps here',
     },
   });
-  readonly words = el('div', { class: 'shift-words', attributes: { 'aria-hidden': 'true' } });
+  readonly text = el('div', { class: 'shift-text', attributes: { 'aria-hidden': 'true' } });
   readonly #store: Store;
   readonly #options: ShiftHandleOptions;
   #hideTimer: ReturnType<typeof setTimeout> | undefined;
@@ -44,14 +44,14 @@ export class ShiftHandle {
   constructor(store: Store, services: Services, options: ShiftHandleOptions) {
     this.#store = store;
     this.#options = options;
-    this.words.hidden = true;
+    this.text.hidden = true;
     this.handle.addEventListener('dblclick', () => {
       apply(store, shiftSet(0));
     });
     this.handle.addEventListener('keydown', (event) => {
       this.#moveByKey(event);
     });
-    this.dispose = together(this.#draggable(services), () => {
+    this.dispose = combineDisposers(this.#draggable(services), () => {
       clearTimeout(this.#hideTimer);
     });
   }
@@ -64,7 +64,7 @@ export class ShiftHandle {
     this.handle.setAttribute('aria-valuemin', String(min));
     this.handle.setAttribute('aria-valuemax', String(max));
     this.handle.setAttribute('aria-valuenow', String(shift));
-    this.handle.setAttribute('aria-valuetext', shiftWords(shift, state));
+    this.handle.setAttribute('aria-valuetext', shiftText(shift, state));
   }
 
   #draggable(services: Services): () => void {
@@ -78,7 +78,7 @@ export class ShiftHandle {
         if (!this.#canShift()) return;
         const shift = this.#shiftAfter(distance);
         clearTimeout(this.#hideTimer);
-        this.#showWords(shift);
+        this.#showText(shift);
         this.#options.onDragShift(shift);
       },
       drop: (event) => {
@@ -106,21 +106,21 @@ export class ShiftHandle {
     event.stopPropagation();
     const { shift } = this.#store.getState();
     apply(this.#store, shiftSet(by === undefined ? 0 : shift + by * (event.shiftKey ? LARGE_STEP : 1)));
-    this.#showWords(this.#store.getState().shift);
+    this.#showText(this.#store.getState().shift);
     clearTimeout(this.#hideTimer);
     this.#hideTimer = setTimeout(() => {
       this.#end();
-    }, WORDS_SHOWN_MS);
+    }, TEXT_SHOWN_MS);
   }
 
-  #showWords(shift: number): void {
-    this.words.hidden = false;
-    setText(this.words, shiftWords(shift, this.#store.getState()));
+  #showText(shift: number): void {
+    this.text.hidden = false;
+    setText(this.text, shiftText(shift, this.#store.getState()));
   }
 
-  /** Hides the words and shows the shift that is set. */
+  /** Hides the text and shows the shift that is set. */
   #end(): void {
-    this.words.hidden = true;
+    this.text.hidden = true;
     this.#options.onDragShift(null);
   }
 

@@ -1,11 +1,11 @@
 import { el, setText } from '../widgets/dom';
-import { shiftAdvice, frameWords, percent, shiftWords, signed } from '../store/song-shift';
+import { shiftAdvice, frameCountText, percent, shiftText, signed } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
 
 /** The label of the song lane: the shift, with a button that resets it, and one that aligns the song. */
-export interface SongLabel {
+interface SongLabel {
   readonly root: HTMLElement;
   readonly show: (state: AppState) => void;
 }
@@ -45,22 +45,22 @@ export function createSongLabel(store: Store): SongLabel {
       const { shift } = state;
       back.hidden = shift === 0;
       setText(back, `${signed(shift)} ×`);
-      back.setAttribute('aria-label', `Song shift ${frameWords(shift)}: put it back`);
-      back.title = `The song is shifted by ${shiftWords(shift, state)}. Click to put it back.`;
+      back.setAttribute('aria-label', `Song shift ${frameCountText(shift)}: put it back`);
+      back.title = `The song is shifted by ${shiftText(shift, state)}. Click to put it back.`;
       const fit = shiftAdvice(state);
       align.hidden = !fit?.better;
       none.hidden = !fit || fit.better !== null;
       if (!fit) return;
       if (!fit.better) {
-        setText(none, fit.words);
+        setText(none, fit.summary);
         none.title = fit.reason;
         return;
       }
       const { by, score, before } = fit.better;
-      setText(align, `Align ${frameWords(by)}`);
+      setText(align, `Align ${frameCountText(by)}`);
       align.title =
         `The leader's accents, the moments of least speed, meet the song's beats better ` +
-        `${shiftWords(by, state).split(', ')[1] ?? ''}: ${percent(score)} instead of ${percent(before)}. ` +
+        `${shiftText(by, state).split(', ')[1] ?? ''}: ${percent(score)} instead of ${percent(before)}. ` +
         'Click to shift the song.';
     },
   };

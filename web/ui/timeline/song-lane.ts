@@ -10,7 +10,7 @@ import type { Store } from '../store/store';
 import type { TimeScale } from '../store/time-scale';
 
 /** How the lane is drawn; `shift` may be one that is still being dragged. */
-export interface SongPicture {
+interface SongLaneView {
   readonly scale: TimeScale;
   /** Frames. */
   readonly shift: number;
@@ -26,10 +26,10 @@ export class SongLane {
 
   constructor(store: Store, services: Services, options: ShiftHandleOptions) {
     this.#shift = new ShiftHandle(store, services, options);
-    this.root = el('div', { class: 'lane song' }, this.#wave.root, this.#shift.handle, this.#shift.words);
+    this.root = el('div', { class: 'lane song' }, this.#wave.root, this.#shift.handle, this.#shift.text);
   }
 
-  draw(state: AppState, picture: SongPicture): void {
+  draw(state: AppState, picture: SongLaneView): void {
     this.#shift.describe(state, picture.shift);
     this.#wave.draw(state, picture);
   }
@@ -47,7 +47,7 @@ export class SongLane {
 /** The waveform, drawn twice over each other: the bright one is clipped to what has been played. */
 function createWaveform(): {
   readonly root: HTMLElement;
-  readonly draw: (state: AppState, picture: SongPicture) => void;
+  readonly draw: (state: AppState, picture: SongLaneView) => void;
   readonly showPlayed: (time: number, scale: TimeScale) => void;
 } {
   const canvas = el('canvas');
@@ -58,7 +58,7 @@ function createWaveform(): {
   /** The song whose loudest sample is known; finding it reads all of the song. */
   let measured: { readonly song: LoadedSong; readonly loudest: number } | null = null;
 
-  const drawSong = (song: LoadedSong, state: AppState, { scale, shift, musicBeats }: SongPicture): void => {
+  const drawSong = (song: LoadedSong, state: AppState, { scale, shift, musicBeats }: SongLaneView): void => {
     if (measured?.song !== song) measured = { song, loudest: loudest(song.data.pcm) };
     const start = songStart({ leader: state.leader, shift });
     const columns = Math.max(1, Math.round(scale.width * Math.min(2, window.devicePixelRatio)));
@@ -85,8 +85,8 @@ function createWaveform(): {
       const { song } = state;
       note.hidden = song !== null || danceDuration(state) === 0;
       setText(note, state.reading.song ? 'Reading the song' : 'No song: silence');
-      const words = song ? `Waveform of ${song.name}, ${song.data.beats.length} beats` : 'No song';
-      root.setAttribute('aria-label', words);
+      const label = song ? `Waveform of ${song.name}, ${song.data.beats.length} beats` : 'No song';
+      root.setAttribute('aria-label', label);
       if (song && picture.scale.to > picture.scale.from) drawSong(song, state, picture);
       else for (const each of [canvas, playedCanvas]) surface(each);
     },

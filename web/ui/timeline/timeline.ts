@@ -1,6 +1,6 @@
 import { DancerLanes } from './dancer-lanes';
 import { dancers, generatedRole } from '../store/roles';
-import { el, together } from '../widgets/dom';
+import { el, combineDisposers } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { LoopRegion } from './loop-region';
 import { Playhead } from './playhead';
@@ -16,7 +16,7 @@ import { visibleSpan } from '../store/actions/timeline';
 import { type Span, timeScale, type TimeScale } from '../store/time-scale';
 
 /** Puts lanes of its own below the others; `shown` is the part of the dance that the lanes show, seconds. */
-export type MountLanes = (
+type MountLanes = (
   lanes: HTMLElement,
   store: Store,
   services: Services,
@@ -73,7 +73,7 @@ export function mountTimeline(
   const sizes = new ResizeObserver(redraw.now);
   sizes.observe(lanes);
 
-  return together(
+  return combineDisposers(
     ...followMotions(store, dancers),
     watchAll(store, drawnParts, redraw.request),
     watch(

@@ -1,5 +1,5 @@
 import { iconButton } from '../widgets/button';
-import { el, setText, together } from '../widgets/dom';
+import { el, setText, combineDisposers } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { icon } from '../widgets/icons';
 import { barAt, isReading, danceDuration, firstNote } from '../store/selectors';
@@ -51,7 +51,7 @@ export const mountTransport: Mount = (root, store, services) => {
     zoom.root,
   );
   root.append(line);
-  return together(
+  return combineDisposers(
     watchAll(
       store,
       (state) => [state.leader, state.song, state.shift, ...isReading(state)],
@@ -73,7 +73,7 @@ function showNote(element: HTMLElement, state: AppState): void {
   const note = firstNote(state);
   setText(element, note?.text ?? '');
   element.title = element.textContent;
-  element.classList.toggle('look', note?.look ?? false);
+  element.classList.toggle('warning', note?.isWarning ?? false);
 }
 
 function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLButtonElement> {

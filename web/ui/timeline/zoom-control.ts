@@ -7,7 +7,7 @@ import { largestMagnification, magnification } from '../store/time-scale';
 
 /** Factor of one press of a button or key. */
 export const ZOOM_STEP = 1.5;
-/** Steps of the slider from the whole dance to the largestMagnification zoom; the zoom grows exponentially along it. */
+/** Steps of the slider from the whole dance to the largest zoom; the zoom grows exponentially along it. */
 const SLIDER_STEPS = 100;
 
 /** Buttons and a slider for the zoom of the lanes, and one that shows the whole dance. */

@@ -45,7 +45,7 @@ export function setVariable(element: HTMLElement, name: `--${string}`, value: nu
 }
 
 /** Combines several disposers into one. */
-export function together(...disposers: (() => void)[]): () => void {
+export function combineDisposers(...disposers: (() => void)[]): () => void {
   return () => {
     for (const dispose of disposers) dispose();
   };

@@ -1,7 +1,7 @@
-import { listen, together } from './dom';
+import { listen, combineDisposers } from './dom';
 
 /** Callbacks of a drag. Distances are CSS pixels from where it began. */
-export interface Drag {
+interface Drag {
   /** The pointer is down; false declines. */
   readonly begin?: (event: PointerEvent) => boolean;
   /** The pointer has moved by more than the threshold. */
@@ -55,7 +55,7 @@ export function draggable(element: HTMLElement, drag: Drag): () => void {
   element.addEventListener('pointermove', move);
   element.addEventListener('pointerup', up);
   element.addEventListener('pointercancel', cancel);
-  return together(
+  return combineDisposers(
     listen(
       window,
       'keydown',

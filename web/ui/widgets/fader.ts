@@ -17,7 +17,7 @@ export interface FaderRange {
   readonly step: number;
 }
 
-export interface Fader {
+interface Fader {
   readonly root: HTMLElement;
   readonly input: HTMLInputElement;
   /** Sets range and value, the mean where the body parts are mixed; without a range it is disabled. */
@@ -27,15 +27,15 @@ export interface Fader {
 }
 
 /** Size of the drawn curve, in its own units. */
-const WAVE = { width: 112, height: 26 };
+const CURVE_SIZE = { width: 112, height: 26 };
 
 /** A picture of the layer: a slow wave for coarse, the same wave with ripples for fine. */
-function wavePath(layer: Layer): string {
+function curvePath(layer: Layer): string {
   const ripple = layer === 'fine' ? 4 : 0;
   const points: string[] = [];
-  for (let x = 2; x <= WAVE.width - 2; x += 0.6) {
+  for (let x = 2; x <= CURVE_SIZE.width - 2; x += 0.6) {
     const slow = Math.sin((x - 2) / 14) * (layer === 'fine' ? 4.5 : 8);
-    points.push(`${x.toFixed(1)} ${(WAVE.height / 2 - slow - Math.sin(x / 1.65) * ripple).toFixed(1)}`);
+    points.push(`${x.toFixed(1)} ${(CURVE_SIZE.height / 2 - slow - Math.sin(x / 1.65) * ripple).toFixed(1)}`);
   }
   return `M${points.join('L')}`;
 }
@@ -54,7 +54,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
     { class: 'well' },
     el('span', { class: 'fill' }),
     el('span', { class: 'name', text: name }),
-    drawing(`0 0 ${WAVE.width} ${WAVE.height}`, 'w', [[wavePath(layer)]]),
+    drawing(`0 0 ${CURVE_SIZE.width} ${CURVE_SIZE.height}`, 'w', [[curvePath(layer)]]),
     mix,
     value,
   );
@@ -95,7 +95,7 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
       }
       if (input.valueAsNumber !== current) input.value = String(current);
       mix.hidden = !mixed;
-      input.setAttribute('aria-valuetext', valueWords(current, mixed));
+      input.setAttribute('aria-valuetext', valueText(current, mixed));
       setVariable(root, '--v', (current - range.min) / (range.max - range.min));
     },
     setApplying: (applying) => {
@@ -117,10 +117,10 @@ function marks({ min, max }: FaderRange): HTMLElement[] {
   return list;
 }
 
-/** What a screen reader says of a value. */
-export function valueWords(value: number, mixed = false): string {
-  const words = `${value.toFixed(2)}, ${closeness(value)}`;
-  return mixed ? `${words}, on average: the body parts are mixed` : words;
+/** Text of a value for screen readers. */
+export function valueText(value: number, mixed = false): string {
+  const text = `${value.toFixed(2)}, ${closeness(value)}`;
+  return mixed ? `${text}, on average: the body parts are mixed` : text;
 }
 
 function closeness(value: number): string {

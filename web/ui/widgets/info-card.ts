@@ -40,7 +40,7 @@ export class InfoCard {
   private readonly text = el('p');
   private readonly card = el(
     'div',
-    { class: 'explained', attributes: { id: 'explained', role: 'tooltip', popover: 'auto' } },
+    { class: 'info-card', attributes: { id: 'info-card', role: 'tooltip', popover: 'auto' } },
     el('div', { class: 'top' }, this.title, this.aside),
     this.measures,
     this.text,

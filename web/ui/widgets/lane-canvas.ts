@@ -7,7 +7,7 @@ export interface Peaks {
 }
 
 /** A canvas sized to its element in device pixels, with a context scaled to CSS pixels. */
-export interface Surface {
+interface Surface {
   readonly context: CanvasRenderingContext2D;
   readonly width: number;
   readonly height: number;
@@ -80,7 +80,7 @@ export function drawBeats(
 }
 
 /** A dancer's speed and how it is drawn. */
-export interface Curve {
+interface Curve {
   /** One value per frame, m/s. */
   readonly speed: Float32Array;
   readonly fps: number;

@@ -1,7 +1,7 @@
 import { el, setText } from './dom';
 
 /** A row of buttons of which one is chosen; arrow keys move the choice. */
-export interface RadioGroup<T extends string> {
+interface RadioGroup<T extends string> {
   readonly element: HTMLElement;
   /** Shows which one is chosen. */
   readonly show: (value: T) => void;

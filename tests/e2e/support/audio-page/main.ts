@@ -6,7 +6,7 @@ import { encodeWav } from '../../../../web/audio/wav';
 export type Source = { url: string } | { text: string } | { silentSeconds: number; rate: number };
 
 /** A failure as data, for the test's process. */
-export interface Told {
+export interface ExplainedError {
   readonly name: string;
   readonly code: string | undefined;
   readonly message: string;
@@ -84,7 +84,7 @@ export const page = {
     source: Source,
     recipe: Record<string, unknown>,
     abortAt = Infinity,
-  ): Promise<Heard | { error: Told }> {
+  ): Promise<Heard | { error: ExplainedError }> {
     const file = await open(source);
     const controller = new AbortController();
     const progress: number[] = [];
@@ -113,7 +113,7 @@ export const page = {
         longestFreeze: stopWatching(),
       };
     } catch (error) {
-      const { name, code, message, hint } = error as Told;
+      const { name, code, message, hint } = error as ExplainedError;
       return { error: { name, code, message, hint } };
     } finally {
       stopWatching();
@@ -132,12 +132,12 @@ export const page = {
   },
 
   /** Plays; returns the failure if there is one. */
-  async play(): Promise<Told | null> {
+  async play(): Promise<ExplainedError | null> {
     try {
       await player.play();
       return null;
     } catch (error) {
-      const { name, code, message, hint } = error as Told;
+      const { name, code, message, hint } = error as ExplainedError;
       return { name, code, message, hint };
     }
   },

@@ -12,7 +12,7 @@ import {
 } from '../../../../web/model/client';
 
 /** A failure or cancellation as data, for the test's process. */
-export interface Told {
+export interface ExplainedError {
   readonly name: string;
   readonly code: string | undefined;
   readonly message: string;
@@ -27,11 +27,11 @@ export interface Asked {
 export interface Answer {
   readonly stages: readonly string[];
   readonly positions?: readonly number[];
-  readonly error?: Told;
+  readonly error?: ExplainedError;
 }
 
-function tell(error: unknown): Told {
-  const { name, code, message, hint } = error as Partial<Told>;
+function tell(error: unknown): ExplainedError {
+  const { name, code, message, hint } = error as Partial<ExplainedError>;
   return {
     name: name ?? 'none',
     code: typeof code === 'string' ? code : undefined,
@@ -69,7 +69,9 @@ export const page = {
   },
 
   /** Load a model; returns where it computes, or how it failed. */
-  async open(options: GeneratorOptions): Promise<{ backend: Generator['backend'] } | { error: Told }> {
+  async open(
+    options: GeneratorOptions,
+  ): Promise<{ backend: Generator['backend'] } | { error: ExplainedError }> {
     page.statuses = [];
     try {
       generator = await createGenerator({ ...options, onStatus: (status) => page.statuses.push(status) });

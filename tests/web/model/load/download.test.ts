@@ -88,7 +88,7 @@ describe('download', () => {
     const results = await download(BASE, [a, b], {
       fetch: get,
       store,
-      onProgress: (loaded, total, kept) => progress.push([loaded, total, kept]),
+      onProgress: (loaded, total, cached) => progress.push([loaded, total, cached]),
     });
     expect(progress[0]).toEqual([8, 15, 8]);
     expect(progress.at(-1)).toEqual([15, 15, 8]);

@@ -32,8 +32,8 @@ describe('loading the model', () => {
     expect(store.getState().settings?.steps).toBe(10);
     expect(await link.manifest()).toBe(small);
     const parts = [
-      { name: 'runtime', loaded: 4, total: 4, kept: 4 },
-      { name: 'model', loaded: 1, total: 5, kept: 0 },
+      { name: 'runtime', loaded: 4, total: 4, cached: 4 },
+      { name: 'model', loaded: 1, total: 5, cached: 0 },
     ] as const;
     attempt?.tell({ kind: 'download', parts });
     expect(store.getState().model).toEqual({
@@ -63,7 +63,7 @@ describe('loading the model', () => {
     attempts[0]?.fail(new AppError('model-missing', 'The server answered 404.', 'Copy the model folder.'));
     await expect(link.generator()).rejects.toThrow('404');
     expect(store.getState().problem).toMatchObject({ code: 'model-missing', remedy: 'model' });
-    attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, kept: 0 }] });
+    attempts[0]?.tell({ kind: 'download', parts: [{ name: 'runtime', loaded: 1, total: 4, cached: 0 }] });
     expect(store.getState().model.phase, 'a download beside the one that failed').toBe('failed');
     link.retry();
     attempts[1]?.tell({ kind: 'manifest', manifest: small });
@@ -81,7 +81,7 @@ describe('loading the model', () => {
 
   it('adds what is worth knowing to the notices', () => {
     const { store, attempts } = loading();
-    attempts[0]?.tell({ kind: 'notice', code: 'not-kept', message: 'Not kept.', hint: 'Free some space.' });
+    attempts[0]?.tell({ kind: 'notice', code: 'not-cached', message: 'Not kept.', hint: 'Free some space.' });
     expect(store.getState().notices).toEqual(['Not kept. Free some space.']);
     expect(store.getState().problem).toBeNull();
   });
@@ -124,7 +124,7 @@ describe('opening a model of the visitor', () => {
     const { store, link, attempts, present, isDisposed } = await danced();
     const before = store.getState();
     const opened = link.open(folder);
-    attempts[1]?.tell({ kind: 'download', parts: [{ name: 'model', loaded: 1, total: 2, kept: 0 }] });
+    attempts[1]?.tell({ kind: 'download', parts: [{ name: 'model', loaded: 1, total: 2, cached: 0 }] });
     attempts[1]?.fail(new AppError('model-missing', 'No step.onnx.', 'Take the whole folder.'));
     expect(await opened).toBe(false);
     const { problem, ...after } = store.getState();

@@ -28,7 +28,7 @@ describe('autosave', () => {
     change.apply(store, change.reactionAdded(reaction, { id, at: 1e6 * id.length }));
   };
   const pass = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
-  const warnings = () => notes(store.getState()).filter(({ look }) => look);
+  const warnings = () => notes(store.getState()).filter(({ isWarning }) => isWarning);
 
   /** Opens the page in a browser with room for so many takes, -1 for nothing at all. */
   const visit = async (takes: number) => {
@@ -77,7 +77,7 @@ describe('autosave', () => {
     made('bb');
     await pass(1000);
     expect(store.getState().problem).toMatchObject({ code: 'storage-full', remedy: 'project' });
-    expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
+    expect(warnings()).toEqual([{ isWarning: true, text: expect.stringContaining('is full') as string }]);
     change.apply(store, change.problemClosed());
     change.apply(store, takeRenamed('a', 'One'));
     await pass(30_000);
@@ -100,7 +100,7 @@ describe('autosave', () => {
     change.apply(store, takeDeleted('a'));
     await pass(1000);
     expect(writes).toEqual([[null]]);
-    expect(store.getState().autosave).toBe('kept');
+    expect(store.getState().autosave).toBe('stored');
   });
 
   it('only adds a note when there never was any room', async () => {
@@ -110,7 +110,7 @@ describe('autosave', () => {
     await pass(1000);
     expect(store.getState().autosave).toBe('full');
     expect(store.getState().problem).toBeNull();
-    expect(warnings()).toEqual([{ look: true, text: expect.stringContaining('is full') as string }]);
+    expect(warnings()).toEqual([{ isWarning: true, text: expect.stringContaining('is full') as string }]);
   });
 
   it('only adds a note when the browser stores nothing at all', async () => {

@@ -1,40 +1,45 @@
 import { describe, expect, it } from 'vitest';
 import { measure } from '../../../../web/quality/measure';
-import { aboveChance, about, atMost, measureRows } from '../../../../web/ui/quality/quality-rows';
+import {
+  verdictAboveChance,
+  verdictNear,
+  verdictAtMost,
+  measureRows,
+} from '../../../../web/ui/quality/quality-rows';
 import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
 
 describe('the verdict on a number beside its reference', () => {
   it('is good up to a little above a reference that should not be exceeded', () => {
-    expect([0.2, 0.36, 0.5, 0.7].map((value) => atMost(value, 0.33))).toEqual([
+    expect([0.2, 0.36, 0.5, 0.7].map((value) => verdictAtMost(value, 0.33))).toEqual([
       'good',
       'good',
       'so-so',
       'poor',
     ]);
-    expect(atMost(NaN, 0.33)).toBeNull();
-    expect(atMost(0.2, null)).toBeNull();
+    expect(verdictAtMost(NaN, 0.33)).toBeNull();
+    expect(verdictAtMost(0.2, null)).toBeNull();
   });
 
   it('is no better for a number far below a reference that it should equal', () => {
-    expect([0.46, 0.34, 0.2].map((value) => about(value, 0.48))).toEqual(['good', 'so-so', 'poor']);
-    expect(about(0.9, 0.48)).toBe('poor');
+    expect([0.46, 0.34, 0.2].map((value) => verdictNear(value, 0.48))).toEqual(['good', 'so-so', 'poor']);
+    expect(verdictNear(0.9, 0.48)).toBe('poor');
   });
 
   it('counts only what is above chance on the beat, and never calls chance good', () => {
-    expect([0.31, 0.25, 0.16].map((value) => aboveChance(value, 0.15, 0.32))).toEqual([
+    expect([0.31, 0.25, 0.16].map((value) => verdictAboveChance(value, 0.15, 0.32))).toEqual([
       'good',
       'so-so',
       'poor',
     ]);
     // Recorded dancers were no better than chance either.
-    expect([0.25, 0.16, 0.1].map((value) => aboveChance(value, 0.15, 0.15))).toEqual([
+    expect([0.25, 0.16, 0.1].map((value) => verdictAboveChance(value, 0.15, 0.15))).toEqual([
       'good',
       'so-so',
       'poor',
     ]);
-    expect(aboveChance(0.15, 0.15, null)).toBe('so-so');
-    expect(aboveChance(NaN, NaN, 0.3)).toBeNull();
+    expect(verdictAboveChance(0.15, 0.15, null)).toBe('so-so');
+    expect(verdictAboveChance(NaN, NaN, 0.3)).toBeNull();
   });
 });
 

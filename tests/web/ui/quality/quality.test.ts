@@ -1,9 +1,9 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { QualityQuestion, Report } from '../../../../web/quality/client';
+import type { QualityRequest, Report } from '../../../../web/quality/client';
 import { measure } from '../../../../web/quality/measure';
 import { createQuality } from '../../../../web/ui/quality/quality';
 import { marksInOne, marksOf, worstRow } from '../../../../web/ui/quality/quality-marks';
-import { laneWords, momentExplained, momentWords } from '../../../../web/ui/quality/quality-words';
+import { laneTexts, momentCard, momentLabel } from '../../../../web/ui/quality/quality-text';
 import * as change from '../../support/actions';
 import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
@@ -15,7 +15,7 @@ const stander = (sway = 0.05) =>
 
 describe('measuring', () => {
   let store: change.Store;
-  let calls: { question: QualityQuestion; signal: AbortSignal; answer: (report: Report) => void }[];
+  let calls: { question: QualityRequest; signal: AbortSignal; answer: (report: Report) => void }[];
   const react = (motion = stander()): void => {
     const state = store.getState();
     const inputs = { leader: state.leader!, song: state.song, shift: state.shift, settings };
@@ -92,12 +92,12 @@ describe('what is shown', () => {
     expect(marks.map(({ rank }) => rank)).toEqual(marks.map((_, index) => index + 1));
     expect(marks.length).toBeGreaterThan(0);
     expect(marks.length).toBeLessThanOrEqual(5);
-    const concerns = marks.map(({ moment }) => moment.concern);
-    expect(concerns).toEqual([...concerns].sort((a, b) => b - a));
+    const severities = marks.map(({ moment }) => moment.severity);
+    expect(severities).toEqual([...severities].sort((a, b) => b - a));
   });
 
   it('leaves marks out of the one lane that would overlap a worse mark', () => {
-    const at = (frame: number) => ({ kind: 'seam' as const, frame, value: 3, concern: 1.5 });
+    const at = (frame: number) => ({ kind: 'seam' as const, frame, value: 3, severity: 1.5 });
     const marks = [100, 110, 300, 320, 600].map((frame, index) => ({
       part: 'seams' as const,
       rank: index + 1,
@@ -125,7 +125,7 @@ describe('what is shown', () => {
       music: 0.15,
       leader: 0.32,
     };
-    const words = laneWords(report, 8, reference);
+    const words = laneTexts(report, 8, reference);
     expect(words.feet.value).toMatch(/^\d+ %$/);
     expect(words.feet.sentence).toContain('(recorded dancers: 33 %)');
     expect(words.feet.sentence).toMatch(
@@ -138,8 +138,8 @@ describe('what is shown', () => {
     expect(words.beats.value).toMatch(/^– \d\.\d\d$/);
     expect(words.beats.sentence).toContain('no beats of the music');
     expect(words.seams.sentence).toContain('blocks of 8 s');
-    const slide = { kind: 'slide' as const, frame: 753, value: 0.714, concern: 2 };
-    expect(momentWords(slide, 30)).toBe('Foot slide, 0.71 m/s at 0:25.1');
+    const slide = { kind: 'slide' as const, frame: 753, value: 0.714, severity: 2 };
+    expect(momentLabel(slide, 30)).toBe('Foot slide, 0.71 m/s at 0:25.1');
   });
 
   it.each([
@@ -148,7 +148,7 @@ describe('what is shown', () => {
     ['leader', 0.05, 'Off the leader’s beat', /beats of the leader: 0\.05 .* would be \d\.\d\d\./],
     ['seam', 3.2, 'Rough seam', /changes 3\.20 times as abruptly/],
   ] as const)('explains a mark: what it is, how bad and when (%s)', (kind, value, title, text) => {
-    const explained = momentExplained({ kind, value, frame: 753, concern: 2 }, 30, report, small.quality);
+    const explained = momentCard({ kind, value, frame: 753, severity: 2 }, 30, report, small.quality);
     expect(explained).toEqual({ title, aside: '0:25.1', text: expect.stringMatching(text) as string });
   });
 });

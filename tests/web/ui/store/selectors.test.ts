@@ -106,8 +106,8 @@ describe('notes', () => {
     ]);
     const moved = leader(30, 'a.bvh', ['The feet slide.'], ['The first frame is left out.']);
     expect(select.notes(state({ leader: moved, song: song(1) }))).toEqual([
-      { text: 'The feet slide.', look: true },
-      { text: 'The first frame is left out.', look: false },
+      { text: 'The feet slide.', isWarning: true },
+      { text: 'The first frame is left out.', isWarning: false },
     ]);
     expect(texts({ notices: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });
@@ -116,7 +116,7 @@ describe('notes', () => {
     const silent = song(3, { silent: true, beats: [] });
     expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
       text: 'The song is silent: it carries no beat to dance to.',
-      look: true,
+      isWarning: true,
     });
     expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');
     expect(
@@ -128,9 +128,9 @@ describe('notes', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
     const job = { done: 2, total: 10, fraction: 0.3, previewed: null };
     const from = { model: loading, settings };
-    expect(select.jobWords({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
-    expect(select.jobWords({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');
-    expect(select.jobWords({ ...job, stage: 'step', done: 10 }, from)).toBe('step 10 of 10');
-    expect(select.jobWords({ ...job, stage: 'step', done: 24, total: 50 }, from)).toBe('step 5 of 10');
+    expect(select.jobText({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
+    expect(select.jobText({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');
+    expect(select.jobText({ ...job, stage: 'step', done: 10 }, from)).toBe('step 10 of 10');
+    expect(select.jobText({ ...job, stage: 'step', done: 24, total: 50 }, from)).toBe('step 5 of 10');
   });
 });

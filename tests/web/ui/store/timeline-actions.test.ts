@@ -24,7 +24,7 @@ describe('timeline changes', () => {
     does(change.regionSet({ from: -3, to: 99 }));
     expect(now().playback.region).toEqual({ from: 0, to: 10 });
     does(change.regionSet({ from: 10, to: 10 }));
-    expect(now().playback.region?.from).toBeCloseTo(10 - change.SHORTEST_LOOP);
+    expect(now().playback.region?.from).toBeCloseTo(10 - change.MIN_LOOP);
     does(change.regionSet(null));
     expect(now().playback).toMatchObject({ region: null, loop: false });
   });
@@ -95,15 +95,15 @@ describe('timeline changes', () => {
   });
 
   it('says shifts in words', () => {
-    expect(shift.frameWords(7)).toBe('+7 frames');
-    expect(shift.frameWords(-1)).toBe('−1 frame');
-    expect(shift.shiftWords(15, now())).toBe('+15 frames, 0.50 s later');
-    expect(shift.shiftWords(-3, now())).toBe('−3 frames, 0.10 s earlier');
+    expect(shift.frameCountText(7)).toBe('+7 frames');
+    expect(shift.frameCountText(-1)).toBe('−1 frame');
+    expect(shift.shiftText(15, now())).toBe('+15 frames, 0.50 s later');
+    expect(shift.shiftText(-3, now())).toBe('−3 frames, 0.10 s earlier');
   });
 
   it('suggests the shift that brings accents and beats together, and says why it suggests none', () => {
     expect(shift.shiftAdvice({ ...now(), song: null })).toBeNull();
-    expect(shift.shiftAdvice(now())).toMatchObject({ better: null, words: 'too few beats' });
+    expect(shift.shiftAdvice(now())).toMatchObject({ better: null, summary: 'too few beats' });
     // It swings once in 30 frames and stands still every half second; the song has its beats 4 frames earlier.
     const swinging = (still: number) => {
       const made = leader(300);
@@ -121,7 +121,7 @@ describe('timeline changes', () => {
     does(change.shiftSet(4));
     expect(shift.shiftAdvice(now())).toMatchObject({
       better: null,
-      words: 'no better shift',
+      summary: 'no better shift',
       reason: expect.stringMatching(/the best within two seconds/) as string,
     });
   });

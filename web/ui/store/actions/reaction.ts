@@ -1,7 +1,7 @@
 /** The reaction, its progress and its measures. */
 import type { FrameRange, Job, Preview, Quality, Reaction, Reference } from '../state';
 import type { Change } from '../store';
-import { withReaction, newStamp, type Stamp } from '../add-take';
+import { withReaction, newStamp, type TakeStamp } from '../add-take';
 
 /** Progress of a job; null ends it and removes its preview from the stage. */
 export function jobChanged(job: Job | null): Change {
@@ -14,7 +14,7 @@ export function previewShown(preview: Preview, previewed: FrameRange): Change {
 }
 
 /** Shows a finished reaction and makes it a take. */
-export function reactionAdded(reaction: Reaction, stamp: Stamp = newStamp()): Change {
+export function reactionAdded(reaction: Reaction, stamp: TakeStamp = newStamp()): Change {
   return (state) => ({ ...withReaction(state, reaction, stamp), reaction, job: null, preview: null });
 }
 

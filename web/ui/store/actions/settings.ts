@@ -117,8 +117,8 @@ export function seedSet(seed: number): Change {
   };
 }
 
-/** Another seed, unless it is locked. */
-export function seedRolled(seed: number): Change {
+/** Sets another seed, unless the seed is locked. */
+export function seedRandomized(seed: number): Change {
   return (state) => (state.seedLocked ? {} : seedSet(seed)(state));
 }
 
@@ -127,6 +127,6 @@ export function seedLockSet(seedLocked: boolean): Change {
 }
 
 /** A random seed, small enough to read out and to type again. */
-export function rolledSeed(): number {
+export function randomSeed(): number {
   return 1 + Math.floor(Math.random() * 9999);
 }

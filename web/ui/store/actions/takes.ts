@@ -4,7 +4,7 @@ import type { Change } from '../store';
 import { comparable, whyNotComparable, otherLetter, otherTake, stageLetter, takeOnStage } from '../take';
 
 /** Longest name of a take, characters. */
-export const LONGEST_NAME = 60;
+export const MAX_TAKE_NAME_LENGTH = 60;
 
 /** Shows a take and restores the files and settings that it was generated from, so that nothing is generated anew. */
 function withTakeShown(state: AppState, { id, reaction }: Take): Partial<AppState> {
@@ -92,7 +92,7 @@ export function compareSet(compare: Exclude<Compare, 'off'>): Change {
 
 /** Names a take; an empty name restores its number as its name. */
 export function takeRenamed(id: string, name: string): Change {
-  const clean = name.replace(/\s+/g, ' ').trim().slice(0, LONGEST_NAME) || null;
+  const clean = name.replace(/\s+/g, ' ').trim().slice(0, MAX_TAKE_NAME_LENGTH) || null;
   return ({ takes }) =>
     takes.some((take) => take.id === id && take.name !== clean)
       ? { takes: takes.map((take) => (take.id === id ? { ...take, name: clean } : take)) }

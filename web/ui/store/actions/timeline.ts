@@ -5,7 +5,7 @@ import type { Change } from '../store';
 import { largestMagnification, magnification, spanShowing, type Span, zoomed } from '../time-scale';
 
 /** Shortest loop, seconds: more than two frames, less than a beat of a fast song. */
-export const SHORTEST_LOOP = 0.2;
+export const MIN_LOOP = 0.2;
 
 /** The part of the dance that the lanes show. */
 export function visibleSpan(state: Pick<AppState, 'zoom' | 'leader' | 'song'>): Span {
@@ -50,10 +50,10 @@ export function scrolledTo(time: number): Change {
 export function regionSet(span: Span | null): Change {
   return (state) => {
     const whole = danceDuration(state);
-    if (!span || whole < SHORTEST_LOOP) return { playback: { ...state.playback, region: null, loop: false } };
+    if (!span || whole < MIN_LOOP) return { playback: { ...state.playback, region: null, loop: false } };
     const [first, last] = [Math.min(span.from, span.to), Math.max(span.from, span.to)];
-    const from = Math.min(Math.max(0, first), whole - SHORTEST_LOOP);
-    const to = Math.min(whole, Math.max(last, from + SHORTEST_LOOP));
+    const from = Math.min(Math.max(0, first), whole - MIN_LOOP);
+    const to = Math.min(whole, Math.max(last, from + MIN_LOOP));
     return { playback: { ...state.playback, region: { from, to }, loop: true } };
   };
 }
@@ -63,8 +63,8 @@ export function regionEndSet(end: 'from' | 'to', time: number): Change {
   return (state) => {
     const whole = danceDuration(state);
     const { from, to } = state.playback.region ?? { from: 0, to: whole };
-    if (end === 'from') return regionSet({ from: time, to: to > time + SHORTEST_LOOP ? to : whole })(state);
-    return regionSet({ from: from < time - SHORTEST_LOOP ? from : 0, to: time })(state);
+    if (end === 'from') return regionSet({ from: time, to: to > time + MIN_LOOP ? to : whole })(state);
+    return regionSet({ from: from < time - MIN_LOOP ? from : 0, to: time })(state);
   };
 }
 

@@ -13,7 +13,7 @@ export function jointCount(report: Joints): number {
 }
 
 /** Which joints were found in a file: `all found; pelvis and spine placed along its back`. */
-export function jointWords(report: Joints): string {
+export function jointText(report: Joints): string {
   const lacking = missing(report);
   const all = Object.keys(report.joints).length;
   const found =

@@ -1,4 +1,4 @@
-import { columnOf, guidanceWords } from '../store/guidance-matrix';
+import { columnOf, guidanceText } from '../store/guidance-matrix';
 import type { AppState, Inputs, Take } from '../store/state';
 
 /** Length at which the name of a file is cut, characters. */
@@ -8,14 +8,14 @@ const MAX_NAME_LENGTH = 16;
  * What a take was made from, in a line: files and settings that differ from those on the page and the model's
  * defaults, seed and guidance always: `as leader, song 1.7 s later, 6 steps, seed 1204, 2 coarse, 1.5 fine`.
  */
-export function takeWords({ reaction: { inputs } }: Take, { leader, song, manifest }: AppState): string {
+export function takeText({ reaction: { inputs } }: Take, { leader, song, manifest }: AppState): string {
   const { settings } = inputs;
   return [
     ...(inputs.leader === leader ? [] : [`to ${brief(inputs.leader.name)}`]),
     ...(inputs.song === song ? [] : [inputs.song ? brief(inputs.song.name) : 'no song']),
     ...(settings.role === 'leader' ? ['as leader'] : []),
-    ...shiftWords(inputs),
-    ...(settings.steps === manifest?.diffusion.steps.default ? [] : [stepWords(settings.steps)]),
+    ...shiftText(inputs),
+    ...(settings.steps === manifest?.diffusion.steps.default ? [] : [stepText(settings.steps)]),
     `seed ${settings.seed}`,
     ...(['coarse', 'fine'] as const).map((layer) => {
       const { value, mixed } = columnOf(settings.guidance, layer);
@@ -26,24 +26,24 @@ export function takeWords({ reaction: { inputs } }: Take, { leader, song, manife
 }
 
 /** All that a take was made from: `As reactor to Demo leader, with Patio Clave, 5 steps, 1.20 coarse, ..., seed 1204`. */
-export function allTakeWords({ reaction: { inputs } }: Take): string {
+export function fullTakeText({ reaction: { inputs } }: Take): string {
   const { leader, song, settings } = inputs;
   return [
     `As ${settings.role} to ${leader.name}`,
     song ? `with ${song.name}` : 'without a song',
-    ...shiftWords(inputs),
-    stepWords(settings.steps),
-    guidanceWords(settings),
+    ...shiftText(inputs),
+    stepText(settings.steps),
+    guidanceText(settings),
     `seed ${settings.seed}`,
   ].join(', ');
 }
 
-function shiftWords({ shift, leader }: Inputs): string[] {
+function shiftText({ shift, leader }: Inputs): string[] {
   const seconds = (Math.abs(shift) / leader.file.clip.fps).toFixed(1);
   return shift === 0 ? [] : [`song ${seconds} s ${shift > 0 ? 'later' : 'earlier'}`];
 }
 
-const stepWords = (steps: number): string => `${steps} ${steps === 1 ? 'step' : 'steps'}`;
+const stepText = (steps: number): string => `${steps} ${steps === 1 ? 'step' : 'steps'}`;
 
 /** `2`, `1.5`, `0.05`: no trailing zeros. */
 const plain = (value: number): string => String(Math.round(value * 100) / 100);

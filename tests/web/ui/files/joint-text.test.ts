@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { readBvh } from '../../../../web/motion/bvh/read';
 import { writeBvh } from '../../../../web/motion/bvh/write';
 import { solve } from '../../../../web/motion/fit/ik';
-import { jointCount, jointWords } from '../../../../web/ui/files/joint-words';
+import { jointCount, jointText } from '../../../../web/ui/files/joint-text';
 import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
 
 const withoutToes: BodyNames = Object.fromEntries(
@@ -14,23 +14,23 @@ test('a whole body with another number of spine joints lacks nothing', () => {
   for (const count of [1, 3, 5]) {
     const spine = Array.from({ length: count }, (_, i) => `mixamorig:Spine${i}`);
     const other = report({ ...MIXAMO, spine });
-    expect(jointWords(other)).toBe('all found; pelvis and spine placed along its back');
+    expect(jointText(other)).toBe('all found; pelvis and spine placed along its back');
     expect(jointCount(other)).toBe(22);
   }
 });
 
 test('joints that are missing are named', () => {
   const lacking = report(withoutToes);
-  expect(jointWords(lacking)).toBe(
+  expect(jointText(lacking)).toBe(
     '20 of 22 found; filled in: left foot, right foot; pelvis and spine placed along its back',
   );
   expect(jointCount(lacking)).toBe(20);
   const stiff = report({ ...MIXAMO, spine: [] });
-  expect(jointWords(stiff)).toBe('18 of 22 found; filled in: pelvis, spine1, spine2, spine3');
+  expect(jointText(stiff)).toBe('18 of 22 found; filled in: pelvis, spine1, spine2, spine3');
 });
 
 test('a file that this page wrote has all joints', () => {
   const { clip } = readBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
   const own = readBvh(writeBvh(solve(clip))).report;
-  expect(jointWords(own)).toBe('all 22 found');
+  expect(jointText(own)).toBe('all 22 found');
 });

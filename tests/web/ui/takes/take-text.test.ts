@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import type { AppState, Inputs, Take } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
-import { allTakeWords, takeWords } from '../../../../web/ui/takes/take-words';
+import { fullTakeText, takeText } from '../../../../web/ui/takes/take-text';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
@@ -26,7 +26,7 @@ const take = (more: Partial<Inputs>): Take => ({
 const guided = 'seed 1204, 2 coarse, 1.5 fine';
 
 test('the line of a take leaves out what is as on the page and as the model’s defaults', () => {
-  expect(takeWords(take({}), page)).toBe(guided);
+  expect(takeText(take({}), page)).toBe(guided);
 });
 
 test.each<[string, Partial<Inputs>]>([
@@ -40,11 +40,11 @@ test.each<[string, Partial<Inputs>]>([
   [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
   [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
 ])('what sets a take apart comes first: %s', (words, more) => {
-  expect(takeWords(take(more), page)).toBe(words);
+  expect(takeText(take(more), page)).toBe(words);
 });
 
 test('the tooltip of a take names all inputs', () => {
-  expect(allTakeWords(take({ shift: 51 }))).toBe(
+  expect(fullTakeText(take({ shift: 51 }))).toBe(
     `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, seed 1204`,
   );

@@ -6,7 +6,7 @@ import { clockTime } from '../store/format';
 export type Part = keyof Report;
 
 /** The number and the sentences of a lane on the whole dance. */
-export interface LaneWords {
+interface LaneText {
   /** The number beside the lane's name; a dash where there is nothing to measure. */
   readonly value: string;
   /** The same and what it means, in sentences. */
@@ -33,27 +33,27 @@ function recorded(value: number | null | undefined, write: (value: number) => st
 }
 
 /**
- * The words of the lanes.
+ * The texts of the lanes.
  * @param block length of the model's blocks, seconds
  * @param reference what recorded dances score, if known for this model
  */
-export function laneWords(
+export function laneTexts(
   { feet, closeness, beats, seams }: Report,
   block: number,
   reference: Reference | null,
-): Readonly<Record<Part, LaneWords>> {
+): Readonly<Record<Part, LaneText>> {
   return {
-    feet: feetWords(feet.whole, reference),
-    closeness: closenessWords(closeness.whole, reference),
-    beats: beatWords(beats.whole, reference),
-    seams: seamWords(seams.whole, block),
+    feet: feetText(feet.whole, reference),
+    closeness: closenessText(closeness.whole, reference),
+    beats: beatText(beats.whole, reference),
+    seams: seamText(seams.whole, block),
   };
 }
 
-function feetWords(
+function feetText(
   { skateShare, slideSpeed, contactShare }: Report['feet']['whole'],
   reference: Reference | null,
-): LaneWords {
+): LaneText {
   if (Number.isNaN(skateShare))
     return { value: NOTHING, sentence: 'The feet never touch the floor for long.' };
   return {
@@ -66,10 +66,10 @@ function feetWords(
   };
 }
 
-function closenessWords(
+function closenessText(
   { closest, overlapShare, deepest }: Report['closeness']['whole'],
   reference: Reference | null,
-): LaneWords {
+): LaneText {
   const overlap =
     overlapShare > 0
       ? `The bodies go more than a touch into each other for ${percent(overlapShare)} of the dance` +
@@ -81,7 +81,7 @@ function closenessWords(
   };
 }
 
-function beatWords({ music, leader }: Report['beats']['whole'], reference: Reference | null): LaneWords {
+function beatText({ music, leader }: Report['beats']['whole'], reference: Reference | null): LaneText {
   const one = (name: string, { value, chance }: typeof music, known: number | null | undefined): string =>
     Number.isNaN(value)
       ? `There are no beats of the ${name} to meet.`
@@ -95,7 +95,7 @@ function beatWords({ music, leader }: Report['beats']['whole'], reference: Refer
   };
 }
 
-function seamWords({ seams, ratio }: Report['seams']['whole'], block: number): LaneWords {
+function seamText({ seams, ratio }: Report['seams']['whole'], block: number): LaneText {
   if (seams === 0 || Number.isNaN(ratio))
     return { value: NOTHING, sentence: 'The dance is so short that it is made in one piece.' };
   return {
@@ -114,8 +114,8 @@ const KIND_NAMES: Readonly<Record<MomentKind, string>> = {
   seam: 'Rough seam',
 };
 
-/** What a mark is called: `Foot slide, 0.71 m/s at 0:25.1`. */
-export function momentWords({ kind, value, frame }: Moment, fps: number): string {
+/** The label of a mark: `Foot slide, 0.71 m/s at 0:25.1`. */
+export function momentLabel({ kind, value, frame }: Moment, fps: number): string {
   const at = clockTime(frame / fps);
   const name = KIND_NAMES[kind];
   switch (kind) {
@@ -131,8 +131,8 @@ export function momentWords({ kind, value, frame }: Moment, fps: number): string
   }
 }
 
-/** The card of a mark, for a reader who does not know the measure: what happens there, and how bad that is. */
-export function momentExplained(moment: Moment, fps: number, { beats }: Report, rules: Rules): CardContent {
+/** The info card of a mark, for readers who do not know the measure: what happens there, and how bad it is. */
+export function momentCard(moment: Moment, fps: number, { beats }: Report, rules: Rules): CardContent {
   const { kind, value, frame } = moment;
   const text = (): string => {
     switch (kind) {
