@@ -1,7 +1,8 @@
 import { beforeAll, expect, it, vi } from 'vitest';
 import type { Role } from '../../web/view/theme';
 import type { DancerOptions, Stage } from '../../web/view/stage';
-import type { AppState, Inputs, Take } from '../../web/ui/store/state';
+import type { Inputs, Take } from '../../web/ui/store/reaction';
+import type { AppState } from '../../web/ui/store/state';
 import { initialState } from '../../web/ui/store/store';
 import { compareSet, takesSwapped, takeChosen } from '../../web/ui/store/actions/takes';
 import * as change from './support/actions';

@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
+import type { MotionClip, SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { aboutAxis, multiply, type Quat, writeQuat } from '../../../web/motion/math/quat';
 import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
@@ -129,4 +129,9 @@ export function noisy(positions: Float32Array, deviation: number, seed = 7): Flo
   return positions.map(
     (value) => value + deviation * Math.sqrt(-2 * Math.log(draw() + 1e-12)) * Math.cos(2 * Math.PI * draw()),
   );
+}
+
+/** The clip with every coordinate multiplied by `factor`: body and path over the floor alike. */
+export function scaled(clip: MotionClip, factor: number): MotionClip {
+  return { ...clip, positions: clip.positions.map((value) => value * factor) };
 }

@@ -3,7 +3,7 @@ import type { LeaderFile } from '../../../web/motion/bvh/read';
 import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { uniform } from '../../../web/ui/store/guidance-matrix';
-import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/state';
+import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/reaction';
 import { small } from './small-manifest';
 
 /** Guidance of the small model with the same weights for every body part. */

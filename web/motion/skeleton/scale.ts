@@ -30,8 +30,3 @@ export function bodyHeight(clip: MotionClip): number {
   }
   return median(heights);
 }
-
-/** The clip with every coordinate multiplied by `factor`: body and path over the floor alike. */
-export function scaleClip(clip: MotionClip, factor: number): MotionClip {
-  return { ...clip, positions: clip.positions.map((value) => value * factor) };
-}

@@ -2,7 +2,8 @@ import { motionExtension, type MotionFormat } from '../../export/client';
 import { otherRole } from '../store/roles';
 import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
-import type { Inputs, DancerSelection } from '../store/state';
+import type { Inputs } from '../store/reaction';
+import type { DancerSelection } from '../store/state';
 
 /** What a file name is made from. */
 export interface FileNameParts {

@@ -1,7 +1,7 @@
 import * as v from 'valibot';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
-import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/state';
+import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/reaction';
 import { demoChanged } from '../store/actions/files';
 import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';

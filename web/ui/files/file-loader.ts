@@ -7,7 +7,8 @@ import {
   unknownFileProblem,
 } from '../store/problems';
 import { fileKind, HEAD_BYTES } from './file-type';
-import type { LoadedLeader, LoadedSong, InputKind } from '../store/state';
+import type { LoadedLeader, LoadedSong } from '../store/reaction';
+import type { InputKind } from '../store/state';
 import { leaderLoaded, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
 import { problemShown, problemClosed } from '../store/actions/notices';

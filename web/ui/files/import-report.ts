@@ -6,7 +6,8 @@ import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joint-text';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
-import type { AppState, LoadedLeader, ModelState, Reaction } from '../store/state';
+import type { LoadedLeader, Reaction } from '../store/reaction';
+import type { AppState, ModelState } from '../store/state';
 import { watchAll } from '../store/store';
 
 /** Common frame rates of motion capture, for files whose own is wrong. */

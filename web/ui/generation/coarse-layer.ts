@@ -1,7 +1,8 @@
 import type { Generator } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { coarseProblem, isAbort } from '../store/problems';
-import type { AppState, Reaction } from '../store/state';
+import type { Reaction } from '../store/reaction';
+import type { AppState } from '../store/state';
 import { apply, watchAll, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { coarseChanged, overlayToggled } from '../store/actions/view';

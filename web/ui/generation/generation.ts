@@ -10,7 +10,7 @@ import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { guidanceMatrix, sameInputs, readyInputs } from '../store/selectors';
 import { splice } from './splice';
-import type { Inputs, Reaction } from '../store/state';
+import type { Inputs, Reaction } from '../store/reaction';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';

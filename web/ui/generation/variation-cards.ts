@@ -7,7 +7,8 @@ import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
 import { sameInputs } from '../store/selectors';
 import type { Mount } from '../store/services';
-import type { AppState, Reaction, Variation } from '../store/state';
+import type { Reaction } from '../store/reaction';
+import type { AppState, Variation } from '../store/state';
 import { watchAll } from '../store/store';
 
 /** A variation, or an empty place for one. */

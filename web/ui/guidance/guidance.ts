@@ -6,7 +6,8 @@ import { mountMatrix } from './matrix';
 import { mountMusicFader } from './music-fader';
 import { mountPresetMenu } from './preset-menu';
 import type { Mount } from '../store/services';
-import type { AppState, Guidance, Layer } from '../store/state';
+import type { Guidance, Layer } from '../store/reaction';
+import type { AppState } from '../store/state';
 import { guidanceReset, guidanceSet } from '../store/actions/settings';
 import { apply, type Store, watchAll } from '../store/store';
 

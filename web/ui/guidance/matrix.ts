@@ -4,7 +4,7 @@ import { columnOf, guidanceAt } from '../store/guidance-matrix';
 import { icon } from '../widgets/icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
 import type { Mount } from '../store/services';
-import type { Guidance } from '../store/state';
+import type { Guidance } from '../store/reaction';
 import { guidanceCellReset, guidanceCellSet } from '../store/actions/settings';
 import { apply, type Store, watch, watchAll } from '../store/store';
 

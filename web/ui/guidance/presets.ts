@@ -1,6 +1,6 @@
 import type { Manifest } from '../../model/client';
 import { defaultGuidance, sameGuidance, uniform } from '../store/guidance-matrix';
-import type { Guidance, Settings } from '../store/state';
+import type { Guidance, Settings } from '../store/reaction';
 
 /** Named guidance weights. */
 export interface Preset {

@@ -1,5 +1,6 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { AppState, Inputs, LoadedLeader, LoadedSong, Reaction, Take } from '../store/state';
+import type { Inputs, LoadedLeader, LoadedSong, Reaction, Take } from '../store/reaction';
+import type { AppState } from '../store/state';
 import { currentInputs } from '../store/take';
 import {
   decoderOf,

@@ -1,6 +1,7 @@
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { AppState, Compare, Inputs, Letter, LoadedLeader, LoadedSong, Reaction } from '../store/state';
+import type { Inputs, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
+import type { AppState, Compare, Letter } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 
 /** A song: the file that it was read from. */

@@ -2,7 +2,7 @@ import { coarseIsMissing } from '../generation/coarse-layer';
 import { listen, combineDisposers } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
-import { OVERLAYS } from '../store/overlays';
+import { OVERLAYS } from './overlay-menu';
 import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';

@@ -1,7 +1,7 @@
 import { closeButton } from '../widgets/close-button';
 import { el, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
-import { OVERLAYS } from '../store/overlays';
+import { OVERLAYS } from './overlay-menu';
 import { apply, watch } from '../store/store';
 import { panelToggled } from '../store/actions/view';
 

@@ -1,5 +1,6 @@
 import { sameInputs } from './selectors';
-import type { AppState, Inputs, Reaction, Take } from './state';
+import type { Inputs, Reaction, Take } from './reaction';
+import type { AppState } from './state';
 import { sealed } from './history';
 import { takeOnStage, withTake } from './take';
 

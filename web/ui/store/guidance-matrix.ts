@@ -1,6 +1,6 @@
 import type { Manifest } from '../../model/client';
 import { toStep } from './format';
-import type { Guidance, Layer, Settings } from './state';
+import type { Guidance, Layer, Settings } from './reaction';
 
 type Range = Pick<Manifest['guidance'], 'min' | 'max' | 'step'>;
 

@@ -1,5 +1,6 @@
 import { danceDuration, sameSettings } from './selectors';
-import type { AppState, Inputs, Settings, Take } from './state';
+import type { Inputs, Settings, Take } from './reaction';
+import type { AppState } from './state';
 import type { Change } from './store';
 import { currentInputs, takeOnStage, withTake } from './take';
 

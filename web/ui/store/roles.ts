@@ -1,6 +1,7 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from './reactor-motion';
-import type { AppState, Role } from './state';
+import type { Role } from './reaction';
+import type { AppState } from './state';
 
 /** The role that the model generates; the loaded dancer has the other one. */
 export function generatedRole({ settings }: Pick<AppState, 'settings'>): Role {

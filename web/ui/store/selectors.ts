@@ -1,6 +1,7 @@
 import { bytesOf, duration, rate } from './format';
 import { guidanceAt, sameGuidance } from './guidance-matrix';
-import type { AppState, Inputs, Job, AutosaveStatus, Settings } from './state';
+import type { Inputs, Settings } from './reaction';
+import type { AppState, Job, AutosaveStatus } from './state';
 
 /** Length of what plays, seconds: the leader's; without a leader the song's. */
 export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number {

@@ -3,7 +3,8 @@ import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
 import type { StorageUsage } from '../../offline/storage-usage';
-import type { LoadedLeader, LoadedSong, InputKind } from './state';
+import type { LoadedLeader, LoadedSong } from './reaction';
+import type { InputKind } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */

@@ -1,6 +1,7 @@
 import { bestShift, type BestShift } from '../../motion/beats/beat-match';
 import { motionBeats } from '../../motion/beats/motion-beats';
-import type { AppState, LoadedLeader, LoadedSong } from './state';
+import type { LoadedLeader, LoadedSong } from './reaction';
+import type { AppState } from './state';
 
 type Parts = Pick<AppState, 'song' | 'leader' | 'shift'>;
 

@@ -1,88 +1,16 @@
+/** The state of the page and the types of its parts. */
 import type { VisibleOverlays } from '../../common/visible-overlays';
-import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
-import type { LeaderFile } from '../../motion/bvh/read';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
 import type { History } from './history';
+import type { Inputs, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 
 export type Theme = 'dark' | 'light';
 export type Camera = 'orbit' | 'follow' | 'top' | 'side';
 export type InputKind = 'song' | 'leader';
-export type Layer = 'coarse' | 'fine';
-export type Role = 'leader' | 'reactor';
-
-/** Guidance by stream and layer, s of the paper's Eq. 9; streams and layers as the manifest names them. */
-export type Guidance = Readonly<Record<string, Readonly<Record<string, number>>>>;
-
-export interface LoadedSong {
-  readonly name: string;
-  /** Where it comes from when not from the visitor: "demo song". */
-  readonly label: string | null;
-  /** The file as it was given, so that it can be stored and read again. */
-  readonly file: Blob;
-  readonly data: Song;
-}
-
-export interface LoadedLeader {
-  readonly name: string;
-  readonly label: string | null;
-  /** The file itself, kept so that it can be read again at another frame rate. */
-  readonly text: string;
-  /** Frame rate set by hand instead of the file's own, frames per second. */
-  readonly fps: number | null;
-  readonly file: LeaderFile;
-  /** The leader on constant bone lengths, as drawn. */
-  readonly motion: SolvedMotion;
-}
-
-export interface Settings {
-  readonly guidance: Guidance;
-  /** Guidance weight of the music: how much of what the song changes is added to Eq. 9. */
-  readonly music: number;
-  readonly steps: number;
-  /** 0 to 2^32 - 1. */
-  readonly seed: number;
-  /** The role that the model generates; the loaded dancer has the other one. */
-  readonly role: Role;
-}
-
-/** Everything that determines a reaction. Songs and leaders are compared by identity. */
-export interface Inputs {
-  readonly leader: LoadedLeader;
-  readonly song: LoadedSong | null;
-  /** Frames of the leader by which the song starts later than the dance; below 0 it starts earlier. */
-  readonly shift: number;
-  readonly settings: Settings;
-}
-
-export interface Reaction {
-  /** As the model generated it; what is drawn and downloaded is `reactorMotion`. */
-  readonly motion: SolvedMotion;
-  /** The latents it was decoded from, which its coarse layer can be decoded from; null when it came ready-made. */
-  readonly latents: Float32Array | null;
-  /** What it was generated from. */
-  readonly inputs: Inputs;
-  /** Set when it was not computed on this page: "demo reaction". */
-  readonly label: string | null;
-  /** Seconds that generating it took, or null when it came ready-made. */
-  readonly seconds: number | null;
-}
-
-/** A reaction in the list of takes. */
-export interface Take {
-  readonly id: string;
-  /** Counted from 1; the take's name until the visitor gives it one. */
-  readonly number: number;
-  /** Given by the visitor, or null. */
-  readonly name: string | null;
-  readonly starred: boolean;
-  /** Milliseconds since 1970. */
-  readonly createdAt: number;
-  readonly reaction: Reaction;
-}
 
 /** The two takes of a comparison; one is on the stage. */
 export type Letter = 'A' | 'B';

@@ -1,5 +1,6 @@
 import { readyInputs } from './selectors';
-import type { AppState, Inputs, Letter, Reaction, Take } from './state';
+import type { Inputs, Reaction, Take } from './reaction';
+import type { AppState, Letter } from './state';
 
 /** What a reaction would be generated from, also while a file is being read; null without a leader or settings. */
 export function currentInputs(state: AppState): Inputs | null {

@@ -1,6 +1,7 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from '../store/reactor-motion';
-import type { Letter, Take } from '../store/state';
+import type { Take } from '../store/reaction';
+import type { Letter } from '../store/state';
 import { type Store, watchAll } from '../store/store';
 import { otherTake, takeOnStage, takeTitle } from '../store/take';
 

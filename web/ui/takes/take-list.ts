@@ -1,5 +1,6 @@
 import { el } from '../widgets/dom';
-import type { AppState, Take } from '../store/state';
+import type { Take } from '../store/reaction';
+import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { takeChosen, takeDeleted, takeStarred } from '../store/actions/takes';
 import { createTakeRow, type TakeRow } from './take-row';

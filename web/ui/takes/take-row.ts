@@ -1,6 +1,7 @@
 import { iconButton } from '../widgets/button';
 import { el, setAttribute, setText } from '../widgets/dom';
-import type { AppState, Letter, Take } from '../store/state';
+import type { Take } from '../store/reaction';
+import type { AppState, Letter } from '../store/state';
 import { apply, type Store } from '../store/store';
 import {
   letterGiven,

@@ -1,5 +1,6 @@
 import { columnOf, guidanceText } from '../store/guidance-matrix';
-import type { AppState, Inputs, Take } from '../store/state';
+import type { Inputs, Take } from '../store/reaction';
+import type { AppState } from '../store/state';
 
 /** Length at which the name of a file is cut, characters. */
 const MAX_NAME_LENGTH = 16;

@@ -4,7 +4,8 @@ import { createBlockRow } from './block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
 import { generatedRole, otherRole } from '../store/roles';
 import { danceFps, jobText, upToDate } from '../store/selectors';
-import type { AppState, Role } from '../store/state';
+import type { Role } from '../store/reaction';
+import type { AppState } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
 import { el } from '../widgets/dom';
 

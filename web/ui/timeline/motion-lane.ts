@@ -7,7 +7,7 @@ import { el, setText } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { drawCurve, drawDots, surface, token } from '../widgets/lane-canvas';
 import { roleName } from '../store/roles';
-import type { Role } from '../store/state';
+import type { Role } from '../store/reaction';
 import type { TimeScale } from '../store/time-scale';
 
 /** Beat score from which a motion beat counts as on the music: within two and a half frames of a music beat. */

@@ -5,7 +5,8 @@ import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
 import { ShiftHandle, type ShiftHandleOptions } from './shift-handle';
 import { songStart } from '../store/song-shift';
-import type { AppState, LoadedSong } from '../store/state';
+import type { LoadedSong } from '../store/reaction';
+import type { AppState } from '../store/state';
 import type { Store } from '../store/store';
 import type { TimeScale } from '../store/time-scale';
 

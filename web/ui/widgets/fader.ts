@@ -1,6 +1,6 @@
 import { el, setText, setVariable } from './dom';
 import { drawing } from './icons';
-import type { Layer } from '../store/state';
+import type { Layer } from '../store/reaction';
 
 export interface FaderEvents {
   readonly change: (value: number) => void;

@@ -14,9 +14,6 @@ export const createPose = (): Pose => ({
   rotations: new Float32Array(JOINT_COUNT * 4),
 });
 
-/** Length of a motion in seconds, from its first frame to its last. */
-export const lastMoment = (motion: SolvedMotion): number => Math.max(0, motion.frames - 1) / motion.fps;
-
 /**
  * Writes the pose of `motion` at `seconds` into `out`, between frames by lerp of the root and slerp of the joints.
  * Moments before the first and after the last frame hold that frame.

@@ -6,8 +6,9 @@ import { Pipeline } from '../../../../web/model/sample/pipeline';
 import type { Progress } from '../../../../web/model/progress';
 import type { ModelSession } from '../../../../web/model/load/session';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
-import { bodyHeight, scaleClip } from '../../../../web/motion/skeleton/scale';
+import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { scaled } from '../../support/made-dancer';
 import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
@@ -72,8 +73,8 @@ describe('Pipeline', () => {
 
   it('brings the leader to the reference height and the partner back to the size of the leader', async () => {
     const { leader } = request(120);
-    const large = scaleClip(leader, 1.3);
-    const [plain, scaled] = [
+    const large = scaled(leader, 1.3);
+    const [plain, enlarged] = [
       await pipeline.generate(request(120, { leader })),
       await pipeline.generate(request(120, { leader: large })),
     ];
@@ -81,7 +82,7 @@ describe('Pipeline', () => {
     expect(bodyHeight(seen)).toBeCloseTo(model.manifest.skeleton.reference_height, 4);
     const expected = plain.motion.positions.map((value) => value * 1.3);
     // The solver's own bone lengths scale with the body, up to its convergence.
-    expect(maxDifference(scaled.motion.positions, expected)).toBeLessThan(1e-2);
+    expect(maxDifference(enlarged.motion.positions, expected)).toBeLessThan(1e-2);
   });
 
   it('computes the memory once per leader, song and role', async () => {
@@ -101,7 +102,7 @@ describe('Pipeline', () => {
     const other = first.music?.features.map((value) => value + 1) ?? new Float32Array();
     await pipeline.generate({ ...first, music: { features: other, frames: 120 }, role: 'leader' });
     await pipeline.generate({ ...first, music: null, role: 'leader' });
-    await pipeline.generate({ ...first, leader: scaleClip(request(119).leader, 1) });
+    await pipeline.generate({ ...first, leader: request(119).leader });
     expect(conditions.map(({ role }) => role)).toEqual([0, 1, 1, 1, 0]);
   });
 
@@ -121,7 +122,7 @@ describe('Pipeline', () => {
   });
 
   it('decodes the coarse layer alone from the latents of a reaction, as long and as large as the whole', async () => {
-    const large = request(121, { leader: scaleClip(request(121).leader, 1.3) });
+    const large = request(121, { leader: scaled(request(121).leader, 1.3) });
     const { motion, latents } = await pipeline.generate(large);
     expect(latents).toHaveLength(31 * model.manifest.latent.layers.length * model.manifest.latent.channels);
     const asked: number[][] = [];

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { AppError } from '../../../../web/common/error';
 import type { Generator, ModelFolder, Status } from '../../../../web/model/client';
 import { createModelLink } from '../../../../web/ui/files/model-link';
-import type { LoadedSong } from '../../../../web/ui/store/state';
+import type { LoadedSong } from '../../../../web/ui/store/reaction';
 import { createAppStore } from '../../../../web/ui/store/store';
 import { small } from '../../support/small-manifest';
 

@@ -3,7 +3,7 @@ import type { CoarseRequest, GenerateOptions, Generator } from '../../../../web/
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { coarseIsMissing, createCoarseLayer } from '../../../../web/ui/generation/coarse-layer';
 import { coarseMotion, otherCoarseMotion } from '../../../../web/ui/store/reactor-motion';
-import type { Reaction } from '../../../../web/ui/store/state';
+import type { Reaction } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { compareSet, takesSwapped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';

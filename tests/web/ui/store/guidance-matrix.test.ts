@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import * as matrix from '../../../../web/ui/store/guidance-matrix';
 import { presetOf, presets } from '../../../../web/ui/guidance/presets';
-import type { Guidance } from '../../../../web/ui/store/state';
+import type { Guidance } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance } from '../../support/made-state';

@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import * as select from '../../../../web/ui/store/selectors';
-import type { AppState, Settings } from '../../../../web/ui/store/state';
+import type { Settings } from '../../../../web/ui/store/reaction';
+import type { AppState } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song, still } from '../../support/made-state';

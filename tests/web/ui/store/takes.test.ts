@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { AppState, LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/state';
+import type { LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/reaction';
+import type { AppState } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
 import { MAX_TAKES } from '../../../../web/ui/store/add-take';

@@ -1,5 +1,6 @@
 import { expect, test } from 'vitest';
-import type { AppState, Inputs, Take } from '../../../../web/ui/store/state';
+import type { Inputs, Take } from '../../../../web/ui/store/reaction';
+import type { AppState } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { fullTakeText, takeText } from '../../../../web/ui/takes/take-text';
 import { small } from '../../support/small-manifest';

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Quaternion } from 'three';
 import { JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
-import { blendPose, createPose, lastMoment, samplePose } from '../../../../web/view/dancer/pose';
+import { blendPose, createPose, samplePose } from '../../../../web/view/dancer/pose';
 import { createRig } from '../../../../web/view/dancer/rig';
 import { randomMotion } from '../../support/skeletons';
 
@@ -48,7 +48,7 @@ describe('a sampled pose', () => {
     samplePose(motion, 0, at);
     samplePose(motion, -3, out);
     expect(out).toEqual(at);
-    samplePose(motion, lastMoment(motion), at);
+    samplePose(motion, (motion.frames - 1) / motion.fps, at);
     samplePose(motion, 99, out);
     expect(out.root).toEqual(at.root);
     const one = randomMotion(1, 9);

@@ -1,5 +1,6 @@
 /** Song and leader. */
-import type { AppState, LoadedLeader, LoadedSong, Reading, InputKind } from '../state';
+import type { LoadedLeader, LoadedSong } from '../reaction';
+import type { AppState, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
 export function readingSet(side: InputKind, reading: Reading | null): Change {

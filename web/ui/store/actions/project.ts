@@ -1,5 +1,6 @@
 import type { Manifest } from '../../../model/client';
-import type { AppState, AutosaveStatus, Take } from '../state';
+import type { Take } from '../reaction';
+import type { AppState, AutosaveStatus } from '../state';
 import { manifestLoaded } from './model';
 import { type Change } from '../store';
 import { NO_HISTORY, withUndoOfAll } from '../history';

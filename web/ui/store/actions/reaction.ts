@@ -1,5 +1,6 @@
 /** The reaction, its progress and its measures. */
-import type { FrameRange, Job, Preview, Quality, Reaction, Reference } from '../state';
+import type { Reaction } from '../reaction';
+import type { FrameRange, Job, Preview, Quality, Reference } from '../state';
 import type { Change } from '../store';
 import { withReaction, newStamp, type TakeStamp } from '../add-take';
 

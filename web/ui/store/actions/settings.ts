@@ -10,7 +10,7 @@ import {
   withColumn,
 } from '../guidance-matrix';
 import { sameSettings } from '../selectors';
-import type { Guidance, Layer, Settings } from '../state';
+import type { Guidance, Layer, Settings } from '../reaction';
 import type { Change } from '../store';
 
 /** Sets all of them, to those of a ready-made reaction. */

@@ -1,5 +1,6 @@
 import { danceDuration, upToDate } from '../selectors';
-import type { AppState, Compare, Letter, Take } from '../state';
+import type { Take } from '../reaction';
+import type { AppState, Compare, Letter } from '../state';
 import type { Change } from '../store';
 import { comparable, whyNotComparable, otherLetter, otherTake, stageLetter, takeOnStage } from '../take';
 

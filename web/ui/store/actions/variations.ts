@@ -1,5 +1,6 @@
 import { sameInputs } from '../selectors';
-import type { AppState, Variations, Inputs, Reaction } from '../state';
+import type { Inputs, Reaction } from '../reaction';
+import type { AppState, Variations } from '../state';
 import type { Change } from '../store';
 
 /** How many reactions there are to choose from. */
