@@ -1,5 +1,6 @@
-"""Beats of a motion, and how well they align with the music's (beat alignment score, BAS, Li et al. 2021) or with
-the partner's (beat echo degree, BED, Siyao et al. 2024), as the paper's tables take them.
+"""Beats of a motion, and how well they align with the music's (beat align score, BAS, as in Bailando, Siyao et al.
+2022: the music's beats are the reference; Li et al. 2021 take the motion's) or with the partner's (beat echo degree,
+BED, Duolando, Siyao et al. 2024), as the paper's tables take them.
 
 A motion beat is a local minimum of speed. Both scores are the mean over reference beats of
 exp(-d^2 / (2 * 3^2)), d the frames to the nearest motion beat. More motion beats raise a score, so the number

@@ -22,8 +22,8 @@ export interface BestShift {
 }
 
 /**
- * Beat alignment of each motion beat with the music: exp(-d^2 / (2 * tolerance^2)), d the frames to the nearest music beat, as
- * `beat_scores` of training/evaluation/metrics/beats.py with the motion's beats as reference.
+ * Beat alignment of each motion beat with the music (Li et al. 2021): exp(-d^2 / (2 * tolerance^2)), d the frames to
+ * the nearest music beat; `beat_scores` of training/evaluation/metrics/beats.py with the motion's beats as reference.
  * @param motion frames in any order
  * @param music frames in ascending order, whole or not
  * @param tolerance standard deviation of the score, frames; the manifest's
