@@ -10,7 +10,7 @@ async function violations(page: Page): Promise<string[]> {
 }
 
 for (const theme of ['dark', 'light'] as const) {
-  test(`nothing stands in the way of anybody, ${theme}`, async ({ page }) => {
+  test(`axe finds no accessibility violation, ${theme}`, async ({ page }) => {
     await page.emulateMedia({ colorScheme: theme, reducedMotion: 'reduce' });
     const app = new App(page);
     await app.openWithoutPicture();

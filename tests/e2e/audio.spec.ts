@@ -5,10 +5,10 @@ import { servePage } from '../../tools/bench/built-page.mjs';
 import { agreement, beatAgreement, beatFrames } from '../web/support/feature-parity';
 import { fixture, recipe } from '../web/support/audio-fixtures';
 import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/real-songs';
-import type { Heard, Source, ExplainedError } from './support/audio-page/main';
+import type { ErrorData, SongData, Source } from './support/audio-page/main';
 
-/** Seconds of the ticks that tests/fixtures/make_audio.py put into the clicks. */
-const TICKS = [0.2, 0.5, 0.75, 1.1];
+/** Seconds of the clicks in the files of tests/fixtures/make_audio.py. */
+const CLICK_TIMES = [0.2, 0.5, 0.75, 1.1];
 
 /** The project's own song of ten seconds, at the recipe's rate. */
 const SONG = '/fixtures/drums-and-harmony.wav';
@@ -30,26 +30,28 @@ function call<T>(page: Page, name: string, ...values: unknown[]): Promise<T> {
   return page.evaluate<T>(`audio.${name}(${values.map((value) => JSON.stringify(value)).join(', ')})`);
 }
 
-async function load(page: Page, source: Source): Promise<Heard> {
-  const result = await call<Heard | { error: ExplainedError }>(page, 'load', source, recipe);
+async function load(page: Page, source: Source): Promise<SongData> {
+  const result = await call<SongData | { error: ErrorData }>(page, 'load', source, recipe);
   if ('error' in result) throw new Error(`${result.error.code}: ${result.error.message}`);
   return result;
 }
 
-async function refusal(page: Page, source: Source, abortAt?: number): Promise<ExplainedError> {
+async function refusal(page: Page, source: Source, abortAt?: number): Promise<ErrorData> {
   const values = [source, recipe, ...(abortAt === undefined ? [] : [abortAt])];
-  const result = await call<Heard | { error: ExplainedError }>(page, 'load', ...values);
-  if (!('error' in result)) throw new Error('the song was taken');
+  const result = await call<SongData | { error: ErrorData }>(page, 'load', ...values);
+  if (!('error' in result)) throw new Error('the song was accepted');
   return result.error;
 }
 
 test.describe('decoding', () => {
   for (const ending of ['flac', 'mp3', 'ogg', 'opus', 'm4a']) {
-    test(`${ending}: the ticks are where they were put`, async ({ page }) => {
+    test(`${ending}: the clicks are where the file has them`, async ({ page }) => {
       const song = await load(page, { url: `/fixtures/clicks.${ending}` });
-      expect(song.ticks).toHaveLength(TICKS.length);
+      expect(song.clicks).toHaveLength(CLICK_TIMES.length);
       // A frame lasts 33 ms; what encoders put before a song is 25 ms and more.
-      song.ticks.forEach((tick, index) => expect(Math.abs(tick - TICKS[index]!)).toBeLessThan(0.003));
+      song.clicks.forEach((click, index) =>
+        expect(Math.abs(click - CLICK_TIMES[index]!)).toBeLessThan(0.003),
+      );
       expect(Math.abs(song.duration - 1.4)).toBeLessThan(0.03);
       expect(song.frames).toBe(1 + Math.floor(song.samples / recipe.hop));
       expect(song.columns).toBe(recipe.features);
@@ -59,7 +61,7 @@ test.describe('decoding', () => {
     });
   }
 
-  test('wav: a song is heard, with progress, while the page goes on', async ({ page }) => {
+  test('wav: a song is analysed with progress, while the page stays responsive', async ({ page }) => {
     const song = await load(page, { url: SONG });
     expect(song.samples).toBe(10 * recipe.sample_rate);
     expect(song.tempo).toBeCloseTo(112.5, 3);
@@ -69,22 +71,22 @@ test.describe('decoding', () => {
     expect(song.progress.at(-1)).toBe(1);
     expect(song.progress.length).toBeGreaterThan(20);
     expect(song.progress).toEqual(song.progress.toSorted((a, b) => a - b));
-    expect(song.longestFreeze).toBeLessThan(0.5 * song.seconds);
+    expect(song.maxFrameInterval).toBeLessThan(0.5 * song.seconds);
   });
 
-  test('a song that was loaded before comes back at once', async ({ page }) => {
+  test('a song that was loaded before comes from the cache', async ({ page }) => {
     await load(page, { url: SONG });
     const again = await load(page, { url: SONG });
     expect(again.progress).toEqual([0, 1]);
   });
 
-  test('a silent song is taken and flagged', async ({ page }) => {
+  test('a silent song is accepted and flagged', async ({ page }) => {
     const song = await load(page, { silentSeconds: 3, rate: 44100 });
     expect(song).toMatchObject({ silent: true, tempo: 0, beats: 0, duration: 3, frames: 91 });
   });
 });
 
-test.describe('a real file is heard as Python hears it', () => {
+test.describe('a real file has the same features as in Python', () => {
   test.skip(absence !== null, absence ?? '');
 
   // One at 44.1 and one at 48 kHz, so that both ways to the recipe's rate are taken.
@@ -116,20 +118,20 @@ test.describe('refusals', () => {
   });
 
   test('a file that is no sound', async ({ page }) => {
-    const told = await refusal(page, { text: 'HIERARCHY\nROOT Hips\n' });
-    expect(told).toMatchObject({ name: 'AppError', code: 'not-audio' });
-    expect(told.hint).toContain('WAV');
+    const error = await refusal(page, { text: 'HIERARCHY\nROOT Hips\n' });
+    expect(error).toMatchObject({ name: 'AppError', code: 'not-audio' });
+    expect(error.hint).toContain('WAV');
   });
 
   test('a WAV without samples', async ({ page }) => {
-    const told = await refusal(page, { silentSeconds: 0, rate: 44100 });
-    expect(['no-sound', 'not-audio']).toContain(told.code);
+    const error = await refusal(page, { silentSeconds: 0, rate: 44100 });
+    expect(['no-sound', 'not-audio']).toContain(error.code);
   });
 
   test('twenty minutes', async ({ page }) => {
-    const told = await refusal(page, { silentSeconds: 20 * 60, rate: 8000 });
-    expect(told).toMatchObject({ code: 'too-long' });
-    expect(told.message).toContain('20.0 minutes');
+    const error = await refusal(page, { silentSeconds: 20 * 60, rate: 8000 });
+    expect(error).toMatchObject({ code: 'too-long' });
+    expect(error.message).toContain('20.0 minutes');
   });
 
   test('cancelling ends the analysis', async ({ page }) => {
@@ -166,7 +168,7 @@ test.describe('the player', () => {
 
   for (const what of ['song', 'silence'] as const) {
     test(`keeps time with ${what}, at any speed, through pauses and jumps`, async ({ page }) => {
-      await call(page, 'hand', what, 60);
+      await call(page, 'setSound', what, 60);
       expect(await call(page, 'play')).toBeNull();
       await call(page, 'watch', 0.5);
       const readings = await call<[number, number][]>(page, 'watch', 1.5);
@@ -191,8 +193,8 @@ test.describe('the player', () => {
     });
   }
 
-  test('goes round in a loop and starts a shifted song at its time', async ({ page }) => {
-    await call(page, 'hand', 'song', 60);
+  test('repeats a loop and starts a shifted song at its time', async ({ page }) => {
+    await call(page, 'setSound', 'song', 60);
     await call(page, 'player.setSongStart', 0.5);
     await call(page, 'player.setLoop', { from: 3, to: 3.6 });
     expect(await call(page, 'play')).toBeNull();
@@ -218,12 +220,12 @@ test.describe('the player', () => {
     expect(Math.min(...past)).toBeGreaterThanOrEqual(5);
   });
 
-  test('takes another song while it plays, at the same place', async ({ page }) => {
-    await call(page, 'hand', 'silence', 60);
+  test('changes the song while it plays, at the same time', async ({ page }) => {
+    await call(page, 'setSound', 'silence', 60);
     await call(page, 'player.seek', 3);
     await call(page, 'play');
     await call(page, 'watch', 0.5);
-    await call(page, 'hand', 'song', 60);
+    await call(page, 'setSound', 'song', 60);
     const times = (await call<[number, number][]>(page, 'watch', 2)).map(([, time]) => time);
     expect(times[0]).toBeGreaterThan(3.4);
     expect(times.at(-1)! - times[0]!).toBeGreaterThan(1);
@@ -232,7 +234,7 @@ test.describe('the player', () => {
   });
 
   test('goes on in silence after the song and stops at the end of the dance', async ({ page }) => {
-    await call(page, 'hand', 'song', 11);
+    await call(page, 'setSound', 'song', 11);
     await call(page, 'player.seek', 9.5);
     await call(page, 'play');
     const readings = await call<[number, number][]>(page, 'watch', 3);
@@ -243,8 +245,8 @@ test.describe('the player', () => {
     expect(Math.max(...steps)).toBeLessThan(0.3);
   });
 
-  test('says when the browser refuses to play, and stands still', async ({ page }) => {
-    await call(page, 'hand', 'nonsense', 10);
+  test('reports that the browser refuses to play, and stays paused', async ({ page }) => {
+    await call(page, 'setSound', 'nonsense', 10);
     expect(await call(page, 'play')).toMatchObject({ name: 'AppError', code: 'playback-refused' });
     expect(new Set((await call<[number, number][]>(page, 'watch', 0.3)).map(([, time]) => time)).size).toBe(
       1,
@@ -252,7 +254,7 @@ test.describe('the player', () => {
   });
 
   test('is silent past the end of a dance that is shorter than the song', async ({ page }) => {
-    await call(page, 'hand', 'song', 2);
+    await call(page, 'setSound', 'song', 2);
     await call(page, 'player.seek', 1);
     await call(page, 'play');
     expect((await call<[number, number][]>(page, 'watch', 2)).at(-1)![1]).toBe(2);
@@ -260,7 +262,7 @@ test.describe('the player', () => {
   });
 });
 
-test('the page that is tested carries the policy of the app', async ({ page }) => {
+test('the test page has the content security policy of the app', async ({ page }) => {
   const response = await page.goto(site.url);
   expect(response?.headers()['content-security-policy']).toContain("media-src 'self' blob:");
 });

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { readBvh } from '../../web/motion/bvh/read';
 import { bvhText } from './support/files';
-import { App, farthest, meanSpeed } from './support/app-page';
+import { App, maxDistance, meanSpeed } from './support/app-page';
 import { expect, test } from './support/fixtures';
 import { serveDemo } from './support/made-demo';
 
@@ -32,7 +32,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
   await page.keyboard.press('Space');
   await expect(lock).not.toBeChecked();
   const free = await app.onScreen();
-  expect(farthest(locked, free)).toBeGreaterThan(0.005);
+  expect(maxDistance(locked, free)).toBeGreaterThan(0.005);
   expect(await app.read(({ reaction, job }) => [reaction?.label, job])).toEqual(['demo reaction', null]);
   const frame = Math.round(30 * (await app.read(({ playback }) => playback.time)));
   for (const shown of [free, locked]) {
@@ -41,12 +41,14 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
     await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
     const { clip } = readBvh(readFileSync(await (await coming).path(), 'utf8'));
     const saved = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
-    expect(farthest(shown, saved)).toBeLessThan(0.001);
+    expect(maxDistance(shown, saved)).toBeLessThan(0.001);
     await lock.click();
   }
 });
 
-test('a ready-made reaction plays before the model is there, and is not made again', async ({ page }) => {
+test('a ready-made reaction plays before the model is loaded, and is not generated again', async ({
+  page,
+}) => {
   const column = { coarse: 0.5, fine: 0.25 };
   const guidance = { upper: column, lower: column, placement: column };
   const settings = { guidance, music: 1.5, steps: 3, seed: 77, role: 'reactor' };
@@ -72,14 +74,14 @@ test('a ready-made reaction plays before the model is there, and is not made aga
   await app.until(({ reaction }) => reaction?.label === null);
 });
 
-test('without a ready-made reaction the demo gets its partner by itself', async ({ page }) => {
+test('without a ready-made reaction the partner of the demo is generated automatically', async ({ page }) => {
   await serveDemo(page, null);
   const app = new App(page);
   await app.openWithoutPicture();
   await app.reaction('Made demo leader');
 });
 
-test('files of the visitor win over a demo that is still coming', async ({ page }) => {
+test('files of the visitor replace a demo that is still being loaded', async ({ page }) => {
   await serveDemo(page, null);
   let release: () => void = () => undefined;
   const held = new Promise<void>((resolve) => (release = resolve));

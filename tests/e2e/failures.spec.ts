@@ -2,21 +2,21 @@ import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './s
 import { App, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
-/** Every failure is a sentence with a hint, in a dialog that Esc closes; what was loaded before stays. */
-async function expectSentence(app: App, title: RegExp, hint: RegExp): Promise<void> {
+/** Expects the problem dialog with this title and hint, and closes it with Escape. */
+async function expectProblem(app: App, title: RegExp, hint: RegExp): Promise<void> {
   await expect(app.alert).toBeVisible({ timeout: 60_000 });
   await expect(app.alert.getByRole('heading')).toHaveText(title);
   await expect(app.alert.getByRole('paragraph')).toHaveText(hint);
-  // The dialog holds the focus on its first way out.
+  // The first button of the dialog has the focus.
   await expect(app.alert.getByRole('button').first()).toBeFocused();
   await app.page.keyboard.press('Escape');
   await expect(app.alert).toBeHidden();
 }
 
-/** Nothing is broken: a good leader still gets its partner. */
-async function expectLife(app: App): Promise<void> {
-  await app.chooseLeader(bvh({ frames: 60, name: 'alive.bvh' }));
-  await app.reaction('alive.bvh');
+/** Expects that the page still works: a valid leader gets its partner. */
+async function expectStillGenerates(app: App): Promise<void> {
+  await app.chooseLeader(bvh({ frames: 60, name: 'valid.bvh' }));
+  await app.reaction('valid.bvh');
 }
 
 const HINT = /[a-z].{20,}\.$/i;
@@ -41,7 +41,7 @@ test.describe('files', () => {
     ['a BVH with NaN', brokenLeaders.notNumbers, /^not numbers\.bvh/],
   ];
 
-  test('are refused one by one, and the page lives on with what it had', async ({ page }) => {
+  test('are refused one by one, and the page keeps what it had', async ({ page }) => {
     const app = new App(page);
     await app.openWithoutPicture();
     await app.drop(bvh({ frames: 60, name: 'good.bvh' }), wav({ seconds: 2, name: 'good.wav' }));
@@ -49,7 +49,7 @@ test.describe('files', () => {
     for (const [name, make, title] of cases) {
       await test.step(name, async () => {
         await app.drop(make());
-        await expectSentence(app, title, HINT);
+        await expectProblem(app, title, HINT);
         expect(await app.read(({ leader, song }) => [leader?.name, song?.name])).toEqual([
           'good.bvh',
           'good.wav',
@@ -57,10 +57,10 @@ test.describe('files', () => {
         expect(await app.read(({ reaction }) => reaction?.inputs.leader.name)).toBe('good.bvh');
       });
     }
-    await expectLife(app);
+    await expectStillGenerates(app);
   });
 
-  test('that lie about their kind are taken for what they are', async ({ page }) => {
+  test('with a wrong extension are recognised by their content', async ({ page }) => {
     const app = new App(page);
     await app.openWithoutPicture();
     await app.chooseSong({ ...bvh({ frames: 60 }), name: 'song.mp3', mimeType: 'audio/mpeg' });
@@ -75,8 +75,8 @@ test.describe('files', () => {
     await app.openWithoutPicture();
     await app.settled();
     await app.chooseSong(wav({ seconds: 1200, rate: 8000, name: 'symphony.wav' }));
-    await expectSentence(app, /^symphony\.wav.*minutes/, HINT);
-    await expectLife(app);
+    await expectProblem(app, /^symphony\.wav.*minutes/, HINT);
+    await expectStillGenerates(app);
   });
 
   test('a silent song is danced to, and the page says so', async ({ page }) => {
@@ -92,14 +92,14 @@ test.describe('files', () => {
 });
 
 test.describe('the model', () => {
-  test('missing on the server is said, and can be tried again', async ({ page }) => {
+  test('missing on the server is reported, and can be tried again', async ({ page }) => {
     const app = new App(page);
     let missing = true;
     await page.route('**/models/tiny/*.onnx', (route) =>
       missing ? route.fulfill({ status: 404, body: 'no' }) : route.continue(),
     );
     await app.openWithoutPicture();
-    await expectSentence(app, /404/, HINT);
+    await expectProblem(app, /404/, HINT);
     await app.chooseLeader(bvh({ frames: 60, name: 'patient.bvh' }));
     await app.until(({ leader, job }) => leader?.name === 'patient.bvh' && !job);
     missing = false;
@@ -115,10 +115,10 @@ test.describe('the model', () => {
       route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>Not here</title>' }),
     );
     await app.openWithoutPicture();
-    await expectSentence(app, /web page instead of the model/, HINT);
+    await expectProblem(app, /web page instead of the model/, HINT);
   });
 
-  test('works without storage to keep it in', async ({ page, baseURL }) => {
+  test('works without storage', async ({ page, baseURL }) => {
     const session = await page.context().newCDPSession(page);
     await session.send('Storage.overrideQuotaForOrigin', {
       origin: new URL(baseURL ?? '').origin,
@@ -126,11 +126,11 @@ test.describe('the model', () => {
     });
     const app = new App(page);
     await app.openWithoutPicture();
-    await expectLife(app);
+    await expectStillGenerates(app);
     await expect(page.getByRole('list', { name: 'Notes' })).toContainText('could not keep the model');
   });
 
-  test('runs without WebGPU and says why', async ({ page }) => {
+  test('runs without WebGPU, with the reason', async ({ page }) => {
     const app = new App(page);
     await page.addInitScript(() => {
       Object.defineProperty(navigator, 'gpu', { value: undefined });
@@ -140,10 +140,10 @@ test.describe('the model', () => {
     expect(await app.read(({ model }) => model.phase === 'ready' && model.backend)).toBe('wasm');
     await expect(page.getByRole('banner')).toContainText('WebAssembly');
     await expect(page.getByRole('complementary')).toContainText(/WebGPU/);
-    await expectLife(app);
+    await expectStillGenerates(app);
   });
 
-  test('crashing while it works is said, and the next attempt starts afresh', async ({ page }) => {
+  test('crashing is reported, and the next attempt starts a new worker', async ({ page }) => {
     const app = new App(page);
     // The real model: its steps take seconds, so that the crash comes in the middle of them on any machine.
     await app.openWithoutPicture(SHIPPED);
@@ -152,15 +152,15 @@ test.describe('the model', () => {
     await app.until(({ job }) => job?.stage === 'step');
     const worker = page.workers().find((one) => /worker/.test(one.url()) && !/leader-worker/.test(one.url()));
     await worker?.evaluate('setTimeout(() => { throw new Error("out of luck"); })');
-    await expectSentence(app, /stopped unexpectedly/, HINT);
+    await expectProblem(app, /stopped unexpectedly/, HINT);
     await page.getByRole('button', { name: 'Generate' }).click();
     await app.reaction('unlucky.bvh');
   });
 });
 
-test('without WebGL the page still makes and hands out the motion', async ({ page }) => {
+test('without WebGL the page still generates and downloads the motion', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
-  await expectLife(app);
+  await expectStillGenerates(app);
   await expect(page.getByRole('button', { name: 'Download', exact: true })).toBeEnabled();
 });

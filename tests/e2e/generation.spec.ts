@@ -2,7 +2,7 @@ import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { readBvh } from '../../web/motion/bvh/read';
 import { bvh, wav } from './support/files';
-import { App, farthest, meanSpeed, SHIPPED } from './support/app-page';
+import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
 /** Real songs and motions, where a checkout has them beside it; they are no part of the project. */
@@ -34,11 +34,11 @@ function modelFiles() {
 // A small picture is drawn as truly as a large one, and sooner.
 test.use({ viewport: { width: 800, height: 600 } });
 
-test('a song and a leader become a dancing partner that can be steered and taken home', async ({ page }) => {
+test('from a song and a leader to a partner that can be steered and downloaded', async ({ page }) => {
   const app = new App(page);
   await app.open(SHIPPED);
 
-  await test.step('two dropped files are understood, in any order', async () => {
+  await test.step('two dropped files are recognised, in any order', async () => {
     await app.drop(
       bvh({ frames: 240, fps: 60, name: 'my leader.bvh' }),
       wav({ seconds: 3, name: 'my song.wav' }),
@@ -66,7 +66,7 @@ test('a song and a leader become a dancing partner that can be steered and taken
     await app.until(({ playback }) => playback.time > 1);
     await page.keyboard.press('Space');
     await app.until(({ playback }) => !playback.playing);
-    expect(farthest(before, await app.onScreen())).toBeGreaterThan(0.01);
+    expect(maxDistance(before, await app.onScreen())).toBeGreaterThan(0.01);
     const seenNow = await app.warmPixels();
     const moved = [...seenNow].filter((pixel) => !seen.has(pixel)).length;
     expect(moved).toBeGreaterThan(0.02 * seenNow.size);
@@ -76,7 +76,7 @@ test('a song and a leader become a dancing partner that can be steered and taken
     await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
     await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 2);
     const second = await app.reactor();
-    expect(farthest(first, second)).toBeGreaterThan(0.01);
+    expect(maxDistance(first, second)).toBeGreaterThan(0.01);
   });
 
   await test.step('so does another seed, and the same seed brings the same reactor back', async () => {
@@ -84,14 +84,14 @@ test('a song and a leader become a dancing partner that can be steered and taken
     const before = await app.reactor();
     await page.getByRole('button', { name: 'Roll a new seed' }).click();
     await app.until(({ reaction, settings }) => reaction?.inputs.settings.seed === settings?.seed);
-    expect(farthest(before, await app.reactor())).toBeGreaterThan(0.01);
+    expect(maxDistance(before, await app.reactor())).toBeGreaterThan(0.01);
     await page.getByRole('spinbutton', { name: 'Seed' }).fill(String(seed));
     await page.keyboard.press('Enter');
     await app.until(({ reaction, settings }) => reaction?.inputs.settings.seed === settings?.seed);
-    expect(farthest(before, await app.reactor())).toBeLessThan(1e-6);
+    expect(maxDistance(before, await app.reactor())).toBeLessThan(1e-6);
   });
 
-  await test.step('the downloaded BVH holds the joints on the screen', async () => {
+  await test.step('the downloaded BVH has the joints on the screen', async () => {
     await page.getByRole('button', { name: 'Download', exact: true }).click();
     const coming = page.waitForEvent('download');
     await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
@@ -113,7 +113,7 @@ test('a song and a leader become a dancing partner that can be steered and taken
       await app.until(({ playback }, wanted) => Math.abs(playback.time * 30 - wanted) < 0.01, frame);
       const shown = await app.onScreen();
       const read = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
-      expect(farthest(shown, read)).toBeLessThan(0.005);
+      expect(maxDistance(shown, read)).toBeLessThan(0.005);
     }
   });
 });
@@ -144,7 +144,7 @@ test('playing never stops while a new reaction is made', async ({ page }) => {
   for (const [i, time] of times.entries()) expect(time).toBeGreaterThanOrEqual(times[i - 1] ?? 0);
 });
 
-test('what is being made can be cancelled, and asked for again', async ({ page }) => {
+test('a generation can be cancelled and repeated', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -166,7 +166,7 @@ test('what is being made can be cancelled, and asked for again', async ({ page }
   await app.reaction('very long.bvh');
 });
 
-test('the leader rules the length: of a longer song the rest is not used', async ({ page }) => {
+test('the dance is as long as the leader: the rest of a longer song is not used', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.drop(wav({ seconds: 6 }), bvh({ frames: 90, name: 'short.bvh' }));
@@ -210,7 +210,7 @@ test.describe('real files', () => {
     }
   });
 
-  test('a real song is heard and danced to', async ({ page }) => {
+  test('a real song is analysed and danced to', async ({ page }) => {
     test.setTimeout(300_000);
     const app = new App(page);
     await app.openWithoutPicture();
@@ -221,7 +221,7 @@ test.describe('real files', () => {
   });
 });
 
-test('a model of one’s own is dropped as a folder and dances at once', async ({ page }) => {
+test('the visitor’s own model is dropped as a folder and generates at once', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -238,7 +238,7 @@ test('a model of one’s own is dropped as a folder and dances at once', async (
   await app.drop(own, ...graphs.slice(1));
   await expect(app.alert.getByRole('heading')).toContainText(graphs[0]!.name);
   await page.keyboard.press('Escape');
-  expect(farthest(before, await app.reactor())).toBe(0);
+  expect(maxDistance(before, await app.reactor())).toBe(0);
 
   await app.drop(own, ...graphs);
   await app.until(({ manifest }) => manifest?.name === 'My own duets');
@@ -248,6 +248,6 @@ test('a model of one’s own is dropped as a folder and dances at once', async (
     lower: { coarse: 2, fine: 2 },
     placement: { coarse: 2, fine: 2 },
   });
-  expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-4);
+  expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-4);
   await expect(page.getByRole('list', { name: 'Notes' })).toContainText('My own duets');
 });

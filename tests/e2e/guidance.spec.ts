@@ -1,5 +1,5 @@
 import { bvh, wav } from './support/files';
-import { App, farthest } from './support/app-page';
+import { App, maxDistance } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
 test('guidance by body part, presets and reset', async ({ page }) => {
@@ -39,7 +39,7 @@ test('guidance by body part, presets and reset', async ({ page }) => {
   await expect(preset.locator('option:checked')).toHaveText(/^Balanced/);
 });
 
-test('the music has a guidance of its own, which sleeps without a song', async ({ page }) => {
+test('the music has its own guidance, which is disabled without a song', async ({ page }) => {
   await page.route('**/demo/demo.json', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
   await app.openWithoutPicture();
@@ -62,7 +62,7 @@ test('the music has a guidance of its own, which sleeps without a song', async (
   await expect(music).toBeFocused();
   await page.keyboard.press('End');
   await made(4);
-  expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-3);
+  expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-3);
   await expect(music).toHaveAttribute('aria-valuetext', '4.00, the song is heard strongly');
 
   // Eq. 9 of the paper knows nothing of it; the model's own preset does.
@@ -71,12 +71,14 @@ test('the music has a guidance of its own, which sleeps without a song', async (
   await made(0);
   await preset.selectOption({ index: 0 });
   await made(1);
-  expect(farthest(before, await app.reactor())).toBeLessThan(1e-6);
+  expect(maxDistance(before, await app.reactor())).toBeLessThan(1e-6);
   await music.dblclick();
   await expect(music).toHaveValue('1');
 });
 
-test('the seed is rolled, locked and kept, and roles are swapped in every word', async ({ page }) => {
+test('the seed is chosen at random, locked and kept, and swapped roles are named everywhere', async ({
+  page,
+}) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -107,7 +109,7 @@ test('the seed is rolled, locked and kept, and roles are swapped in every word',
   const reactor = await app.reactor();
   await page.getByRole('button', { name: 'Swap roles' }).click();
   await app.until(({ job, reaction }) => !job && reaction?.inputs.settings.role === 'leader');
-  expect(farthest(reactor, await app.reactor())).toBeGreaterThan(1e-3);
+  expect(maxDistance(reactor, await app.reactor())).toBeGreaterThan(1e-3);
   await expect(page.getByRole('button', { name: /^Reactor: mine\.bvh/ })).toBeVisible();
   // The letter of the take on the stage has the colour of the dancer that it made.
   const letter = page.getByRole('button', { name: /^Use .* as A$/, pressed: true });
@@ -145,10 +147,10 @@ test('three reactions are made one after the other, to pick from', async ({ page
   await cards.nth(2).click();
   await expect(cards.nth(2)).toBeChecked();
   expect(await app.read(({ settings, job }) => [settings?.seed, job])).toEqual([seed + 2, null]);
-  expect(farthest(before, await app.reactor())).toBeGreaterThan(1e-3);
+  expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-3);
   await page.keyboard.press('ArrowRight');
   await expect(cards.first()).toBeChecked();
-  expect(farthest(before, await app.reactor())).toBe(0);
+  expect(maxDistance(before, await app.reactor())).toBe(0);
   // Each card holds a picture of its own.
   const drawn = await cards
     .locator('canvas')

@@ -27,7 +27,7 @@ for (const name of Object.keys(dependencies)) {
   });
 }
 
-test('the page has the licences of what lies inside other packages', () => {
+test('the page has the licences of packages inside other packages', () => {
   expect(section('onnxruntime-web')).toContain('Copyright (c) Microsoft Corporation');
   for (const part of ['Eigen', 'google/flatbuffers', 'abseil-cpp', 'google/XNNPACK', 'dawn'])
     expect(section('onnxruntime-web')).toContain(`\n${part}\n`);

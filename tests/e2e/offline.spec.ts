@@ -1,4 +1,4 @@
-/** The page on this device: the second visit starts from it, without a server too, and the visitor can clear it. */
+/** The page offline: the second visit works without the server, and the visitor can clear the caches. */
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
@@ -10,7 +10,7 @@ import { expect, test as base } from './support/fixtures';
 
 const project = path.resolve(import.meta.dirname, '../..');
 
-/** A site of our own, to be stopped and changed. */
+/** A server of the built page that a test can stop and change. */
 interface Host {
   readonly root: string;
   readonly stop: () => Promise<void>;
@@ -51,8 +51,8 @@ const test = base.extend<object, { host: Host; site: string }>({
   site: [async ({ host }, use) => use(await host.start()), { scope: 'worker' }],
 });
 
-/** Waits until the page is kept. */
-async function shellKept(page: Page): Promise<void> {
+/** Waits until the service worker has cached the page. */
+async function serviceWorkerReady(page: Page): Promise<void> {
   await page.evaluate(async () => void (await navigator.serviceWorker.ready));
 }
 
@@ -61,7 +61,7 @@ async function openCard(page: Page): Promise<Locator> {
   return page.getByRole('dialog', { name: 'On this device' });
 }
 
-test('the second visit downloads neither graphs nor runtime, and needs no server at all', async ({
+test('the second visit downloads neither graphs nor runtime, and works without the server', async ({
   page,
   host,
   requests,
@@ -69,7 +69,7 @@ test('the second visit downloads neither graphs nor runtime, and needs no server
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
-  await shellKept(page);
+  await serviceWorkerReady(page);
   const large = (): string[] => requests.filter((address) => /\.(onnx|wasm)$/.test(address));
   expect(large()).toHaveLength(4);
 
@@ -110,7 +110,7 @@ test('the second visit downloads neither graphs nor runtime, and needs no server
   }
 });
 
-test('a browser that keeps nothing still dances, and says so', async ({ page, site }) => {
+test('a browser without storage generates all the same, and the page says so', async ({ page, site }) => {
   const session = await page.context().newCDPSession(page);
   const origin = new URL(site).origin;
   await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1000 });
@@ -124,10 +124,10 @@ test('a browser that keeps nothing still dances, and says so', async ({ page, si
   await expect(card.getByRole('status')).toHaveText('Nothing is kept for offline use.');
 });
 
-test('a new build is offered, and taken whole', async ({ page, host }) => {
+test('a new build is offered, and then loaded completely', async ({ page, host }) => {
   const app = new App(page);
   await app.openWithoutPicture();
-  await shellKept(page);
+  await serviceWorkerReady(page);
   const file = path.join(host.root, 'index.html');
   const before = readFileSync(file, 'utf8');
   writeFileSync(file, before.replace('<title>', '<meta name="build" content="next" /><title>'));

@@ -7,7 +7,7 @@ for (const [name, width, height] of [
   ['laptop', 1280, 720],
   ['phone', 390, 844],
 ] as const)
-  test(`everything needed is in sight on a ${name}`, async ({ page }) => {
+  test(`all main controls are visible on a ${name}`, async ({ page }) => {
     await page.setViewportSize({ width, height });
     const app = new App(page);
     await app.openWithoutPicture();
@@ -65,7 +65,7 @@ test('the keys do what the list of keys says', async ({ page }) => {
   await app.until(({ reaction }) => reaction?.inputs.settings.seed === 12);
 });
 
-test('a fader that is being applied has a warm outline until it is', async ({ page }) => {
+test('a fader has a warm outline while its change is being applied', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.drop(bvh({ frames: 3000, name: 'long.bvh' }));
@@ -109,7 +109,7 @@ test('the theme follows the system until it is chosen, and is then kept', async 
   expect(await theme()).toBe('light');
 });
 
-test('a song of three minutes is read while the page goes on', async ({ page }) => {
+test('a song of three minutes is read while the page stays responsive', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -142,7 +142,7 @@ test('a song of three minutes is read while the page goes on', async ({ page }) 
   expect(tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(4);
 });
 
-test('the licences of all software in the page are one click away', async ({ page }) => {
+test('the page links to the licences of all its software', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   const opening = page.waitForEvent('popup');

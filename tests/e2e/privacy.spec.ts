@@ -1,5 +1,5 @@
 import type { Page } from '@playwright/test';
-import { expect, foreign, test } from './support/fixtures';
+import { expect, otherOrigins, test } from './support/fixtures';
 
 /** Ways out of a page, each a piece of script that tries to reach a host. */
 const ways: Record<string, (host: string) => string> = {
@@ -18,7 +18,7 @@ async function complaints(page: Page): Promise<string[]> {
   return page.evaluate('window.complaints');
 }
 
-test('the page can reach nobody but its own origin', async ({ page, requests, site }) => {
+test('the page can connect to its own origin only', async ({ page, requests, site }) => {
   await page.goto('/');
   await page.evaluate(`
     window.complaints = [];
@@ -33,13 +33,13 @@ test('the page can reach nobody but its own origin', async ({ page, requests, si
     });
   }
   // The watch that every test is under has seen the attempts; forgive them, and nothing else.
-  const tried = foreign(requests, site);
+  const tried = otherOrigins(requests, site);
   expect(tried.length).toBeGreaterThan(0);
   expect(tried.every((address) => new URL(address).hostname.startsWith('192.0.2.'))).toBe(true);
   requests.splice(0, requests.length, ...requests.filter((address) => !tried.includes(address)));
 });
 
-test('the page is isolated, so that the model may use every core', async ({ page }) => {
+test('the page is cross-origin isolated, so that the model can use several threads', async ({ page }) => {
   await page.goto('/');
   expect(await page.evaluate('crossOriginIsolated')).toBe(true);
   expect(await page.evaluate('typeof SharedArrayBuffer')).toBe('function');
@@ -47,7 +47,7 @@ test('the page is isolated, so that the model may use every core', async ({ page
   expect(policy).toContain("default-src 'self'");
 });
 
-test('the watch sees what the workers fetch too', async ({ page, requests, site }) => {
+test('requests of workers are watched too', async ({ page, requests, site }) => {
   await page.goto('/?model=/models/tiny/manifest.json&backend=wasm');
   await expect.poll(() => requests, { timeout: 60_000 }).toContain(`${site}models/tiny/step.onnx`);
 });

@@ -1,16 +1,16 @@
-import { hurt } from './support/files';
+import { truncatedBvh } from './support/files';
 import { App } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
 test.use({ viewport: { width: 1280, height: 720 } });
 
-test('a leader that breaks off is read as far as it goes, without its rest pose, and the page says so', async ({
+test('a truncated leader file is read up to its last complete frame, without its rest pose, and the page says so', async ({
   page,
 }) => {
   const app = new App(page);
   await app.openWithoutPicture();
-  await app.drop(hurt());
-  await app.until(({ leader }) => leader?.name === 'hurt.bvh');
+  await app.drop(truncatedBvh());
+  await app.until(({ leader }) => leader?.name === 'truncated.bvh');
   await expect(app.alert).toBeHidden();
   expect(await app.read(({ leader }) => leader?.file.clip.frames)).toBe(39);
   const notes = page.getByRole('list', { name: 'Notes' });

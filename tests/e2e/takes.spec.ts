@@ -1,13 +1,13 @@
 import { readFileSync } from 'node:fs';
 import type { Locator, Page } from '@playwright/test';
 import { bvh, wav } from './support/files';
-import { App, farthest } from './support/app-page';
+import { App, maxDistance } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
 /** The list of takes as a visitor sees it. */
 const takes = (page: Page): Locator => page.getByRole('grid', { name: 'Takes' }).getByRole('row');
 const take = (page: Page, name: string): Locator => takes(page).filter({ hasText: name });
-/** The numbers of the coarse ghost, decoded from what the take on the stage was kept with. */
+/** Joint positions of the coarse ghost, decoded from the latents of the take on the stage. */
 async function coarseGhost(app: App): Promise<number[]> {
   await app.page.keyboard.press('g');
   await app.until(({ coarse, overlays }) => overlays.ghost && coarse.motion && !coarse.decoding);
@@ -33,8 +33,8 @@ async function withTwoTakes(page: Page, frames = 90, before?: (app: App) => Prom
   return app;
 }
 
-/** The names of the takes that the browser has kept; null for those that have only a number. */
-async function keptNames(page: Page): Promise<(string | null)[]> {
+/** The names of the takes in the browser's database; null for those without a name. */
+async function storedTakeNames(page: Page): Promise<(string | null)[]> {
   return page.evaluate(`new Promise((resolve, reject) => {
     const open = indexedDB.open('reactdance');
     open.onerror = () => reject(open.error);
@@ -45,22 +45,22 @@ async function keptNames(page: Page): Promise<(string | null)[]> {
   })`);
 }
 
-/** Waits until the browser has kept a take by this name; where there was no room the page tries again every 20 s. */
-async function kept(page: Page, name: string): Promise<void> {
-  await expect.poll(() => keptNames(page), { timeout: 50_000 }).toContain(name);
+/** Waits until a take of this name is stored; when storage is full the page tries again every 20 s. */
+async function takeStored(page: Page, name: string): Promise<void> {
+  await expect.poll(() => storedTakeNames(page), { timeout: 50_000 }).toContain(name);
 }
 
-test('takes are named, starred, flipped on the same beat, deleted and brought back', async ({ page }) => {
+test('takes are named, starred, compared at the same playhead, deleted and restored', async ({ page }) => {
   const app = await withTwoTakes(page);
   const [newer = '', older = ''] = await titles(page);
   const second = await app.reactor();
   await expect(take(page, newer)).toHaveAttribute('aria-selected', 'true');
 
-  await test.step('a click shows a take, and nothing is made anew', async () => {
+  await test.step('a click shows a take without generating it again', async () => {
     await page.keyboard.press('End');
     await take(page, older).click();
     await expect(take(page, older)).toHaveAttribute('aria-selected', 'true');
-    expect(farthest(second, await app.reactor())).toBeGreaterThan(1e-4);
+    expect(maxDistance(second, await app.reactor())).toBeGreaterThan(1e-4);
     expect(await app.read(({ job, playback }) => [job, playback.time])).toEqual([null, 3]);
     await expect(page.getByRole('spinbutton', { name: 'Seed' })).not.toHaveValue('77');
   });
@@ -70,7 +70,7 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
     await page.keyboard.press('ArrowUp');
     await expect(take(page, newer)).toBeFocused();
     await page.keyboard.press('Enter');
-    expect(farthest(second, await app.reactor())).toBe(0);
+    expect(maxDistance(second, await app.reactor())).toBe(0);
     await page.keyboard.press('s');
     await expect(page.getByRole('button', { name: `Star ${newer}` })).toHaveAttribute('aria-pressed', 'true');
     await page.keyboard.press('F2');
@@ -83,7 +83,7 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
     await expect(takes(page)).toContainText(['Softer hands', older]);
   });
 
-  await test.step('the take that is A may become B, and the other one A', async () => {
+  await test.step('the take with letter A can get B, and the other one gets A', async () => {
     await page.getByRole('button', { name: 'Use Softer hands as B' }).click();
     await expect(page.getByRole('button', { name: `Use ${older} as A` })).toHaveAttribute(
       'aria-pressed',
@@ -124,7 +124,7 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
     await expect(takes(page)).toHaveCount(2);
   });
 
-  await test.step('what sets a take apart is in its line, and why it has no letter at the letter', async () => {
+  await test.step('a take’s line shows its differences, and the tooltip of a disabled letter the reason', async () => {
     await page.getByRole('button', { name: 'Swap roles' }).click();
     await app.until(({ reaction, job }) => reaction?.inputs.settings.role === 'leader' && !job);
     await expect(takes(page).first()).toContainText('as leader, ');
@@ -144,7 +144,9 @@ test('takes are named, starred, flipped on the same beat, deleted and brought ba
   });
 });
 
-test('everything survives a reload, and a project file a page that starts afresh', async ({ page }) => {
+test('everything is restored after a reload, and from a project file after the page was emptied', async ({
+  page,
+}) => {
   const app = await withTwoTakes(page);
   const [newer = '', older = ''] = await titles(page);
   const summary = () =>
@@ -165,23 +167,23 @@ test('everything survives a reload, and a project file a page that starts afresh
   const before = await summary();
   const motion = await app.reactor();
   const ghost = await coarseGhost(app);
-  expect(farthest(ghost, motion)).toBeGreaterThan(1e-4);
+  expect(maxDistance(ghost, motion)).toBeGreaterThan(1e-4);
   expect(before.takes).toHaveLength(2);
   expect(before.answers).toBe(true);
 
   await test.step('a reload', async () => {
-    await kept(page, 'Softer hands');
+    await takeStored(page, 'Softer hands');
     await page.reload();
     await app.until(({ takes }) => takes.length === 2);
     await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
     expect(await summary()).toEqual(before);
-    expect(farthest(motion, await app.reactor())).toBe(0);
+    expect(maxDistance(motion, await app.reactor())).toBe(0);
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
     await app.until(({ model, job }) => model.phase === 'ready' && !job);
     // All of it was there, also what the coarse ghost is decoded from: nothing had to be made.
-    expect(farthest(motion, await app.reactor())).toBe(0);
-    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
+    expect(maxDistance(motion, await app.reactor())).toBe(0);
+    expect(maxDistance(ghost, await coarseGhost(app))).toBe(0);
     expect(await summary()).toEqual(before);
   });
 
@@ -193,7 +195,7 @@ test('everything survives a reload, and a project file a page that starts afresh
     return readFileSync(await download.path());
   });
 
-  await test.step('the page starts afresh, also after a reload', async () => {
+  await test.step('the page is emptied, also after a reload', async () => {
     await page.getByRole('button', { name: 'Project' }).click();
     await page
       .getByRole('dialog', { name: 'Project' })
@@ -201,27 +203,27 @@ test('everything survives a reload, and a project file a page that starts afresh
       .click();
     await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeVisible();
     await expect(takes(page)).toHaveCount(0);
-    await expect.poll(() => keptNames(page)).toEqual([]);
+    await expect.poll(() => storedTakeNames(page)).toEqual([]);
     await page.reload();
     await app.until(({ demo }) => demo === 'missing');
     await expect(takes(page)).toHaveCount(0);
     await page.keyboard.press('Escape');
   });
 
-  await test.step('the project is opened, and a broken one says what is wrong', async () => {
+  await test.step('the project is opened, and an error of a broken one is explained', async () => {
     await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
     await app.until(({ takes }) => takes.length === 2);
     await expect(page.getByText('Opened: my song.wav, mine.bvh, 2 takes').first()).toBeVisible();
     expect(await summary()).toEqual(before);
-    expect(farthest(motion, await app.reactor())).toBe(0);
-    expect(farthest(ghost, await coarseGhost(app))).toBe(0);
+    expect(maxDistance(motion, await app.reactor())).toBe(0);
+    expect(maxDistance(ghost, await coarseGhost(app))).toBe(0);
     await app.drop({ name: 'torn.reactdance', mimeType: '', buffer: saved.subarray(0, saved.length / 2) });
     await expect(app.alert).toContainText('torn.reactdance: The project is cut off or damaged.');
     await page.keyboard.press('Escape');
     expect(await summary()).toEqual(before);
   });
 
-  await test.step('another project in its place can be taken back', async () => {
+  await test.step('opening another project can be undone', async () => {
     await take(page, older).focus();
     await page.keyboard.press('Delete');
     await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
@@ -232,7 +234,7 @@ test('everything survives a reload, and a project file a page that starts afresh
   });
 });
 
-test('a browser that is full says so, loses nothing on the page, and keeps on when there is room', async ({
+test('full storage is reported, nothing on the page is lost, and autosave goes on when there is room', async ({
   page,
 }) => {
   const session = await page.context().newCDPSession(page);
@@ -255,11 +257,13 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
   const isFull = () => app.read(({ autosave }) => autosave === 'full');
   let count = 2;
   for (; !(await isFull()) && count < 12; count++) {
-    await expect.poll(async () => (await keptNames(page)).length).toBe(count);
+    await expect.poll(async () => (await storedTakeNames(page)).length).toBe(count);
     await page.getByRole('spinbutton', { name: 'Seed' }).fill(String(100 + count));
     await page.keyboard.press('Enter');
     await app.until(({ takes }, before) => takes.length > before, count);
-    await expect.poll(async () => (await isFull()) || (await keptNames(page)).length > count).toBe(true);
+    await expect
+      .poll(async () => (await isFull()) || (await storedTakeNames(page)).length > count)
+      .toBe(true);
   }
   await expect(app.alert).toContainText('The space that this browser has for the page is full.');
   await expect(app.alert).toContainText('Delete takes that you don’t need');
@@ -268,13 +272,13 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
   const note = page.getByRole('list', { name: 'Notes' }).getByText(/^The space .* is full/);
   await expect(note).toBeVisible();
   await expect(takes(page)).toHaveCount(count);
-  expect(await keptNames(page)).toHaveLength(count - 1);
+  expect(await storedTakeNames(page)).toHaveLength(count - 1);
   const newest = await app.reactor();
 
   // What is small is kept all the same, and it is said only once. How much the takes left over is chance.
   await leave(150_000);
   await rename(takes(page).nth(1), 'Softer hands');
-  await kept(page, 'Softer hands');
+  await takeStored(page, 'Softer hands');
   await expect(app.alert).toBeHidden();
 
   await take(page, oldest).focus();
@@ -284,14 +288,14 @@ test('a browser that is full says so, loses nothing on the page, and keeps on wh
   // The page tries again every 20 s.
   await expect(note).toBeHidden({ timeout: 50_000 });
   await rename(takes(page).first(), 'There at last');
-  await kept(page, 'There at last');
+  await takeStored(page, 'There at last');
   await page.reload();
   await app.until(({ takes }, rest) => takes.length === rest, count - 1);
   await take(page, 'There at last').click();
-  expect(farthest(newest, await app.reactor())).toBe(0);
+  expect(maxDistance(newest, await app.reactor())).toBe(0);
 });
 
-test('a browser that keeps nothing says so, and the page goes on', async ({ page }) => {
+test('a browser without storage is reported, and the page works', async ({ page }) => {
   await page.addInitScript(() => {
     Reflect.set(IDBFactory.prototype, 'open', () => {
       throw new DOMException('Not in this window.', 'SecurityError');

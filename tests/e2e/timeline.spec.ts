@@ -38,7 +38,7 @@ async function tenSeconds(page: Page): Promise<App> {
 /** Above the leader's lane lie the song, 4 + 46 px, and the ruler. */
 const RULER = -60;
 
-test('a part is looped: drawn on the ruler, changed by its grips and by keys', async ({ page }) => {
+test('a part is looped: drawn on the ruler, changed by its handles and by keys', async ({ page }) => {
   const app = await tenSeconds(page);
   const region = () => app.read(({ playback }) => playback.region);
 
@@ -130,20 +130,20 @@ test('the lanes zoom around the pointer, scroll, and follow the playhead', async
   expect(await zoom()).toBeNull();
 });
 
-test('the song is shifted by dragging, by keys and by the suggestion, and the reaction hears it', async ({
+test('the song is shifted by dragging, by keys and by the suggestion, and the reaction is made to the shifted song', async ({
   page,
 }) => {
   const app = await tenSeconds(page);
   const shift = () => app.read(({ shift }) => shift);
   const grip = page.getByRole('slider', { name: 'Song shift' });
 
-  await test.step('a click jumps and shifts nothing', async () => {
+  await test.step('a click moves the playhead and does not shift the song', async () => {
     await page.mouse.click(...(await place(page, /^Waveform/, 0.25)));
     expect(await app.read(({ playback }) => playback.time)).toBeCloseTo(2.5, 1);
     expect(await shift()).toBe(0);
   });
 
-  await test.step('the suggestion brings the beats together and then rests', async () => {
+  await test.step('the suggestion aligns the beats and is not repeated', async () => {
     const align = page.getByRole('button', { name: /^Align/ });
     await expect(align).toHaveText(/^Align [+−]\d+ frames$/);
     const words = (await align.textContent()) ?? '';
@@ -168,7 +168,7 @@ test('the song is shifted by dragging, by keys and by the suggestion, and the re
     await expect(grip).toHaveAttribute('aria-valuetext', '+45 frames, 1.50 s later');
   });
 
-  await test.step('Escape gives a drag up', async () => {
+  await test.step('Escape cancels a drag', async () => {
     await drag(page, await place(page, /^Waveform/, 0.3), await place(page, /^Waveform/, 0.6));
     await page.keyboard.press('Escape');
     await page.mouse.up();

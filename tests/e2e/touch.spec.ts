@@ -38,7 +38,7 @@ async function middle(page: Page, selector: string): Promise<Finger> {
   return [box.x + box.width / 2, box.y + box.height / 2];
 }
 
-test('two fingers zoom stage and timeline, and the page stays where it is', async ({ page }) => {
+test('two fingers zoom stage and timeline, and the page does not scroll', async ({ page }) => {
   await serveDemo(page, demoSettings);
   const app = new App(page);
   await app.open();
@@ -48,7 +48,7 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
   await app.until(({ playback }) => !playback.playing);
   const time = await app.read(({ playback }) => playback.time);
 
-  await test.step('the stage, which keeps the distance that was chosen', async () => {
+  await test.step('the stage keeps the chosen distance', async () => {
     const [x, y] = await middle(page, '.picture');
     const far = await distance(page);
     await fingers(page, [[x - 50, y], [x + 50, y]], [[x - 90, y], [x + 90, y]]); // prettier-ignore
@@ -59,7 +59,7 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
     expect(await distance(page)).toBeCloseTo(near, 1);
   });
 
-  await test.step('the timeline, without a jump of the playhead', async () => {
+  await test.step('the timeline zooms and the playhead does not move', async () => {
     const [x, y] = await middle(page, '.lane.song');
     await fingers(page, [[x - 40, y], [x + 40, y]], [[x - 120, y], [x + 120, y]]); // prettier-ignore
     await expect.poll(() => app.read(({ zoom }) => zoom && zoom.to - zoom.from)).toBeLessThan(2);
@@ -73,7 +73,7 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
     expect(await pageView(page)).toEqual([1, 0, 0]);
   });
 
-  await test.step('frame both, undo and the takes are in the first screen, for fingers', async () => {
+  await test.step('framing both, undo and the takes are on the first screen, large enough for fingers', async () => {
     for (const name of ['Undo', 'Redo', 'Frame both', /^Takes 1/]) {
       const box = await page.getByRole('button', { name }).boundingBox();
       expect(box?.height, String(name)).toBeGreaterThanOrEqual(44);
@@ -101,7 +101,7 @@ test('two fingers zoom stage and timeline, and the page stays where it is', asyn
   });
 });
 
-test('a small phone shows the first words whole, and then stage and both faders at once', async ({
+test('a small phone shows the whole first-visit block, and then stage and both faders together', async ({
   page,
 }) => {
   const app = new App(page);

@@ -70,7 +70,7 @@ async function contentOf(page: Page, file: string): Promise<VideoContent> {
   );
 }
 
-test('a video has every frame and the song, and leaves the stage as it was', async ({ page }) => {
+test('a video has every frame and the song, and the stage is unchanged', async ({ page }) => {
   // As in Safari 18, which can encode video but no audio: the page has an encoder of its own.
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'AudioEncoder');
@@ -180,7 +180,7 @@ interface PageWork {
   readonly reported: number;
 }
 
-test('while a video is written, the stage on the page rests and progress is shown only now and then', async ({
+test('while a video is written, the stage on the page draws nothing and progress is updated seldom', async ({
   page,
 }) => {
   await page.addInitScript(() => {

@@ -42,7 +42,7 @@ test('a whole sampling of the shipped model agrees with Python', async ({ page }
   expect(error).toBeLessThan(1e-3);
 });
 
-test('an isolated page computes on several threads and answers through its worker', async ({ page }) => {
+test('a cross-origin isolated page computes on several threads in its worker', async ({ page }) => {
   const threads = 2;
   expect(await open(page, threads)).toMatchObject({ backend: { name: 'wasm', threads } });
   // The model's worker, and onnxruntime's for every further thread.
@@ -54,13 +54,13 @@ test('an isolated page computes on several threads and answers through its worke
   expect(positions?.every(Number.isFinite)).toBe(true);
 });
 
-test('a page leaves one core to what it draws', async ({ page }) => {
+test('one core is left for drawing', async ({ page }) => {
   const cores = await page.evaluate(() => navigator.hardwareConcurrency);
   const threads = Math.max(1, Math.min(4, cores - 1));
   expect(await open(page)).toMatchObject({ backend: { name: 'wasm', threads } });
 });
 
-test('a page that is not isolated computes on one thread', async ({ page }) => {
+test('a page that is not cross-origin isolated computes on one thread', async ({ page }) => {
   await page.route('**/*', async (route) => {
     const response = await route.fetch();
     const headers = response.headers();
@@ -73,9 +73,7 @@ test('a page that is not isolated computes on one thread', async ({ page }) => {
   expect(await open(page)).toMatchObject({ backend: { name: 'wasm', threads: 1 } });
 });
 
-test('the choice falls on the processor where there is only a software adapter, and says why', async ({
-  page,
-}) => {
+test('the processor is chosen where there is only a software adapter, with the reason', async ({ page }) => {
   const opened = await page.evaluate(() => model.open({ manifestUrl: 'tiny/manifest.json' }));
   expect(opened).toMatchObject({
     backend: { name: 'wasm', reason: expect.stringMatching(/WebGPU/) },
@@ -94,7 +92,7 @@ test('cancelling stops between steps, and the next call works', async ({ page })
   expect(next.error).toBeUndefined();
 });
 
-test('a crash of the worker is told, and the next call starts a fresh one', async ({ page }) => {
+test('a crash of the worker is reported, and the next call starts a new worker', async ({ page }) => {
   await open(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const running = page.evaluate(() => model.generate({ frames: 120, steps: 50 }));
@@ -118,7 +116,7 @@ test('a crash of the worker is told, and the next call starts a fresh one', asyn
   expect(next.positions).toEqual(undisturbed.positions);
 });
 
-test('graphs are downloaded once, and again when the cache spoiled them', async ({ page }) => {
+test('graphs are downloaded once, and again when their cached bytes are wrong', async ({ page }) => {
   const asked = watchGraphs(page);
   await open(page);
   expect(asked).toHaveLength(GRAPHS);
@@ -135,7 +133,7 @@ test('graphs are downloaded once, and again when the cache spoiled them', async 
   expect(asked).toHaveLength(GRAPHS + 1);
 });
 
-test('a full disk is survived and told', async ({ page, context, modelSite }) => {
+test('a full disk is reported, and the model works', async ({ page, context, modelSite }) => {
   const session = await context.newCDPSession(page);
   const origin = new URL(modelSite).origin;
   await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1000 });

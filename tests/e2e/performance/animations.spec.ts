@@ -5,11 +5,11 @@ import { expect, test } from '../support/fixtures';
 import { demoSettings, serveDemo } from '../support/made-demo';
 import { rested } from '../support/stage-rest';
 
-// A small picture is drawn as truly as a large one, and sooner.
+// A small picture is enough, and drawn sooner.
 test.use({ viewport: { width: 800, height: 600 } });
 
-/** What still moves by CSS: everything on the page, seen or not, whose transitions or animations take time. */
-const styled = (page: Page): Promise<string[]> =>
+/** Elements whose CSS transitions or animations take time. */
+const animatedByCss = (page: Page): Promise<string[]> =>
   page.evaluate(() => {
     const longest = (times: string): number =>
       Math.max(...times.split(',').map((time) => parseFloat(time) * (time.trim().endsWith('ms') ? 1 : 1000)));
@@ -25,31 +25,31 @@ const styled = (page: Page): Promise<string[]> =>
     return found;
   });
 
-/** Notes every animation that runs from now on. */
+/** Records every animation that runs from now on; the result returns them. */
 async function watchAnimations(page: Page): Promise<() => Promise<string[]>> {
   await page.evaluate(`
     window.animated = new Set();
-    (function look() {
+    (function check() {
       for (const animation of document.getAnimations())
         if (animation.effect.getComputedTiming().activeDuration > 10)
           window.animated.add(animation.constructor.name + ' ' + animation.effect.target.className);
-      requestAnimationFrame(look);
+      requestAnimationFrame(check);
     })();
   `);
   return () => page.evaluate<string[]>('[...window.animated]');
 }
 
-/** Pictures that the stage draws from `act` until it rests again. */
-async function drawn(page: Page, act: () => Promise<void>): Promise<number> {
+/** Number of frames that the stage draws from `act` until it rests again. */
+async function drawnFrames(page: Page, act: () => Promise<void>): Promise<number> {
   const before = await rested(page);
   await act();
   return (await rested(page)) - before;
 }
 
-/** Of a jump: the new place, what that brings with it, and each once more sharper where pictures come late. */
-const JUMP = 4;
+/** Most frames that are drawn for a jump of the camera. */
+const MAX_JUMP_FRAMES = 4;
 
-test('who wants less movement sees none but the dance, from the moment they say so', async ({ page }) => {
+test('with reduced motion nothing but the dance moves, as soon as it is preferred', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await serveDemo(page, demoSettings);
   const app = new App(page);
@@ -60,12 +60,12 @@ test('who wants less movement sees none but the dance, from the moment they say 
 
   await test.step('nothing moves by itself', async () => {
     // That nothing happens for a time is what is tested.
-    expect(await drawn(page, () => page.waitForTimeout(1000))).toBe(0);
+    expect(await drawnFrames(page, () => page.waitForTimeout(1000))).toBe(0);
     expect(await app.read(({ playback }) => [playback.playing, playback.time])).toEqual([false, 0]);
-    expect(await styled(page)).toEqual([]);
+    expect(await animatedByCss(page)).toEqual([]);
   });
 
-  await test.step('no control moves more than at once', async () => {
+  await test.step('no control is animated', async () => {
     const animated = await watchAnimations(page);
     await page.getByRole('button', { name: 'Play the demo' }).click();
     await app.until(({ playback }) => playback.time > 0.2);
@@ -82,26 +82,26 @@ test('who wants less movement sees none but the dance, from the moment they say 
     expect(await animated()).toEqual([]);
   });
 
-  await test.step('the camera jumps, and does not run after the couple', async () => {
+  await test.step('the camera jumps, and does not follow the couple smoothly', async () => {
     await app.chooseLeader(bvh({ frames: 100, sway: 6, name: 'far.bvh' }));
     await app.reaction('far.bvh');
     await page.evaluate('window.reactdance.stage.ready()');
-    expect(await drawn(page, view('Top'))).toBeLessThanOrEqual(JUMP);
-    expect(await drawn(page, view('Follow'))).toBeLessThanOrEqual(JUMP);
+    expect(await drawnFrames(page, view('Top'))).toBeLessThanOrEqual(MAX_JUMP_FRAMES);
+    expect(await drawnFrames(page, view('Follow'))).toBeLessThanOrEqual(MAX_JUMP_FRAMES);
     await page.evaluate('document.activeElement.blur()');
-    expect(await drawn(page, () => page.keyboard.press('End'))).toBeLessThanOrEqual(JUMP);
+    expect(await drawnFrames(page, () => page.keyboard.press('End'))).toBeLessThanOrEqual(MAX_JUMP_FRAMES);
     expect(await app.read(({ playback }) => playback.time)).toBeGreaterThan(3);
   });
 
-  await test.step('and glides for who changes their mind', async () => {
+  await test.step('the camera moves smoothly again when reduced motion is switched off', async () => {
     await page.emulateMedia({ reducedMotion: 'no-preference' });
-    expect(await styled(page)).not.toEqual([]);
-    expect(await drawn(page, view('Top'))).toBeGreaterThan(JUMP);
+    expect(await animatedByCss(page)).not.toEqual([]);
+    expect(await drawnFrames(page, view('Top'))).toBeGreaterThan(MAX_JUMP_FRAMES);
     await view('Follow')();
     await page.evaluate('new Promise(requestAnimationFrame)');
-    // Said in the middle of a flight, it ends there and then.
+    // Switched on during a camera move, it ends the move at once.
     await page.emulateMedia({ reducedMotion: 'reduce' });
-    expect(await drawn(page, () => Promise.resolve())).toBeLessThanOrEqual(JUMP);
-    expect(await styled(page)).toEqual([]);
+    expect(await drawnFrames(page, () => Promise.resolve())).toBeLessThanOrEqual(MAX_JUMP_FRAMES);
+    expect(await animatedByCss(page)).toEqual([]);
   });
 });

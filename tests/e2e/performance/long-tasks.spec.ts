@@ -5,11 +5,11 @@ import { type Task, tasksOf, TRACED } from '../support/main-thread';
 
 test.use({ viewport: { width: 1280, height: 720 }, deviceScaleFactor: 1 });
 
-/** A task of the page's own thread may take this long, milliseconds. */
-const LONGEST = 100;
+/** Longest duration of a task of the main thread. */
+const MAX_TASK_MS = 100;
 
-/** Pixels of either dancer's colour in the picture on the stage, and what kind of canvas shows it. */
-const LOOK = `(() => {
+/** Expression: pixels in each dancer's colour on the stage, and whether the canvas is a 2D copy. */
+const READ_PICTURE = `(() => {
   const canvas = document.querySelector('#stage canvas');
   const small = new OffscreenCanvas(160, 90).getContext('2d');
   small.drawImage(canvas, 0, 0, 160, 90);
@@ -21,15 +21,15 @@ const LOOK = `(() => {
   }
   return { orange, blue, copied: canvas.getContext('2d') !== null, picture: data.join() };
 })()`;
-interface Look {
+interface StagePicture {
   readonly orange: number;
   readonly blue: number;
   readonly copied: boolean;
   readonly picture: string;
 }
 
-/** What of a task the page computed, or waited for a picture. */
-const used = ({ busy, waited }: Task): number => busy + waited.inScripts + waited.onScreen;
+/** Time in which a task computed or waited for a frame, milliseconds. */
+const usedMs = ({ busy, waited }: Task): number => busy + waited.inScripts + waited.onScreen;
 
 const drawn = (page: Page) => page.evaluate<number>('window.reactdance.stage.stats().frames');
 
@@ -45,7 +45,7 @@ async function dancing(page: Page): Promise<App> {
   return app;
 }
 
-test('no task of the page is long while a reaction is made and the picture plays', async ({
+test('the main thread has no long task while a reaction is made and the dance plays', async ({
   page,
   browser,
 }) => {
@@ -54,13 +54,13 @@ test('no task of the page is long while a reaction is made and the picture plays
   await browser.startTracing(page, { categories: TRACED });
   await page.evaluate("performance.mark('asked')");
   await page.getByRole('slider', { name: 'Coarse guidance' }).fill('1.7');
-  // The page says itself when all is there: asking it again and again would be a task each time.
+  // The page itself waits for the result: polling from here would add a task each time.
   await page.evaluate(`new Promise((resolve) => {
-    (function look() {
+    (function check() {
       const { job, reaction, quality } = window.reactdance.store.getState();
       const made = !job && quality && reaction.inputs.settings.guidance.upper.coarse === 1.7;
       if (made) resolve(performance.mark('shown'));
-      else setTimeout(look, 50);
+      else setTimeout(check, 50);
     })();
   })`);
   const tasks = tasksOf(await browser.stopTracing(), 'asked', 'shown');
@@ -69,29 +69,31 @@ test('no task of the page is long while a reaction is made and the picture plays
   expect(pictures).toBeGreaterThan(3);
 
   const longest = (of: (task: Task) => number): number => Math.round(Math.max(...tasks.map(of)));
-  const long = tasks.filter(({ whole }) => whole > LONGEST);
+  const long = tasks.filter(({ whole }) => whole > MAX_TASK_MS);
   test.info().annotations.push({
     type: 'measured',
     description:
       `${tasks.length} tasks, ${pictures} pictures; longest: busy ${longest(({ busy }) => busy)} ms, ` +
       `from beginning to end ${longest(({ whole }) => whole)} ms, of which waiting for a picture ` +
       `${longest(({ waited }) => waited.onScreen)} ms on its way to the screen and ` +
-      `${longest(({ waited }) => waited.inScripts)} ms in scripts; over ${LONGEST} ms: ` +
-      (long.map((task) => `${Math.round(task.whole)} (${Math.round(used(task))})`).join(', ') || 'none'),
+      `${longest(({ waited }) => waited.inScripts)} ms in scripts; over ${MAX_TASK_MS} ms: ` +
+      (long.map((task) => `${Math.round(task.whole)} (${Math.round(usedMs(task))})`).join(', ') || 'none'),
   });
   expect(longest(({ busy }) => busy)).toBeGreaterThan(0);
-  // Where other programs run, they may take the core in the middle of a task: that is not the page's.
-  expect(long.filter((task) => used(task) > LONGEST / 2)).toEqual([]);
-  expect(tasks.filter((task) => used(task) > LONGEST)).toEqual([]);
+  // Other programs may interrupt a task; that time is not counted as the page's.
+  expect(long.filter((task) => usedMs(task) > MAX_TASK_MS / 2)).toEqual([]);
+  expect(tasks.filter((task) => usedMs(task) > MAX_TASK_MS)).toEqual([]);
 });
 
-test('while a reaction is made the dancers go on, without a graphics card as copies', async ({ page }) => {
+test('the dancers go on while a reaction is made; without a graphics card the page shows copies of the frames', async ({
+  page,
+}) => {
   const app = await dancing(page);
   await page.getByRole('slider', { name: 'Coarse guidance' }).fill('1.7');
   await app.until(({ job }) => job !== null && job.fraction > 0);
-  const pictures: Look[] = [];
+  const pictures: StagePicture[] = [];
   for (let i = 0; i < 3; i++) {
-    pictures.push(await page.evaluate<Look>(LOOK));
+    pictures.push(await page.evaluate<StagePicture>(READ_PICTURE));
     const before = await drawn(page);
     await expect.poll(() => drawn(page)).toBeGreaterThan(before + 2);
   }
@@ -105,9 +107,9 @@ test('while a reaction is made the dancers go on, without a graphics card as cop
 
   await app.settled();
   // A moment later the canvas itself is there again, and not empty.
-  const look = () => page.evaluate<Look>(LOOK);
-  await expect.poll(async () => (await look()).copied).toBe(false);
-  const after = await look();
+  const readPicture = () => page.evaluate<StagePicture>(READ_PICTURE);
+  await expect.poll(async () => (await readPicture()).copied).toBe(false);
+  const after = await readPicture();
   expect(after.orange).toBeGreaterThan(20);
   expect(after.blue).toBeGreaterThan(20);
 });

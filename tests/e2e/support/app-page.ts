@@ -8,10 +8,10 @@ export const TINY = '/?model=/models/tiny/manifest.json&backend=wasm';
 /** Address of the app with the model that ships with it, on the processor. */
 export const SHIPPED = '/?backend=wasm';
 
-/** Time that reading and generating may take on a machine that does other things too, milliseconds. */
-const PATIENCE = 120_000;
+/** Time that reading and generating may take on a busy machine. */
+const TIMEOUT_MS = 120_000;
 
-/** The page as a visitor uses it: through labels and roles. Its read-only hook only tells what came out. */
+/** The page as a visitor uses it, through labels and roles; `window.reactdance` is only read, for results. */
 export class App {
   readonly alert: Locator;
   readonly progress: Locator;
@@ -28,8 +28,8 @@ export class App {
   }
 
   /**
-   * Opens the app as a machine without WebGL sees it and closes what it says about that. Where the picture is not
-   * what a test is about, the processor has better things to do than to draw it.
+   * Opens the app as on a machine without WebGL and closes the dialog that reports it. Tests that do not need the
+   * picture are faster without it.
    */
   async openWithoutPicture(address = TINY): Promise<void> {
     await this.page.addInitScript(() => {
@@ -45,7 +45,7 @@ export class App {
     await expect(this.alert.filter({ hasText: /WebGL/ })).toBeHidden();
   }
 
-  /** Waits until model and demo have come, or have failed to. */
+  /** Waits until model and demo are loaded or have failed, and no job is running. */
   async settled(): Promise<void> {
     await this.until(
       ({ model, demo, reading, job }) =>
@@ -55,15 +55,15 @@ export class App {
 
   /** A part of the page's state. `select` runs in the page and sees nothing of the test but its argument. */
   async read<T, A = undefined>(select: (state: AppState, argument: A) => T, argument?: A): Promise<T> {
-    // As an expression of the debugger's, not as a function made in the page, which its policy forbids.
+    // Evaluated as an expression: the content security policy forbids functions from strings.
     return this.page.evaluate<T>(
       `(${select.toString()})(window.reactdance.store.getState(), ${JSON.stringify(argument)})`,
     );
   }
 
-  /** Waits until the page's state is so. `is` runs in the page and sees nothing of the test but its argument. */
+  /** Waits until the state meets a condition. `is` runs in the page and sees nothing of the test but its argument. */
   async until<A = undefined>(is: (state: AppState, argument: A) => unknown, argument?: A): Promise<void> {
-    const options = { timeout: PATIENCE, intervals: [50, 100, 250], message: is.toString() };
+    const options = { timeout: TIMEOUT_MS, intervals: [50, 100, 250], message: is.toString() };
     await expect.poll(async () => Boolean(await this.read(is, argument)), options).toBe(true);
   }
 
@@ -116,14 +116,14 @@ export class App {
     return this.page.evaluate<number[]>("Array.from(window.reactdance.stage.jointPositions('reactor'))");
   }
 
-  /** Pixels of the stage that are warm, as the reactor and nothing else is. */
+  /** Indices of the stage's pixels in warm colours, which only the reactor has. */
   async warmPixels(): Promise<Set<number>> {
     const png = await this.page.getByRole('img', { name: /reactor in orange/ }).screenshot();
     const warm = await this.page.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
       const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
       const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-      if (!context) throw new Error('No canvas to look at the picture with.');
+      if (!context) throw new Error('The browser has no 2D canvas.');
       context.drawImage(image, 0, 0);
       const { data } = context.getImageData(0, 0, image.width, image.height);
       const found: number[] = [];
@@ -148,7 +148,7 @@ export function meanSpeed(positions: readonly number[], fps = 30): number {
 }
 
 /** Largest distance between the joints of two motions or poses, metres. */
-export function farthest(a: readonly number[], b: readonly number[]): number {
+export function maxDistance(a: readonly number[], b: readonly number[]): number {
   let most = 0;
   for (let i = 0; i < a.length; i += 3)
     most = Math.max(most, Math.hypot(...[0, 1, 2].map((axis) => (a[i + axis] ?? 0) - (b[i + axis] ?? 0))));

@@ -168,16 +168,16 @@ function row(names: readonly string[], t: number, sway: number): string {
   return [...place, ...angles].map((value) => value.toFixed(4)).join(' ');
 }
 
-/** A leader that begins with its rest pose and breaks off within its frame 41, as a broken download does. */
-export function hurt(): TestFile {
+/** A leader that begins with its rest pose and ends in the middle of frame 41, as an interrupted download does. */
+export function truncatedBvh(): TestFile {
   const lines = bvhText({ frames: 60 }).split('\n');
   const first = lines.findIndex((line) => line.startsWith('Frame Time')) + 1;
   const rest = lines[first]!.split(' ').map((_, column) => (column === 1 ? 97 : 0));
   const kept = [rest.join(' '), ...lines.slice(first + 1, first + 40), '1.5 97 -'];
-  return file('hurt.bvh', '', [...lines.slice(0, first), ...kept].join('\n'));
+  return file('truncated.bvh', '', [...lines.slice(0, first), ...kept].join('\n'));
 }
 
-/** Broken leaders, each after one real way for a file to be broken. */
+/** Leaders that are invalid in ways that occur in real files. */
 export const brokenLeaders = {
   truncated: (): TestFile => {
     const text = bvhText({ frames: 60 });

@@ -13,7 +13,7 @@ interface WorkerFixtures {
 }
 
 interface TestFixtures {
-  /** Every address that the browser asked for in this test. After the test none may be of another origin. */
+  /** Addresses that the browser requested in this test. After the test none may be of another origin. */
   readonly requests: string[];
 }
 
@@ -42,18 +42,18 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
       context.on('request', (request) => requests.push(request.url()));
       context.on('page', (page) => page.on('websocket', (socket) => requests.push(socket.url())));
       await use(requests);
-      expect(foreign(requests, site), 'nothing leaves the page').toEqual([]);
+      expect(otherOrigins(requests, site), 'nothing leaves the page').toEqual([]);
     },
     { auto: true },
   ],
 });
 
 /**
- * The addresses that lead away from the page. What lies in the page's own memory (blob:, data:) doesn't.
+ * The addresses of other origins; blob: and data: addresses are the page's own.
  *
  * @param site address of the app
  */
-export function foreign(addresses: readonly string[], site: string): string[] {
+export function otherOrigins(addresses: readonly string[], site: string): string[] {
   const own = new URL(site).origin;
   return addresses.filter((address) => {
     const { protocol, origin } = new URL(address);

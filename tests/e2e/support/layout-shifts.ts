@@ -1,6 +1,6 @@
 import type { Locator, Page } from '@playwright/test';
 
-/** A jump as the browser saw it (Layout Instability API). */
+/** A layout shift as the browser reports it (Layout Instability API). */
 export interface Shift {
   /** Share of the window that moved times how far, 0 to 1. */
   readonly value: number;
@@ -10,38 +10,38 @@ export interface Shift {
   readonly what: readonly string[];
 }
 
-/** What a visitor aims at. */
+/** Selector of all controls. */
 const CONTROLS = 'button, input, select, [role="slider"], [role="radio"], [role="switch"]';
 
-/** Watches a page from its first navigation for what jumps; to be made before the page is opened. */
-export class LayoutWatch {
+/** Records layout shifts of a page from its first navigation on; to be created before the page is opened. */
+export class LayoutMonitor {
   private constructor(private readonly page: Page) {}
 
-  static async begin(page: Page): Promise<LayoutWatch> {
+  static async begin(page: Page): Promise<LayoutMonitor> {
     await page.addInitScript(watch, CONTROLS);
-    return new LayoutWatch(page);
+    return new LayoutMonitor(page);
   }
 
-  /** Everything that jumped since this was asked last, when two more pictures have been drawn. */
+  /** The layout shifts since the last call, after two more frames. */
   async shifts(): Promise<Shift[]> {
-    return this.page.evaluate<Shift[]>('window.layoutWatch.shifts()');
+    return this.page.evaluate<Shift[]>('window.layoutMonitor.shifts()');
   }
 
-  /** Remembers where every control is. */
+  /** Stores the position of every control. */
   async mark(): Promise<void> {
-    await this.page.evaluate('window.layoutWatch.mark()');
+    await this.page.evaluate('window.layoutMonitor.mark()');
   }
 
-  /** Controls that are still to be seen and are now elsewhere than when marked; scrolling does not count. */
+  /** Visible controls that have moved since `mark`; scrolling does not count. */
   async moved(): Promise<string[]> {
-    return this.page.evaluate<string[]>('window.layoutWatch.moved(null)');
+    return this.page.evaluate<string[]>('window.layoutMonitor.moved(null)');
   }
 
-  /** `moved` without what comes after this control in its panel, as what it unfolds pushes that down. */
+  /** `moved` without the controls after this one in its panel, which it pushes down when it unfolds. */
   async movedElsewhere(unfolder: Locator): Promise<string[]> {
     const button = await unfolder.elementHandle();
     return this.page.evaluate((unfolding) => {
-      const { moved } = Reflect.get(globalThis, 'layoutWatch') as { moved: (from: unknown) => string[] };
+      const { moved } = Reflect.get(globalThis, 'layoutMonitor') as { moved: (from: unknown) => string[] };
       return moved(unfolding);
     }, button);
   }
@@ -96,7 +96,7 @@ function watch(controls: string): void {
     unfolder?.closest('aside')?.contains(element) === true &&
     (unfolder.compareDocumentPosition(element) & Node.DOCUMENT_POSITION_FOLLOWING) !== 0;
   let marked = new Map<Element, readonly [number, number]>();
-  Reflect.set(globalThis, 'layoutWatch', {
+  Reflect.set(globalThis, 'layoutMonitor', {
     async shifts() {
       await picture();
       await picture();

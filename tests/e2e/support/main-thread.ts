@@ -1,10 +1,10 @@
-/** What a task of the page's own thread took, milliseconds. */
+/** Times of one task of the main thread, milliseconds. */
 export interface Task {
   /** From beginning to end, as `longtask` entries have it. */
   readonly whole: number;
-  /** In which the thread computed: neither waited nor stood aside for other programs on the same core. */
+  /** CPU time: without waiting, and without the time that other programs had the core. */
   readonly busy: number;
-  /** In which it waited for the graphics card: by drawing of ours, and to bring what was drawn on the screen. */
+  /** Time waiting for the graphics card: in scripts of the page, and to bring frames on the screen. */
   readonly waited: { readonly inScripts: number; readonly onScreen: number };
 }
 
@@ -24,7 +24,7 @@ interface Traced {
 }
 
 /**
- * The tasks that a page's own thread ran between two of its marks, in a trace of Chromium's.
+ * The tasks of the main thread between two performance marks, from a trace of Chromium.
  *
  * @param from name of the performance mark at the beginning
  * @param to name of the one at the end
@@ -52,7 +52,7 @@ export function tasksOf(trace: Buffer, from: string, to: string): Task[] {
       const [all, inScripts] = [here, scripted].map((some) => sum(some.map(({ dur = 0 }) => dur)));
       return {
         whole: (task.dur ?? 0) / 1000,
-        // The shortest tasks come without: no time was counted for them.
+        // The shortest tasks have no CPU time in the trace.
         busy: (task.tdur ?? 0) / 1000,
         waited: { inScripts: inScripts! / 1000, onScreen: (all! - inScripts!) / 1000 },
       };

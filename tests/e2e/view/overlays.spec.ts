@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
 import type { Stage } from '../../../web/view/stage';
 import { bvh } from '../support/files';
-import { App, farthest } from '../support/app-page';
+import { App, maxDistance } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { rested } from '../support/stage-rest';
 
@@ -68,7 +68,7 @@ async function dancing(page: Page): Promise<App> {
   return app;
 }
 
-test('every overlay changes the picture and back, by key and by button', async ({ page }) => {
+test('every overlay is switched on and off in the picture, by key and by button', async ({ page }) => {
   await page.setViewportSize({ width: 900, height: 640 });
   const app = await dancing(page);
   await rested(page);
@@ -81,7 +81,7 @@ test('every overlay changes the picture and back, by key and by button', async (
       // The ghost is another dance than the whole reactor's, decoded from the same latents.
       await expect(page.getByRole('listitem').filter({ hasText: 'Coarse only' })).toBeVisible();
       const coarse = await onStage(page, (stage) => Array.from(stage.jointPositions('coarse')));
-      expect(farthest(await app.onScreen(), coarse)).toBeGreaterThan(0.001);
+      expect(maxDistance(await app.onScreen(), coarse)).toBeGreaterThan(0.001);
     }
     await rested(page);
     const changed = await differing(page, [plain, await picture(page)]);
@@ -200,7 +200,9 @@ async function frameTime(page: Page): Promise<number> {
   return times.toSorted((a, b) => a - b)[Math.floor(batches / 2)]!;
 }
 
-test('all overlays on two takes are within the budget, and nothing is drawn at rest', async ({ page }) => {
+test('all overlays on two takes stay within the budget of draw calls and triangles, and nothing is drawn at rest', async ({
+  page,
+}) => {
   await page.setViewportSize({ width: 400, height: 600 });
   const app = await dancing(page);
   for (const [, key] of OVERLAYS) await page.keyboard.press(key);

@@ -20,14 +20,14 @@ describe('what is computed from decoded samples', () => {
     expect(sound.size).toBe(44 + 2 * 2 * second);
   });
 
-  it('flags a song in which nothing can be heard', () => {
+  it('flags a silent song', () => {
     const quiet = Float32Array.from({ length: second }, (_, i) => 5e-5 * Math.sin(i / 10));
     expect(analyse([quiet], second, recipe, ignore).silent).toBe(true);
     const loud = quiet.map((sample) => sample * 100);
     expect(analyse([loud], second, recipe, ignore).silent).toBe(false);
   });
 
-  it('says how far it is, ascending to 1', () => {
+  it('reports progress that ascends to 1', () => {
     const heard: number[] = [];
     analyse([new Float32Array(second)], second, recipe, (fraction) => heard.push(fraction));
     expect(heard).toEqual(heard.toSorted((a, b) => a - b));

@@ -26,7 +26,7 @@ describe('music features of odd songs', () => {
     expect(beats.length).toBeLessThanOrEqual(1);
   });
 
-  it('says how far it is, ascending to 1', () => {
+  it('reports progress that ascends to 1', () => {
     const heard: number[] = [];
     musicFeatures(songs[0]!.audio, recipe, (fraction) => heard.push(fraction));
     expect(heard.length).toBeGreaterThan(20);

@@ -3,7 +3,7 @@ import { readRecipe } from '../../../web/audio/recipe';
 import { recipe } from '../support/audio-fixtures';
 
 describe('the audio recipe', () => {
-  it('is taken as Python writes it', () => {
+  it('is accepted as Python writes it', () => {
     expect(readRecipe({ ...recipe })).toEqual(recipe);
   });
 

@@ -69,7 +69,7 @@ afterEach(() => {
 });
 
 describe('a connection to a worker', () => {
-  it('hears every report before the output', async () => {
+  it('receives every report before the output', async () => {
     const reports: number[] = [];
     const output = await runInWorker<Tested, 'count'>(
       open(),
@@ -81,7 +81,7 @@ describe('a connection to a worker', () => {
     expect(reports).toEqual(Array.from({ length: 20 }, (_, i) => i + 1));
   });
 
-  it('answers several calls at once, with reports, and transfers what is given away', async () => {
+  it('answers several calls at once, with reports, and transfers the buffers of the output', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const values = Float32Array.of(1, 2);
     const reports: { half: Float32Array }[] = [];
@@ -98,7 +98,7 @@ describe('a connection to a worker', () => {
     expect(values).toHaveLength(0);
   });
 
-  it('rejects with the error of the task and goes on', async () => {
+  it('rejects with the error of the task and takes further calls', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const error = await connection.call('refuse', {}).catch((reason: unknown) => reason);
     expect(error).toBeInstanceOf(AppError);
@@ -107,7 +107,7 @@ describe('a connection to a worker', () => {
     expect(await connection.call('double', { values: Float32Array.of(1) })).toEqual(Float32Array.of(2));
   });
 
-  it('rejects at once when it is cancelled, tells the task, and goes on', async () => {
+  it('rejects at once when it is cancelled, aborts the signal of the task, and takes further calls', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const controller = new AbortController();
     const waiting = connection.call('wait', {}, { signal: controller.signal });
@@ -121,7 +121,7 @@ describe('a connection to a worker', () => {
     expect(await connection.call('double', { values: Float32Array.of(1) })).toEqual(Float32Array.of(2));
   });
 
-  it('ends with anything unforeseen, in the words that were asked for', async () => {
+  it('ends with an unforeseen error, which `toError` makes', async () => {
     const worker = open();
     const connection = new WorkerConnection<Tested>(worker, (reason) => new Error(`Stopped: ${reason}`));
     const waiting = connection.call('wait', {});
@@ -147,7 +147,7 @@ describe('a connection to a worker', () => {
     expect(connection.ended).toBe(true);
   });
 
-  it('rejects what is under way when it is disposed of', async () => {
+  it('rejects running calls when it is disposed of', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const waiting = connection.call('wait', {});
     connection.dispose();

@@ -16,7 +16,7 @@ describe('the song of a video', () => {
     expect([...songSamples(sound, -0.2, 0, 3)]).toEqual([3, 4, 0, 7, 8, 0]);
   });
 
-  test('is the same in one piece and in many', () => {
+  test('has the same samples in one piece and in many', () => {
     const whole = songSamples(sound, 0.1, 0, 6).subarray(0, 6);
     const pieces = [0, 2, 4].flatMap((from) => [...songSamples(sound, 0.1, from, 2).subarray(0, 2)]);
     expect(pieces).toEqual([...whole]);

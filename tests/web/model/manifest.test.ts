@@ -18,7 +18,7 @@ function failure(change: (json: Json) => unknown): AppError {
 }
 
 describe('parseManifest', () => {
-  it('keeps every field, those of the audio recipe it does not know included', () => {
+  it('keeps every field, also unknown ones of the audio recipe', () => {
     const json = smallJson();
     expect(parseManifest(json)).toEqual(json);
   });

@@ -21,7 +21,7 @@ function seen(eye: PerspectiveCamera, point: readonly [number, number, number]):
 
 describe('screenBounds', () => {
   it.each([0, 60])(
-    'holds what is around every joint, and little more (picture shifted by %i pixels)',
+    'contains a margin around every joint, and little more (picture shifted by %i pixels)',
     (shift) => {
       const eye = camera(shift);
       const joints = [Float32Array.of(-0.4, 0.1, 0, 0.3, 1.6, 0.4), Float32Array.of(0.9, 1, -0.5)];

@@ -16,7 +16,7 @@ function keyLight(heading: number): DirectionalLight {
   return key;
 }
 
-it('blurs its shadows with as few texture reads as a software renderer can do between two frames', () => {
+it('blurs shadows with few enough texture reads for a software renderer', () => {
   const { mapSize, blurSamples, radius } = keyLight(0).shadow;
   expect(2 * mapSize.x * mapSize.y * blurSamples).toBeLessThan(1_000_000);
   // A step of a whole texel from sample to sample: neither gaps nor a choice between two texels.

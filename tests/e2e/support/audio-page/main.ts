@@ -2,11 +2,11 @@
 import { AudioPlayer, loadSong, type Song } from '../../../../web/audio/client';
 import { encodeWav } from '../../../../web/audio/wav';
 
-/** What a test asks to be loaded: a file of the server, or a made one. */
+/** What a test loads: a file of the server, a text, or silence. */
 export type Source = { url: string } | { text: string } | { silentSeconds: number; rate: number };
 
 /** A failure as data, for the test's process. */
-export interface ExplainedError {
+export interface ErrorData {
   readonly name: string;
   readonly code: string | undefined;
   readonly message: string;
@@ -14,7 +14,7 @@ export interface ExplainedError {
 }
 
 /** A song as data, without its samples. */
-export interface Heard {
+export interface SongData {
   readonly duration: number;
   readonly samples: number;
   readonly frames: number;
@@ -23,12 +23,12 @@ export interface Heard {
   readonly beats: number;
   readonly silent: boolean;
   readonly peak: number;
-  /** Seconds at which a tick begins after 50 ms without one. */
-  readonly ticks: number[];
+  /** Seconds at which a click begins after 50 ms without one. */
+  readonly clicks: number[];
   readonly progress: number[];
   readonly seconds: number;
   /** Longest time between two frames that the page drew meanwhile, seconds. */
-  readonly longestFreeze: number;
+  readonly maxFrameInterval: number;
 }
 
 async function open(source: Source): Promise<Blob> {
@@ -37,19 +37,19 @@ async function open(source: Source): Promise<Blob> {
   return encodeWav([new Float32Array(source.silentSeconds * source.rate)], source.rate);
 }
 
-function findTicks({ pcm, sampleRate }: Song): number[] {
-  const ticks: number[] = [];
+function findClicks({ pcm, sampleRate }: Song): number[] {
+  const clicks: number[] = [];
   let quietSince = -Infinity;
   pcm.forEach((sample, i) => {
     if (Math.abs(sample) < 0.1) return;
-    if (i - quietSince > 0.05 * sampleRate) ticks.push(i / sampleRate);
+    if (i - quietSince > 0.05 * sampleRate) clicks.push(i / sampleRate);
     quietSince = i;
   });
-  return ticks;
+  return clicks;
 }
 
-/** Watches the page's frames until it is told to stop; returns the longest time between two, in seconds. */
-function watchFreezes(): () => number {
+/** Measures the time between frames of the page until the result is called, which returns the longest in seconds. */
+function measureFrameIntervals(): () => number {
   let [longest, last, running] = [0, performance.now(), true];
   const frame = (): void => {
     longest = Math.max(longest, performance.now() - last);
@@ -66,7 +66,7 @@ function watchFreezes(): () => number {
 
 let song: Song | undefined;
 
-/** The elements that were made to sound, the player's first two: only they tell what is really heard. */
+/** The <audio> elements of the page, the player's first: their state shows what is audible. */
 const elements: HTMLAudioElement[] = [];
 window.Audio = class extends Audio {
   constructor() {
@@ -79,17 +79,17 @@ const player = new AudioPlayer();
 export const page = {
   player,
 
-  /** Loads a song; `abortAt` gives up at that fraction of the progress. */
+  /** Loads a song; aborts at the fraction `abortAt` of the progress. */
   async load(
     source: Source,
     recipe: Record<string, unknown>,
     abortAt = Infinity,
-  ): Promise<Heard | { error: ExplainedError }> {
+  ): Promise<SongData | { error: ErrorData }> {
     const file = await open(source);
     const controller = new AbortController();
     const progress: number[] = [];
     const started = performance.now();
-    const stopWatching = watchFreezes();
+    const stopWatching = measureFrameIntervals();
     try {
       song = await loadSong(file, recipe, {
         signal: controller.signal,
@@ -107,13 +107,13 @@ export const page = {
         beats: song.beats.length,
         silent: song.silent,
         peak: song.pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0),
-        ticks: findTicks(song),
+        clicks: findClicks(song),
         progress,
         seconds: (performance.now() - started) / 1000,
-        longestFreeze: stopWatching(),
+        maxFrameInterval: stopWatching(),
       };
     } catch (error) {
-      const { name, code, message, hint } = error as ExplainedError;
+      const { name, code, message, hint } = error as ErrorData;
       return { error: { name, code, message, hint } };
     } finally {
       stopWatching();
@@ -125,19 +125,19 @@ export const page = {
     return Array.from(song?.features ?? []);
   },
 
-  /** Gives the song loaded last, silence or something that is no sound to the player. */
-  hand(what: 'song' | 'silence' | 'nonsense', duration: number): void {
+  /** Loads the song loaded last, silence or an invalid sound into the player. */
+  setSound(what: 'song' | 'silence' | 'nonsense', duration: number): void {
     const sounds = { song: song?.sound ?? null, silence: null, nonsense: new Blob(['la la la']) };
     player.load(sounds[what], duration);
   },
 
   /** Plays; returns the failure if there is one. */
-  async play(): Promise<ExplainedError | null> {
+  async play(): Promise<ErrorData | null> {
     try {
       await player.play();
       return null;
     } catch (error) {
-      const { name, code, message, hint } = error as ExplainedError;
+      const { name, code, message, hint } = error as ErrorData;
       return { name, code, message, hint };
     }
   },

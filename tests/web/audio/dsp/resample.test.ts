@@ -12,7 +12,7 @@ function peak(signal: Float32Array): number {
 }
 
 describe('resampling to the recipe rate', () => {
-  it.each([48000, 44100])('does to noise at %i Hz what librosa does', (rate) => {
+  it.each([48000, 44100])('resamples noise of %i Hz as librosa does', (rate) => {
     const ours = resample(readWav(fixture(`noise-${rate}.wav`)), rate, recipe.sample_rate);
     const reference = readFloats(fixture(`noise-${rate}.f32`));
     expect(ours.length).toBe(reference.length);
@@ -23,7 +23,7 @@ describe('resampling to the recipe rate', () => {
     expect(worst).toBeLessThan(3e-4);
   });
 
-  it('keeps what the lower rate can carry and removes the rest', () => {
+  it('keeps the frequencies below half the lower rate and removes the others', () => {
     expect(peak(resample(tone(440, 48000), 48000, 15360))).toBeCloseTo(1, 3);
     expect(peak(resample(tone(6900, 48000), 48000, 15360))).toBeCloseTo(1, 2);
     expect(peak(resample(tone(7800, 48000), 48000, 15360))).toBeLessThan(1e-4);
@@ -41,7 +41,7 @@ describe('resampling to the recipe rate', () => {
     expect(resample(new Float32Array(length).fill(0.5), 48000, 15360).length).toBe(Math.ceil(length * 0.32));
   });
 
-  it('leaves a signal at the right rate alone', () => {
+  it('returns a signal that has the rate already', () => {
     const signal = tone(440, 15360);
     expect(resample(signal, 15360, 15360)).toBe(signal);
   });

@@ -47,7 +47,7 @@ describe('chooseBackend', () => {
     expect((await chooseBackend('webgpu', around)).reason).toBe('WebGPU on SwiftShader.');
   });
 
-  it('does what it is told, leaves a core to the page, and counts threads only where memory can be shared', async () => {
+  it('takes the chosen backend, leaves a core to the page, and uses threads only where memory can be shared', async () => {
     expect(await chooseBackend('wasm', machine(card))).toMatchObject({ name: 'wasm', threads: 4 });
     expect(await chooseBackend('wasm', machine(card, true, 2))).toMatchObject({ threads: 1 });
     expect(await chooseBackend('wasm', machine(card, true, 4))).toMatchObject({ threads: 3 });
@@ -61,7 +61,7 @@ describe('chooseBackend', () => {
     });
   });
 
-  it('is fallBackToWasmd with a reason', async () => {
+  it('falls back to wasm with a reason', async () => {
     const backend = fallBackToWasm(await chooseBackend('auto', machine(card)), 'The GPU is upside down');
     expect(backend).toEqual({
       name: 'wasm',

@@ -56,7 +56,7 @@ async function failure(response: () => Response): Promise<AppError> {
 }
 
 describe('download', () => {
-  it('fetches beside the manifest, tells the bytes, and gives the files in order', async () => {
+  it('fetches beside the manifest, reports bytes, and returns the files in order', async () => {
     const progress: [number, number][] = [];
     const files = await download(BASE, [a, b], {
       fetch: both().get,
@@ -69,7 +69,7 @@ describe('download', () => {
     );
   });
 
-  it('fetches nothing that the store has, and forgets what the model no longer uses', async () => {
+  it('fetches nothing that the store has, and deletes files that the model no longer uses', async () => {
     const { store, files } = memoryStore();
     files.set('old', bytesOf('old'));
     await download(BASE, [a, b], { fetch: both().get, store });
@@ -80,7 +80,7 @@ describe('download', () => {
     expect(results[1]).toEqual(bytesOf('graph bb'));
   });
 
-  it('tells from the start what is here already', async () => {
+  it('reports the cached bytes from the start', async () => {
     const { store, files } = memoryStore();
     files.set(b.sha256, bytesOf('graph bb'));
     const progress: [number, number, number][] = [];
@@ -96,14 +96,14 @@ describe('download', () => {
     expect(results.map((bytes) => new TextDecoder().decode(bytes))).toEqual(['graph a', 'graph bb']);
   });
 
-  it('does not forget files that may be wanted again', async () => {
+  it('does not delete files that are to be kept', async () => {
     const { store, files } = memoryStore();
     files.set(b.sha256, bytesOf('graph bb'));
     await download(BASE, [a], { fetch: both().get, store, alsoKeep: [b.sha256] });
     expect([...files.keys()].sort()).toEqual([a.sha256, b.sha256].sort());
   });
 
-  it('fetches again what was spoiled in the store', async () => {
+  it('fetches a file again whose stored bytes are wrong', async () => {
     const { store, files } = memoryStore();
     files.set(a.sha256, bytesOf('graph A'));
     const { get, asked } = both();
@@ -112,7 +112,7 @@ describe('download', () => {
     expect(files.get(a.sha256)).toEqual(bytesOf('graph a'));
   });
 
-  it('goes on without a store that is full, and says so', async () => {
+  it('goes on when the store is full, and reports that once', async () => {
     const reasons: unknown[] = [];
     const files = await download(BASE, [a, b], {
       fetch: both().get,
@@ -124,7 +124,7 @@ describe('download', () => {
     expect((reasons[0] as DOMException).name).toBe('QuotaExceededError');
   });
 
-  it('says that a page came instead of the model', async () => {
+  it('reports a web page in place of a model file', async () => {
     const error = await failure(
       () => new Response('<html>', { headers: { 'content-type': 'text/html; charset=utf-8' } }),
     );
@@ -147,7 +147,7 @@ describe('download', () => {
     expect((await failure(response)).code).toBe(code);
   });
 
-  it('says that there is no connection', async () => {
+  it('reports a missing connection', async () => {
     const get: typeof fetch = () => Promise.reject(new TypeError('Failed to fetch'));
     await expect(download(BASE, [a], { fetch: get })).rejects.toMatchObject({ code: 'download-failed' });
   });

@@ -14,7 +14,7 @@ describe('a folder of files', () => {
     expect(await (await fetchFile(part, get)).text()).toBe('abc');
   });
 
-  it('says which file is missing', async () => {
+  it('reports a missing file by name', async () => {
     await expect(fetchFile(new URL('decode.onnx', ROOT).href, get)).rejects.toMatchObject({
       code: 'model-missing',
       message: expect.stringContaining('decode.onnx') as string,

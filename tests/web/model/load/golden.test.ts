@@ -83,7 +83,7 @@ describe('the tiny model on wasm', () => {
     expect(Math.max(...seen)).toBeLessThan(1e-4);
   });
 
-  it('decodes the same joints of all layers and and of coarse alone', async () => {
+  it('decodes the same joints from all layers and from the coarse one alone', async () => {
     const { session, golden } = model;
     const last = array('x').subarray(-latents * width);
     for (const [name, layers] of [

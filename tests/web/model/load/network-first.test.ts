@@ -20,7 +20,7 @@ const status = (code: number) => (): ReturnType<typeof fetch> =>
   Promise.resolve(new Response('', { status: code }));
 
 describe('the latest version of a file', () => {
-  it('is the server’s, and is kept in place of the older one', async () => {
+  it('is fetched from the server, and replaces the stored copy', async () => {
     const { answers, files } = store('old');
     const bytes = await fetchLatest(URL, () => Promise.resolve(new Response('new')), answers);
     expect(text(bytes)).toBe('new');
@@ -30,11 +30,11 @@ describe('the latest version of a file', () => {
   it.each([
     ['is out of reach', offline],
     ['is broken', status(503)],
-  ])('is the kept one while the server %s', async (_, get) => {
+  ])('is the stored copy while the server %s', async (_, get) => {
     expect(text(await fetchLatest(URL, get, store('old').answers))).toBe('old');
   });
 
-  it('is not waited for without end where a copy is kept', async () => {
+  it('is the stored copy when the server does not answer in time', async () => {
     const silent: typeof fetch = (_, options) =>
       new Promise((_, reject) => {
         options?.signal?.addEventListener('abort', () => {
@@ -44,7 +44,7 @@ describe('the latest version of a file', () => {
     expect(text(await fetchLatest(URL, silent, store('old').answers, 20))).toBe('old');
   });
 
-  it('is nothing when the server says that there is none', async () => {
+  it('is an error when the server answers that there is no such file', async () => {
     await expect(fetchLatest(URL, status(404), store('old').answers)).rejects.toMatchObject({
       code: 'model-missing',
     });
@@ -57,7 +57,7 @@ describe('the latest version of a file', () => {
     await expect(fetchLatest(URL, offline)).rejects.toMatchObject({ code: 'download-failed' });
   });
 
-  it('does not need a store that works', async () => {
+  it('is fetched even when the store fails', async () => {
     const broken: ResponseCache = {
       get: () => Promise.reject(new DOMException('denied', 'SecurityError')),
       put: () => Promise.reject(new DOMException('full', 'QuotaExceededError')),

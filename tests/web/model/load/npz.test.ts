@@ -29,7 +29,7 @@ describe('readNpz', () => {
     expect(arrays.get('none')).toEqual({ shape: [0, 3], data: new Float32Array() });
   });
 
-  it('turns columns first into rows first', () => {
+  it('reads arrays in Fortran order', () => {
     // a[i, j, k] = 100 i + 10 j + k, first axis fastest.
     const stored = [0, 1].flatMap((k) => [0, 1, 2].flatMap((j) => [0, 1].map((i) => 100 * i + 10 * j + k)));
     const arrays = readNpz(zipSync({ 'a.npy': npy('<f4', '(2, 3, 2)', new Float32Array(stored), true) }));
@@ -38,7 +38,7 @@ describe('readNpz', () => {
     );
   });
 
-  it('says which array it cannot read', () => {
+  it('names an array of a type that it cannot read', () => {
     const archive = zipSync({ 'words.npy': npy('<U4', '(1,)', new Uint8Array(16)) });
     expect(() => readNpz(archive)).toThrow('"words" is of a type that is not read here: <U4');
   });

@@ -34,19 +34,19 @@ function heard(what: GenerateRequest): number[] {
 }
 
 describe('the song in the model', () => {
-  it('begins with the clip unless it is shifted', () => {
+  it('begins with the clip when it is not shifted', () => {
     expect(heard(request(8, { frames: 12 }))).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
     expect(heard(request(8, { frames: 12, start: 0 }))).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
     expect(heard(request(8, null))).toEqual([0, 0, 0, 0, 0, 0, 0, 0]);
   });
 
-  it('comes later after silence', () => {
+  it('begins later, after silence, when it is shifted forwards', () => {
     expect(heard(request(8, { frames: 12, start: 3 }))).toEqual([0, 0, 0, 1, 2, 3, 4, 5]);
     expect(heard(request(8, { frames: 2, start: 3 }))).toEqual([0, 0, 0, 1, 2, 0, 0, 0]);
     expect(heard(request(8, { frames: 2, start: 30 }))).toEqual([0, 0, 0, 0, 0, 0, 0, 0]);
   });
 
-  it('has begun before, and silence follows', () => {
+  it('loses its beginning when it is shifted backwards, and silence follows', () => {
     expect(heard(request(8, { frames: 6, start: -2 }))).toEqual([3, 4, 5, 6, 0, 0, 0, 0]);
     expect(heard(request(8, { frames: 6, start: -20 }))).toEqual([0, 0, 0, 0, 0, 0, 0, 0]);
   });

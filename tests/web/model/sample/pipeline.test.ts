@@ -53,13 +53,16 @@ function request(frames: number, changes: Partial<GenerateRequest> = {}): Genera
 }
 
 describe('Pipeline', () => {
-  it.each([1, 2, 3, 4, 5, 119, 241, 483])('answers %i frames with as many', async (frames) => {
-    const { motion, seconds } = await pipeline.generate(request(frames));
-    expect(motion.frames).toBe(frames);
-    expect(motion.positions).toHaveLength(frames * 66);
-    expect(motion.positions.every(Number.isFinite)).toBe(true);
-    expect(Object.values(seconds).every((time) => time >= 0)).toBe(true);
-  });
+  it.each([1, 2, 3, 4, 5, 119, 241, 483])(
+    'generates as many frames as the leader has (%i)',
+    async (frames) => {
+      const { motion, seconds } = await pipeline.generate(request(frames));
+      expect(motion.frames).toBe(frames);
+      expect(motion.positions).toHaveLength(frames * 66);
+      expect(motion.positions.every(Number.isFinite)).toBe(true);
+      expect(Object.values(seconds).every((time) => time >= 0)).toBe(true);
+    },
+  );
 
   it('gives the same partner for the same seed and another for another', async () => {
     const [a, b, c] = [
@@ -115,7 +118,7 @@ describe('Pipeline', () => {
     expect(conditions[1]?.musicValid[49]).toBe(1);
   });
 
-  it('takes as much of a longer song as there is dance', async () => {
+  it('uses only the part of a longer song that the dance lasts', async () => {
     await pipeline.generate(request(50, { music: request(120).music }));
     expect(conditions[0]?.music).toHaveLength(52 * model.manifest.audio.features);
     expect(conditions[0]?.musicValid.reduce((sum, v) => sum + v, 0)).toBe(52);
@@ -183,7 +186,7 @@ describe('Pipeline', () => {
     await expect(coarse).rejects.toThrow(/abort/i);
   });
 
-  it('tells its progress, never backwards, up to the end', async () => {
+  it('reports progress that ascends to 1', async () => {
     const seen: Progress[] = [];
     await pipeline.generate(request(483), { onProgress: (progress) => seen.push(progress) });
     expect([...new Set(seen.map(({ stage }) => stage))]).toEqual(['condition', 'step', 'decode', 'solve']);
@@ -234,7 +237,7 @@ describe('Pipeline', () => {
     expect(conditions).toHaveLength(0);
   });
 
-  it('says when the numbers of the model are not finite', async () => {
+  it('reports an output of the model that is not finite', async () => {
     const { session, manifest } = model;
     const broken = { ...session, decode: () => Promise.resolve(new Float32Array(120 * 66).fill(NaN)) };
     const result = new Pipeline(manifest, broken, () => 0).generate(request(120));

@@ -139,7 +139,7 @@ describe('a generation with a frame on view', { timeout: 90_000 }, () => {
     expect(mean(inner(previews[1]!), inner(whole))).toBeLessThan(0.1 * moved);
   });
 
-  it('shows something on the very first run too, and at the end of the clip', async () => {
+  it('shows a preview in the first generation too, and at the end of the clip', async () => {
     const { previews } = await generate(open(), {}, 99_999);
     expect(previews[0]?.fresh).toEqual({ from: 3 * 240, to: 4 * 240 - 7 });
     expect(previews[0]?.motion.positions.every(Number.isFinite)).toBe(true);
@@ -153,7 +153,7 @@ describe('a generation with a frame on view', { timeout: 90_000 }, () => {
     expect(progress.every(({ stage }) => stage !== 'preview')).toBe(true);
   });
 
-  it('is cancelled during the preview as at any time', async () => {
+  it('can be cancelled during the preview', async () => {
     const controller = new AbortController();
     const previews: Preview[] = [];
     const result = open().generate(request(), {

@@ -23,13 +23,13 @@ describe('motion beats', () => {
     });
   }
 
-  it('are none where nobody moves and in a clip of one frame or none', () => {
+  it('do not exist where nobody moves and in clips of less than two frames', () => {
     expect(motionBeats({ positions: new Float32Array(90 * 66), frames: 90 }, smoothing)).toEqual([]);
     expect(motionBeats({ positions: new Float32Array(66), frames: 1 }, smoothing)).toEqual([]);
     expect(motionBeats({ positions: new Float32Array(0), frames: 0 }, smoothing)).toEqual([]);
   });
 
-  it('score nothing without music', () => {
+  it('score 0 without music', () => {
     expect(beatScores([3, 7], [], tolerance)).toEqual([0, 0]);
   });
 });

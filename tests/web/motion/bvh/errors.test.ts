@@ -262,7 +262,7 @@ describe('missing joints', () => {
   test('neck and head', () => {
     expectFailure(body({}, ['neck', 'head']), 'missing-joints', 'no joint was found for neck or head');
   });
-  test('every name known', () => {
+  test('all joints, with names that no convention has', () => {
     const text = body({}, []).replaceAll(
       /(ROOT|JOINT) \S+:(\S+)/g,
       (_, kind: string, name: string) => `${kind} q${name}q`,

@@ -228,7 +228,7 @@ describe('skeleton conventions', () => {
     expect(file.report.warnings).toEqual([]);
   });
 
-  test('joints of fingers and twists change nothing', () => {
+  test('finger and twist joints do not change the result', () => {
     const [, names] = FAMILIES[1]!;
     const plain = readBvh(madeBvh({ joints: madeBody(names), swing: 0 }).text);
     const extra = [

@@ -74,7 +74,7 @@ describe('avoidCollisions', () => {
     }
   });
 
-  test('goes round a dancer in the way, on one side and slowly', () => {
+  test('passes a dancer in the way on one side, slowly', () => {
     const reactor = stander((f) => [0.03, 1.5 - 3 * eased(f, 60, 240)]);
     expect(top(overlaps(leader, reactor))).toBeGreaterThan(0.1);
     const apart = avoidCollisions(reactor, leader, rule);

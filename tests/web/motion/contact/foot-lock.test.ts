@@ -156,7 +156,7 @@ describe('locked feet', () => {
     }
   });
 
-  test.each([1, 2, 3])('leave a dancer whole who was solved, seed %i', (seed) => {
+  test.each([1, 2, 3])('keep bone lengths and rotations of a solved dancer consistent, seed %i', (seed) => {
     const free = solve(madeDancer({ frames: 120, seed, spin: 0.3 * seed }));
     expectSound(free, lockFeet(free));
   });
@@ -252,7 +252,7 @@ describe('two-bone inverse kinematics', () => {
     return add(leg.hip, add(rotate(thigh, leg.thigh), rotate(shin, leg.shin)));
   };
 
-  test.each([0.1, 0.6, 1.4])('brings the ankle to the target, knee bent by %f', (angle) => {
+  test.each([0.1, 0.6, 1.4])('brings the ankle to the target from a knee bent by %f', (angle) => {
     for (const target of [
       [0.1, 0.1, 0],
       [0.2, 0.2, 0.1],
@@ -278,7 +278,7 @@ describe('two-bone inverse kinematics', () => {
     }
   });
 
-  test('has no jump where the knee comes through the straight leg', () => {
+  test('does not jump where the knee passes through the straight leg', () => {
     const target: Vec3 = [0.15, 0.12, 0.05];
     const kneeAt = (angle: number): Vec3 => rotate(twoBoneIk(bentBy(angle), target).thigh, [0, -0.42, 0]);
     for (let angle = -0.1; angle < 0.1; angle += 0.005) {

@@ -115,7 +115,7 @@ describe('what is shown', () => {
     expect([...worstRow(rows)]).toEqual([1, 0.5, 2, NaN]);
   });
 
-  it('gives the words with the scores of recorded dancers', () => {
+  it('gives texts with the scores of recorded dancers', () => {
     const reference = {
       model: 'small',
       skateShare: 0.33,

@@ -10,8 +10,8 @@ import {
   toStep,
 } from '../../../../web/ui/store/format';
 
-describe('words and numbers on the page', () => {
-  it('cuts the clock like a clock', () => {
+describe('formatted numbers', () => {
+  it('cuts seconds to tenths instead of rounding them', () => {
     expect(clockTime(16.79)).toBe('0:16.7');
     expect(clockTime(59.99)).toBe('0:59.9');
     expect(clockTime(125.5, false)).toBe('2:05');

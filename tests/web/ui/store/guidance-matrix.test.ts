@@ -21,7 +21,7 @@ describe('the fader of a layer', () => {
     expect(matrix.columnOf(rows(1, 1.5, 0.5), 'coarse')).toEqual({ value: 1, mixed: true });
   });
 
-  it('clamps each body part to the range, so that all are uniformGuidance at its end', () => {
+  it('clamps each body part to the range, so that all are equal at its end', () => {
     const near = matrix.withColumn(rows(1, 2, 3), 'coarse', 2.5, range);
     expect(coarse(near)).toEqual([1.75, 2.75, 3]);
     for (const end of [range.min, range.max])
@@ -31,7 +31,7 @@ describe('the fader of a layer', () => {
       });
   });
 
-  it('leaves the other layer, and parts that are uniformGuidance stay uniformGuidance', () => {
+  it('does not change the other layer, and keeps equal parts equal', () => {
     const moved = matrix.withColumn(uniformGuidance(0.5, 0.2), 'fine', 1.23, range);
     expect(moved).toEqual(uniformGuidance(0.5, 1.25));
   });

@@ -11,7 +11,7 @@ const ready = (): change.Store => {
 };
 
 describe('settings', () => {
-  it('come from the manifest, with the seed that was rolled', () => {
+  it('come from the manifest, with the given seed', () => {
     const store = ready();
     expect(store.getState().settings).toEqual({
       guidance: uniformGuidance(0, 0),

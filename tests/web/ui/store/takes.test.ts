@@ -265,7 +265,7 @@ describe('A and B', () => {
     expect(letters()).toBe('Take 3 -, Take 2 A, Take 1 B');
   });
 
-  it('are seen together only while there are two, and end with either', () => {
+  it('are shown together only while both exist', () => {
     page.do(edit.compareSet('ghost'));
     expect(page.state.compare).toBe('off');
     page.do(edit.letterGiven(page.id('Take 1'), 'B'), edit.compareSet('side'), edit.compareSet('ghost'));
@@ -352,7 +352,7 @@ describe('undo and redo', () => {
     page.arrive();
   });
 
-  it('go over names, stars and deletions', () => {
+  it('restore names, stars and deleted takes', () => {
     page.do(edit.takeRenamed(page.id('Take 1'), '  Softer   hands '));
     page.do(edit.takeStarred(page.id('Softer hands')));
     page.do(edit.takeDeleted(page.id('Softer hands')));
@@ -419,7 +419,7 @@ describe('undo and redo', () => {
     expect(page.state.history.future).toHaveLength(0);
   });
 
-  it('go over a leader that was dropped, with the reaction that was there', () => {
+  it('restore the leader and the reaction before another leader was dropped', () => {
     page.do(change.leaderLoaded(leader(90, 'other.bvh')));
     expect(page.state.reaction).toBeNull();
     page.do(undone());

@@ -51,7 +51,7 @@ describe('timeline changes', () => {
     expect(change.visibleSpan(now())).toEqual({ from: 0, to: 10 });
   });
 
-  it('shifts by whole frames while a second of the song is heard', () => {
+  it('shifts by whole frames as long as a second of the song stays in the dance', () => {
     does(change.shiftSet(7.4));
     expect(now().shift).toBe(7);
     expect(shift.songStart(now())).toBeCloseTo(7 / 30);
@@ -94,7 +94,7 @@ describe('timeline changes', () => {
     expect(now()).toMatchObject({ zoom: null, playback: { region: null } });
   });
 
-  it('says shifts in words', () => {
+  it('formats shifts', () => {
     expect(shift.frameCountText(7)).toBe('+7 frames');
     expect(shift.frameCountText(-1)).toBe('−1 frame');
     expect(shift.shiftText(15, now())).toBe('+15 frames, 0.50 s later');

@@ -84,7 +84,7 @@ describe('playback', () => {
     expect(player.duration).toBe(3);
   });
 
-  it('follows the player, ends the visit, and stops at the end', async () => {
+  it('follows the player, closes the first-visit block, and stops at the end', async () => {
     load();
     playback.toggle();
     await draw(1.25);

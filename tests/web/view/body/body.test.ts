@@ -125,7 +125,7 @@ describe('a body', () => {
     }
   });
 
-  it('holds the volume of a person', () => {
+  it('has the volume of a person', () => {
     const { volume } = topology(bodies.get('leader')!);
     expect(volume).toBeGreaterThan(0.055);
     expect(volume).toBeLessThan(0.085);

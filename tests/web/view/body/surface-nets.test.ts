@@ -28,7 +28,7 @@ describe('surface nets', () => {
     expect(volume / ((4 / 3) * Math.PI * 0.8 ** 3)).toBeLessThan(1.01);
   });
 
-  it('keeps the hole of a ring', () => {
+  it('keeps the hole of a torus', () => {
     const ring = grid(30, 0.1, (x, y, z) => Math.hypot(Math.hypot(x, z) - 0.8, y) - 0.3);
     expect(topology(meshed(ring))).toMatchObject({ openEdges: 0, euler: 0 });
   });

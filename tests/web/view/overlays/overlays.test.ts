@@ -140,7 +140,7 @@ describe('trails', () => {
 });
 
 describe('the overlays', () => {
-  it('are in the scene only while they are on', () => {
+  it('are in the scene only while they are switched on', () => {
     const overlays = createOverlays();
     overlays.setLook(LOOKS.dark);
     const motion = randomMotion(30, 9);
