@@ -1,6 +1,6 @@
 /**
- * Puts the page together, from top to bottom: the store, the features that change it, the stage, what panels may ask
- * for, the panels, and what is loaded at the start.
+ * Assembles the page, from top to bottom: the store, the features that change it, the stage, the actions of the panels,
+ * the panels, and what is loaded at the start.
  */
 import { AudioPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
@@ -8,7 +8,7 @@ import { readLeader } from './motion/client';
 import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
-import { bindStage, openCamera, standAside } from './stage-binding';
+import { bindStage, openCamera, shiftForFirstVisit } from './stage-binding';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
@@ -88,7 +88,7 @@ const stage = openStage(stageHost);
 // A processor needs about 90 s for 30 s of video at full size: there the visitor has to ask for a large one.
 if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
-// ---- what panels may ask for ----
+// ---- the actions of the panels ----
 
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
@@ -148,7 +148,7 @@ mountKeyboard(store, services);
 mountUndoKeys(store);
 if (stage) {
   bindStage(stage, store);
-  standAside(stage, store);
+  shiftForFirstVisit(stage, store);
 }
 
 // ---- what is loaded at the start ----

@@ -14,7 +14,7 @@ const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 /** Time after a generation in which the page still shows and measures the result, milliseconds. */
 const BUSY_AFTER_MS = 1000;
 
-/** Keeps a stage in step with the state; returns how to stop that. */
+/** Updates a stage whenever the state changes; returns a function that stops it. */
 export function bindStage(stage: Stage, store: Store): () => void {
   return combineDisposers(
     watch(
@@ -67,7 +67,7 @@ function bindDancers(stage: Stage, store: Store): () => void {
   );
 }
 
-/** Lets the stage leave the page time while a reaction is generated, and shortly afterwards. */
+/** Tells the stage that the page is busy while a reaction is generated, and shortly afterwards. */
 function bindBusy(stage: Stage, store: Store): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   return combineDisposers(
@@ -84,20 +84,20 @@ function bindBusy(stage: Stage, store: Store): () => void {
   );
 }
 
-/** Windows that are wide enough for the dancers beside the words of the first visit. */
+/** Windows that are wide enough for the dancers beside the first-visit block. */
 const WIDE = matchMedia('(min-width: 761px)');
-const ASIDE_PX = 200;
+const FIRST_VISIT_SHIFT_PX = 200;
 
-/** Moves the dancers beside the words of the first visit, where there is room; returns how to stop that. */
-export function standAside(stage: Stage, store: Store): () => void {
+/** Shifts the dancers beside the first-visit block, where there is room; returns a function that stops it. */
+export function shiftForFirstVisit(stage: Stage, store: Store): () => void {
   return watch(
     store,
     (state) => state.firstVisit,
-    (firstVisit) => stage.shiftRight(firstVisit && WIDE.matches ? ASIDE_PX : 0),
+    (firstVisit) => stage.shiftRight(firstVisit && WIDE.matches ? FIRST_VISIT_SHIFT_PX : 0),
   );
 }
 
-/** Opens an offscreen stage for a video: it shows what `from` shows now, from the start of the dance, and stays so. */
+/** Opens an offscreen stage for a video: it shows what `from` shows now, from the start of the dance, and does not follow later changes. */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<VideoStage> {
   const stage = createOffscreenStage(from, size);
   try {

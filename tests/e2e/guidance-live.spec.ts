@@ -22,7 +22,7 @@ test('a change is shown at the playhead first, then everywhere, and playback goe
       const { seen } = window;
       let preview = null;
       window.done = new Promise((resolve) => {
-        (function look() {
+        (function check() {
           const state = window.reactdance.store.getState();
           if (!state.playback.playing) seen.stopped += 1;
           if (state.preview && state.preview !== preview) {
@@ -33,7 +33,7 @@ test('a change is shown at the playhead first, then everywhere, and playback goe
             window.early = Array.from(preview.motion.positions.slice(240 * 66, 480 * 66));
           }
           if (seen.first && !state.job) resolve({ ...seen, whole: performance.now() - since });
-          else setTimeout(look, 5);
+          else setTimeout(check, 5);
         })();
       });
     };

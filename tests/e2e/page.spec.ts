@@ -119,10 +119,10 @@ test('a song of three minutes is read while the page stays responsive', async ({
       for (const { duration } of list.getEntries()) window.tasks.push(duration);
     }).observe({ type: 'longtask' });
     window.parts = new Set();
-    (function look() {
+    (function check() {
       const { song } = window.reactdance.store.getState().reading;
       if (song) window.parts.add(song.fraction);
-      setTimeout(look, 20);
+      setTimeout(check, 20);
     })();
   `);
   const begun = Date.now();

@@ -62,9 +62,9 @@ test('a part is looped: drawn on the ruler, changed by its handles and by keys',
   await page.keyboard.press('Home');
   await page.evaluate(`
     window.times = [];
-    (function look() {
+    (function check() {
       window.times.push(window.reactdance.store.getState().playback.time);
-      requestAnimationFrame(look);
+      requestAnimationFrame(check);
     })();
   `);
   await page.keyboard.press('Space');

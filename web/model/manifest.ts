@@ -54,7 +54,7 @@ const schema = v.object({
     upper: v.array(natural),
     lower: v.array(natural),
     feet: v.array(natural),
-    /** Metres; the body height (motion/scale.ts) that every leader is scaled to. */
+    /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
     reference_height: v.pipe(v.number(), v.minValue(0.1)),
     /** See FLOOR in motion/bvh/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),

@@ -16,12 +16,12 @@ export interface ReadLeader {
 }
 
 /**
- * Reads a BVH in a worker of its own, which the signal ends at once.
+ * Reads a BVH in a worker of its own, which is ended at once when the signal is aborted.
  * @throws {AppError} what is wrong with the file
  * @throws the signal's reason
  */
-export async function readLeader(question: LeaderRequest, signal?: AbortSignal): Promise<ReadLeader> {
+export async function readLeader(request: LeaderRequest, signal?: AbortSignal): Promise<ReadLeader> {
   signal?.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
-  return runInWorker<MotionTasks, 'read'>(worker, 'read', question, { signal });
+  return runInWorker<MotionTasks, 'read'>(worker, 'read', request, { signal });
 }

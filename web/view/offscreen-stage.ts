@@ -12,7 +12,7 @@ export function createOffscreenStage(stage: Stage, size: PictureSize): Offscreen
 }
 
 /** A stage that is never on the page and draws only when told to, for the pictures of a video. */
-export class OffscreenStage extends Stage {
+class OffscreenStage extends Stage {
   get canvas(): HTMLCanvasElement {
     return this.view.canvas.renderer.domElement;
   }

@@ -86,7 +86,7 @@ test('cancelling stops between steps, and the next call works', async ({ page })
   const cancelled = await page.evaluate(() => model.generate({ frames: 600, steps: 50 }, 9));
   expect(cancelled.error?.name).toBe('AbortError');
   expect(cancelled.stages).not.toContain('decode');
-  // The step that was running may still be told, and one that was on its way; of more, twenty would come.
+  // The running step and one more may still be reported; without cancelling there would be twenty.
   expect(await page.evaluate(() => model.progressInASecond())).toBeLessThanOrEqual(2);
   const next = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));
   expect(next.error).toBeUndefined();

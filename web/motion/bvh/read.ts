@@ -60,7 +60,7 @@ function meanUpright(body: Body): Vec3 {
   return scale(sum, 1 / body.motion.frames);
 }
 
-/** Median of a measureBody over the clip. */
+/** Median over the clip of a value that `measureBody` gives. */
 function medianOf(body: Body, value: (measured: ReturnType<typeof measureBody>) => number): number {
   return median(
     Float64Array.from({ length: body.motion.frames }, (_, frame) => value(measureBody(body, frame))),
