@@ -67,23 +67,9 @@ class AudioRecipe:
         """Columns: MFCC, their deltas, chroma, onset strength, beat."""
         return 2 * self.mfcc + self.chroma + 2
 
-    @property
-    def frames_per_second(self) -> float:
-        return self.sample_rate / self.hop
-
     def to_dict(self) -> dict[str, float]:
         """The manifest's `audio` block: every field, and the number of feature columns."""
         return {**asdict(self), "features": self.features}
-
-    @classmethod
-    def from_dict(cls, values: dict[str, float]) -> AudioRecipe:
-        """Inverse of `to_dict`. Raises TypeError for an unknown key, ValueError for a wrong column count."""
-        fields = dict(values)
-        columns = fields.pop("features", None)
-        recipe = cls(**fields)  # pyright: ignore[reportArgumentType]
-        if columns is not None and columns != recipe.features:
-            raise ValueError(f"the recipe makes {recipe.features} feature columns, not {columns}")
-        return recipe
 
 
 MUSIC_FEATURES = AudioRecipe().features

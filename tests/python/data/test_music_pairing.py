@@ -11,6 +11,7 @@ import soundfile
 
 from tests.python.support.real_data import real_duets, real_file
 from tests.python.support.salsa import salsa_duet, salsa_steps
+from training.config import FPS
 from training.data.augment import tempo_warp, warp_factor
 from training.data.duet import Duet
 from training.data.music_pairing import (
@@ -33,7 +34,7 @@ PLAIN = Variant(1.0, "synth", 0)
 
 def beat_phase(rows: np.ndarray, tempo: Tempo) -> complex:
     """Mean position of the beat column's ones on the circle of one beat."""
-    found = np.flatnonzero(rows[:, 53]) / RECIPE.frames_per_second
+    found = np.flatnonzero(rows[:, 53]) / FPS
     return complex(np.exp(2j * np.pi * tempo.counts(found)).mean())
 
 

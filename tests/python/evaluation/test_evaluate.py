@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from tests.python.support.held_out import generate_mirrored, made_held_out, made_train
 from training.data.duet import Duet, Solo
-from training.data.made import made_duet
 from training.evaluation.evaluate import evaluate
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.protocol import COARSE_ALONE, HeldOutDuet, Settings

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from training.data.made import made_duet
+from tests.python.support.duets import made_duet
 from training.evaluation.metrics.twosample import (
     SEGMENT,
     WINDOW,
