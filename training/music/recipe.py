@@ -1,4 +1,4 @@
-"""Every constant of the 54 music features. The browser's extractor reads them from the manifest."""
+"""The constants of the 54 music features. The browser's extractor reads them from the manifest."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 class AudioRecipe:
     """How a song becomes music features.
 
-    All values are plain numbers, so that the recipe survives JSON unchanged. One feature frame is one motion
-    frame: `sample_rate / hop` frames per second.
+    All values are numbers, so that JSON keeps them. One feature frame is one motion frame: `sample_rate / hop` frames
+    per second.
     """
 
     sample_rate: int = 15360
