@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import torch
 
+from tests.python.support.duets import made_duet
 from training import train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
 from training.checkpoints import average
@@ -27,7 +28,7 @@ from training.config import (
     to_json,
 )
 from training.data.duet import Solo
-from training.data.made import made_dancer, made_duet
+from training.data.made import made_dancer
 from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import numpy as np
 
+from training.config import STRIDE
 from training.data.duet import Duet
 from training.data.splits import Split
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
 
 _SMPLX_JOINTS = 55
-_STRIDE = 4
 
 
 def y_up(motion: np.ndarray) -> np.ndarray:
@@ -53,7 +53,7 @@ def read_dd100(root: Path | str) -> list[Duet]:
         if not leader_path.exists():
             raise FileNotFoundError(f"{reactor_path} has no leader {leader_path.name} beside it")
         leader, reactor = _read_motion(leader_path), _read_motion(reactor_path)
-        frames = min(len(leader), len(reactor)) // _STRIDE * _STRIDE
+        frames = min(len(leader), len(reactor)) // STRIDE * STRIDE
         duets.append(
             Duet(name, put_on_floor(leader[:frames]), put_on_floor(reactor[:frames]), songs.get(name))
         )

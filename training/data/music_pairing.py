@@ -1,5 +1,4 @@
-"""Music for duets: their own song, or, where they were captured without one, music whose beats fall on their
-steps."""
+"""Music features of duets: of their own song, or, without one, of music whose beats fall on their steps."""
 
 from __future__ import annotations
 
@@ -31,7 +30,10 @@ Source = Literal["synth", "song"]
 
 @dataclass(frozen=True)
 class Variant:
-    """One way to pair music with a dance: how fast the dance runs, where the music comes from, and a seed."""
+    """One way to pair music with a dance.
+
+    warp: factor on the speed of the dance. source: synthesised percussion or a recorded song. seed: of either.
+    """
 
     warp: float
     source: Source
@@ -45,15 +47,15 @@ MusicBank = dict[str, dict[Variant, np.ndarray]]
 def variants(
     warps: Iterable[float] = (0.9, 1.0, 1.1), synths: int = 3, songs: int = 2
 ) -> tuple[Variant, ...]:
-    """At every tempo warp so many synthesised pieces and so many songs, each with a seed of its own."""
+    """At every warp `synths` synthesised pieces and `songs` recorded songs, with seeds from 0."""
     counts: tuple[tuple[Source, int], ...] = (("synth", synths), ("song", songs))
     return tuple(
         Variant(warp, source, seed) for warp in warps for source, count in counts for seed in range(count)
     )
 
 
-class SongShelf:
-    """The songs of a folder, each decoded and searched for beats once."""
+class SongLibrary:
+    """Songs, each decoded and searched for beats once, when it is first needed."""
 
     def __init__(self, paths: Sequence[Path], recipe: AudioRecipe) -> None:
         self.paths = tuple(paths)
@@ -68,8 +70,9 @@ class SongShelf:
         return self._loaded[path]
 
     def choose(self, bpm: float, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray] | None:
-        """A random song that can be stretched to the tempo: its samples (N,) and the beats (K,) that are to
-        fall on those of the dance, in seconds. None when there is no such song."""
+        """A random song that can be stretched to the tempo: samples (N,) and the beats (K,), seconds, to align with
+        those of the dance. None when no song can.
+        """
         fitting = []
         for path in self.paths:
             audio, beats = self.load(path)
@@ -80,13 +83,17 @@ class SongShelf:
 
 
 def paired_music(
-    frames: int, tempo: Tempo, warp: float, source: SongShelf | None, seed: Sequence[int], recipe: AudioRecipe
+    frames: int,
+    tempo: Tempo,
+    warp: float,
+    source: SongLibrary | None,
+    seed: Sequence[int],
+    recipe: AudioRecipe,
 ) -> np.ndarray:
-    """Music for a dance of `frames` frames danced `warp` times as fast, its beats on the dance's.
+    """Music (warped_length(frames, warp) * recipe.hop,) float32 mono, with its beats on those of the dance.
 
-    tempo: of the dance before warping. source: songs to choose from, None for the synthesiser; where no song
-    can be stretched to the tempo the synthesiser plays too. Returns (warped_length(frames, warp) *
-    recipe.hop,) float32 mono.
+    frames, tempo: of the dance before it is danced `warp` times as fast. source: songs to choose from; None, or a
+    library without a song that can be stretched to the tempo, gives synthesised percussion.
     """
     rng = np.random.default_rng(list(seed))
     samples = warped_length(frames, warp) * recipe.hop
@@ -101,8 +108,10 @@ def paired_music(
 
 
 def own_music(duet: Duet, warp: float, recipe: AudioRecipe) -> np.ndarray:
-    """The duet's own song with the dance warped: (warped_length * hop,) float32, silent after the song's
-    end."""
+    """The duet's own song (warped_length * hop,) float32, stretched like the dance, zero after its end.
+
+    Raises ValueError for a duet without a song.
+    """
     if duet.song is None:
         raise ValueError(f"{duet.name} has no song")
     audio = load_audio(duet.song, recipe)
@@ -114,10 +123,9 @@ def own_music(duet: Duet, warp: float, recipe: AudioRecipe) -> np.ndarray:
 
 
 def list_songs(folder: Path | str) -> tuple[list[Path], list[Path]]:
-    """Songs of a folder to train with and to hold out: every fourth by name, so that a test never hears a
-    known song.
+    """Songs of a folder for training and for held-out duets: every fourth by name is held out.
 
-    Raises FileNotFoundError when the folder holds no songs.
+    Raises FileNotFoundError when the folder has no songs.
     """
     paths = sorted(path for path in Path(folder).iterdir() if path.suffix.lower() in SONG_SUFFIXES)
     if not paths:
@@ -132,13 +140,14 @@ def _digest(*parts: bytes) -> str:
     return total.hexdigest()[:32]
 
 
-def _code() -> bytes:
-    """Source text of the code that makes the music, so that a change to it empties the cache."""
+def _source_code() -> bytes:
+    """Source text of the modules that make the music: part of a cache key, so that a change renews the cache."""
     modules = (features_module, stretch, synth)
     return "\n".join(Path(str(module.__file__)).read_text() for module in modules).encode()
 
 
 def _cached(path: Path | None, make: Callable[[], np.ndarray]) -> np.ndarray:
+    """The array in a file, which is made and written first where it is missing; without a path just made."""
     if path is None:
         return make()
     if not path.exists():
@@ -153,18 +162,18 @@ def _features(
     duet: Duet,
     tempo: Tempo | None,
     variant: Variant,
-    shelf: SongShelf,
+    library: SongLibrary,
     seed: Sequence[int],
     recipe: AudioRecipe,
 ) -> np.ndarray:
-    """(warped_length, F) features of a duet's music; tempo None: of its own song."""
+    """Music features (warped_length, F) of a duet. tempo: None for its own song."""
     if tempo is None:
         audio = own_music(duet, variant.warp, recipe)
     else:
-        source = shelf if variant.source == "song" and shelf.paths else None
+        source = library if variant.source == "song" and library.paths else None
         own_seed = (*seed, variant.seed, int(variant.source == "song"), round(variant.warp * 1000))
         audio = paired_music(len(duet), tempo, variant.warp, source, own_seed, recipe)
-    # The signal is a whole number of hops long, so that centring adds one frame that the dance does not have.
+    # Centred frames of a signal of n hops are n + 1, one more than the dance has.
     return features(audio, recipe)[: warped_length(len(duet), variant.warp)]
 
 
@@ -178,21 +187,24 @@ def build_music_bank(
 ) -> MusicBank:
     """Music features of every duet in every wanted variant.
 
-    Training duets get all variants, their tempo from both dancers. Held-out duets get the unwarped variants
-    only, their tempo from the leader alone, and songs that no training duet hears. A duet with a song of its
-    own gets that song in every variant. Without songs_dir the synthesiser plays all of them. cache_dir: keeps
-    features between runs, keyed by all that they depend on.
+    Training duets get all variants, with the tempo of both dancers. Held-out duets get those without a warp, with the
+    tempo of the leader alone and songs that no training duet has. A duet with a song of its own gets it in every
+    variant. songs_dir: None for synthesised music alone. cache_dir: keeps features between runs, by a hash of all that
+    they depend on.
     """
     recipe = recipe or AudioRecipe()
-    known, held_out = list_songs(songs_dir) if songs_dir else ([], [])
-    code = _code()
+    training_songs, held_out = list_songs(songs_dir) if songs_dir else ([], [])
+    code = _source_code()
     bank: MusicBank = {}
-    for duets, songs, leader_only in ((split.train, known, False), (split.val + split.test, held_out, True)):
-        shelf = SongShelf(songs, recipe)
-        shelf_bytes = _digest(*(path.read_bytes() for path in songs)).encode()
+    for duets, songs, leader_only in (
+        (split.train, training_songs, False),
+        (split.val + split.test, held_out, True),
+    ):
+        library = SongLibrary(songs, recipe)
+        library_bytes = _digest(*(path.read_bytes() for path in songs)).encode()
         for number, duet in enumerate(duets):
             tempo = None if duet.song else duet_tempo(duet, leader_only)
-            material = duet.song.read_bytes() if duet.song else shelf_bytes
+            material = duet.song.read_bytes() if duet.song else library_bytes
             bank[duet.name] = {}
             for variant in wanted:
                 if leader_only and variant.warp != 1.0:
@@ -207,6 +219,6 @@ def build_music_bank(
                 key = _digest(json.dumps(inputs, sort_keys=True).encode(), material, code)
                 bank[duet.name][variant] = _cached(
                     Path(cache_dir) / f"{key}.npy" if cache_dir else None,
-                    partial(_features, duet, tempo, variant, shelf, inputs["seed"], recipe),
+                    partial(_features, duet, tempo, variant, library, inputs["seed"], recipe),
                 )
     return bank

@@ -1,10 +1,9 @@
-"""One constant tempo and phase of a dance, from the feet.
+"""Estimates the tempo and phase of a salsa dance, both constant, from the motion of the feet.
 
-Salsa in eight counts: steps on 1, 2, 3 and 5, 6, 7, feet alternating, so one foot plants on 1, 3, 6 and the
-other on 2, 5, 7. The leader begins with the left foot, the reactor mirrors. The steps on 2 and 6 are small
-(weight is replaced), and dancers spread the three steps over the four counts, so the counts themselves hardly
-show in the spectrum of foot speed, but the eight-count cycle does, in the sum and the difference of the two
-feet.
+Salsa has eight counts: steps on 1, 2, 3 and 5, 6, 7 with alternating feet, so that one foot is planted on 1, 3 and 6
+and the other on 2, 5 and 7. The leader begins with the left foot, the reactor with the right. The steps on 2 and 6 are
+small, and dancers spread three steps over four counts. Single counts are therefore weak in the spectrum of foot speed,
+but the cycle of eight counts is strong in the sum and in the difference of the two feet.
 """
 
 from __future__ import annotations
@@ -22,21 +21,20 @@ from training.music.tempo import CYCLE, Tempo
 _LEFT = tuple(JOINTS.index(name) for name in ("left_ankle", "left_foot"))
 _RIGHT = tuple(JOINTS.index(name) for name in ("right_ankle", "right_foot"))
 
-# Counts, from 0, on which the foot that begins and the other one plant.
+# Counts, from 0, on which the first foot of the cycle and the other one are planted.
 BEGINNING_FOOT = (0, 2, 5)
 OTHER_FOOT = (1, 4, 6)
 
 _BPM = np.arange(140.0, 210.0, 0.2)
-# Harmonics of the eight-count cycle that steps can excite: both feet together repeat after four counts, the
-# difference of the feet changes sign after four.
+# Harmonics of the eight-count cycle in foot speed: the sum of both feet repeats after four counts, their difference
+# changes its sign after four.
 _SUM_HARMONICS = (2, 4, 6)
 _DIFFERENCE_HARMONICS = (1, 3, 5)
 
 
 @dataclass(frozen=True)
 class Plants:
-    """Touch-downs of one dancer: seconds (K,), foot (K,) 0 left, 1 right, and peak speed (K,) m/s of the
-    step."""
+    """Foot plants of one dancer: seconds (K,), foot (K,) 0 left or 1 right, and peak speed (K,) of the step, m/s."""
 
     seconds: np.ndarray
     foot: np.ndarray
@@ -44,8 +42,10 @@ class Plants:
 
 
 def foot_speed(motion: np.ndarray, sigma: float = 1.5) -> np.ndarray:
-    """Speed of the left and right foot (ankle and toes' mean) of a (T, 22, 3) motion: (2, T) m/s,
-    smoothed."""
+    """Speed (2, T) of the left and right foot (mean of ankle and toe) of a motion (T, 22, 3), m/s.
+
+    sigma: frames, of the Gaussian that smooths the positions before.
+    """
     rows = []
     for foot in (_LEFT, _RIGHT):
         path = gaussian_filter1d(
@@ -56,11 +56,10 @@ def foot_speed(motion: np.ndarray, sigma: float = 1.5) -> np.ndarray:
 
 
 def foot_plants(motion: np.ndarray, lowest_peak: float = 0.5, settled: float = 0.5) -> Plants:
-    """Times at which a moving foot comes to rest: its speed has fallen to `settled` of the step's peak.
+    """Foot plants of a motion (T, 22, 3): when the speed of a foot has fallen to `settled` of the step's peak.
 
-    Half the peak is where the speed changes fastest, so it is the least uncertain instant of a touch-down;
-    the foot itself keeps sliding a little in captured motion. Steps slower than `lowest_peak` m/s are
-    shuffles.
+    At half the peak the speed changes fastest, so this time is known best; a captured foot goes on sliding a little.
+    Steps slower than `lowest_peak` m/s do not count.
     """
     seconds, feet, peaks = [], [], []
     for foot, speed in enumerate(foot_speed(motion)):
@@ -79,15 +78,14 @@ def foot_plants(motion: np.ndarray, lowest_peak: float = 0.5, settled: float = 0
 
 
 def _centred(signal: np.ndarray) -> np.ndarray:
-    """Without its slow trend (2 s), weighted down at the ends, norm 1."""
+    """The signal (T,) without its slow trend (Gaussian of 2 s), faded at both ends, with norm 1."""
     window = np.hanning(len(signal) + 2)[1:-1] ** 0.25
     signal = (signal - gaussian_filter1d(signal, 2.0 * FPS, mode="nearest")) * window
     return signal / max(float(np.linalg.norm(signal)), 1e-12)
 
 
 def cycle_power(motion: np.ndarray, bpm: np.ndarray) -> np.ndarray:
-    """How much of the feet's rhythm has a period of eight counts, for each tempo: (len(bpm),), about 0 to
-    1."""
+    """Power (len(bpm),) of the foot speeds in harmonics of eight counts at each tempo, about 0 to 1."""
     left, right = foot_speed(motion)
     seconds = np.arange(len(motion)) / FPS
     power = np.zeros(len(bpm))
@@ -100,8 +98,10 @@ def cycle_power(motion: np.ndarray, bpm: np.ndarray) -> np.ndarray:
 
 
 def _step_template(counts: np.ndarray, planted: tuple[int, ...]) -> np.ndarray:
-    """Expected foot speed at positions in the eight counts: a bump before each plant, the small steps
-    lower."""
+    """Expected foot speed, of any scale, at positions in the eight counts: a Gaussian before each plant.
+
+    The small steps on 2 and 6 have half the height.
+    """
     total = np.zeros_like(counts)
     for plant in planted:
         away = (counts - (plant - 0.6) + CYCLE / 2) % CYCLE - CYCLE / 2
@@ -110,7 +110,7 @@ def _step_template(counts: np.ndarray, planted: tuple[int, ...]) -> np.ndarray:
 
 
 def plant_errors(plants: Plants, tempo: Tempo, begins: int) -> np.ndarray:
-    """Signed distance in beats from each plant to the nearest count its foot plants on: (K,).
+    """Signed distance (K,) in beats of each plant from the nearest count on which its foot is planted.
 
     begins: the foot on count 1, 0 left (leader) or 1 right (reactor).
     """
@@ -123,11 +123,10 @@ def plant_errors(plants: Plants, tempo: Tempo, begins: int) -> np.ndarray:
 def estimate_tempo(dancers: list[tuple[np.ndarray, int]]) -> Tempo:
     """Constant tempo and phase of dancers who move together.
 
-    dancers: (T, 22, 3) motions, each with the foot it begins on (0 left, 1 right).
+    dancers: motions (T, 22, 3), each with the foot on count 1 (0 left, 1 right).
 
-    The tempo is where the feet have most power in the harmonics of eight counts; the eight counts are then
-    laid where the feet's speed fits the pattern of steps best, and shifted so that the median plant falls on
-    its count.
+    The tempo is that of the most power in the harmonics of eight counts. The phase is that at which foot speeds
+    correlate best with the pattern of steps, then moved so that the median plant lies on its count.
     """
     bpm = float(_BPM[np.sum([cycle_power(motion, _BPM) for motion, _ in dancers], axis=0).argmax()])
     period = 60 / bpm
@@ -149,9 +148,9 @@ def estimate_tempo(dancers: list[tuple[np.ndarray, int]]) -> Tempo:
 
 
 def duet_tempo(duet: Duet, leader_only: bool) -> Tempo:
-    """Tempo of a duet; from the leader alone where the reactor is what a model is asked for.
+    """Tempo of a duet, from both dancers or from the leader alone.
 
-    On held-out sequences the music is a condition, so nothing of the true reactor's timing may reach it.
+    The music of a held-out duet is a condition of the model, so its tempo may not depend on the true reactor.
     """
     if leader_only:
         return estimate_tempo([(duet.leader, 0)])
@@ -160,9 +159,11 @@ def duet_tempo(duet: Duet, leader_only: bool) -> Tempo:
 
 @dataclass(frozen=True)
 class PlantFit:
-    """How well plants lie on the counts: their number; `on_count`, the share within a third of a beat of a
-    count that the foot plants on (a quarter by chance); `concentration`, the mean resultant length, 0 to 1,
-    of the plants on the circle of a left-right step pair, the two feet half a turn apart."""
+    """How well foot plants agree with a tempo.
+
+    plants: their number. on_count: share within a third of a beat of a count of their foot; 0.25 by chance.
+    concentration: mean resultant length, 0 to 1, of their phases in a pair of steps, the right foot half a turn later.
+    """
 
     plants: int
     on_count: float
@@ -170,9 +171,9 @@ class PlantFit:
 
 
 def plant_fit(plants: Plants, tempo: Tempo, begins: int) -> PlantFit:
-    """Measures plants against a tempo; begins: the foot on count 1, 0 left or 1 right."""
+    """Compares plants with a tempo. begins: the foot on count 1, 0 left or 1 right."""
     on_count = float(np.mean(np.abs(plant_errors(plants, tempo, begins)) < 1 / 3))
-    # Three pairs of steps in eight counts. On the circle of single beats even a perfect dancer would score
-    # low, since three steps are spread over four beats.
+    # Three pairs of steps in eight counts. Phases of single beats would spread even for a perfect dancer, since three
+    # steps take four beats.
     turns = 3 * tempo.counts(plants.seconds) / CYCLE + 0.5 * (plants.foot != begins)
     return PlantFit(len(plants.seconds), on_count, float(np.abs(np.exp(2j * np.pi * turns).mean())))

@@ -17,9 +17,9 @@ from training.motion.heading import heading as facing
 from training.motion.heading import turn_in, turn_out
 from training.motion.skeleton import MIRROR
 
-WINDOW = 60  # frames that are copied in one piece
-# What the root travels in so many frames counts as much as a joint that is off by the same distance.
-LOOKAHEAD = 5.0  # frames
+WINDOW_FRAMES = 60  # copied in one piece
+# The root's displacement in so many frames weighs as much as a displacement of a joint of the same length.
+LOOKAHEAD_FRAMES = 5.0
 
 
 def baselines(held_out: Sequence[HeldOutDuet], train: Sequence[Duet]) -> dict[str, Motions]:
@@ -38,7 +38,7 @@ def leader_description(leader: np.ndarray) -> np.ndarray:
     pose = turn_in(leader - leader[:, :1], heading).reshape(len(leader), -1)
     velocity = turn_in(np.gradient(leader[:, :1], axis=0), heading)[:, 0]
     turn = np.gradient(np.unwrap(np.arctan2(heading[:, 0], heading[:, 1])))[:, None]
-    return np.concatenate([pose, velocity * LOOKAHEAD, turn * LOOKAHEAD], axis=1)
+    return np.concatenate([pose, velocity * LOOKAHEAD_FRAMES, turn * LOOKAHEAD_FRAMES], axis=1)
 
 
 def _window_costs(library: np.ndarray, query: np.ndarray) -> np.ndarray:
@@ -59,8 +59,8 @@ def nearest_neighbour(train: Sequence[Duet], leader: np.ndarray) -> np.ndarray:
     headings = [facing(duet.leader) for duet in train]
     query, heading = leader_description(leader), facing(leader)
     made = np.empty_like(leader)
-    for start in range(0, len(leader), WINDOW):
-        rows = slice(start, min(start + WINDOW, len(leader)))
+    for start in range(0, len(leader), WINDOW_FRAMES):
+        rows = slice(start, min(start + WINDOW_FRAMES, len(leader)))
         count = rows.stop - start
         best = (np.inf, 0, 0)
         for clip, description in enumerate(descriptions):

@@ -17,7 +17,7 @@ from training.data.duet import Duet, Solo
 from training.evaluation.baselines import baselines
 from training.evaluation.guidance import measure_guidance, separability
 from training.evaluation.long_dance import measure_long_dance
-from training.evaluation.metrics.duet import CLIP, HOP, clip_count
+from training.evaluation.metrics.duet import CLIP_FRAMES, HOP_FRAMES, clip_count
 from training.evaluation.out_of_distribution import OutOfDistributionDance, measure_out_of_distribution
 from training.evaluation.probes import measure_beat_following, measure_responses, measure_seams
 from training.evaluation.protocol import (
@@ -84,7 +84,11 @@ def evaluate(
         "trials": {i.duet.name: len(i.duet) for i in held_out},
         "beats_unknown": list(settings.beats_unknown),
         "seeds": list(settings.seeds),
-        "clips": {"frames": CLIP, "hop": HOP, "count": clip_count([i.duet.reactor for i in held_out])},
+        "clips": {
+            "frames": CLIP_FRAMES,
+            "hop": HOP_FRAMES,
+            "count": clip_count([i.duet.reactor for i in held_out]),
+        },
         "rows": {},
     }
     for name, motions in rows.items():

@@ -1,5 +1,5 @@
-"""Classifier-free guidance of the coarse and the fine layer: a grid of both (the paper's Table 4), and whether they
-are two controls, each of which should change its own end of the spectrum and leave the other alone.
+"""Classifier-free guidance of the coarse and the fine layer: a grid of both (the paper's Table 4), and how separate the
+two are: coarse guidance should change low frequencies only, fine guidance high ones only.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from training.evaluation.metrics import mean_report, quick_report
 from training.evaluation.metrics.speed import band_power
 from training.evaluation.protocol import HeldOutDuet, ReactorGenerator, Settings
 
-# Hz: what guidance of the coarse layer should change, and what that of the fine layer should.
-SLOW, QUICK = (0.0, 1.5), (3.0, 15.0)
-STRENGTH = 1.2  # the paper's guidance, compared with none
+# What guidance of the coarse layer should change, and what that of the fine layer should.
+SLOW_HZ, QUICK_HZ = (0.0, 1.5), (3.0, 15.0)
+PAPER_GUIDANCE = 1.2  # compared with none
 
 # Which energy of `measure_guidance` a layer's guidance is meant for, and which it should leave alone.
 OWN = {"coarse": "slow_energy", "fine": "quick_energy"}
@@ -34,7 +34,7 @@ def measure_guidance(
             for item in held_out:
                 for seed in settings.seeds[: settings.response_seeds]:
                     made = generate(item.duet.leader, item.music, seed, guidance=(coarse, fine))
-                    slow, quick = band_power(made, (SLOW, QUICK))
+                    slow, quick = band_power(made, (SLOW_HZ, QUICK_HZ))
                     energy = {"slow_energy": float(slow), "quick_energy": float(quick)}
                     rows.append(quick_report(item.duet.leader, item.duet.reactor, made) | energy)
             cells.append({"coarse": coarse, "fine": fine} | mean_report(rows))
@@ -50,7 +50,10 @@ def separability(cells: Sequence[Mapping[str, float]]) -> dict[str, float]:
     """
     by_guidance = {(cell["coarse"], cell["fine"]): cell for cell in cells}
     none = by_guidance.get((0.0, 0.0))
-    raised = {"coarse": by_guidance.get((STRENGTH, 0.0)), "fine": by_guidance.get((0.0, STRENGTH))}
+    raised = {
+        "coarse": by_guidance.get((PAPER_GUIDANCE, 0.0)),
+        "fine": by_guidance.get((0.0, PAPER_GUIDANCE)),
+    }
     result: dict[str, float] = {}
     for layer, cell in raised.items():
         if none is not None and cell is not None:

@@ -67,17 +67,18 @@ def of_section(section: str, key: str) -> Read:
 
 
 def constant(value: float) -> Read:
+    """A value that is known already."""
     return lambda _: value
 
 
-def size(read: Read) -> Read:
+def absolute(read: Read) -> Read:
     """The value without its sign."""
 
-    def absolute(numbers: Numbers) -> float | None:
+    def read_absolute(numbers: Numbers) -> float | None:
         value = read(numbers)
         return None if value is None else abs(value)
 
-    return absolute
+    return read_absolute
 
 
 def ratio(row: str, key: str, other: str) -> Read:

@@ -25,7 +25,7 @@ from training.hfsq.windows import training_clips
 NO_LATENTS = HfsqConfig(quantiser="none", layers=1, scales=(1.0,), masking=None)
 # As in stage 1 (`training.train_hfsq`).
 TEMPOS = (0.9, 1.0, 1.1)
-SHORTEST = 240  # frames
+MIN_FRAMES = 240
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Options:
 
 def main(options: Options) -> None:
     duets = read_split(options.data, options.val, options.test).train
-    clips = training_clips(duets, [], TEMPOS, FrameConfig(), cutoff=None, shortest=SHORTEST)
+    clips = training_clips(duets, [], TEMPOS, FrameConfig(), cutoff=None, shortest=MIN_FRAMES)
     model = Autoencoder(NO_LATENTS)
     set_input_statistics(model, clips)
     set_latent_statistics(model, clips)

@@ -1,6 +1,6 @@
 """Out-of-distribution leaders: other people in other dances, for whom there is no true reactor to compare with.
 
-What can be asked is that the partner stays a partner: finite, on the floor, near, and not much faster than the
+What can be measured is whether the partner is finite, on the floor, near the leader and not much faster than the
 leader. Leaders whose solos were in the training data are reported apart from those that were not.
 """
 
@@ -24,9 +24,9 @@ from training.motion.floor import lower_toe
 
 # Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
 # planted toe rests at 0.03; true reactors of the salsa stay within 0.01 and 0.09.
-LOWEST_TOE, HIGHEST_TOE = -0.03, 0.15
-FARTHEST = 3.0  # metres between the roots
-SPEED_FACTOR, SPEED_REST = 2.0, 0.3  # times the leader's mean speed, plus m/s
+MIN_TOE_HEIGHT, MAX_TOE_HEIGHT = -0.03, 0.15
+MAX_DISTANCE = 3.0  # metres between the roots
+MAX_SPEED_RATIO, MAX_SPEED_EXTRA = 2.0, 0.3  # times the leader's mean speed, plus m/s
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ def read_leaders(sources: Sequence[Path]) -> list[Solo]:
 
 
 def measure_partner(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
-    """Measures of a reactor beside a leader, (T, 22, 3) metres on the floor y = 0; `checks` says which of the
-    demands it meets, `passed` whether all.
+    """Measures of a reactor beside a leader, (T, 22, 3) metres on the floor y = 0; `checks` says which
+    requirements it meets, `passed` whether all.
 
     toe_low_m and toe_high_m: 1st and 99th percentile over frames of the lower toe joint's height, metres.
     speed and leader_speed: mean joint speeds, m/s. overlap_share: of the frames, see `penetration`.
@@ -75,9 +75,9 @@ def measure_partner(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
     }
     checks = {
         "finite": bool(np.isfinite(reactor).all()),
-        "on the floor": row["toe_low_m"] >= LOWEST_TOE and row["toe_high_m"] <= HIGHEST_TOE,
-        "near": row["distance_median_m"] < FARTHEST and row["distance_max_m"] < FARTHEST,
-        "speed": row["speed"] < SPEED_FACTOR * row["leader_speed"] + SPEED_REST,
+        "on the floor": row["toe_low_m"] >= MIN_TOE_HEIGHT and row["toe_high_m"] <= MAX_TOE_HEIGHT,
+        "near": row["distance_median_m"] < MAX_DISTANCE and row["distance_max_m"] < MAX_DISTANCE,
+        "speed": row["speed"] < MAX_SPEED_RATIO * row["leader_speed"] + MAX_SPEED_EXTRA,
     }
     return {**row, "checks": checks, "passed": all(checks.values())}
 

@@ -14,6 +14,7 @@ from training.evaluation.limits import (
     Numbers,
     Threshold,
     ThresholdResult,
+    absolute,
     beat_echo,
     check,
     constant,
@@ -23,7 +24,6 @@ from training.evaluation.limits import (
     points_above,
     ratio,
     repeats_above_truth,
-    size,
 )
 from training.evaluation.metrics.speed import BANDS, band_name
 
@@ -122,7 +122,7 @@ def _targets_of_guidance(layer: str, own: str, other: str) -> tuple[Threshold, .
     return (
         Threshold(
             f"{layer} guidance moves energy {own} by",
-            size(of_section("separability", f"{layer}_moves_own")),
+            absolute(of_section("separability", f"{layer}_moves_own")),
             0.05,
             inf,
         ),

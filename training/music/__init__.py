@@ -1,1 +1,1 @@
-"""Songs: loading, the 54 features, tempo, synthesis and pairing with dances."""
+"""Songs: loading, the 54 features, time-stretching and synthesis."""

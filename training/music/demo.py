@@ -1,8 +1,9 @@
-"""Makes the demo song: about 35 s of salsa by the project's own synthesiser.
+"""Synthesises the demo song: about 35 s of salsa.
 
     python -m training.music.demo --out web/public/demo/song.mp3
 
-Percussion comes in one by one, then bass and piano; the piano plays a montuno over a two-bar minor progression.
+Percussion instruments enter one after the other, then bass and piano. The piano plays a montuno over a minor
+progression of two bars.
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from training.music.synth import CLAVE_23, Kit, Track, bass_note, cycle_starts, 
 from training.music.tempo import CYCLE, Tempo
 
 RATE = 44100
-# i - iv - V7 - i in A minor, two counts of four each: MIDI notes of the piano's chord for each half of a cycle.
+# MIDI notes of the piano's chords in A minor, one chord for each half of a cycle of eight counts.
 _CHORDS = (
     ((57, 60, 64), (57, 62, 65)),
     ((56, 62, 64), (57, 60, 64)),
     ((57, 60, 64), (57, 62, 65)),
     ((55, 59, 65), (56, 62, 64)),
 )
-# The bass notes under them.
+# MIDI notes of the bass under them.
 _ROOTS = ((33, 38), (40, 33), (33, 38), (31, 40))
-# Montuno in 2-3 clave, in eighths of the eight counts; on the first it is on the beat, then always off it.
+# Strokes of the montuno in 2-3 clave, in eighth notes of the eight counts.
 _MONTUNO = (0, 2, 3, 5, 7, 9, 11, 13, 15)
 
 _KIT = Kit(
@@ -51,7 +52,7 @@ _KIT = Kit(
 
 
 def piano_note(rate: int, note: int, seconds: float, loudness: float) -> np.ndarray:
-    """A struck string: slightly stretched partials, brighter when loud, each fading at its own pace."""
+    """A piano note (N,): slightly inharmonic partials, higher ones decay sooner and are louder in loud notes."""
     t = np.arange(int(rate * (seconds + 0.25))) / rate
     hertz = midi_hertz(note)
     sound = np.zeros(len(t))
@@ -65,14 +66,14 @@ def piano_note(rate: int, note: int, seconds: float, loudness: float) -> np.ndar
 
 
 def piano(tempo: Tempo, samples: int, from_cycle: int, rng: np.random.Generator) -> np.ndarray:
-    """The montuno, from one cycle of eight counts on: (samples,). Octaves outline, inner notes answer."""
+    """The montuno (samples,), from cycle `from_cycle` of eight counts on: octaves and inner notes in turn."""
     track = Track(RATE, samples)
     eighth = 30 / tempo.bpm
     for cycle, start in enumerate(cycle_starts(tempo, samples / RATE)):
         if cycle < from_cycle:
             continue
         for k, position in enumerate(_MONTUNO):
-            # Off-beat strokes already belong to the chord of the half that follows.
+            # A stroke on the last eighth note of a half has the chord of the next half.
             half = (position + 1) // 8
             chord = _CHORDS[(cycle + half // 2) % len(_CHORDS)][half % 2]
             low, middle, high = chord
@@ -87,7 +88,7 @@ def piano(tempo: Tempo, samples: int, from_cycle: int, rng: np.random.Generator)
 
 
 def bass(tempo: Tempo, samples: int, from_cycle: int) -> np.ndarray:
-    """Tumbao: (samples,). In every bar the fifth on "2 and", and on 4 already the root of the bar to come."""
+    """The tumbao (samples,), from cycle `from_cycle` on: the fifth on "2 and", the root of the next bar on 4."""
     track = Track(RATE, samples)
     eighth = 30 / tempo.bpm
     for cycle, start in enumerate(cycle_starts(tempo, samples / RATE)):
@@ -102,21 +103,21 @@ def bass(tempo: Tempo, samples: int, from_cycle: int) -> np.ndarray:
     return track.samples
 
 
-def room(audio: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """The sound in a small room: a noisy tail of 0.5 s, a tenth as loud."""
+def add_reverb(audio: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """The sound (N,) plus that of a small room: convolution with 0.5 s of decaying noise, at 0.16 of its level."""
     t = np.arange(int(0.5 * RATE)) / RATE
     tail = rng.standard_normal(len(t)) * np.exp(-t / 0.11) * (t > 0.012)
-    # Rooms swallow treble: each sample of the tail leans on the one before.
+    # A moving average takes off high frequencies, as walls do.
     tail = np.convolve(tail, np.ones(8) / 8, mode="same")
     return audio + 0.16 * fftconvolve(audio, tail / np.sqrt(np.sum(tail**2)))[: len(audio)]
 
 
 def demo_song(tempo: Tempo, cycles: int, seed: int) -> np.ndarray:
-    """(N,) float32 mono at 44100 Hz: so many cycles of eight counts and a last note that rings."""
+    """(N,) float32 mono at 44100 Hz: `cycles` cycles of eight counts and a long last chord."""
     rng = np.random.default_rng(seed)
     cycle = CYCLE * 60 / tempo.bpm
     total = int((tempo.first + cycles * cycle + 2.0) * RATE)
-    # (from cycle, to cycle, what plays): the arrangement, from clave alone to everybody.
+    # Arrangement: from cycle, to cycle, and the percussion that plays in them.
     arrangement = (
         (0, 1, replace(_KIT, conga=0.0)),
         (1, 4, _KIT),
@@ -129,8 +130,8 @@ def demo_song(tempo: Tempo, cycles: int, seed: int) -> np.ndarray:
         first, last = (round((tempo.first + k * cycle - 0.01) * RATE) for k in (begin, end))
         mix[max(0, first) : last] += layer[max(0, first) : last]
     finish = round((tempo.first + cycles * cycle - 0.01) * RATE)
-    # Bass and piano sit just under the percussion, which carries the beat. cycle_starts begins with the cycle
-    # before the first beat, so theirs are counted from 1.
+    # Bass and piano are quieter than the percussion, which has the beat. Their cycle 3 is the fourth: cycle_starts
+    # begins with the cycle before the first beat.
     playing = slice(round((tempo.first + 4 * cycle) * RATE), finish)
     level = np.std(mix[playing])
     for share, line in ((0.75, bass(tempo, total, 3)), (0.6, piano(tempo, total, 3, rng))):
@@ -139,8 +140,8 @@ def demo_song(tempo: Tempo, cycles: int, seed: int) -> np.ndarray:
     ending = Track(RATE, total)
     for note in (45, 57, 64, 69, 72, 76):
         ending.add(tempo.first + cycles * cycle, piano_note(RATE, note, 1.4, 0.9), 0.12)
-    mix = room(mix + ending.samples, rng)
-    # Headroom is left for the ripple that MP3 adds. Gentle saturation holds the peaks together, as a mixing desk would.
+    mix = add_reverb(mix + ending.samples, rng)
+    # tanh compresses peaks; a peak of 0.75 leaves headroom for the overshoot of MP3 coding.
     mix = np.tanh(1.6 * mix / np.percentile(np.abs(mix), 99.9))
     mix[-RATE // 2 :] *= np.linspace(1, 0, RATE // 2)
     return (0.75 * mix / np.abs(mix).max()).astype(np.float32)
@@ -153,6 +154,7 @@ class Options:
     out: Path = field(default=Path("web/public/demo/song.mp3"))
     bpm: float = 164.0
     cycles: int = 11
+    """Of eight counts."""
     seed: int = 20
 
 

@@ -1,4 +1,4 @@
-"""The music features of a song, by librosa 0.11: the reference that the browser's extractor is held to."""
+"""The music features of a song, by librosa 0.11. The browser's extractor is tested against them."""
 
 from __future__ import annotations
 
@@ -71,10 +71,9 @@ def features(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
 
 
 def _magnitude(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
-    """(n_fft / 2 + 1, frames) magnitude spectrogram.
+    """(n_fft / 2 + 1, frames) magnitude spectrogram of a signal (N,), frames centred.
 
-    A signal shorter than the window is extended by zeros, which is what centring pads with anyway; the frames
-    that this adds are cut off again.
+    A signal shorter than the window is padded with zeros at its end, and the frames that this adds are cut off.
     """
     padded = np.pad(audio, (0, max(0, recipe.n_fft - audio.size)))
     stft = librosa.stft(
@@ -86,8 +85,8 @@ def _magnitude(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
 def _separate(magnitude: np.ndarray, recipe: AudioRecipe) -> tuple[np.ndarray, np.ndarray]:
     """Harmonic and percussive magnitude spectrograms, both shaped like the input.
 
-    The frames are mirrored at the ends here and not by scipy's median filter, which does the same but reads
-    memory that was never written when there are two frames (scipy 1.17).
+    Frames are mirrored at both ends here. Scipy's median filter does the same, but with two frames it reads memory that
+    was never written (scipy 1.17).
     """
     margin = recipe.hpss_kernel // 2
     mirrored = np.pad(magnitude, ((0, 0), (margin, margin)), mode="symmetric")
@@ -156,8 +155,8 @@ def _beats(onset: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
     """(frames,) 1 at the frames that hold a beat, else 0."""
     beats = np.zeros(onset.shape)
     if onset.any():
-        # In doubles: librosa's dynamic program keeps the precision of its input, and ties decided by float32
-        # rounding could not be reproduced elsewhere.
+        # In double precision: librosa keeps its input's precision, and ties that float32 rounding decides cannot be
+        # reproduced in the browser.
         _, frames = librosa.beat.beat_track(
             onset_envelope=onset.astype(np.float64),
             sr=recipe.sample_rate,
@@ -170,7 +169,7 @@ def _beats(onset: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
 
 
 def tempo(onset: np.ndarray, recipe: AudioRecipe) -> float:
-    """The one tempo of a song in beats per minute, 0 when no onset was heard.
+    """The tempo of a song in beats per minute; 0 where all onset strengths are 0.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Every constant of the 54 music features. The browser's extractor reads them from the manifest."""
+"""The constants of the 54 music features. The browser's extractor reads them from the manifest."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 class AudioRecipe:
     """How a song becomes music features.
 
-    All values are plain numbers, so that the recipe survives JSON unchanged. One feature frame is one motion
-    frame: `sample_rate / hop` frames per second.
+    All values are numbers, so that JSON keeps them. One feature frame is one motion frame: `sample_rate / hop` frames
+    per second.
     """
 
     sample_rate: int = 15360
@@ -67,23 +67,9 @@ class AudioRecipe:
         """Columns: MFCC, their deltas, chroma, onset strength, beat."""
         return 2 * self.mfcc + self.chroma + 2
 
-    @property
-    def frames_per_second(self) -> float:
-        return self.sample_rate / self.hop
-
     def to_dict(self) -> dict[str, float]:
         """The manifest's `audio` block: every field, and the number of feature columns."""
         return {**asdict(self), "features": self.features}
-
-    @classmethod
-    def from_dict(cls, values: dict[str, float]) -> AudioRecipe:
-        """Inverse of `to_dict`. Raises TypeError for an unknown key, ValueError for a wrong column count."""
-        fields = dict(values)
-        columns = fields.pop("features", None)
-        recipe = cls(**fields)  # pyright: ignore[reportArgumentType]
-        if columns is not None and columns != recipe.features:
-            raise ValueError(f"the recipe makes {recipe.features} feature columns, not {columns}")
-        return recipe
 
 
 MUSIC_FEATURES = AudioRecipe().features

@@ -1,4 +1,4 @@
-"""Real songs bent onto the constant beat of a dance, by a phase vocoder that follows the song's own beats."""
+"""Time-stretches songs so that their beats fall on those of a dance, with a phase vocoder."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from training.music.recipe import AudioRecipe
 from training.music.tempo import Tempo
 
 LOWEST_RATIO, HIGHEST_RATIO = 0.75, 1.33
-"""Bounds of the dance's tempo over the song's: beyond them a song no longer sounds like itself."""
+"""Bounds of the dance's tempo over the song's; beyond them a stretched song sounds wrong."""
 
 _N_FFT = 1024
 _HOP = 256
@@ -24,10 +24,9 @@ def find_beats(audio: np.ndarray, recipe: AudioRecipe) -> np.ndarray:
 
 
 def beats_at_tempo(beats: np.ndarray, bpm: float) -> np.ndarray | None:
-    """The song's beats, halved or doubled so that the stretch to `bpm` stays within the bounds.
+    """The beats of a song, or twice or half as many, so that the stretch to `bpm` stays within the bounds.
 
-    beats: (K,) seconds. Returns the beats to lay on those of the dance, or None when no octave fits or there
-    are fewer than eight.
+    beats: (K,) seconds. Returns (M,) seconds, or None when none of the three fits or there are fewer than eight beats.
     """
     if len(beats) < 8:
         return None
@@ -41,11 +40,10 @@ def beats_at_tempo(beats: np.ndarray, bpm: float) -> np.ndarray | None:
 
 
 def warp_time(audio: np.ndarray, source: np.ndarray) -> np.ndarray:
-    """The sound of `audio` at chosen moments, pitch unchanged.
+    """`audio` (N,) along another course of time, pitch unchanged: (K * 256,) float32.
 
-    audio: (N,). source: (K,) position in audio, in samples, that is heard at output sample k * 256; it may
-    jump. Returns (K * 256,) float32. A phase vocoder: magnitudes are read where `source` points, phases
-    advance as they do there in the song.
+    source: (K,) position in audio, in samples, of output sample k * 256; it may jump. A phase vocoder: magnitudes are
+    those at the source positions, phases advance as fast as they do there.
     """
     spectrum = librosa.stft(audio, n_fft=_N_FFT, hop_length=_HOP)
     at = np.clip(source / _HOP, 0, spectrum.shape[1] - 2)
@@ -54,13 +52,13 @@ def warp_time(audio: np.ndarray, source: np.ndarray) -> np.ndarray:
     here, there = spectrum[:, whole], spectrum[:, whole + 1]
     magnitude = (1 - part) * np.abs(here) + part * np.abs(there)
     expected = 2 * np.pi * _HOP * np.arange(len(spectrum))[:, None] / _N_FFT
-    turned = np.angle(there) - np.angle(here) - expected
-    advance = expected + turned - 2 * np.pi * np.round(turned / (2 * np.pi))
+    deviation = np.angle(there) - np.angle(here) - expected
+    advance = expected + deviation - 2 * np.pi * np.round(deviation / (2 * np.pi))
     phase = np.cumsum(advance, axis=1) - advance + np.angle(here[:, :1])
-    bent = librosa.istft(
+    warped = librosa.istft(
         magnitude * np.exp(1j * phase), hop_length=_HOP, n_fft=_N_FFT, length=len(source) * _HOP
     )
-    return bent.astype(np.float32)
+    return warped.astype(np.float32)
 
 
 def stretch_to_tempo(
@@ -68,8 +66,8 @@ def stretch_to_tempo(
 ) -> np.ndarray:
     """A song whose beats fall on those of `tempo`: (samples,) float32.
 
-    beats: (K,) seconds from `beats_at_tempo`. The first beat of the dance hears song beat `start`; where the
-    song ends it begins again, a multiple of four beats later.
+    beats: (K,) seconds from `beats_at_tempo`. start: index of the song's beat on the dance's first beat. A song that is
+    too short begins again after a multiple of four beats.
     """
     usable = len(beats) - 1 - (len(beats) - 1) % 4
     seconds = np.arange(int(np.ceil(samples / _HOP))) * _HOP / recipe.sample_rate
@@ -81,5 +79,5 @@ def stretch_to_tempo(
 
 
 def stretch_by(audio: np.ndarray, factor: float) -> np.ndarray:
-    """A song `factor` times as fast, pitch unchanged: (about N / factor,) float32."""
+    """A song (N,) `factor` times as fast, pitch unchanged: (about N / factor,) float32."""
     return warp_time(audio, np.arange(0, len(audio), _HOP * factor))

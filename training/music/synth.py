@@ -1,4 +1,4 @@
-"""A percussion synthesiser for salsa: clave, conga, bell, maracas and bass, all from sines and noise."""
+"""Synthesises salsa percussion from sines and noise: clave, conga, bell, maracas, and a bass."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CONGA_SLAP = (2, 10)
 _CONGA_SOFT = (0, 1, 3, 4, 5, 8, 9, 11, 12, 13)
 _BELL_STRONG = (0, 4, 8, 12)
 _BELL_WEAK = (2, 6, 10, 14)
-# The bass anticipates: it plays on "2 and" and on 4, and the chord of the next bar begins on 4.
+# Bass strokes: among them "2 and", and 4, from which on the bass has the chord of the next bar.
 _BASS = (0, 3, 6, 11, 14)
 # Root in semitones above the key for each of four cycles of eight counts.
 _PROGRESSIONS = ((0, 5, 7, 5), (0, 0, 7, 0), (0, 7, 5, 7), (0, 10, 8, 7))
@@ -24,8 +24,7 @@ _PROGRESSIONS = ((0, 5, 7, 5), (0, 0, 7, 0), (0, 7, 5, 7), (0, 10, 8, 7))
 
 @dataclass(frozen=True)
 class Kit:
-    """Timbre, level and density of one arrangement. Levels are amplitudes, 0 for an instrument that is
-    silent."""
+    """Timbre, level and density of one arrangement. Levels are amplitudes; 0 leaves an instrument out."""
 
     clave: float
     conga: float
@@ -50,7 +49,7 @@ class Kit:
 
     @staticmethod
     def random(rng: np.random.Generator) -> Kit:
-        """An arrangement in which at least the conga or the bell marks the beat."""
+        """A random arrangement that has the conga or the bell, which mark the beat."""
         sounding = rng.random(5) < (0.85, 0.85, 0.7, 0.6, 0.8)
         if not (sounding[1] or sounding[2]):
             sounding[rng.integers(1, 3)] = True
@@ -84,34 +83,35 @@ def _seconds(rate: int, duration: float) -> np.ndarray:
 
 
 def _soft_start(rate: int, sound: np.ndarray) -> np.ndarray:
-    """Without the click of a wave that begins at full level: 1 ms rise."""
+    """The sound (N,), changed in place: faded in over 1 ms, so that it does not begin with a click."""
     rise = min(len(sound), max(1, rate // 1000))
     sound[:rise] *= np.linspace(0, 1, rise)
     return sound
 
 
 def clave_stroke(rate: int, hertz: float) -> np.ndarray:
-    """Hard wood: two inharmonic sines that die in 40 ms."""
+    """A stroke of the clave (N,): two inharmonic sines that decay within 40 ms."""
     t = _seconds(rate, 0.12)
     sound = np.sin(2 * np.pi * hertz * t) + 0.3 * np.sin(2 * np.pi * 1.49 * hertz * t)
     return _soft_start(rate, sound * np.exp(-t / 0.022))
 
 
 def conga_stroke(rate: int, hertz: float, kind: str, rng: np.random.Generator) -> np.ndarray:
-    """A skin whose pitch falls a little: `open` rings, `slap` is short, bright and noisy, `soft` is a
-    touch."""
+    """A stroke of the conga (N,), its pitch falling a little. kind: `open` is long, `slap` short and noisy, `soft`
+    short and quiet.
+    """
     decay, noise, level = {"open": (0.16, 0.15, 1.0), "slap": (0.035, 0.9, 0.9), "soft": (0.03, 0.35, 0.3)}[
         kind
     ]
     t = _seconds(rate, min(0.6, decay * 6))
     fall = hertz * (t + 0.012 * (1 - np.exp(-t / 0.02)))
-    skin = np.sin(2 * np.pi * fall) + 0.35 * np.sin(2 * np.pi * 1.6 * fall) * np.exp(-t / 0.03)
-    hand = rng.standard_normal(len(t)) * np.exp(-t / 0.008) * noise
-    return _soft_start(rate, level * (skin * np.exp(-t / decay) + hand))
+    tone = np.sin(2 * np.pi * fall) + 0.35 * np.sin(2 * np.pi * 1.6 * fall) * np.exp(-t / 0.03)
+    hit = rng.standard_normal(len(t)) * np.exp(-t / 0.008) * noise
+    return _soft_start(rate, level * (tone * np.exp(-t / decay) + hit))
 
 
 def bell_stroke(rate: int, hertz: float) -> np.ndarray:
-    """A cow bell: two partials a rough fifth apart, each with a third harmonic."""
+    """A stroke of the cow bell (N,): two partials about a fifth apart, each with its third harmonic."""
     t = _seconds(rate, 0.35)
     sound = np.zeros(len(t))
     for ratio, level in ((1.0, 1.0), (1.504, 0.8), (3.0, 0.3), (4.51, 0.2)):
@@ -121,14 +121,14 @@ def bell_stroke(rate: int, hertz: float) -> np.ndarray:
 
 
 def maracas_stroke(rate: int, rng: np.random.Generator) -> np.ndarray:
-    """Seeds in a gourd: noise without its low half, 30 ms."""
+    """A stroke of the maracas (N,): high-passed noise that decays within 30 ms."""
     t = _seconds(rate, 0.08)
-    hiss = np.diff(rng.standard_normal(len(t) + 1))
-    return _soft_start(rate, 0.4 * hiss * np.exp(-t / 0.018))
+    noise = np.diff(rng.standard_normal(len(t) + 1))
+    return _soft_start(rate, 0.4 * noise * np.exp(-t / 0.018))
 
 
 def bass_note(rate: int, hertz: float, duration: float) -> np.ndarray:
-    """A plucked string: harmonics that fade the sooner the higher they are."""
+    """A bass note (N,) of `duration` seconds: harmonics, of which higher ones decay sooner."""
     t = _seconds(rate, duration)
     sound = np.zeros(len(t))
     for k in range(1, 6):
@@ -139,14 +139,14 @@ def bass_note(rate: int, hertz: float, duration: float) -> np.ndarray:
 
 
 class Track:
-    """A mono signal that strokes are laid into."""
+    """A mono signal to which sounds are added. samples: (N,) at `rate` Hz."""
 
     def __init__(self, rate: int, samples: int) -> None:
         self.rate = rate
         self.samples = np.zeros(samples, dtype=np.float64)
 
     def add(self, seconds: float, sound: np.ndarray, level: float) -> None:
-        """Adds a sound that begins at `seconds`; what lies outside of the track is cut off."""
+        """Adds a sound, times `level`, from `seconds` on; what lies outside of the track is cut off."""
         start = round(seconds * self.rate)
         begin, end = max(0, start), min(len(self.samples), start + len(sound))
         if begin < end:
@@ -154,15 +154,14 @@ class Track:
 
 
 def cycle_starts(tempo: Tempo, duration: float) -> np.ndarray:
-    """Times of count 1 of every cycle of eight that touches [0, duration), the first one possibly
-    negative."""
+    """Seconds (K,) of count 1 of every cycle of eight counts that touches [0, duration); the first is negative."""
     length = CYCLE * 60 / tempo.bpm
     first = tempo.first % length - length
     return first + length * np.arange(int(np.ceil((duration - first) / length)))
 
 
 def percussion(tempo: Tempo, samples: int, rate: int, kit: Kit, rng: np.random.Generator) -> np.ndarray:
-    """Music whose beats fall on those of `tempo`: (samples,) float32 mono at `rate` Hz, peak kit.loudness."""
+    """Percussion (samples,) at `tempo`, float32 mono at `rate` Hz, with the peak kit.loudness."""
     track = Track(rate, samples)
     eighth = 30 / tempo.bpm
     clave = clave_stroke(rate, kit.clave_hertz)
@@ -177,7 +176,7 @@ def percussion(tempo: Tempo, samples: int, rate: int, kit: Kit, rng: np.random.G
                 at = start + position * eighth + rng.normal(0, kit.looseness)
                 track.add(at, sound, level * rng.uniform(0.8, 1.0))
 
-        def sometimes(level: float) -> float:
+        def at_random(level: float) -> float:
             return level if rng.random() < kit.density else 0.0
 
         for position in kit.clave_pattern:
@@ -186,13 +185,13 @@ def percussion(tempo: Tempo, samples: int, rate: int, kit: Kit, rng: np.random.G
             for position in positions:
                 play(position, conga[kind], kit.conga)
         for position in _CONGA_SOFT:
-            play(position, conga["soft"], sometimes(kit.conga))
+            play(position, conga["soft"], at_random(kit.conga))
         for position in _BELL_STRONG:
             play(position, bell, kit.bell)
         for position in _BELL_WEAK:
-            play(position, bell, sometimes(0.6 * kit.bell))
+            play(position, bell, at_random(0.6 * kit.bell))
         for position in range(16):
-            level = kit.maracas if position % 2 == 0 else 0.5 * sometimes(kit.maracas)
+            level = kit.maracas if position % 2 == 0 else 0.5 * at_random(kit.maracas)
             play(position, maracas[position % 4], level)
         root = kit.progression[cycle % len(kit.progression)]
         following = kit.progression[(cycle + 1) % len(kit.progression)]

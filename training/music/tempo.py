@@ -7,18 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 
 CYCLE = 8
-"""Counts (beats) after which the steps repeat."""
+"""Beats after which the steps of salsa repeat: the eight counts."""
 
 
 @dataclass(frozen=True)
 class Tempo:
-    """A constant beat: count 1 of the eight falls on `first` + k * 8 * 60 / `bpm` seconds after frame 0."""
+    """A constant tempo and phase: count 1 of the eight is `first` + k * 8 * 60 / `bpm` seconds after frame 0."""
 
     bpm: float
     first: float
 
     def warped(self, factor: float) -> Tempo:
-        """The same beat on a dance that runs `factor` times as fast."""
+        """The tempo of the same dance `factor` times as fast."""
         return Tempo(self.bpm * factor, self.first / factor)
 
     def counts(self, seconds: np.ndarray) -> np.ndarray:

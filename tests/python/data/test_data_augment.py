@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from training.data.augment import (
     mirror,
     scale_leader,
@@ -15,7 +16,6 @@ from training.data.augment import (
     warped_length,
 )
 from training.data.duet import Duet
-from training.data.made import made_duet
 from training.motion.skeleton import JOINTS, PARENTS, body_height
 
 

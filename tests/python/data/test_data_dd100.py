@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from training.data.dd100 import is_test_sequence, read_dd100, split_dd100, y_up
-from training.data.made import made_duet
 from training.motion.floor import put_on_floor
 
 

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from tests.python.support.real_data import real_duets, real_file
 from training.data.duet import Duet
-from training.data.made import made_dancer, made_duet
+from training.data.made import made_dancer
 from training.data.npz import read_npz, read_solo
 from training.data.splits import split
 from training.motion.floor import TOE_REST, floor_height, put_on_floor

@@ -11,10 +11,11 @@ import soundfile
 
 from tests.python.support.real_data import real_duets, real_file
 from tests.python.support.salsa import salsa_duet, salsa_steps
+from training.config import FPS
 from training.data.augment import tempo_warp, warp_factor
 from training.data.duet import Duet
 from training.data.music_pairing import (
-    SongShelf,
+    SongLibrary,
     Variant,
     build_music_bank,
     list_songs,
@@ -33,7 +34,7 @@ PLAIN = Variant(1.0, "synth", 0)
 
 def beat_phase(rows: np.ndarray, tempo: Tempo) -> complex:
     """Mean position of the beat column's ones on the circle of one beat."""
-    found = np.flatnonzero(rows[:, 53]) / RECIPE.frames_per_second
+    found = np.flatnonzero(rows[:, 53]) / FPS
     return complex(np.exp(2j * np.pi * tempo.counts(found)).mean())
 
 
@@ -96,8 +97,8 @@ def test_songs_are_put_on_the_beat_and_some_are_held_out(duet: Duet, tmp_path: P
     assert [path.stem for path in known] == ["a", "b", "c"]
     assert [path.stem for path in held_out] == ["d"]
     tempo = Tempo(165.0, 0.5)
-    shelf = SongShelf(known[:1], RECIPE)
-    from_song = paired_music(360, tempo, 1.0, shelf, [0], RECIPE)
+    library = SongLibrary(known[:1], RECIPE)
+    from_song = paired_music(360, tempo, 1.0, library, [0], RECIPE)
     assert from_song.shape == (360 * 512,)
     assert not np.array_equal(from_song, paired_music(360, tempo, 1.0, None, [0], RECIPE))
 
@@ -123,7 +124,7 @@ def test_real_song_falls_on_a_real_dance() -> None:
     duet = real_duets()[0]
     songs = sorted(real_file("music").glob("Kevin*.ogg"))
     tempo = duet_tempo(duet, leader_only=True)
-    audio = paired_music(600, tempo, 1.0, SongShelf(songs, RECIPE), [0], RECIPE)
+    audio = paired_music(600, tempo, 1.0, SongLibrary(songs, RECIPE), [0], RECIPE)
     phase = beat_phase(features(audio, RECIPE), tempo)
     assert abs(phase) > 0.8
     assert abs(np.angle(phase)) < 0.15 * 2 * np.pi

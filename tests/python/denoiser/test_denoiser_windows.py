@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import torch
 
+from tests.python.support.duets import made_duet
 from training.config import STRIDE, ConditionConfig, FrameConfig, HfsqConfig
-from training.data.made import made_duet
 from training.denoiser.clips import Clip, make_clip
 from training.denoiser.windows import Windows
 from training.hfsq.autoencoder import Autoencoder

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.python.support.bodies import angle_ahead
 from training.data.duet import Duet
 from training.data.npz import read_npz
 from training.evaluation.baselines import (
@@ -17,7 +18,7 @@ from training.evaluation.baselines import (
     nearest_neighbour,
 )
 from training.evaluation.metrics import quick_report
-from training.evaluation.metrics.distance import bearing, facing, root_distance
+from training.evaluation.metrics.distance import facing, root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error
 from training.motion.heading import heading, turn_in, turn_out
 
@@ -83,7 +84,7 @@ def test_a_mirrored_leader_stands_opposite_and_moves_the_near_hand():
     partner = mirrored_leader(duet.leader, 0.8)
     assert root_distance(duet.leader, partner) == pytest.approx(np.full(300, 0.8), abs=1e-4)
     assert facing(duet.leader, partner) == pytest.approx(np.full(300, 180.0), abs=0.1)
-    assert bearing(duet.leader, partner) == pytest.approx(np.zeros(300), abs=0.1)
+    assert angle_ahead(duet.leader, partner) == pytest.approx(np.zeros(300), abs=0.1)
     # What the leader's left hand does forwards, the partner's right hand does towards it.
     assert partner[:, 21, 1] == pytest.approx(duet.leader[:, 20, 1])
     assert np.linalg.norm(partner[:, 21] - duet.leader[:, 20], axis=-1) == pytest.approx(
@@ -118,6 +119,6 @@ def test_known_errors_on_the_salsa():
 def test_the_salsa_couple_mostly_faces_one_another():
     """Ties the sense of heading to the data: a sign error would put the partner behind the leader."""
     for duet in read_npz(SALSA):
-        assert np.median(bearing(duet.leader, duet.reactor)) < 60
-        assert np.median(bearing(duet.reactor, duet.leader)) < 60
+        assert np.median(angle_ahead(duet.leader, duet.reactor)) < 60
+        assert np.median(angle_ahead(duet.reactor, duet.leader)) < 60
         assert np.median(facing(duet.leader, duet.reactor)) > 100

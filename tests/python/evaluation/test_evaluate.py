@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.python.support.held_out import generate_mirrored, made_held_out, made_train
+from tests.python.support.duets import made_duet
+from tests.python.support.held_out import generate_mirrored
 from training.data.duet import Duet, Solo
-from training.data.made import made_duet
 from training.evaluation.evaluate import evaluate
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.protocol import COARSE_ALONE, HeldOutDuet, Settings
@@ -20,16 +20,6 @@ from training.evaluation.report.report_text import markdown
 from training.evaluation.thresholds import check_required
 
 QUICK = Settings(seeds=(0, 1), seam_starts=(0, 60), response_seeds=2, two_sample=False)
-
-
-@pytest.fixture(scope="module")
-def held_out() -> list[HeldOutDuet]:
-    return made_held_out()
-
-
-@pytest.fixture(scope="module")
-def train() -> list[Duet]:
-    return made_train()
 
 
 def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: list[Duet], tmp_path: Path):

@@ -5,21 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.python.support.held_out import made_held_out, made_train
 from training.data.duet import Duet
 from training.evaluation.evaluate import evaluate
 from training.evaluation.guidance import separability
 from training.evaluation.protocol import HeldOutDuet, Settings
-
-
-@pytest.fixture(scope="module")
-def held_out() -> list[HeldOutDuet]:
-    return made_held_out()
-
-
-@pytest.fixture(scope="module")
-def train() -> list[Duet]:
-    return made_train()
 
 
 def test_each_guidance_changes_the_energy_of_its_layer(held_out: list[HeldOutDuet], train: list[Duet]):

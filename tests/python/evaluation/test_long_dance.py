@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from training.data.augment import mirror
-from training.data.made import made_duet
 from training.evaluation.long_dance import joined, measure_long_dance
 from training.evaluation.metrics.distance import root_distance
 from training.evaluation.protocol import HeldOutDuet

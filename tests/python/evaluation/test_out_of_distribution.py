@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from tests.python.support.made_bvh import MadeDancer, write_bvh
 from training.data.duet import Solo
-from training.data.made import made_dancer, made_duet
+from training.data.made import made_dancer
 from training.evaluation.out_of_distribution import (
     measure_out_of_distribution,
     measure_partner,

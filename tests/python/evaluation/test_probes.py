@@ -7,15 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.python.support.held_out import made_held_out
 from training.evaluation.metrics.beats import BEAT_COLUMN
 from training.evaluation.probes import measure_beat_following, measure_seams
 from training.evaluation.protocol import HeldOutDuet, Settings, fit_length
-
-
-@pytest.fixture(scope="module")
-def held_out() -> list[HeldOutDuet]:
-    return made_held_out()
 
 
 def test_a_motion_is_made_longer_forwards_and_backwards():

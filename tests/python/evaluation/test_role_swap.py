@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from training.data.made import made_duet
+from tests.python.support.duets import made_duet
 from training.evaluation.metrics import quick_report
 from training.evaluation.protocol import HeldOutDuet
 from training.evaluation.role_swap import measure_role_swap, swapped_duets

@@ -11,8 +11,8 @@ import pytest
 
 from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
 from export.runtime import open_model
+from tests.python.support.duets import made_duet
 from tests.python.support.real_data import real_file
-from training.data.made import made_duet
 from training.data.sources import read_split
 from training.evaluation.metrics.duet import duet_metrics
 from training.evaluation.metrics.errors import bone_variation

@@ -9,8 +9,8 @@ from scipy.optimize import minimize
 from torch import Tensor
 
 import training.motion.foot_contact_correction as correction
+from tests.python.support.duets import made_duet
 from training.config import FPS
-from training.data.made import made_duet
 from training.motion.foot_contact_correction import RETURN, STIFFNESS, correct_foot_contact
 from training.motion.skeleton import FEET
 

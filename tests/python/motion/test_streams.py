@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import torch
 
+from tests.python.support.duets import made_duet
 from training.config import FrameConfig
-from training.data.made import made_duet
 from training.motion.heading import into_frame, out_of_frame
 from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
 from training.motion.rigid_body import constant_bones, rigid_body

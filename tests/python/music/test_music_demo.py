@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import soundfile
 
+from training.config import FPS
 from training.music.demo import RATE, Options, bass, main, piano
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
@@ -20,7 +21,7 @@ SHIPPED = Path(__file__).parents[3] / "web" / "public" / "demo" / "song.mp3"
 def on_the_eighths(path: Path, tempo: Tempo) -> float:
     """How far the onsets of a song gather on the eighths of a tempo: 1 for all, about 0 for another tempo."""
     onset = features(load_audio(path, RECIPE), RECIPE)[:, 52]
-    counts = tempo.counts(np.arange(len(onset)) / RECIPE.frames_per_second)
+    counts = tempo.counts(np.arange(len(onset)) / FPS)
     return float(np.abs(np.sum(onset * np.exp(4j * np.pi * counts))) / np.sum(onset))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from training.config import FPS
 from training.music.features import features
 from training.music.recipe import AudioRecipe
 from training.music.synth import CLAVE_23, Kit, cycle_starts, percussion
@@ -51,7 +52,7 @@ def test_clave_alone_sounds_on_its_pattern_and_nowhere_else() -> None:
 @pytest.mark.parametrize("seed", range(2))
 def test_beats_found_in_the_music_are_the_tempos(seed: int) -> None:
     audio = play(seed, samples=15 * RATE)
-    found = np.flatnonzero(features(audio, RECIPE)[:, 53]) / RECIPE.frames_per_second
+    found = np.flatnonzero(features(audio, RECIPE)[:, 53]) / FPS
     phase = np.exp(2j * np.pi * TEMPO.counts(found))
     assert len(found) > 15
     # One frame is about a tenth of a beat; the onset of a stroke is heard one frame late.

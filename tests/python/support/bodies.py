@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from training.motion.heading import heading
 from training.motion.skeleton import JOINTS
 
 
@@ -56,3 +57,10 @@ def swinging_body(frames: int, seed: int) -> np.ndarray:
     phase = random.uniform(0, 2 * np.pi, (1, 22, 3))
     steps = 0.1 * np.sin(2 * np.pi * np.arange(frames)[:, None, None] / 40 + phase)
     return random.normal(scale=0.3, size=(1, 22, 3)) + np.array([0.0, 1.0, 0.0]) + steps
+
+
+def angle_ahead(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
+    """Angle between the leader's heading and the way to the reactor's root, (T,) degrees in [0, 180]; 0 is ahead."""
+    direction = (reactor[:, 0] - leader[:, 0])[:, [0, 2]]
+    direction = direction / np.maximum(np.linalg.norm(direction, axis=-1, keepdims=True), 1e-9)
+    return np.degrees(np.arccos(np.clip((heading(leader) * direction).sum(axis=-1), -1.0, 1.0)))

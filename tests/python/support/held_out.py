@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from tests.python.support.duets import made_duet
 from training.data.duet import Duet
-from training.data.made import made_duet
 from training.evaluation.baselines import mirrored_leader
 from training.evaluation.metrics.beats import BEAT_COLUMN
 from training.evaluation.protocol import HeldOutDuet

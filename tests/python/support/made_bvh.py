@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from training.data.bvh.names import OWN_NAMES
+from training.data.bvh.names import BVH_NAMES
 from training.data.made import made_dancer
 from training.motion.skeleton import JOINTS, PARENTS
 
@@ -42,10 +42,10 @@ _CHARACTER_CREATOR = {
     )
 }
 NAMES: dict[str, dict[str, str]] = {
-    "own": OWN_NAMES,
-    "Mixamo": {joint: f"mixamorig{name}" for joint, name in OWN_NAMES.items()},
+    "own": BVH_NAMES,
+    "Mixamo": {joint: f"mixamorig{name}" for joint, name in BVH_NAMES.items()},
     # The CMU library's conversion for MotionBuilder has a joint more below the back than we have.
-    "CMU": OWN_NAMES | {"spine1": "LowerBack", "spine2": "Spine", "spine3": "Spine1"},
+    "CMU": BVH_NAMES | {"spine1": "LowerBack", "spine2": "Spine", "spine3": "Spine1"},
     "DAZ": _DAZ,
     "Character Creator": _CHARACTER_CREATOR,
 }

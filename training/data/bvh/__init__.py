@@ -1,1 +1,1 @@
-"""Reads BVH files of whole bodies as the 22 joints."""
+"""Reads BVH files of whole bodies as motions of the 22 joints."""

@@ -1,7 +1,6 @@
-"""Makes the 22 joints of the motion in a BVH file: those that it has, and the others by rule.
+"""Retargets the motion of a BVH file to the 22 joints: those that it has, and estimates of the others.
 
-The rules and their numbers are those of the page's reader (web/motion), so that a file means the same dancer in
-training and there.
+The rules and their numbers are those of the page (web/motion/bvh/retarget.ts and axes-and-units.ts).
 """
 
 from __future__ import annotations
@@ -12,19 +11,19 @@ from itertools import pairwise
 import numpy as np
 
 from training.data.bvh.file import BvhFile, world_motion
-from training.data.bvh.names import back_nodes, find_joints
+from training.data.bvh.names import find_joints, spine_nodes
 from training.data.duet import FPS
 from training.motion.skeleton import JOINTS
 
-# Where pelvis and spine lie between the middle of the hips (0) and the neck (1), along the back: the proportions of
-# the SMPL body. Programs put these joints anywhere; body height and the models expect them here.
+# Positions of pelvis and spine along the back, from the middle of the hips (0) to the neck (1), as in the SMPL body.
+# Programs place these joints differently; body height and the models expect them here.
 _TRUNK = {"pelvis": 0.18, "spine1": 0.4, "spine2": 0.61, "spine3": 0.72}
 _NECK_SHARE = 0.4
 _COLLAR_SHARE = 0.4
-# Parts of the trunk: from neck to a missing head; a missing foot forward and down; a joint doubled at the ankle.
+# Multiples of the trunk's length: from the neck to a missing head; from the ankle to a missing toe.
 _HEAD_LENGTH = 0.17
 _TOE_FORWARD, _TOE_DOWN = 0.17, 0.07
-_SHORTEST_FOOT = 0.04
+_MIN_FOOT_LENGTH = 0.04  # multiple of the body's size; a shorter foot is no foot
 
 _UNITS = {
     "metres": 1.0,
@@ -34,10 +33,9 @@ _UNITS = {
     # The CMU library's own skeletons: 1 / 0.45 inch.
     "CMU units": 0.0254 / 0.45,
 }
-# Leg plus trunk plus neck of a grown person, metres.
-_PERSON = 1.45
+_ADULT_SIZE = 1.45  # metres: leg plus trunk plus neck
 
-# Rows of the rotation that makes an axis point up.
+# By the axis of the file that points up: the rotation (3, 3) from the file's axes to y up.
 _UPS: dict[str, np.ndarray] = {
     "y": np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]]),
     "z": np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]),
@@ -52,16 +50,19 @@ _SIDES = ("left", "right")
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A dancer at 30 fps in the file's unit and axes. joints: (T, 3) each; ankle_turn: (T, 3, 3) world rotations."""
+    """A dancer at 30 fps in the file's unit and axes.
 
-    convention: str
+    joints: positions (T, 3) of those that the file has. spine: positions (T, 3) of the nodes between hips and neck,
+    upwards. has_smpl_trunk: no joint of the trunk is estimated. ankle_rotation: (T, 3, 3) in the world, by side.
+    """
+
     joints: dict[str, np.ndarray]
-    back: list[np.ndarray]
-    own_trunk: bool
-    ankle_turn: dict[str, np.ndarray]
+    spine: list[np.ndarray]
+    has_smpl_trunk: bool
+    ankle_rotation: dict[str, np.ndarray]
 
     def neck_and_head(self) -> tuple[np.ndarray, np.ndarray]:
-        """(T, 3) each; one of them may be missing in the file."""
+        """(T, 3) each; the one that the file lacks is estimated from the other."""
         if "neck" not in self.joints:
             shoulders = (self.joints["left_shoulder"] + self.joints["right_shoulder"]) / 2
             head = self.joints["head"]
@@ -93,48 +94,49 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def read_body(file: BvhFile, fps: float | None) -> Body:
-    """Names the joints of a file and moves them at 30 fps. Raises ValueError when limbs are missing."""
-    convention, found, own_trunk = find_joints(file.nodes)
-    places, turns = world_motion(file, FPS, fps)
-    joints = {name: places[:, node] for name, node in found.items()}
-    back = [places[:, node] for node in back_nodes(file.nodes, found)]
-    ankle_turn = {side: turns[found[f"{side}_ankle"]].as_matrix() for side in _SIDES}
+    """The body of a file, resampled to 30 fps. fps: overrides the stated rate. Raises ValueError for missing limbs."""
+    found, has_smpl_trunk = find_joints(file.nodes)
+    positions, rotations = world_motion(file, FPS, fps)
+    joints = {name: positions[:, node] for name, node in found.items()}
+    spine = [positions[:, node] for node in spine_nodes(file.nodes, found)]
+    ankle_rotation = {side: rotations[found[f"{side}_ankle"]].as_matrix() for side in _SIDES}
     for side in _SIDES:
         ends = [
             k for k, node in enumerate(file.nodes) if node.end_site and node.parent == found[f"{side}_ankle"]
         ]
         if f"{side}_foot" not in joints and ends:
-            joints[f"{side}_foot"] = places[:, ends[0]]
-    body = Body(convention, joints, back, own_trunk, ankle_turn)
+            joints[f"{side}_foot"] = positions[:, ends[0]]
+    body = Body(joints, spine, has_smpl_trunk, ankle_rotation)
     for side in _SIDES:
         foot = joints.get(f"{side}_foot")
-        # A node that lies on the ankle is no toe.
+        # Some skeletons have a second node at the ankle where others have the toes.
         if (
             foot is not None
-            and _distance(foot[0], joints[f"{side}_ankle"][0]) <= _SHORTEST_FOOT * body.size()
+            and _distance(foot[0], joints[f"{side}_ankle"][0]) <= _MIN_FOOT_LENGTH * body.size()
         ):
             del joints[f"{side}_foot"]
     return body
 
 
 def find_up(upright: np.ndarray) -> str:
-    """Name of the axis that points up, from the vector of the feet to the head: y or z, rarely another."""
+    """Name of the axis that points up, a key of _UPS. upright: (3,) vector from the feet to the head."""
     return max(_UPS, key=lambda name: float(_UPS[name][1] @ upright))
 
 
 def find_unit(size: float) -> float:
-    """Metres per unit of a file: the usual unit in which the body is nearest to a person's size.
+    """Metres per unit of a file: the usual unit in which the body is nearest to an adult's size.
 
-    A body that is a person in none of them is brought to a person's size.
+    size: of the body, in the file's unit. A body that is outside an adult's range in all of them is scaled to an
+    adult's size. Raises ValueError for size 0.
     """
     if not size > 0:
         raise ValueError("the joints all lie in one place: the skeleton has no size")
-    metres = min(_UNITS.values(), key=lambda unit: abs(np.log(size * unit / _PERSON)))
-    return metres if 0.75 <= size * metres <= 2.2 else _PERSON / size
+    metres = min(_UNITS.values(), key=lambda unit: abs(np.log(size * unit / _ADULT_SIZE)))
+    return metres if 0.75 <= size * metres <= 2.2 else _ADULT_SIZE / size
 
 
 def _along(line: list[np.ndarray], share: float) -> np.ndarray:
-    """(T, 3) the point at a share of the length of a line of (T, 3) points."""
+    """(T, 3) the point at a share (0 to 1) of the length of a polyline through (T, 3) points."""
     steps = np.stack([_distance(a, b) for a, b in pairwise(line)])
     left = share * steps.sum(axis=0)
     point = line[-1].copy()
@@ -148,31 +150,34 @@ def _along(line: list[np.ndarray], share: float) -> np.ndarray:
     return point
 
 
-def _made_toe(body: Body, side: str, turn: np.ndarray, trunk: float) -> np.ndarray:
-    """(T, 3) toes for a file without: ahead of and below the ankle on the average, so that they turn with it."""
-    left = (body.joints["left_hip"] - body.joints["right_hip"]) @ turn.T
+def _estimate_toe(body: Body, side: str, axes: np.ndarray, trunk: float) -> np.ndarray:
+    """(T, 3) toe joint for a file without: fixed to the ankle, ahead of it and below it in the mean over time.
+
+    axes: (3, 3) rotation from the file's axes to y up. trunk: length from the hips to the neck, in the file's unit.
+    """
+    left = (body.joints["left_hip"] - body.joints["right_hip"]) @ axes.T
     front = np.cross(left, np.array([0.0, 1.0, 0.0]))
     front /= np.maximum(np.linalg.norm(front, axis=-1, keepdims=True), 1e-12)
-    wanted = (_TOE_FORWARD * front + np.array([0, -_TOE_DOWN, 0])) @ turn
-    seen = np.einsum("tji,tj->ti", body.ankle_turn[side], wanted).sum(axis=0)
-    seen *= trunk * np.hypot(_TOE_FORWARD, _TOE_DOWN) / max(float(np.linalg.norm(seen)), 1e-12)
-    return body.joints[f"{side}_ankle"] + body.ankle_turn[side] @ seen
+    wanted = (_TOE_FORWARD * front + np.array([0, -_TOE_DOWN, 0])) @ axes
+    fixed = np.einsum("tji,tj->ti", body.ankle_rotation[side], wanted).sum(axis=0)
+    fixed *= trunk * np.hypot(_TOE_FORWARD, _TOE_DOWN) / max(float(np.linalg.norm(fixed)), 1e-12)
+    return body.joints[f"{side}_ankle"] + body.ankle_rotation[side] @ fixed
 
 
 def assemble(body: Body, up: str, metres: float) -> np.ndarray:
-    """All 22 joints: (T, 22, 3) float32 in metres, y up. up: the axis of the file that points up."""
-    turn = _UPS[up].astype(np.float64)
+    """All 22 joints: (T, 22, 3) float32 in metres, y up. up: of `find_up`; metres: per unit of the file."""
+    axes = _UPS[up].astype(np.float64)
     joints = dict(body.joints)
     neck, head = body.neck_and_head()
     joints |= {"neck": neck, "head": head}
-    if not body.own_trunk:
-        line = [body.hips(), *body.back, neck]
+    if not body.has_smpl_trunk:
+        line = [body.hips(), *body.spine, neck]
         joints |= {name: _along(line, share) for name, share in _TRUNK.items()}
     trunk = float(_distance(neck[0], body.hips()[0]))
     for side in _SIDES:
         if f"{side}_collar" not in joints:
             joints[f"{side}_collar"] = neck + _COLLAR_SHARE * (joints[f"{side}_shoulder"] - neck)
         if f"{side}_foot" not in joints:
-            joints[f"{side}_foot"] = _made_toe(body, side, turn, trunk)
+            joints[f"{side}_foot"] = _estimate_toe(body, side, axes, trunk)
     stacked = np.stack([joints[name] for name in JOINTS], axis=1)
-    return (stacked @ turn.T * metres).astype(np.float32)
+    return (stacked @ axes.T * metres).astype(np.float32)

@@ -127,8 +127,8 @@ def parse_bvh(path: Path | str) -> BvhFile:
     return BvhFile(nodes, values, fps)
 
 
-def _moments(frames: int, fps: float, to_fps: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Frames before and after every output frame, and its share of the way between them."""
+def _resample_times(frames: int, fps: float, to_fps: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """For every output frame the two frames of the file around it, and its place between them (0 to 1)."""
     count = int(np.floor((frames - 1) / fps * to_fps + 1e-6)) + 1
     at = np.minimum(np.arange(count) * fps / to_fps, frames - 1)
     at = np.where(np.abs(at - np.round(at)) < 1e-6, np.round(at), at)
@@ -136,24 +136,24 @@ def _moments(frames: int, fps: float, to_fps: float) -> tuple[np.ndarray, np.nda
     return before, np.minimum(before + 1, frames - 1), at - before
 
 
-def _step(node: Node, values: np.ndarray) -> np.ndarray:
-    """(frames, 3) way from the parent. values: the node's channels over time."""
-    step = np.tile(np.array(node.offset), (len(values), 1))
+def _translations(node: Node, values: np.ndarray) -> np.ndarray:
+    """(frames, 3) translation from the parent. values: (frames, channels) of the node."""
+    offset = np.tile(np.array(node.offset), (len(values), 1))
     moving = [k for k, channel in enumerate(node.channels) if channel.endswith("position")]
     if not moving:
-        return step
-    given = np.zeros_like(step)
+        return offset
+    given = np.zeros_like(offset)
     for k in moving:
         given[:, "xyz".index(node.channels[k][0])] = values[:, k]
-    # Programs disagree whether a joint's position channels hold the whole way or what is added to its OFFSET. A joint
-    # hardly moves against its parent, so the reading that stays nearer to the offset is meant.
-    if node.parent >= 0 and np.sum((given - step) ** 2) < np.sum(given**2):
+    # Programs disagree whether position channels hold the whole translation or what is added to OFFSET. A joint hardly
+    # moves against its parent, so the reading that stays nearer to OFFSET is taken.
+    if node.parent >= 0 and np.sum((given - offset) ** 2) < np.sum(given**2):
         return given
-    return step + given
+    return offset + given
 
 
-def _turn(node: Node, values: np.ndarray) -> Rotation:
-    """Local rotations over time: the node's rotation channels, applied in the order of the file."""
+def _rotations(node: Node, values: np.ndarray) -> Rotation:
+    """Local rotations over time: the node's rotation channels, in the order of the file."""
     turning = [k for k, channel in enumerate(node.channels) if channel.endswith("rotation")]
     if not turning:
         return Rotation.identity(len(values))
@@ -169,22 +169,21 @@ def world_motion(file: BvhFile, to_fps: float, fps: float | None = None) -> tupl
     fps: overrides the stated frame rate, which is wrong in many files. Rotations are interpolated before the joints
     are placed, so that limbs keep their lengths between frames.
     """
-    before, after, share = _moments(len(file.values), fps or file.fps, to_fps)
-    places: list[np.ndarray] = []
-    turns: list[Rotation] = []
+    before, after, share = _resample_times(len(file.values), fps or file.fps, to_fps)
+    positions: list[np.ndarray] = []
+    rotations: list[Rotation] = []
     column = 0
     for node in file.nodes:
         values = file.values[:, column : column + len(node.channels)]
         column += len(node.channels)
-        step, turn = _step(node, values), _turn(node, values)
-        here, there = (Rotation.from_quat(turn.as_quat()[moment]) for moment in (before, after))
-        between = (here.inv() * there).as_rotvec() * share[:, None]
-        local = here * Rotation.from_rotvec(between)
-        way = step[before] + (step[after] - step[before]) * share[:, None]
+        translation, rotation = _translations(node, values), _rotations(node, values)
+        first, second = (Rotation.from_quat(rotation.as_quat()[frames]) for frames in (before, after))
+        local = first * Rotation.from_rotvec((first.inv() * second).as_rotvec() * share[:, None])
+        offset = translation[before] + (translation[after] - translation[before]) * share[:, None]
         if node.parent < 0:
-            places.append(way)
-            turns.append(local)
+            positions.append(offset)
+            rotations.append(local)
         else:
-            places.append(places[node.parent] + turns[node.parent].apply(way))
-            turns.append(turns[node.parent] * local)
-    return np.stack(places, axis=1), turns
+            positions.append(positions[node.parent] + rotations[node.parent].apply(offset))
+            rotations.append(rotations[node.parent] * local)
+    return np.stack(positions, axis=1), rotations

@@ -1,6 +1,7 @@
-"""Finds the 22 joints among the nodes of a BVH file by the names that programs give them.
+"""Finds the 22 joints among the nodes of a BVH file, by skeleton convention: the joint names of a family of programs.
 
-The rules are those of the page's reader (web/motion), so that a file means the same dancer in training and there.
+The rules are those of the page (web/motion/bvh/conventions.ts and joint-map.ts), without its
+last convention, which tries generic names.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 from training.data.bvh.file import Node
 from training.motion.skeleton import JOINTS
 
-OWN_NAMES: dict[str, str] = {
+BVH_NAMES: dict[str, str] = {
     "pelvis": "Hips",
     "left_hip": "LeftUpLeg",
     "right_hip": "RightUpLeg",
@@ -35,17 +36,21 @@ OWN_NAMES: dict[str, str] = {
     "left_wrist": "LeftHand",
     "right_wrist": "RightHand",
 }
-"""What the files written by this project call the joints; a file with exactly these needs no rule for the trunk."""
+"""Names of the joints in files that the page writes (MotionBuilder's HumanIK); a file with exactly these has all 22."""
 
 _LIMBS = ("hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist", "collar")
-_NEEDED = ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
-_WORDS, _LETTERS = ("left", "right"), ("l", "r")
+_REQUIRED = ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
+_SIDE_WORDS, _SIDE_LETTERS = ("left", "right"), ("l", "r")
 
 
 @dataclass(frozen=True)
 class _Convention:
-    """How a family of programs names the joints of a limb, `*` for the side, in the order of _LIMBS; names are
-    compared in lower case without prefix, namespace and punctuation."""
+    """Skeleton convention: the joint names that a family of programs uses.
+
+    Names are compared in lower case without prefix, namespace, spaces and punctuation. limbs: names of each of _LIMBS,
+    `*` for the side. prefix: beginning of every name, a regular expression. sides: words for left and right. trunk:
+    names of pelvis, spine1, spine2 and spine3 where the convention has exactly these joints.
+    """
 
     prefix: str
     sides: tuple[tuple[str, str], ...]
@@ -62,19 +67,21 @@ def _limbs(text: str) -> tuple[tuple[str, ...], ...]:
 _HUMAN_IK = _limbs("*upleg, *leg, *foot, *toebase *toe, *arm, *forearm, *hand, *shoulder")
 _BIPED = _limbs("*thigh, *calf, *foot, *toebase *toe0 *toe, *upperarm, *forearm, *hand, *clavicle")
 _CONVENTIONS: dict[str, _Convention] = {
-    "Mixamo": _Convention(r"mixamorig\d*[:_]?", (_WORDS,), _HUMAN_IK),
-    "Character Creator": _Convention(r"cc_base_", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
-    "Biped": _Convention(r"(valvebiped[._])?bip\d+[ _-]?", (_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
+    "Mixamo": _Convention(r"mixamorig\d*[:_]?", (_SIDE_WORDS,), _HUMAN_IK),
+    "Character Creator": _Convention(r"cc_base_", (_SIDE_LETTERS,), _BIPED, neck=("neck", "necktwist01")),
+    "Biped": _Convention(
+        r"(valvebiped[._])?bip\d+[ _-]?", (_SIDE_LETTERS,), _BIPED, neck=("neck", "necktwist01")
+    ),
     "SMPL": _Convention(
         "",
-        (_WORDS, _LETTERS),
+        (_SIDE_WORDS, _SIDE_LETTERS),
         _limbs("*hip, *knee, *ankle, *foot, *shoulder, *elbow, *wrist, *collar"),
         trunk=("pelvis", "spine1", "spine2", "spine3"),
     ),
-    "CMU / MotionBuilder": _Convention("", (_WORDS,), _HUMAN_IK),
+    "CMU / MotionBuilder": _Convention("", (_SIDE_WORDS,), _HUMAN_IK),
     "DAZ": _Convention(
         "",
-        (_LETTERS,),
+        (_SIDE_LETTERS,),
         _limbs(
             "*thigh *thighbend, *shin, *foot, *toe *toes, *shldr *shldrbend *upperarm, *forearm *forearmbend, *hand, "
             "*collar *shoulder"
@@ -84,8 +91,8 @@ _CONVENTIONS: dict[str, _Convention] = {
 }
 
 
-def _plain(name: str, convention: _Convention) -> str | None:
-    """The name as it is compared; None where it lacks the convention's prefix."""
+def _normalised_name(name: str, convention: _Convention) -> str | None:
+    """A node's name in the form that is compared; None where it lacks the convention's prefix."""
     if convention.prefix:
         prefix = re.match(convention.prefix, name, re.IGNORECASE)
         if not prefix:
@@ -95,15 +102,16 @@ def _plain(name: str, convention: _Convention) -> str | None:
 
 
 def _find(nodes: list[Node], convention: _Convention, sides: tuple[str, str]) -> dict[str, int]:
+    """The node of every joint that a convention has a name for; no node stands for two joints."""
     by_name: dict[str, int] = {}
     for index, node in enumerate(nodes):
-        word = None if node.end_site else _plain(node.name, convention)
+        word = None if node.end_site else _normalised_name(node.name, convention)
         if word is not None:
             by_name.setdefault(word, index)
     wanted = [
         (f"{side}_{limb}", tuple(word.replace("*", sides[k]) for word in words))
         for limb, words in zip(_LIMBS, convention.limbs, strict=True)
-        for k, side in enumerate(_WORDS)
+        for k, side in enumerate(_SIDE_WORDS)
     ]
     wanted += [("neck", convention.neck), ("head", convention.head)]
     wanted += [(joint, (joint,)) for joint in convention.trunk]
@@ -117,40 +125,43 @@ def _find(nodes: list[Node], convention: _Convention, sides: tuple[str, str]) ->
 
 
 def _score(convention: _Convention, found: dict[str, int]) -> int:
+    """Number of required joints that were found; 0 where a joint of the convention's own trunk is missing."""
     if not all(joint in found for joint in convention.trunk):
         return 0
-    return sum(f"{side}_{limb}" in found for limb in _NEEDED for side in _WORDS) + (
+    return sum(f"{side}_{limb}" in found for limb in _REQUIRED for side in _SIDE_WORDS) + (
         "neck" in found or "head" in found
     )
 
 
-def find_joints(nodes: list[Node]) -> tuple[str, dict[str, int], bool]:
-    """Dialect, node of every joint that the file has, and whether it has our very trunk.
+def find_joints(nodes: list[Node]) -> tuple[dict[str, int], bool]:
+    """The node of every joint that the file has, and whether the file has the SMPL trunk.
 
-    Raises ValueError that names the missing joints when a limb, or both neck and head, cannot be found.
+    Taken is the convention of which most joints are found. With the SMPL trunk (pelvis, spine1, spine2, spine3) none of
+    these four is estimated. Raises ValueError that names the missing joints when a limb, or both neck and head, cannot
+    be found.
     """
     names = [node.name for node in nodes if not node.end_site]
-    if sorted(names) == sorted(OWN_NAMES.values()):
+    if sorted(names) == sorted(BVH_NAMES.values()):
         at = {node.name: index for index, node in enumerate(nodes) if not node.end_site}
-        return "own", {joint: at[OWN_NAMES[joint]] for joint in JOINTS}, True
+        return {joint: at[BVH_NAMES[joint]] for joint in JOINTS}, True
     best_name, best, best_score = "", {}, -1
     for name, convention in _CONVENTIONS.items():
         for sides in convention.sides:
             found = _find(nodes, convention, sides)
             if (score := _score(convention, found)) > best_score:
                 best_name, best, best_score = name, found, score
-    missing = [f"{side} {limb}" for limb in _NEEDED for side in _WORDS if f"{side}_{limb}" not in best]
+    missing = [f"{side} {limb}" for limb in _REQUIRED for side in _SIDE_WORDS if f"{side}_{limb}" not in best]
     if "neck" not in best and "head" not in best:
         missing.append("neck or head")
     if missing:
         raise ValueError(
             f"no joint was found for {', '.join(missing)}; the file has {', '.join(names[:8])}, ..."
         )
-    return best_name, best, bool(_CONVENTIONS[best_name].trunk)
+    return best, bool(_CONVENTIONS[best_name].trunk)
 
 
-def back_nodes(nodes: list[Node], found: dict[str, int]) -> list[int]:
-    """Nodes between the hips and the neck (or head), upwards: the bend of the back."""
+def spine_nodes(nodes: list[Node], found: dict[str, int]) -> list[int]:
+    """Nodes of the spine between the hips and the neck (or head), upwards."""
 
     def above(index: int) -> list[int]:
         chain = []

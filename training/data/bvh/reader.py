@@ -19,19 +19,20 @@ SONG_SUFFIXES = (".wav", ".mp3", ".ogg", ".flac")
 
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
-    """One dancer: metres, y up, 30 fps, floor at 0, without the rest pose before the dance.
+    """One dancer: metres, y up, 30 fps, floor at 0, without a rest pose before the dance.
 
     fps: overrides the frame rate that the file states.
-    Raises ValueError, naming the file, for what is no complete BVH file of a whole body.
+    Raises ValueError that names the file when it is not a complete BVH file of a whole body.
     """
     (motion,) = _read_together([Path(path)], fps)
     return Solo(Path(path).stem, put_on_floor(motion))
 
 
 def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
-    """All duets of a folder, sorted by name. Partners keep their distance: unit and up axis are found for both at once.
+    """All duets of a folder, sorted by name, cut to the shorter dancer.
 
-    The shorter dancer's length is kept. fps: overrides the frame rate that the files state.
+    Unit and up axis are found for both dancers together, so that their distance stays. fps: overrides
+    the frame rate that the files state.
     Raises FileNotFoundError when there is no NAME_leader.bvh or a partner is missing, ValueError for a bad file.
     """
     folder = Path(folder)
@@ -60,7 +61,7 @@ def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
 
 @contextmanager
 def _naming(path: Path) -> Iterator[None]:
-    """Puts the file's name before the words of a ValueError."""
+    """Puts the file's name before the message of a ValueError."""
     try:
         yield
     except ValueError as error:

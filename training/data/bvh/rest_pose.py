@@ -1,7 +1,6 @@
 """Finds the rest pose that many programs write before the dance.
 
-The rule and its numbers are those of the page's reader (web/motion/bvh/t-pose.ts), so that a file means the same motion
-in training and there.
+The rule and its numbers are those of the page (web/motion/bvh/t-pose.ts).
 """
 
 from __future__ import annotations
@@ -12,14 +11,15 @@ from scipy.spatial.transform import Rotation
 from training.data.bvh.file import BvhFile, world_motion
 from training.data.bvh.names import find_joints
 
-# Frames of the file after the first one that it is compared with, and the fewest that can tell anything.
-_AFTER, _FEWEST_AFTER = 32, 12
-# A jump is this many times more sudden than anything in the frames after it, and at least this part of the body.
-_SUDDEN, _LEAST_JUMP = 4.0, 0.05
-# How far a bone may be from where a T-pose or the file's rest pose has it.
-_AS_T_POSE, _AS_REST = np.cos(np.radians(20)), np.cos(np.radians(12))
-# The frames of a solver that starts from the rest pose: hurried, and many times faster than what follows.
-_LONGEST_LANDING, _HURRIED, _SLOWER_AFTER = 8, 0.03, 4.0
+# Frames after the first one with which it is compared, at most and at least.
+_COMPARED_FRAMES, _MIN_COMPARED_FRAMES = 32, 12
+# A jump's acceleration is this many times the largest one after it, and its length at least this share of the body.
+_ACCELERATION_RATIO, _MIN_JUMP = 4.0, 0.05
+# Largest angle of a bone to that of a T-pose and of the file's rest pose, as cosines.
+_T_POSE_COSINE, _REST_POSE_COSINE = np.cos(np.radians(20)), np.cos(np.radians(12))
+# Transition from the rest pose to the dance, as solvers write it: at most so many frames, at least so fast (shares of
+# the body per frame), and so many times faster than what follows.
+_MAX_TRANSITION_FRAMES, _MIN_TRANSITION_SPEED, _TRANSITION_SPEED_RATIO = 8, 0.03, 4.0
 
 _SIDES = ("left", "right")
 _BONES = [
@@ -30,79 +30,82 @@ _BONES = [
 
 
 def rest_frames(file: BvhFile) -> int:
-    """How many frames at the beginning of a file are no dance: a rest pose, and the jump out of it.
+    """Number of frames at the beginning of a file that are no dance: the rest pose and the transition out of it.
 
-    0 unless that is certain: the first pose must be a T-pose or the file's own rest pose, and the way to the second one
-    a jump that no body makes. Raises ValueError when limbs are missing.
+    0 unless that is certain: the first pose must be a T-pose or the file's own rest pose, and the step to the
+    second one faster than a body can move. Raises ValueError when limbs are missing.
     """
-    if len(file.values) < _FEWEST_AFTER + 2:
+    if len(file.values) < _MIN_COMPARED_FRAMES + 2:
         return 0
-    _, found, _ = find_joints(file.nodes)
-    places, turns = world_motion(BvhFile(file.nodes, file.values[: _AFTER + 2], fps=1), to_fps=1)
-    pose = {name: places[0, node] for name, node in found.items()}
-    if not _is_t_pose(pose) and not _is_rest_pose(file, found, pose, turns):
+    found, _ = find_joints(file.nodes)
+    positions, rotations = world_motion(
+        BvhFile(file.nodes, file.values[: _COMPARED_FRAMES + 2], fps=1), to_fps=1
+    )
+    pose = {name: positions[0, node] for name, node in found.items()}
+    if not _is_t_pose(pose) and not _is_rest_pose(file, found, pose, rotations):
         return 0
-    joints = places[:, list(found.values())]
-    steps = _mean_way(np.diff(joints, axis=0))
-    # How far each frame is from where its two neighbours let one expect it.
-    shocks = _mean_way(np.diff(joints, n=2, axis=0) / 2)
+    joints = positions[:, list(found.values())]
+    steps = _root_mean_square(np.diff(joints, axis=0))
+    # Distance of each frame from the middle of its two neighbours: half the acceleration.
+    accelerations = _root_mean_square(np.diff(joints, n=2, axis=0) / 2)
     size = _size(pose)
-    if steps[0] < _LEAST_JUMP * size or shocks[0] < _SUDDEN * shocks[1:].max():
+    if steps[0] < _MIN_JUMP * size or accelerations[0] < _ACCELERATION_RATIO * accelerations[1:].max():
         return 0
-    calm = _SLOWER_AFTER * steps[1 + _LONGEST_LANDING :].max()
-    hurried = (steps >= _HURRIED * size) & (steps >= calm)
-    hurried[1 + _LONGEST_LANDING :] = False
-    return 1 + int(np.argmin(hurried[1:]))
+    dancing = _TRANSITION_SPEED_RATIO * steps[1 + _MAX_TRANSITION_FRAMES :].max()
+    transition = (steps >= _MIN_TRANSITION_SPEED * size) & (steps >= dancing)
+    transition[1 + _MAX_TRANSITION_FRAMES :] = False
+    return 1 + int(np.argmin(transition[1:]))
 
 
-def _mean_way(ways: np.ndarray) -> np.ndarray:
-    """Root mean square over the joints of (T, J, 3)."""
-    return np.sqrt(np.sum(ways**2, axis=-1).mean(axis=-1))
+def _root_mean_square(vectors: np.ndarray) -> np.ndarray:
+    """(T,) of the lengths of (T, J, 3), over the joints."""
+    return np.sqrt(np.sum(vectors**2, axis=-1).mean(axis=-1))
 
 
-def _direction(way: np.ndarray) -> np.ndarray:
-    return way / max(float(np.linalg.norm(way)), 1e-9)
+def _direction(vector: np.ndarray) -> np.ndarray:
+    return vector / max(float(np.linalg.norm(vector)), 1e-9)
 
 
 def _trunk(pose: dict[str, np.ndarray]) -> np.ndarray:
+    """(3,) from the middle of the hips to the neck, or to the head where there is no neck."""
     top = pose["neck"] if "neck" in pose else pose["head"]
     return top - (pose["left_hip"] + pose["right_hip"]) / 2
 
 
 def _size(pose: dict[str, np.ndarray]) -> float:
-    """Leg and trunk in the file's unit."""
+    """Length of a leg plus the trunk, in the file's unit."""
     legs = [pose[lower] - pose[upper] for upper, lower in _BONES if upper.endswith(("hip", "knee"))]
     return float(sum(np.linalg.norm(leg) for leg in legs) / 2 + np.linalg.norm(_trunk(pose)))
 
 
 def _is_t_pose(pose: dict[str, np.ndarray]) -> bool:
-    """Arms straight out to the sides and legs straight down, whatever way the body is turned."""
+    """Whether the arms are straight out to the sides and the legs straight down, however the body is turned."""
     left, up = _direction(pose["left_hip"] - pose["right_hip"]), _direction(_trunk(pose))
 
-    def as_meant(upper: str, lower: str) -> bool:
+    def as_in_t_pose(upper: str, lower: str) -> bool:
         arm = left if upper.startswith("left") else -left
-        meant = -up if upper.endswith(("hip", "knee")) else arm
-        return float(_direction(pose[lower] - pose[upper]) @ meant) > _AS_T_POSE
+        expected = -up if upper.endswith(("hip", "knee")) else arm
+        return float(_direction(pose[lower] - pose[upper]) @ expected) > _T_POSE_COSINE
 
-    return all(as_meant(upper, lower) for upper, lower in _BONES)
+    return all(as_in_t_pose(upper, lower) for upper, lower in _BONES)
 
 
 def _is_rest_pose(
-    file: BvhFile, found: dict[str, int], pose: dict[str, np.ndarray], turns: list[Rotation]
+    file: BvhFile, found: dict[str, int], pose: dict[str, np.ndarray], rotations: list[Rotation]
 ) -> bool:
-    """Every limb as the skeleton has it before any joint is turned, whatever way the hips are turned."""
+    """Whether every limb is as in the skeleton without rotations, however the hips are turned."""
     rest: list[np.ndarray] = []
     for node in file.nodes:
         rest.append(np.array(node.offset) + (rest[node.parent] if node.parent >= 0 else 0))
     hips = file.nodes[found["left_hip"]].parent
     if hips < 0:
         return False
-    home = turns[hips][0].inv()
+    home = rotations[hips][0].inv()
     return all(
         float(
             _direction(home.apply(pose[lower] - pose[upper]))
             @ _direction(rest[found[lower]] - rest[found[upper]])
         )
-        > _AS_REST
+        > _REST_POSE_COSINE
         for upper, lower in _BONES
     )

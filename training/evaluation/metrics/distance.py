@@ -36,16 +36,6 @@ def facing(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
     return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
-def bearing(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
-    """Angle between the leader's heading and the direction to the reactor, (T,) degrees in [0, 180]: 0 is in front.
-
-    Together with `facing` it tells face to face (0 and 180) from back to back (180 and 180).
-    """
-    direction = (reactor[:, 0] - leader[:, 0])[:, [0, 2]]
-    direction = direction / np.maximum(np.linalg.norm(direction, axis=-1, keepdims=True), 1e-9)
-    return np.degrees(np.arccos(np.clip((heading(leader) * direction).sum(axis=-1), -1.0, 1.0)))
-
-
 def cross_distances(leader: np.ndarray, reactor: np.ndarray) -> np.ndarray:
     """Features of the pair for FID_cd: the mean over time of the distance from each of ten joints of the reactor to
     each of ten of the leader, (100,) metres, reactor joint by leader joint.

@@ -29,10 +29,10 @@ from training.evaluation.metrics.geometric import geometric_features
 from training.evaluation.metrics.kinetic import kinetic_features
 from training.evaluation.metrics.modes import Mode
 from training.evaluation.metrics.penetration import penetration
-from training.evaluation.metrics.repetition import SHORTEST, repetition
+from training.evaluation.metrics.repetition import MIN_FRAMES, repetition
 from training.evaluation.metrics.speed import band_decibels, joint_acceleration, joint_speed
 
-CLIP, HOP = 120, 60  # frames of the clips that FID and Div see: 4 s, overlapping by half
+CLIP_FRAMES, HOP_FRAMES = 120, 60  # of the clips of FID and Div: 4 s, overlapping by half
 
 
 def duet_metrics(
@@ -73,7 +73,7 @@ def duet_metrics(
         **penetration(leader, made),
         "bone_variation": bone_variation(made),
     }
-    if len(made) >= SHORTEST:
+    if len(made) >= MIN_FRAMES:
         row |= repetition(made)
     if music is not None:
         aligned = bas(music_beats(music), made)
@@ -103,8 +103,8 @@ def set_metrics(
     truth: Sequence[tuple[np.ndarray, np.ndarray]],
     made: Sequence[tuple[np.ndarray, np.ndarray]],
     mode: Mode,
-    length: int = CLIP,
-    hop: int = HOP,
+    length: int = CLIP_FRAMES,
+    hop: int = HOP_FRAMES,
     resamples: int = 100,
 ) -> dict[str, Interval]:
     """FID and Div of couples (leader, reactor), (T, 22, 3) metres each, against the true couples: fid_k, fid_g,
@@ -118,6 +118,6 @@ def set_metrics(
     return result | {f"div_{name}": div(real[name], fake[name], mode, resamples) for name in real}
 
 
-def clip_count(motions: Sequence[np.ndarray], length: int = CLIP, hop: int = HOP) -> int:
+def clip_count(motions: Sequence[np.ndarray], length: int = CLIP_FRAMES, hop: int = HOP_FRAMES) -> int:
     """How many clips `set_metrics` makes of the motions."""
     return sum(len(clips(motion, length, hop)) for motion in motions)

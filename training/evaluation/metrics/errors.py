@@ -12,10 +12,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from training.evaluation.metrics.distance import root_distance
 from training.motion.skeleton import PARENTS
 
-# Edges of the bins of true distance between the roots, metres: in hold, at arm's length, just apart,
-# walking in.
+# Edges of the bins of true distance between the roots, metres: in hold, at arm's length, just apart, farther away.
 DISTANCE_EDGES: tuple[float, ...] = (0.0, 0.4, 0.8, 1.2, float("inf"))
 
 
@@ -43,38 +43,26 @@ def mpjve(truth: np.ndarray, generated: np.ndarray) -> float:
     return float(np.linalg.norm(difference, axis=-1).mean() * 1000)
 
 
-def root_error_per_frame(
-    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, generated_leader: np.ndarray | None = None
-) -> np.ndarray:
-    """Distance in metres between the true and the generated root as seen from the leader's root, (T,).
-
-    generated_leader is the leader that the generated reactor dances with, where it is not the true one.
-    """
+def root_error_per_frame(leader: np.ndarray, truth: np.ndarray, generated: np.ndarray) -> np.ndarray:
+    """Distance in metres between the true and the generated root as seen from the leader's root, (T,)."""
     _same_length(leader, truth, generated)
-    other = leader if generated_leader is None else generated_leader
-    offset = generated[:, 0] - other[:, 0]
-    return np.linalg.norm(offset - (truth[:, 0] - leader[:, 0]), axis=-1)
+    return np.linalg.norm((generated[:, 0] - leader[:, 0]) - (truth[:, 0] - leader[:, 0]), axis=-1)
 
 
-def root_error(
-    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, generated_leader: np.ndarray | None = None
-) -> float:
+def root_error(leader: np.ndarray, truth: np.ndarray, generated: np.ndarray) -> float:
     """Relative-root error: mean over frames of ||(rootR - rootL) - (rootR - rootL)_true||, in mm."""
-    return float(root_error_per_frame(leader, truth, generated, generated_leader).mean() * 1000)
+    return float(root_error_per_frame(leader, truth, generated).mean() * 1000)
 
 
-def root_error_by_distance(
-    leader: np.ndarray, truth: np.ndarray, generated: np.ndarray, edges: tuple[float, ...] = DISTANCE_EDGES
-) -> dict[str, float]:
-    """Relative-root error in mm for each bin of the true distance between the roots.
+def root_error_by_distance(leader: np.ndarray, truth: np.ndarray, generated: np.ndarray) -> dict[str, float]:
+    """Relative-root error in mm for each bin of the true distance between the roots; NaN for a bin without a frame.
 
-    A model whose placement collapsed to one common distance shows an error that grows away from it. Bins
-    without a frame are NaN.
+    A model that always keeps one distance has an error that grows away from it.
     """
     error = root_error_per_frame(leader, truth, generated) * 1000
-    distance = np.linalg.norm(truth[:, 0] - leader[:, 0], axis=-1)
+    distance = root_distance(leader, truth)
     result: dict[str, float] = {}
-    for low, high in pairwise(edges):
+    for low, high in pairwise(DISTANCE_EDGES):
         inside = (distance >= low) & (distance < high)
         name = f">{low:g} m" if np.isinf(high) else f"{low:g}-{high:g} m"
         result[name] = float(error[inside].mean()) if inside.any() else float("nan")

@@ -36,8 +36,8 @@ def normalise(truth: np.ndarray, *others: np.ndarray, mode: Mode = "corrected") 
     """The truth's features (N, D), then every other set, minus the truth's mean, over its std (ddof 0) +
     1e-10.
 
-    A feature that is the same in all true clips has no scale. `paper` mode divides it by 1e-10, so that a
-    single generated clip that differs sends the FID to 1e17; `corrected` mode leaves it out.
+    A feature that is the same in all true clips has no scale. `paper` mode divides it by 1e-10, so that the FID is
+    about 1e17 if it differs in one generated clip; `corrected` mode leaves it out.
     """
     mean, std = truth.mean(axis=0), truth.std(axis=0)
     varies = std > 1e-9 if mode == "corrected" else np.ones(len(std), dtype=bool)
@@ -76,9 +76,13 @@ def diversity(features: np.ndarray) -> float:
     count = len(features)
     if count < 2:
         raise ValueError("diversity needs at least two vectors")
+    return float(_distances(features)[np.triu_indices(count, 1)].mean())
+
+
+def _distances(features: np.ndarray) -> np.ndarray:
+    """L2 distances (N, N) between the rows of (N, D)."""
     square = (features**2).sum(axis=1)
-    gap = np.maximum(square[:, None] + square[None] - 2 * features @ features.T, 0.0)
-    return float(np.sqrt(gap[np.triu_indices(count, 1)]).mean())
+    return np.sqrt(np.maximum(square[:, None] + square[None] - 2 * features @ features.T, 0.0))
 
 
 def fid(
@@ -110,14 +114,13 @@ def div(
     Pairs of one clip with itself, which a resample has by chance, are left out of it.
     """
     features = normalise(truth, generated, mode=mode)[1]
-    square = (features**2).sum(axis=1)
-    gap = np.sqrt(np.maximum(square[:, None] + square[None] - 2 * features @ features.T, 0.0))
+    distances = _distances(features)
     random = np.random.default_rng(seed)
     draws = []
     for _ in range(resamples):
         rows = random.integers(len(features), size=len(features))
         different = rows[:, None] != rows[None]
-        draws.append(gap[np.ix_(rows, rows)][different].mean() if different.any() else 0.0)
+        draws.append(distances[np.ix_(rows, rows)][different].mean() if different.any() else 0.0)
     value = diversity(features)
     low, high = np.percentile(draws, [2.5, 97.5]) if draws else (value, value)
     return Interval(value, float(low), float(high))

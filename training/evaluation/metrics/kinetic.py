@@ -12,15 +12,15 @@ import numpy as np
 from training.config import FPS
 from training.evaluation.metrics.modes import Mode, feature_pose
 
-WINDOW = 2  # frames on each side over which velocities and accelerations are averaged
+RADIUS_FRAMES = 2  # on each side, over which velocities and accelerations are averaged
 
 
 def _window_mean(values: np.ndarray, first: int, frames: int) -> np.ndarray:
     """Mean over i-2..i+2 of values that exist at frames first..first+len-1, for i = 1..frames-1."""
     total = np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
     i = np.arange(1, frames)
-    low = np.clip(i - WINDOW - first, 0, len(values))
-    high = np.clip(i + WINDOW + 1 - first, 0, len(values))
+    low = np.clip(i - RADIUS_FRAMES - first, 0, len(values))
+    high = np.clip(i + RADIUS_FRAMES + 1 - first, 0, len(values))
     count = np.maximum(high - low, 1)
     return (total[high] - total[low]) / count[:, None, None]
 

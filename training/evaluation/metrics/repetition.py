@@ -1,6 +1,6 @@
 """Whether a long dance repeats itself: windows whose movement comes again at another time of the same dance.
 
-Dance repeats by nature, so the share has to be compared with the truth's over the same length.
+All dances repeat, so the share has to be compared with that of the true dance of the same length.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ import numpy as np
 
 from training.motion.heading import heading, turn_in
 
-WINDOW, HOP = 60, 10  # frames: 2 s of movement, looked at every third of a second
-APART = 120  # frames between the starts of two windows that count as different moments
-SHORTEST = WINDOW + APART + 1  # frames of a dance with at least two different moments
-# Below it a window is a near-duplicate: no two moments of the true salsa are closer than about 65.
-NEAR_MM = 60.0
+WINDOW_FRAMES, HOP_FRAMES = 60, 10  # windows of 2 s, one every third of a second
+MIN_GAP_FRAMES = 120  # least distance between the starts of two windows that are compared
+MIN_FRAMES = WINDOW_FRAMES + MIN_GAP_FRAMES + 1  # of a dance with two windows to compare
+# A window nearer than this to another one is a near-duplicate; in the true salsa no two are nearer than about 65.
+DUPLICATE_MM = 60.0
 
 
 def own_poses(motion: np.ndarray) -> np.ndarray:
@@ -26,20 +26,22 @@ def nearest_repeats(motion: np.ndarray) -> np.ndarray:
     """For every window of a motion (T, 22, 3) its distance to the most similar other window, (K,) mm: root mean
     square over frames and joints; the other starts at least 4 s earlier or later, at any frame.
 
-    Raises ValueError for a motion shorter than `SHORTEST`.
+    Raises ValueError for a motion shorter than `MIN_FRAMES`.
     """
     poses = own_poses(motion)
-    starts = len(poses) - WINDOW + 1
-    if len(poses) < SHORTEST:
-        raise ValueError(f"repetition needs at least {SHORTEST} frames, got {len(poses)}")
+    starts = len(poses) - WINDOW_FRAMES + 1
+    if len(poses) < MIN_FRAMES:
+        raise ValueError(f"repetition needs at least {MIN_FRAMES} frames, got {len(poses)}")
     square = (poses**2).sum(axis=1)
     gap = square[:, None] + square - 2 * poses @ poses.T
     result = []
-    for i in range(0, starts, HOP):
+    for i in range(0, starts, HOP_FRAMES):
         # Mean along the diagonals of the strip of rows of this window: window i against every window j.
-        rows = gap[i : i + WINDOW]
-        distance = sum((rows[k, k : k + starts] for k in range(WINDOW)), np.zeros(starts)) / WINDOW
-        distance[max(i - APART + 1, 0) : i + APART] = np.inf
+        rows = gap[i : i + WINDOW_FRAMES]
+        distance = (
+            sum((rows[k, k : k + starts] for k in range(WINDOW_FRAMES)), np.zeros(starts)) / WINDOW_FRAMES
+        )
+        distance[max(i - MIN_GAP_FRAMES + 1, 0) : i + MIN_GAP_FRAMES] = np.inf
         if np.isfinite(distance).any():
             result.append(np.sqrt(max(float(distance.min()), 0.0) / 22) * 1000)
     return np.array(result)
@@ -50,4 +52,4 @@ def repetition(motion: np.ndarray) -> dict[str, float]:
     nearest.
     """
     nearest = nearest_repeats(motion)
-    return {"repeat_share": float((nearest < NEAR_MM).mean()), "repeat_mm": float(np.median(nearest))}
+    return {"repeat_share": float((nearest < DUPLICATE_MM).mean()), "repeat_mm": float(np.median(nearest))}

@@ -13,7 +13,7 @@ import numpy as np
 
 RADIUS = 2.0  # frames on either side that count as the seam
 CLEAR = 8.0  # frames on either side that do not count as the motion's interior
-PAPER_RADIUS = 30.0  # frames, the paper's window
+PAPER_RADIUS = 30.0  # frames on either side, the paper's window
 
 
 def velocity_change(motion: np.ndarray) -> np.ndarray:
@@ -24,9 +24,9 @@ def velocity_change(motion: np.ndarray) -> np.ndarray:
     return change
 
 
-def boundaries(frames: int, block: int = 240, first: int | None = None) -> np.ndarray:
-    """Frames at which a new block begins: first (default: block), first + block, ... inside the clip."""
-    return np.arange(block if first is None else first, frames, block)
+def boundaries(frames: int, block: int = 240) -> np.ndarray:
+    """Frames of a clip at which a new block begins: block, 2 * block, ..."""
+    return np.arange(block, frames, block)
 
 
 def near(frames: int, seams: np.ndarray, radius: float) -> np.ndarray:
@@ -37,13 +37,13 @@ def near(frames: int, seams: np.ndarray, radius: float) -> np.ndarray:
     return distance <= radius
 
 
-def paper_jitter(motion: np.ndarray, seams: np.ndarray, radius: float = PAPER_RADIUS) -> float:
+def paper_jitter(motion: np.ndarray, seams: np.ndarray) -> float:
     """The paper's boundary jitter (its Table 6): mean |dv| within 30 frames of the seams, mm per frame^2.
 
-    The window is so wide that a pop of ten times at one frame reads 1.15 times the rest, and that motion
-    without any seam scores 0.8 to 1.3 times its own interior. Hence `SeamSample`.
+    The window is so wide that a jump of ten times the usual |dv| at one frame gives 1.15 times the rest, and a motion
+    without any seam 0.8 to 1.3 times its own interior. `seam_ratio` is the measure to judge by.
     """
-    return float(np.nanmean(velocity_change(motion)[near(len(motion), seams, radius)]))
+    return float(np.nanmean(velocity_change(motion)[near(len(motion), seams, PAPER_RADIUS)]))
 
 
 @dataclass(frozen=True)
@@ -90,9 +90,10 @@ def seam_sample(truth: np.ndarray, generated: np.ndarray, seams: np.ndarray) -> 
 
 
 def against_interior(motion: np.ndarray, seams: np.ndarray) -> float:
-    """|dv| at the seams over the same motion's interior, for a motion without a truth to hold it against.
+    """|dv| at the seams over the same motion's interior: for the page, which has no true motion to compare with.
 
-    1 is seamless on average; a single place inside a motion scores anything from 0.5 to 2. NaN without a seam.
+    1 is seamless on average; any single frame inside a motion gives 0.5 to 2. NaN without a seam. web/quality/seams.ts
+    computes the same, and is tested against this.
     """
     own = seam_sample(motion, motion, seams)
     if own.frames == 0 or own.inside_generated == 0:

@@ -9,7 +9,7 @@ import numpy as np
 
 from training.config import FPS
 
-# Bands of joint velocity in Hz: travelling, steps, accents, and mostly noise.
+# Bands of joint velocity, Hz: walking about, steps, accents, and mostly noise.
 BANDS: tuple[tuple[float, float], ...] = ((0.0, 1.0), (1.0, 3.0), (3.0, 6.0), (6.0, 15.0))
 
 
@@ -53,15 +53,10 @@ def band_name(low: float, high: float) -> str:
     return f"{low:g}-{high:g} Hz"
 
 
-def band_decibels(
-    truth: np.ndarray,
-    generated: np.ndarray,
-    bands: tuple[tuple[float, float], ...] = BANDS,
-    fps: float = FPS,
-) -> dict[str, float]:
-    """Energy of the generated motion against the true one in each band, dB."""
-    ratio = band_power(generated, bands, fps) / band_power(truth, bands, fps)
+def band_decibels(truth: np.ndarray, generated: np.ndarray) -> dict[str, float]:
+    """Energy of the generated motion against the true one, dB, by the name of each of `BANDS`."""
+    ratio = band_power(generated) / band_power(truth)
     return {
         band_name(low, high): float(10 * np.log10(max(value, 1e-12)))
-        for (low, high), value in zip(bands, ratio, strict=True)
+        for (low, high), value in zip(BANDS, ratio, strict=True)
     }

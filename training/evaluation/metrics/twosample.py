@@ -2,8 +2,8 @@
 In tables its accuracy is "told from the truth".
 
 The accuracy on windows that it was not trained on is 0.5 where the two cannot be told apart. It sees both dancers,
-so it can use anything: poses, timing, distance, hands that miss each other. With little data even the truth does not
-score exactly 0.5 against itself; report that beside it (`truth_against_truth`).
+so it can use poses, timing and distances. With little data even the truth does not have exactly 0.5 against itself;
+that is reported beside it (`truth_against_truth`).
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from torch import nn
 
 from training.motion.heading import heading, turn_in
 
-WINDOW, HOP = 60, 6  # frames
-SEGMENT = 150  # frames; windows of one segment are held out together, since neighbours are nearly the same
+WINDOW_FRAMES, HOP_FRAMES = 60, 6
+SEGMENT_FRAMES = 150  # windows of one segment are held out together, since neighbours are nearly the same
 FOLDS = 4
 STEPS, BATCH = 120, 64
 
@@ -33,18 +33,18 @@ def couple_windows(couples: Sequence[Couple]) -> tuple[np.ndarray, np.ndarray]:
     windows, groups, segments = [], [], 0
     for leader, reactor in couples:
         facing = heading(leader)
-        for first in range(0, len(leader) - SEGMENT + 1, SEGMENT):
-            for start in range(first, first + SEGMENT - WINDOW + 1, HOP):
-                rows, middle = slice(start, start + WINDOW), start + WINDOW // 2
+        for first in range(0, len(leader) - SEGMENT_FRAMES + 1, SEGMENT_FRAMES):
+            for start in range(first, first + SEGMENT_FRAMES - WINDOW_FRAMES + 1, HOP_FRAMES):
+                rows, middle = slice(start, start + WINDOW_FRAMES), start + WINDOW_FRAMES // 2
                 origin = leader[middle, 0] * np.array([1.0, 0.0, 1.0])
                 both = np.concatenate([leader[rows], reactor[rows]], axis=1) - origin
-                turn = np.repeat(facing[middle : middle + 1], WINDOW, axis=0).astype(np.float64)
-                seen = turn_in(both.astype(np.float64), turn).reshape(WINDOW, -1)
+                turn = np.repeat(facing[middle : middle + 1], WINDOW_FRAMES, axis=0).astype(np.float64)
+                seen = turn_in(both.astype(np.float64), turn).reshape(WINDOW_FRAMES, -1)
                 windows.append(np.concatenate([seen, np.gradient(seen, axis=0)], axis=1))
                 groups.append(segments)
             segments += 1
     if not windows:
-        raise ValueError(f"no couple has {SEGMENT} frames")
+        raise ValueError(f"no couple has {SEGMENT_FRAMES} frames")
     return np.array(windows, dtype=np.float32), np.array(groups)
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.out_of_distribution import (
-    FARTHEST,
-    HIGHEST_TOE,
-    LOWEST_TOE,
-    SPEED_FACTOR,
-    SPEED_REST,
+    MAX_DISTANCE,
+    MAX_SPEED_EXTRA,
+    MAX_SPEED_RATIO,
+    MAX_TOE_HEIGHT,
+    MIN_TOE_HEIGHT,
 )
 from training.evaluation.thresholds import check_required, check_targets
 
@@ -223,10 +223,10 @@ def _out_of_distribution(numbers: Numbers) -> Sections:
     sections = [
         "## Out-of-distribution leaders",
         "A reactor passes where everything is finite; in 98 % of frames the lower of the two toe joints is between "
-        f"{LOWEST_TOE:g} and {HIGHEST_TOE:g} m above the leader's floor (`toe_low_m` and `toe_high_m` are the 1st and "
-        f"99th percentile); median and largest distance of the roots are under {FARTHEST:g} m; and the mean joint "
-        f"speed is under {SPEED_FACTOR:g} times the leader's plus {SPEED_REST:g} m/s. First seed; the songs are those "
-        "of the held-out duets.",
+        f"{MIN_TOE_HEIGHT:g} and {MAX_TOE_HEIGHT:g} m above the leader's floor (`toe_low_m` and `toe_high_m` are the "
+        "1st and 99th percentile); median and largest distance of the roots are under "
+        f"{MAX_DISTANCE:g} m; and the mean joint speed is under {MAX_SPEED_RATIO:g} times the leader's plus "
+        f"{MAX_SPEED_EXTRA:g} m/s. First seed; the songs are those of the held-out duets.",
     ]
     for group, heading in (("unseen", "Not seen in training"), ("seen", "Seen in training")):
         rows = numbers["out_of_distribution"][group]

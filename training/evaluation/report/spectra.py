@@ -13,7 +13,7 @@ from training.config import FPS
 from training.evaluation.protocol import COARSE_ALONE, GENERATED, TRUTH
 from training.evaluation.report.filmstrip import INK, PAPER, REACTOR, RULE
 
-EDGES = np.geomspace(0.2, 15.0, 25)  # Hz, of the bins that are drawn
+EDGES_HZ = np.geomspace(0.2, 15.0, 25)  # of the bins that are drawn
 # What is drawn of an evaluation's rows: line colour and style.
 LINES: dict[str, tuple[str, str]] = {
     TRUTH: (INK, "-"),
@@ -24,7 +24,7 @@ LINES: dict[str, tuple[str, str]] = {
 }
 
 
-def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES, fps: float = FPS) -> np.ndarray:
+def spectrum(motion: np.ndarray, edges: np.ndarray = EDGES_HZ, fps: float = FPS) -> np.ndarray:
     """Power density of the joint velocities of (T, J, 3) metres between each two edges (Hz), (m/s)^2 per Hz.
 
     One periodogram of the whole clip under a Hann window, summed over x, y, z and averaged over joints and the
@@ -47,7 +47,7 @@ def draw_spectra(rows: Mapping[str, Sequence[np.ndarray]], path: Path) -> Path:
     figure = Figure(figsize=(8, 4.5), facecolor=PAPER)
     FigureCanvasAgg(figure)
     axes = figure.subplots()
-    middle = np.sqrt(EDGES[1:] * EDGES[:-1])
+    middle = np.sqrt(EDGES_HZ[1:] * EDGES_HZ[:-1])
     for name, (colour, style) in LINES.items():
         if name not in rows:
             continue

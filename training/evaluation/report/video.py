@@ -30,12 +30,14 @@ from training.evaluation.report.filmstrip import (
 from training.evaluation.report.webm import webm
 from training.motion.skeleton import JOINTS, PARENTS
 
-CELL = (400, 320)  # pixels of one couple from one side
-CAPTION = 28  # pixels above the cells
+CELL_PIXELS = (400, 320)  # width and height of one couple from one side
+CAPTION_PIXELS = 28  # above the cells
 SUPERSAMPLING = 2  # drawn so many times larger and then averaged: Pillow's lines have hard edges
-LIMB = 0.045  # metres, width of a limb's line
+LIMB_WIDTH = 0.045  # metres
 HEIGHT = 2.15  # metres that a cell shows at least, in height
-CAMERA = 30.0  # frames, standard deviation of the camera's smoothing: it follows the couple, not the steps
+CAMERA_SIGMA_FRAMES = (
+    30.0  # of the Gaussian that smooths the camera's path, so that single steps do not move it
+)
 
 _TRUNK = [JOINTS.index(name) for name in TRUNK]
 _HEAD, _NECK = JOINTS.index("head"), JOINTS.index("neck")
@@ -52,8 +54,8 @@ class Camera:
     def project(self, pose: np.ndarray, frame: int, corner: tuple[int, int]) -> np.ndarray:
         """Pose (22, 3) to pixels (22, 2) in the cell at a corner, and how near (22,): (22, 3)."""
         seen = pose - self.centre[frame]
-        x = corner[0] + CELL[0] * SUPERSAMPLING / 2 + seen @ self.view.right * self.scale
-        y = corner[1] + CELL[1] * SUPERSAMPLING * 0.94 - seen @ self.view.up * self.scale
+        x = corner[0] + CELL_PIXELS[0] * SUPERSAMPLING / 2 + seen @ self.view.right * self.scale
+        y = corner[1] + CELL_PIXELS[1] * SUPERSAMPLING * 0.94 - seen @ self.view.up * self.scale
         return np.stack([x, y, seen @ self.view.eye], axis=-1)
 
 
@@ -61,12 +63,12 @@ def cameras(leader: np.ndarray, reactors: Sequence[np.ndarray]) -> tuple[Camera,
     """Front and side of all dancers (T, 22, 3), the same for every couple so that places can be compared."""
     beside = np.mean([reactor[:, 0] for reactor in reactors], axis=0)
     middle = (leader[:, 0] + beside) / 2 * np.array([1.0, 0.0, 1.0])
-    centre = gaussian_filter1d(middle.astype(np.float64), CAMERA, axis=0, mode="nearest")
+    centre = gaussian_filter1d(middle.astype(np.float64), CAMERA_SIGMA_FRAMES, axis=0, mode="nearest")
     result = []
     for view in views(leader, reactors[0])[:2]:
         reach = max(float(np.abs((m - centre[:, None]) @ view.right).max()) for m in (leader, *reactors))
-        width = max(2 * (reach + 2 * HEAD_RADIUS), HEIGHT * CELL[0] / CELL[1])
-        result.append(Camera(view, centre, CELL[0] * SUPERSAMPLING / width))
+        width = max(2 * (reach + 2 * HEAD_RADIUS), HEIGHT * CELL_PIXELS[0] / CELL_PIXELS[1])
+        result.append(Camera(view, centre, CELL_PIXELS[0] * SUPERSAMPLING / width))
     return result[0], result[1]
 
 
@@ -85,11 +87,13 @@ def _draw_couple(
     corner: tuple[int, int],
 ) -> None:
     """Bodies (22, 3) by colour into the cell at a corner; what is nearer covers what is farther."""
-    floor = corner[1] + CELL[1] * SUPERSAMPLING * 0.94
+    floor = corner[1] + CELL_PIXELS[1] * SUPERSAMPLING * 0.94
     draw.line(
-        [(corner[0], floor), (corner[0] + CELL[0] * SUPERSAMPLING, floor)], fill=RULE, width=2 * SUPERSAMPLING
+        [(corner[0], floor), (corner[0] + CELL_PIXELS[0] * SUPERSAMPLING, floor)],
+        fill=RULE,
+        width=2 * SUPERSAMPLING,
     )
-    width, radius = round(LIMB * camera.scale), HEAD_RADIUS * camera.scale
+    width, radius = round(LIMB_WIDTH * camera.scale), HEAD_RADIUS * camera.scale
     parts = []
     for colour, pose in bodies.items():
         seen = camera.project(pose, frame, corner)
@@ -123,22 +127,25 @@ def pictures(
     if len(lengths) < 2 or min(lengths) != max(lengths) or not lengths[0]:
         raise ValueError(f"cannot show {' and '.join(map(str, lengths))} frames side by side")
     sides = cameras(leader, list(reactors.values()))
-    size = (len(reactors) * CELL[0], 2 * CELL[1] + CAPTION)
+    size = (len(reactors) * CELL_PIXELS[0], 2 * CELL_PIXELS[1] + CAPTION_PIXELS)
     font = ImageFont.load_default(15)
     for frame in range(len(leader)):
         large = Image.new("RGB", (size[0] * SUPERSAMPLING, size[1] * SUPERSAMPLING), PAPER)
         draw = ImageDraw.Draw(large)
         for column, reactor in enumerate(reactors.values()):
             for row, camera in enumerate(sides):
-                corner = (column * CELL[0] * SUPERSAMPLING, (CAPTION + row * CELL[1]) * SUPERSAMPLING)
+                left, top = column * CELL_PIXELS[0], CAPTION_PIXELS + row * CELL_PIXELS[1]
+                corner = (left * SUPERSAMPLING, top * SUPERSAMPLING)
                 bodies = {LEADER: leader[frame], REACTOR: reactor[frame]}
                 _draw_couple(draw, bodies, camera, frame, corner)
         picture = large.reduce(SUPERSAMPLING)
         caption = ImageDraw.Draw(picture)
         for column, name in enumerate(reactors):
-            caption.text(((column + 0.5) * CELL[0], 16), name, fill=INK, font=font, anchor="mm")
+            caption.text(((column + 0.5) * CELL_PIXELS[0], 16), name, fill=INK, font=font, anchor="mm")
             if column:
-                caption.line([(column * CELL[0], CAPTION), (column * CELL[0], size[1])], fill=RULE)
+                caption.line(
+                    [(column * CELL_PIXELS[0], CAPTION_PIXELS), (column * CELL_PIXELS[0], size[1])], fill=RULE
+                )
         caption.text((size[0] - 8, 16), f"{frame / fps:.1f} s", fill=INK, font=font, anchor="rm")
         yield picture
 

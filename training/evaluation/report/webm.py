@@ -14,8 +14,8 @@ from PIL import Image
 
 from training.config import FPS
 
-CLUSTER = 30  # frames of a Matroska cluster, which has one time stamp and one entry of the seek table
-_MILLISECOND = 1_000_000  # nanoseconds, the unit of all times in the file
+CLUSTER_FRAMES = 30  # of a Matroska cluster, which has one time stamp and one entry of the seek table
+_MILLISECOND_NS = 1_000_000  # the unit of all times in the file
 
 
 def key_frame(picture: Image.Image, quality: int = 70) -> bytes:
@@ -63,7 +63,7 @@ def _cues(positions: Sequence[int], fps: float) -> bytes:
     points = [
         _element(
             0xBB,
-            _unsigned(0xB3, _milliseconds(index * CLUSTER, fps))
+            _unsigned(0xB3, _milliseconds(index * CLUSTER_FRAMES, fps))
             + _element(0xB7, _unsigned(0xF7, 1) + _unsigned(0xF1, position)),
         )
         for index, position in enumerate(positions)
@@ -88,7 +88,7 @@ def webm(pictures: Iterable[Image.Image], fps: float = FPS) -> bytes:
     )  # fmt: skip
     info = _element(
         0x1549A966,
-        _unsigned(0x2AD7B1, _MILLISECOND) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
+        _unsigned(0x2AD7B1, _MILLISECOND_NS) + _element(0x4D80, b"reactdance") + _element(0x5741, b"reactdance")
         + _element(0x4489, struct.pack(">d", len(frames) * 1000 / fps)),
     )  # fmt: skip
     track = _element(
@@ -97,7 +97,9 @@ def webm(pictures: Iterable[Image.Image], fps: float = FPS) -> bytes:
         + _unsigned(0x23E383, round(1e9 / fps)) + _element(0xE0, _unsigned(0xB0, width) + _unsigned(0xBA, height)),
     )  # fmt: skip
     head = info + _element(0x1654AE6B, track)
-    clusters = [_cluster(frames[i : i + CLUSTER], i, fps) for i in range(0, len(frames), CLUSTER)]
+    clusters = [
+        _cluster(frames[i : i + CLUSTER_FRAMES], i, fps) for i in range(0, len(frames), CLUSTER_FRAMES)
+    ]
     # The seek table stands before the clusters; numbers have a fixed width, so its own length is known.
     begin = len(head) + len(_cues([0] * len(clusters), fps))
     positions = [begin + sum(map(len, clusters[:i])) for i in range(len(clusters))]

@@ -8,7 +8,6 @@ import pytest
 from tests.python.support.bodies import random_body, random_walk, turned
 from training.evaluation.metrics.distance import (
     CROSS_JOINTS,
-    bearing,
     cross_distances,
     facing,
     hand_distance,
@@ -18,7 +17,7 @@ from training.evaluation.metrics.distance import (
 from training.motion.heading import heading
 
 
-def test_heading_facing_and_bearing():
+def test_heading_facing_and_root_distance():
     leader = random_body()
     assert heading(leader)[0] == pytest.approx([0.0, 1.0])
     assert heading(turned(leader, 90))[0] == pytest.approx([1.0, 0.0], abs=1e-9)
@@ -26,8 +25,6 @@ def test_heading_facing_and_bearing():
     partner += leader[:, :1] + np.array([0.0, 0.0, 0.7]) - partner[:, :1]
     assert facing(leader, partner) == pytest.approx(np.full(61, 180.0))
     assert facing(leader, turned(leader, 30)) == pytest.approx(np.full(61, 30.0))
-    assert bearing(leader, partner) == pytest.approx(np.zeros(61), abs=1e-5)
-    assert bearing(leader, leader + np.array([0.0, 0.0, -1.0])) == pytest.approx(np.full(61, 180.0))
     assert root_distance(leader, partner) == pytest.approx(np.full(61, 0.7))
 
 

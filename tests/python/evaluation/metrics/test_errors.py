@@ -28,8 +28,8 @@ def test_root_error_is_seen_from_the_leader():
     leader, truth = random_body(), random_body() + np.array([0.6, 0.0, 0.0])
     generated = truth + np.array([0.03, 0.0, 0.04])
     assert root_error(leader, truth, generated) == pytest.approx(50.0)
-    # The same couple somewhere else in the room makes the same error.
-    assert root_error(leader, truth, generated + 5.0, leader + 5.0) == pytest.approx(50.0)
+    # The same couple at another place of the room has the same error.
+    assert root_error(leader + 5.0, truth + 5.0, generated + 5.0) == pytest.approx(50.0)
 
 
 def test_root_error_splits_by_the_true_distance():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from export.manifest import quality_rules
-from training.data.made import made_duet
+from tests.python.support.duets import made_duet
 from training.evaluation.metrics.beats import bas, bed
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.distance import root_distance

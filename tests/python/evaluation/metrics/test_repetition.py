@@ -7,9 +7,9 @@ import pytest
 
 from training.data.made import made_dancer
 from training.evaluation.metrics.repetition import (
-    APART,
-    NEAR_MM,
-    WINDOW,
+    DUPLICATE_MM,
+    MIN_GAP_FRAMES,
+    WINDOW_FRAMES,
     nearest_repeats,
     own_poses,
     repetition,
@@ -37,12 +37,12 @@ def test_poses_do_not_depend_on_the_room():
 def test_a_dance_that_never_returns_does_not_repeat():
     result = repetition(wandering(600))
     assert result["repeat_share"] == 0.0
-    assert result["repeat_mm"] > NEAR_MM
+    assert result["repeat_mm"] > DUPLICATE_MM
     # The nearest other window is the one that starts just far enough away; its distance is known.
     speed = np.sqrt(
         ((wandering(2)[1] - wandering(2)[0] - (wandering(2)[1, :1] - wandering(2)[0, :1])) ** 2).sum() / 22
     )
-    assert result["repeat_mm"] == pytest.approx(APART * speed * 1000, rel=0.05)
+    assert result["repeat_mm"] == pytest.approx(MIN_GAP_FRAMES * speed * 1000, rel=0.05)
 
 
 def test_a_phrase_danced_again_later_is_found():
@@ -51,7 +51,7 @@ def test_a_phrase_danced_again_later_is_found():
     nearest = nearest_repeats(dance)
     again = {10 * k for k in np.flatnonzero(nearest < 1.0)}
     # Windows that lie wholly inside the phrase, here and there; starts come every 10 frames.
-    inside = {s for first in (100, 600) for s in range(first, first + 150 - WINDOW + 1, 10)}
+    inside = {s for first in (100, 600) for s in range(first, first + 150 - WINDOW_FRAMES + 1, 10)}
     assert again == inside
     assert repetition(dance)["repeat_share"] >= len(inside) / len(nearest)
 
@@ -62,4 +62,4 @@ def test_neighbouring_windows_are_not_repeats():
     dance[300:390] = dance[300]
     assert (nearest_repeats(dance) > 1.0).all()
     with pytest.raises(ValueError, match="at least"):
-        repetition(dance[: WINDOW + 50])
+        repetition(dance[: WINDOW_FRAMES + 50])

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from training.data.made import made_duet
+from tests.python.support.duets import made_duet
 from training.evaluation.metrics.twosample import (
-    SEGMENT,
-    WINDOW,
+    SEGMENT_FRAMES,
+    WINDOW_FRAMES,
     couple_windows,
     truth_against_truth,
     two_sample_accuracy,
@@ -22,14 +22,14 @@ def couples(frames: int = 750) -> list[tuple[np.ndarray, np.ndarray]]:
 def test_windows_lie_inside_segments_and_ignore_the_room():
     (leader, reactor), _ = couples(400)
     windows, groups = couple_windows([(leader, reactor)])
-    assert windows.shape[1:] == (WINDOW, 264)
+    assert windows.shape[1:] == (WINDOW_FRAMES, 264)
     assert list(np.unique(groups)) == [0, 1]
     turn = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]], np.float32)
     moved, _ = couple_windows([(leader @ turn + np.float32(3), reactor @ turn + np.float32(3))])
     # Heights are kept, so only the shift along y remains.
-    expected = windows.reshape(len(windows), WINDOW, 2, 44, 3) + np.array([[[0, 3, 0]], [[0, 0, 0]]])
+    expected = windows.reshape(len(windows), WINDOW_FRAMES, 2, 44, 3) + np.array([[[0, 3, 0]], [[0, 0, 0]]])
     assert moved.reshape(expected.shape) == pytest.approx(expected, abs=1e-4)
-    with pytest.raises(ValueError, match=str(SEGMENT)):
+    with pytest.raises(ValueError, match=str(SEGMENT_FRAMES)):
         couple_windows([(leader[:100], reactor[:100])])
 
 
@@ -55,6 +55,6 @@ def test_a_centimetre_of_jitter_is_told_from_the_truth():
 
 @pytest.mark.filterwarnings("error")
 def test_too_short_a_truth_has_no_accuracy():
-    short = couples(SEGMENT)[:1]
+    short = couples(SEGMENT_FRAMES)[:1]
     assert np.isnan(truth_against_truth(short))
     assert np.isnan(two_sample_accuracy(short, short))

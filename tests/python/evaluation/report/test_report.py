@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from training.data.made import made_duet
+from tests.python.support.duets import made_duet
 from training.evaluation.evaluate import Evaluation
 from training.evaluation.out_of_distribution import OutOfDistributionDance
 from training.evaluation.protocol import HeldOutDuet

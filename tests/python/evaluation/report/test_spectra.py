@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 from training.evaluation.protocol import COARSE_ALONE
 from training.evaluation.report.filmstrip import REACTOR
-from training.evaluation.report.spectra import EDGES, draw_spectra, spectrum
+from training.evaluation.report.spectra import EDGES_HZ, draw_spectra, spectrum
 
 
 def swinging(hertz: float, frames: int = 900) -> np.ndarray:
@@ -31,7 +31,7 @@ def test_power_is_where_the_oscillation_is():
     half = swinging(2.0)
     half[:, :11] = 0
     assert spectrum(half, edges)[1] == pytest.approx(slow[1] / 2)
-    assert np.isnan(spectrum(swinging(2.0, 40), EDGES)[0])  # 0.04 Hz wide, of 1.3 s
+    assert np.isnan(spectrum(swinging(2.0, 40), EDGES_HZ)[0])  # 0.04 Hz wide, of 1.3 s
 
 
 def test_the_picture_has_a_line_for_each_known_row(tmp_path: Path):

@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from tests.python.support.couple import couple
 from tests.python.support.read_webm import frames
 from training.evaluation.report.filmstrip import LEADER, REACTOR
-from training.evaluation.report.video import CAPTION, CELL, pictures, write_video
+from training.evaluation.report.video import CAPTION_PIXELS, CELL_PIXELS, pictures, write_video
 
 
 def pixels(picture: np.ndarray, colour: str) -> np.ndarray:
@@ -21,8 +21,8 @@ def pixels(picture: np.ndarray, colour: str) -> np.ndarray:
 
 
 def cell(picture: np.ndarray, column: int, row: int) -> np.ndarray:
-    top, left = CAPTION + row * CELL[1], column * CELL[0]
-    return picture[top : top + CELL[1], left : left + CELL[0]]
+    top, left = CAPTION_PIXELS + row * CELL_PIXELS[1], column * CELL_PIXELS[0]
+    return picture[top : top + CELL_PIXELS[1], left : left + CELL_PIXELS[0]]
 
 
 def test_a_film_of_two_couples(tmp_path: Path):
@@ -33,7 +33,7 @@ def test_a_film_of_two_couples(tmp_path: Path):
     assert len(read) == 45
     assert read[-1][0] == pytest.approx(44 / 30 * 1000, abs=1)
     last = np.asarray(read[-1][1])
-    assert last.shape == (2 * CELL[1] + CAPTION, 2 * CELL[0], 3)
+    assert last.shape == (2 * CELL_PIXELS[1] + CAPTION_PIXELS, 2 * CELL_PIXELS[0], 3)
     for column in (0, 1):
         for row in (0, 1):
             for colour in (LEADER, REACTOR):  # VP8 blurs colours, heads are large enough to keep theirs
@@ -60,14 +60,14 @@ def test_true_and_generated_stand_where_they_are():
     rows = np.argwhere((cell(shown[0], 0, 0) < 200).any(axis=(1, 2)))[
         :, 0
     ]  # darker than the line of the floor
-    assert 0.85 * CELL[1] < rows.max() < 0.97 * CELL[1]
-    assert pixels(cell(shown[0], 0, 0), LEADER)[:, 0].min() < 0.5 * CELL[1]
+    assert 0.85 * CELL_PIXELS[1] < rows.max() < 0.97 * CELL_PIXELS[1]
+    assert pixels(cell(shown[0], 0, 0), LEADER)[:, 0].min() < 0.5 * CELL_PIXELS[1]
 
 
 def test_one_couple_fills_the_picture():
     leader, truth = couple(20)
     first = np.asarray(next(pictures(leader, {"generated": truth})))
-    assert first.shape == (2 * CELL[1] + CAPTION, CELL[0], 3)
+    assert first.shape == (2 * CELL_PIXELS[1] + CAPTION_PIXELS, CELL_PIXELS[0], 3)
     assert len(pixels(first, LEADER)) > 50
     with pytest.raises(ValueError, match="20 frames"):
         next(pictures(leader, {}))
@@ -79,6 +79,6 @@ def test_nobody_leaves_the_picture():
     last = np.asarray(list(pictures(leader, {"truth": truth, "generated": far}))[-1])
     columns = pixels(cell(last, 1, 0), REACTOR)[:, 1]
     assert len(columns) > 50
-    assert 2 < columns.min() < columns.max() < CELL[0] - 2
+    assert 2 < columns.min() < columns.max() < CELL_PIXELS[0] - 2
     with pytest.raises(ValueError, match="side by side"):
         next(pictures(leader, {"truth": truth[:5], "generated": far}))

@@ -23,7 +23,7 @@ from tests.python.support.read_webm import (
     frames,
     inside,
 )
-from training.evaluation.report.webm import CLUSTER, key_frame, webm
+from training.evaluation.report.webm import CLUSTER_FRAMES, key_frame, webm
 
 
 def plain(tone: int, size: tuple[int, int] = (48, 32)) -> Image.Image:
@@ -44,7 +44,7 @@ def test_every_frame_is_there_at_its_time():
 
 
 def test_the_seek_table_points_at_the_clusters():
-    (segment,) = inside(webm(plain(tone) for tone in range(CLUSTER * 2 + 1)), SEGMENT)
+    (segment,) = inside(webm(plain(tone) for tone in range(CLUSTER_FRAMES * 2 + 1)), SEGMENT)
     begins = [begin for name, begin, _ in elements(segment) if name == CLUSTER_ID]
     cues = [int.from_bytes(p, "big") for p in inside(segment, CUES, POINT, POSITIONS, CUE_CLUSTER)]
     assert cues == begins
