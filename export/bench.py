@@ -46,7 +46,7 @@ class Options:
 
 
 def made_song(frames: int, recipe: AudioRecipe) -> np.ndarray:
-    """Chords with a click on every beat at 120 BPM, (frames * hop,) float32: enough for every feature to be busy."""
+    """Chords with a click on every beat at 120 BPM, (frames * hop,) float32: every feature varies."""
     random = np.random.default_rng(SEED)
     time = np.arange(frames * recipe.hop) / recipe.sample_rate
     root = np.array([220.0, 174.6, 261.6, 196.0])[(time // 2).astype(int) % 4]

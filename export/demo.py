@@ -3,7 +3,7 @@
     python -m export.demo --model web/public/models/salsa --data ../shared/data/cmu_salsa/duets.npz --duet salsa_02
     node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json web/public/demo
 
-The duet only lends its reactor as the partner of the leader that is generated; nothing of it is written.
+The duet's reactor is the input for which the leader is generated; no motion of the duet is written.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Options:
     out: Path = Path("runs/demo")
     seconds: float = 32.0
     skip: int = 1
-    """Eight-counts of the duet to leave out at its start, where the couple walks in."""
+    """Cycles of eight counts to leave out at the start of the duet, where the couple walks in."""
     leader_seed: int = 4
     """Of the generated leader; this one steps on the beat without a shift."""
     seed: int = 1206
@@ -45,7 +45,10 @@ class Options:
 
 
 def on_the_beat(motion: np.ndarray, dance: Tempo, song: Tempo, skip: int, seconds: float) -> np.ndarray:
-    """(T, 22, 3) at the song's tempo, cut so that its cycles begin where the song's do."""
+    """The motion (T, 22, 3) at the song's tempo, cut so that its cycles of eight counts begin with the song's.
+
+    skip: cycles to leave out at the start. seconds: length of the result.
+    """
     factor = song.bpm / dance.bpm
     warped = warp_motion(motion, factor)
     first = dance.first / warp_factor(len(motion), factor)

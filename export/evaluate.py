@@ -159,7 +159,7 @@ def paired_duets(options: Options, duets: Split) -> list[HeldOutDuet]:
     if not options.music:
         return [HeldOutDuet(duet, None) for duet in chosen]
     variant = Variant(1.0, "song" if options.songs else "synth", 0)
-    split = Split((), duets.val, duets.test)  # training duets need no music here
+    split = Split((), duets.val, duets.test)  # baselines use no music
     bank = build_music_bank(split, options.songs, [variant], cache_dir=options.music_cache)
     return [HeldOutDuet(duet, bank[duet.name][variant]) for duet in chosen]
 

@@ -3,8 +3,8 @@
  *
  *     npx vite build && node tools/moving-picture.mjs [VIDEO]
  *
- * The page writes a video of its demo, which takes minutes without a GPU; VIDEO is one that it has written before. Of
- * that the stretch is taken whose last picture is most like its first, and its end is faded into what comes before its
+ * The page writes a video of its demo, which takes minutes without a GPU; VIDEO is one that it has written before. The
+ * part whose last picture is most like its first becomes the loop; its end is cross-faded with the pictures before its
  * beginning. Needs ffmpeg.
  */
 import { execFileSync } from 'node:child_process';
@@ -25,7 +25,7 @@ const WIDTH = 450;
 /** Pictures a second that are compared; the loop keeps all of them. */
 const SEARCH_FPS = 15;
 const LOOP_SECONDS = { shortest: 7, longest: 9 };
-/** The couple comes together first and leaves last. */
+/** Left out at the start and the end of the dance, where the couple comes together and parts. */
 const EDGE_SECONDS = 4;
 const FADE_SECONDS = 0.4;
 const QUALITY = 65;
@@ -94,7 +94,7 @@ function findLoop(video) {
       end <= Math.min(start + LOOP_SECONDS.longest * SEARCH_FPS, count - edge);
       end++
     ) {
-      // Alike in place is not enough: two pictures earlier they have to be alike too, so that they move alike.
+      // The pictures two earlier are compared too, so that both ends have the same motion.
       const now = difference(start, end) + difference(start - 2, end - 2);
       if (now < best.difference)
         best = { start: start / SEARCH_FPS, seconds: (end - start) / SEARCH_FPS, difference: now };

@@ -4,8 +4,8 @@
  */
 
 /**
- * Everything comes from the page's own origin. Beyond that only what the app can't do without: WebAssembly
- * compilation for onnxruntime, blob: workers for its threads, blob: media for the person's own song.
+ * Everything comes from the page's own origin. Also allowed is what the app needs: WebAssembly compilation for
+ * onnxruntime, blob: workers for its threads, blob: media for the user's own song.
  */
 export const contentSecurityPolicy = [
   "default-src 'self'",

@@ -50,7 +50,7 @@ export function createSite({ root, mounts = {} }) {
   const folders = Object.entries({ ...mounts, '/': root }).sort(([a], [b]) => b.length - a.length);
   return createServer((request, response) => {
     answer(request, response, folders).catch((/** @type {unknown} */ error) => {
-      // The visitor went away in the middle of a file: nothing is left to be told to anyone.
+      // After the headers the connection can only be closed: the browser has left in the middle of a file.
       if (!response.headersSent)
         refuse(response, 500, error instanceof Error ? error.message : String(error));
       response.destroy();

@@ -37,16 +37,19 @@ def save_weights(folder: Path, name: str, module: nn.Module, config: dict) -> No
 
 
 def save_hfsq(folder: Path, model: Autoencoder, frame: FrameConfig, provenance: dict) -> None:
+    """Writes stage 1. provenance: how it was trained."""
     config = {"hfsq": to_json(model.config), "frame": to_json(frame), "provenance": provenance}
     save_weights(folder, "hfsq", model, config)
 
 
 def save_denoiser(folder: Path, model: Denoiser, diffusion: DiffusionConfig, provenance: dict) -> None:
+    """Writes stage 2. provenance: how it was trained."""
     config = {"denoiser": to_json(model.config), "diffusion": to_json(diffusion), "provenance": provenance}
     save_weights(folder, "denoiser", model, config)
 
 
 def read_config(folder: Path, name: str) -> dict:
+    """NAME.json of a checkpoint. Raises FileNotFoundError."""
     path = folder / f"{name}.json"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
@@ -62,11 +65,12 @@ def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:
 
 
 def start_from(module: nn.Module, folder: Path, name: str) -> None:
-    """Take the weights and statistics NAME of the checkpoint in `folder`; the sizes must be the same."""
+    """Loads NAME.safetensors of `folder` into a module. Raises RuntimeError where names or sizes differ."""
     load_weights(module, str(folder / f"{name}.safetensors"), strict=True)
 
 
 def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionConfig]:
+    """The stage-2 model in evaluation mode, not frozen. hfsq: stage 1 of the same checkpoint."""
     config = read_config(folder, "denoiser")
     model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
     load_weights(model, str(folder / "denoiser.safetensors"), strict=True)
@@ -82,12 +86,12 @@ def load_model(folder: Path) -> Model:
 
 
 def read_card(folder: Path) -> dict:
-    """What a person should know about the model: the fields of the manifest's head, from card.json."""
+    """card.json: name, licence, attribution and notes of the model, which the manifest begins with."""
     return read_config(folder, "card")
 
 
 def write_first_card(folder: Path, reference_height: float) -> None:
-    """A card to be filled in by whoever trained the model; one that is there is left alone.
+    """Writes a card.json to be filled in by hand; one that exists is kept.
 
     reference_height: metres, the mean `body_height` of the leaders it was trained on.
     """

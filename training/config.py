@@ -1,4 +1,4 @@
-"""Every model and training constant as frozen dataclasses: JSON beside weights, source of the manifest."""
+"""The constants of model and training as frozen dataclasses, kept as JSON beside the weights."""
 
 from __future__ import annotations
 
@@ -34,6 +34,8 @@ class MaskingConfig:
 
 @dataclass(frozen=True)
 class HfsqConfig:
+    """Stage 1: autoencoder, quantiser and the weights of its losses (Eq. 1 to 5)."""
+
     quantiser: Literal["hfsq", "rvq", "kl", "none"] = "hfsq"
     groups: int = 8
     layers: int = 2
@@ -56,6 +58,8 @@ class HfsqConfig:
 
 @dataclass(frozen=True)
 class ConditionConfig:
+    """The condition encoder. drop_*: shares of windows in which conditions are dropped while training."""
+
     leader: bool = True
     music: bool = True
     depth: int = 2  # residual blocks with kernel 3 at the latent rate
@@ -63,14 +67,16 @@ class ConditionConfig:
     drop_all: float = 0.1
     drop_leader: float = 0.1
     drop_music: float = 0.1
-    # Without these the model seems to learn the training dances by heart (docs/experiment-log.md).
-    leader_shift: int = 3  # frames; the leader is seen this much early or late in half of the windows
-    leader_blur: float = 6.0  # frames, sigma; a leader so blurred shows where, not when
+    # Augmentation of the leader's features; what it is worth was not separated (docs/experiment-log.md).
+    leader_shift: int = 3  # frames, at most; the leader is early or late in half of the windows
+    leader_blur: float = 6.0  # frames, sigma of a Gaussian over time, which removes the leader's timing
     blurred: float = 0.25  # share of windows with a blurred leader
 
 
 @dataclass(frozen=True)
 class DenoiserConfig:
+    """The denoiser of stage 2 (paper 3.3)."""
+
     width: int = 256
     heads: int = 4
     mlp: int = 3
@@ -83,6 +89,8 @@ class DenoiserConfig:
 
 @dataclass(frozen=True)
 class DiffusionConfig:
+    """Noise schedule, sampling and what follows decoding; see training/diffusion."""
+
     train_steps: int = 1000
     schedule: Literal["cosine"] = "cosine"
     steps: int = 10
@@ -91,12 +99,14 @@ class DiffusionConfig:
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `classifier_free_guidance`
-    sharpen: float = 0.0  # gain of what is quicker than 6 Hz in the decoded motion
+    sharpen: float = 0.0  # gain above 6 Hz in the decoded motion
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 
 
 @dataclass(frozen=True)
 class DenoiserLossConfig:
+    """Weights of the losses of stage 2 (Eq. 6 and 7)."""
+
     layers: tuple[float, ...] = (1.0, 0.5)  # lambda^r of Eq. 6
     snr: float = 0.5  # share of Eq. 6's weight that follows the signal-to-noise ratio
     kinematic: float = 0.02
@@ -109,16 +119,17 @@ class DenoiserLossConfig:
 
 
 def per_layer(coarse_and_fine: tuple[float, float], layers: int) -> list[float]:
-    """Coarse's value for the first residual layer, fine's for all above it."""
+    """The value of coarse for the first residual layer, that of fine for all others."""
     return [coarse_and_fine[min(r, 1)] for r in range(layers)]
 
 
 def to_json(config: Any) -> dict[str, Any]:
+    """The fields of a (nested) config, for JSON."""
     return dataclasses.asdict(config)
 
 
 def from_json(cls: type, values: dict[str, Any]) -> Any:
-    """Rebuild a (nested) config; an unknown or missing key is an error, never ignored."""
+    """Inverse of `to_json`. Raises ValueError for an unknown or missing key."""
     fields = {f.name: f for f in dataclasses.fields(cls)}
     unknown = set(values) - set(fields)
     missing = set(fields) - set(values)
@@ -143,5 +154,6 @@ _NESTED: dict[tuple[str, str], type] = {
 
 
 def write_json(path: Path, values: dict[str, Any]) -> None:
+    """Writes a JSON file; its folder is made."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(values, indent=2) + "\n")

@@ -1,7 +1,7 @@
 """Generate the reactor for a leader and a song with a checkpoint.
 
-python -m training.generate --checkpoint training/checkpoints/salsa --leader leader.bvh --song song.mp3 --out
-runs/dance
+    python -m training.generate --checkpoint training/checkpoints/salsa --leader leader.bvh --song song.mp3 \\
+        --out runs/dance
 """
 
 from __future__ import annotations

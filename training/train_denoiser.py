@@ -211,7 +211,7 @@ class Stage2(nn.Module):
         upper, lower, placement = (s.float().flatten(0, 1) for s in decoded)
         leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
         joints = from_streams(upper, lower, placement, leader, heading)
-        # Feet may sink here: were they held up, sinking them would be the cheapest way to keep them still.
+        # Not raised to the floor: feet under it would be held at one height, and the contact loss would favour them.
         return rigid_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 

@@ -1,4 +1,4 @@
-"""Which folder may import which: the way of the data, never back."""
+"""Which folder may import which."""
 
 from __future__ import annotations
 
@@ -59,8 +59,7 @@ def test_nothing_imports_a_program() -> None:
     assert found == []
 
 
-def test_no_module_imports_itself_over_others() -> None:
-    """Imports are a graph without cycles."""
+def test_imports_have_no_cycles() -> None:
     files = [*(ROOT / "training").rglob("*.py"), *(ROOT / "export").glob("*.py")]
     modules = {".".join(path.relative_to(ROOT).with_suffix("").parts): path for path in files}
     graph = {
@@ -70,11 +69,11 @@ def test_no_module_imports_itself_over_others() -> None:
     }
     done: set[str] = set()
 
-    def visit(module: str, way: tuple[str, ...]) -> None:
-        assert module not in way, " imports ".join((*way, module))
+    def visit(module: str, chain: tuple[str, ...]) -> None:
+        assert module not in chain, " imports ".join((*chain, module))
         if module not in done:
             for name in sorted(graph[module]):
-                visit(name, (*way, module))
+                visit(name, (*chain, module))
             done.add(module)
 
     for module in sorted(graph):

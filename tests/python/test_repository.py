@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SHARED_DATA = ROOT.parent / "shared" / "data"
 LARGEST = 20 * 2**20
-"""Bytes. Larger files make every clone slow for ever."""
+"""Bytes; larger files slow every clone."""
 MOST_FILES = 16
 
 
@@ -54,7 +54,7 @@ def test_lock_files_hold_no_download_addresses() -> None:
 
 
 def test_no_folder_of_sources_is_overfull(tracked: list[Path]) -> None:
-    """A reader tells from the tree where a thing lives."""
+    """So that the tree can be read."""
     sources = [
         path
         for path in tracked

@@ -1,4 +1,4 @@
-"""The training programs themselves, for a few steps on made duets: they run, resume, stay strict and stay honest."""
+"""The training programs, for a few steps on made duets: running, resuming, strict loading, no use of held-out duets."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: 
         assert fast_precision() == precision
 
 
-def test_training_goes_on_where_it_stopped(data: Path, trained: Path, tmp_path: Path) -> None:
+def test_training_resumes_where_it_stopped(data: Path, trained: Path, tmp_path: Path) -> None:
     train_hfsq.main(stage1(data, tmp_path))
     state = torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)
     train_hfsq.main(stage1(data, tmp_path, steps=4, evaluate_every=4, resume=True))
@@ -122,8 +122,8 @@ def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> N
         load_hfsq(tmp_path / "nowhere")
 
 
-def test_a_model_is_tuned_further_on_other_duets(data: Path, trained: Path, tmp_path: Path) -> None:
-    """Decoders learn, latents stay: the denoiser of the first checkpoint goes on fitting and learns as well."""
+def test_training_starts_from_another_checkpoint(data: Path, trained: Path, tmp_path: Path) -> None:
+    """Decoders learn and latents stay, so that the first checkpoint's denoiser fits and learns too."""
     train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True))
     before, after = load_hfsq(trained)[0].state_dict(), load_hfsq(tmp_path)[0].state_dict()
     changed = {name for name in before if not torch.equal(before[name], after[name])}

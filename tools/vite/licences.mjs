@@ -10,7 +10,7 @@ const FILE = 'licences.txt';
 const ALLOWED = new Set(['Apache-2.0', 'ISC', 'MIT', 'MPL-2.0', 'OFL-1.1']);
 
 /** Packages whose code lies inside the file of another package, where the build can't see it. */
-const INSIDE = new Map([
+const BUNDLED = new Map([
   ['meyda', ['dct', 'fftjs']],
   ['onnxruntime-web', ['onnxruntime-common']],
 ]);
@@ -94,7 +94,7 @@ async function licenceTexts(folders) {
   const inner = folders.flatMap((folder) => {
     const [, name = ''] = PACKAGE.exec(`${folder}/`) ?? [];
     const modules = folder.slice(0, -name.length);
-    return (INSIDE.get(name) ?? []).map((other) => modules + other);
+    return (BUNDLED.get(name) ?? []).map((other) => modules + other);
   });
   const sections = await Promise.all([...new Set([...folders, ...inner])].map(packageSection));
   const project = await readFile(new URL('../../LICENSE', import.meta.url), 'utf8');

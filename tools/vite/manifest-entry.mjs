@@ -4,9 +4,9 @@ import { readFile } from 'node:fs/promises';
 const QUERY = /\?manifest-entry$/;
 
 /**
- * Lets a module import the description of a file instead of its content: `import file from 'some/file.wasm?manifest-entry'` gives
- * `{ path, bytes, sha256 }`, as a model's manifest describes its files: address, size and hash. The page downloads such a
- * file with progress, verifies it and caches it, as it does with the files of a model.
+ * Lets a module import the address, size and hash of a file instead of its content:
+ * `import file from 'some/file.wasm?manifest-entry'` gives `{ path, bytes, sha256 }`, as a model's manifest has them for
+ * its files. The page downloads such a file with progress, verifies it and caches it, like the files of a model.
  *
  * @returns {import('vite').Plugin}
  */

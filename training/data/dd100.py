@@ -4,7 +4,7 @@
     ROOT/motion/pos3d/FOLDER/GENRE_CHOREO_TAKE_01.npy   leader
     ROOT/music/mp3/FOLDER/GENRE_CHOREO_TAKE.mp3
 
-FOLDER is all, train or test; which one is of no matter here.
+FOLDER is all, train or test; all three are read.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The one type that every reader returns and every training program consumes."""
+"""The types of motion that all readers return: `Duet`, and `Solo` for one dancer."""
 
 from __future__ import annotations
 

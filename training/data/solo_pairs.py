@@ -1,7 +1,7 @@
-"""Pairs made from solo dances, so that a model meets leaders of other dances.
+"""Pairs made from solo dances, so that a model is trained on leaders of other dances.
 
-The reactor of a pair is the soloist's reflection in an upright plane that stays at arm's length ahead of the soloist,
-so the two never overlap, whatever is danced.
+The reactor of a pair is the soloist's mirror image in an upright plane ahead of the soloist, so that the two do not
+overlap.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from training.data.duet import Duet, Solo
 from training.motion.leader_frame import smoothed_heading
 from training.motion.skeleton import MIRROR
 
-# The plane follows the soloist slowly, or every turn and step would throw the reflection about.
+# The plane follows the soloist slowly, so that single turns and steps do not move the mirror image far.
 PLANE_HEADING = FrameConfig(sigma=30.0, radius=90)  # frames
 PLACE_SIGMA_FRAMES = 20.0
 AHEAD = (0.38, 0.5)  # metres from the root to the plane, least and most
 
 
 def solo_pair(solo: Solo, ahead: float) -> Duet:
-    """The soloist as leader and their reflection in a plane `ahead` metres before them as reactor."""
+    """The soloist as leader, and as reactor the mirror image in a plane `ahead` metres ahead of the root."""
     motion = solo.motion
     heading = smoothed_heading(torch.from_numpy(motion), PLANE_HEADING).numpy()
     normal = np.stack([heading[:, 0], np.zeros(len(heading)), heading[:, 1]], axis=1)

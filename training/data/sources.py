@@ -1,4 +1,4 @@
-"""Where duets come from: one entrance for the three layouts that can be read."""
+"""Reads duets from a file or folder in any of the three layouts: npz, DD100, pairs of BVH files."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def training_clips(
             for variant in (warped, mirror(warped)):
                 clips += [streams_of(variant, frame), streams_of(swap_roles(variant), frame)]
     for solo in solos:
-        # A soloist dances with themselves: bodies are real, the placement stream sees its own height only.
+        # The soloist is leader and reactor: body streams are as in a duet, the placement stream has the height alone.
         alone = Duet(solo.name, solo.motion, solo.motion)
         clips += [streams_of(variant, frame) for variant in (alone, mirror(alone))]
     return [

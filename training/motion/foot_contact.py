@@ -1,4 +1,8 @@
-"""When a foot stands on the floor: one definition, for the measures and for the correction of slipping feet."""
+"""Foot contact: the definition that the measures and the foot-contact correction share.
+
+It does not ask for horizontal speed, since feet that slide are to be found and corrected. The contact loss of stage 2
+asks for something else, feet that stand still, and has a threshold of its own (docs/paper.md).
+"""
 
 from __future__ import annotations
 

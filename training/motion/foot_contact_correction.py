@@ -27,11 +27,11 @@ from training.motion.skeleton import FEET
 
 RETURN = 0.45  # seconds in which the offset goes back to zero
 STIFFNESS = 0.012  # s^2, weight of the offset's acceleration
-RHO = 1.5  # ADMM's penalty, which sets how fast it converges, not where to
+RHO = 1.5  # penalty of ADMM: changes how fast it converges, not the result
 ITERATIONS = 12
 REST_HEIGHTS = (0.08, 0.08, TOE_REST, TOE_REST)  # metres above the floor at which ankles and toes rest
 SPEED_SCALE = 0.1  # m/s; of two planted feet the slower one counts for more
-RADIUS_FRAMES = 60  # the response to one step of the foot has all but faded out by then
+RADIUS_FRAMES = 60  # half the length of the kernel; beyond it the response is almost 0
 
 
 @cache
@@ -60,7 +60,7 @@ def _linear_step(velocity: Tensor) -> Tensor:
 def _planted_velocity(motion: Tensor) -> tuple[Tensor, Tensor]:
     """Velocity (2, T - 1) over the floor, m/s, of the feet that are planted, and (T - 1) how planted they are, 0 to 1.
 
-    The limits of `foot_contact` as smooth weights, so that no foot lets go from one frame to the next.
+    The limits of `foot_contact` as smooth weights, so that contact does not begin or end within one frame.
     """
     feet = motion[:, list(FEET)]
     velocity = (feet[1:] - feet[:-1]) * FPS

@@ -1,4 +1,4 @@
-"""Decoded joints as a body that can exist: bones of constant length, feet at their height."""
+"""Gives decoded joints bones of constant length and keeps the lower toe at its height above the floor."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BONES_ABOVE = _bones_above()
 def constant_bones(motion: Tensor) -> Tensor:
     """The same directions on bones that keep their mean length. motion: (N, T, 22, 3) metres.
 
-    A decoder that is unsure of a direction shortens the bone; a body cannot.
+    Where a decoder is unsure of a direction it shortens the bone.
     """
     parents = motion.index_select(
         -2, torch.tensor([max(parent, 0) for parent in PARENTS], device=motion.device)
@@ -56,7 +56,7 @@ def keep_toe_height(motion: Tensor, before: Tensor, floor: bool = True) -> Tenso
 
 
 def rigid_body(motion: Tensor, floor: bool = True) -> Tensor:
-    """Decoded joints (N, T, 22, 3) as a body that can exist: bones of constant length, feet where they were, and not
-    sunk into a `floor` at y = 0.
+    """Joints (N, T, 22, 3) metres with bones of constant length and the lower toe at its height before; with `floor`,
+    at least `LOWEST_TOE` above y = 0.
     """
     return keep_toe_height(constant_bones(motion), motion, floor)

@@ -1,4 +1,4 @@
-"""The 22-joint body of the whole project (SMPL order, metres, y up)."""
+"""The skeleton of the project: 22 joints in SMPL order."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ def test_tempo_warp_is_exact_on_a_parabola() -> None:
     np.testing.assert_allclose(warp_motion(motion, 0.7)[:, 0, 0], at**2 - 3 * at, rtol=1e-4, atol=1e-3)
 
 
-def test_warp_refuses_a_standstill() -> None:
+def test_a_warp_factor_of_zero_is_an_error() -> None:
     with pytest.raises(ValueError, match="0 times as fast"):
         warped_length(10, 0)
 

@@ -43,7 +43,7 @@ def test_layout_is_read_with_roles_axes_and_songs(tmp_path: Path) -> None:
     assert cha.song is None
 
 
-def test_turning_up_keeps_hands_right() -> None:
+def test_y_up_keeps_the_axes_right_handed() -> None:
     x, y, z = np.eye(3)
     np.testing.assert_array_equal(y_up(z), y)
     np.testing.assert_array_equal(y_up(x), x)

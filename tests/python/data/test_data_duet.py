@@ -26,7 +26,7 @@ def save(path: Path, **arrays: Any) -> None:
 TOES = [JOINTS.index("left_foot"), JOINTS.index("right_foot")]
 
 
-def test_duet_refuses_what_is_no_duet() -> None:
+def test_a_duet_of_wrong_shape_type_or_length_is_an_error() -> None:
     good = made_dancer(20, seed=0)
     with pytest.raises(ValueError, match="leader of x: expected"):
         Duet("x", good[:, :21], good)

@@ -1,4 +1,4 @@
-"""Music for duets that have none, and what may not leak into it."""
+"""Music features of duets with and without a song, and of held-out duets."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_bank_is_as_long_as_the_warped_dance_and_on_its_beat(duet: Duet, warp: f
     assert abs(np.angle(phase)) < 0.2 * 2 * np.pi
 
 
-def test_held_out_music_knows_nothing_of_the_reactor() -> None:
+def test_held_out_music_does_not_depend_on_the_reactor() -> None:
     duet = salsa_duet(240, Tempo(165.0, 0.5), name="a")
     other = replace(duet, reactor=salsa_steps(240, Tempo(190.0, 1.3), begins=1))
     held_out = [build_music_bank(Split((), (), (d,)), None, [PLAIN])["a"][PLAIN] for d in (duet, other)]
@@ -78,7 +78,7 @@ def test_held_out_duets_get_unwarped_music_only(duet: Duet) -> None:
     assert set(bank["b"]) == {PLAIN}
 
 
-def test_cache_returns_the_same_and_follows_the_dance(duet: Duet, tmp_path: Path) -> None:
+def test_the_cache_returns_the_same_array_unless_an_input_changes(duet: Duet, tmp_path: Path) -> None:
     split = Split((duet,), (), ())
     first = build_music_bank(split, None, [PLAIN], cache_dir=tmp_path)["a"][PLAIN]
     assert len(list(tmp_path.iterdir())) == 1

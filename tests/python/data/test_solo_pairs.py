@@ -1,4 +1,4 @@
-"""Pairs solo_pair from solo dances: a mirror image that keeps its distance, without a song."""
+"""Pairs made from solo dances: the mirror image keeps its distance, and there is no song."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The denoiser: what may depend on what, and how conditions are dropped."""
+"""The denoiser: causal attention, independent layers, conditions and how they are dropped."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_attention_is_causal_inside_a_block(model: Model) -> None:
     assert (by_token[: at + 1] > 0).all()
 
 
-def test_cross_attention_sees_the_leader_ahead_but_not_the_padding(model: Model) -> None:
+def test_cross_attention_reaches_later_leader_tokens_but_no_padding(model: Model) -> None:
     inputs = given(model, 1)
     inputs["valid"][0, 50:] = 0
     inputs["memory"].requires_grad_(True)
@@ -76,7 +76,7 @@ def test_coarse_never_depends_on_fine(model: Model) -> None:
     assert not torch.allclose(before[:, :, 1], model.denoiser(**inputs)[:, :, 1]), "fine follows coarse"
 
 
-def test_each_layer_has_its_own_null_for_each_condition(model: Model) -> None:
+def test_each_layer_has_its_own_null_embedding_of_each_condition(model: Model) -> None:
     base = model.denoiser(**given(model))
     for condition in ("keep_leader", "keep_music"):
         for layer in range(2):
@@ -92,8 +92,8 @@ def test_each_layer_has_its_own_null_for_each_condition(model: Model) -> None:
     assert torch.equal(without, model.denoiser(**inputs)), "a dropped condition leaks"
 
 
-def test_music_keeps_its_timing(model: Model) -> None:
-    """Music enters per token: moving it by one token changes the output where a pooled mean would change nothing."""
+def test_music_is_a_condition_per_token(model: Model) -> None:
+    """Music moved by one token changes the output; the mean over the block would not change."""
     inputs = given(model)
     before = model.denoiser(**inputs)
     width = model.denoiser.config.width
@@ -104,8 +104,8 @@ def test_music_keeps_its_timing(model: Model) -> None:
     assert change > 0.01
 
 
-def test_each_layer_loses_its_conditions_by_its_own_draw() -> None:
-    """Bernoulli per layer, shared by streams; now and then all layers, now and then the leader alone."""
+def test_conditions_are_dropped_independently_per_layer() -> None:
+    """Shares of all combinations are those of `ConditionConfig`."""
     torch.manual_seed(0)
     n = 20000
     rates = ConditionConfig()
@@ -128,7 +128,7 @@ def test_each_layer_loses_its_conditions_by_its_own_draw() -> None:
     assert not (keep_leader.bool() & ~kept).any()
 
 
-def test_positions_are_equation_8() -> None:
+def test_position_encoding_is_equation_8() -> None:
     table = phase(BLOCK)
     for i in (0, 1, 30, 59):
         assert table[i, 0] == pytest.approx(math.sin(math.pi * i / BLOCK), abs=1e-6)
@@ -144,7 +144,7 @@ def encoder(config: ConditionConfig) -> ConditionEncoder:
     return made
 
 
-def test_memory_of_a_window_with_margin_is_that_of_the_clip() -> None:
+def test_memory_of_a_window_equals_that_of_the_clip() -> None:
     made = encoder(ConditionConfig())
     latents, field = 40, made.receptive_field
     leader, music = torch.randn(1, 4 * latents, 68), torch.randn(1, 4 * latents, 54)
@@ -166,7 +166,7 @@ def test_memory_of_a_window_with_margin_is_that_of_the_clip() -> None:
     assert torch.allclose(first[:, field : field + 12], whole[:, :12], atol=1e-5)
 
 
-def test_silence_is_the_same_whatever_lies_in_the_features() -> None:
+def test_features_of_invalid_music_frames_have_no_effect() -> None:
     made = encoder(ConditionConfig())
     leader, role = torch.randn(1, 80, 68), torch.zeros(1)
     valid = torch.ones(1, 80)
@@ -178,7 +178,7 @@ def test_silence_is_the_same_whatever_lies_in_the_features() -> None:
     assert not torch.allclose(made(leader, music, valid, role), made(leader, music, torch.ones(1, 80), role))
 
 
-def test_memory_of_a_clip_has_silence_beside_leader_and_music() -> None:
+def test_memory_of_a_clip_holds_leader_music_and_silence() -> None:
     made = encoder(ConditionConfig())
     features, music = torch.randn(1, 80, 68), torch.randn(1, 80, 54)
     role, valid = torch.ones(1), torch.ones(1, 80)
@@ -193,7 +193,7 @@ def test_memory_of_a_clip_has_silence_beside_leader_and_music() -> None:
 
 
 @pytest.mark.parametrize(("leader", "music"), [(False, True), (True, False)])
-def test_ablated_conditions_are_gone(leader: bool, music: bool) -> None:
+def test_a_condition_that_is_switched_off_has_no_effect(leader: bool, music: bool) -> None:
     made = encoder(ConditionConfig(leader=leader, music=music))
     led, heard = torch.randn(1, 40, 68), torch.randn(1, 40, 54)
     role, valid = torch.zeros(1), torch.ones(1, 40)
@@ -202,7 +202,7 @@ def test_ablated_conditions_are_gone(leader: bool, music: bool) -> None:
     assert torch.equal(before, made(led, torch.randn_like(heard), valid, role)) is not music
 
 
-def test_a_model_with_three_layers_and_its_own_depths() -> None:
+def test_three_layers_need_three_depths() -> None:
     config = DenoiserConfig(width=16, depths=(1, 1, 1))
     made = Denoiser(12, 3, config).eval()
     out = made(
@@ -214,7 +214,7 @@ def test_a_model_with_three_layers_and_its_own_depths() -> None:
         Denoiser(12, 3, DenoiserConfig(width=16))
 
 
-def test_dropout_takes_channels_from_a_whole_window() -> None:
+def test_dropout_drops_channels_for_a_whole_window() -> None:
     torch.manual_seed(0)
     dropout = ChannelDropout(0.25)
     x = torch.ones(40, 10, 64)

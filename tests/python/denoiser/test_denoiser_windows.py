@@ -1,4 +1,4 @@
-"""Windows of stage 2: everything in a window speaks of the same moments, and the leader's beat is hidden at times."""
+"""Windows of stage 2: aligned parts, the leader's shift and blur, the share of windows at the ends of clips, yaw."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def windows(clip: Clip, config: ConditionConfig) -> Windows:
     return Windows([clip], BLOCK, MARGIN, STRIDE, config, seed=0)
 
 
-def test_a_window_is_cut_from_one_moment(clip: Clip) -> None:
+def test_all_parts_of_a_window_are_of_the_same_frames(clip: Clip) -> None:
     batch = windows(clip, PLAIN).batch(20, short=0.0, song_ends=0.0)
     for n in range(20):
         start = int(batch.music[n, STRIDE * MARGIN, 0]) if batch.inside[n, MARGIN] else 0
@@ -50,7 +50,7 @@ def test_a_window_is_cut_from_one_moment(clip: Clip) -> None:
         assert torch.equal(batch.latents[n], clip.latents[start // STRIDE : start // STRIDE + BLOCK])
 
 
-def test_the_leader_comes_early_or_late_while_music_and_reactor_stay(clip: Clip) -> None:
+def test_leader_shift_moves_the_leader_features_alone(clip: Clip) -> None:
     batch = windows(clip, replace(PLAIN, leader_shift=3)).batch(60, short=0.0, song_ends=0.0)
     shifts = []
     for n in range(60):
@@ -64,7 +64,7 @@ def test_the_leader_comes_early_or_late_while_music_and_reactor_stay(clip: Clip)
     assert shifts.count(0) > 20, "half of the windows are left as they are"
 
 
-def test_a_blurred_leader_keeps_its_place_and_loses_its_timing(clip: Clip) -> None:
+def test_blurred_leader_features_keep_their_mean_and_lose_acceleration(clip: Clip) -> None:
     batch = windows(clip, replace(PLAIN, blurred=1.0)).batch(5, short=0.0, song_ends=0.0)
     for n in range(5):
         start = int(batch.music[n, STRIDE * MARGIN, 0])
@@ -74,7 +74,7 @@ def test_a_blurred_leader_keeps_its_place_and_loses_its_timing(clip: Clip) -> No
     assert blurred < 0.5 * sway
 
 
-def test_beginnings_and_ends_of_dances_are_seen_often(clip: Clip) -> None:
+def test_the_share_of_windows_at_the_ends_of_clips_is_that_asked_for(clip: Clip) -> None:
     last = len(clip) - BLOCK
     for share in (0.0, 0.5):
         batch = windows(clip, PLAIN).batch(300, short=0.0, song_ends=0.0, ends=share)
@@ -87,7 +87,7 @@ def test_beginnings_and_ends_of_dances_are_seen_often(clip: Clip) -> None:
         assert expected / 1.6 < final < expected * 1.6
 
 
-def test_a_turned_frame_turns_streams_and_features_alike(hfsq: Autoencoder, clip: Clip) -> None:
+def test_yaw_turns_heading_streams_and_features(hfsq: Autoencoder, clip: Clip) -> None:
     music = [np.zeros((160, 54))]
     turned = make_clip(made_duet(160, 0), music, 0.0, hfsq, FrameConfig(), blur=6.0, yaw=0.3)
     plain = smoothed_heading(clip.leader, FrameConfig())

@@ -1,4 +1,4 @@
-"""Losses of stage 2: finite where public code divides zero by zero, and each term pulls where it should."""
+"""Losses of stage 2, on motions whose loss is known."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_orientation_loss_is_finite_and_differentiable_face_to_face(angle: float
     assert float(loss.detach()) == pytest.approx(2 - 2 * np.cos(0.3), abs=1e-3)
 
 
-def test_orientation_loss_survives_hips_on_top_of_each_other() -> None:
+def test_orientation_loss_is_finite_without_a_heading() -> None:
     leader = torch.zeros(1, 4, 22, 3, requires_grad=True)
     loss = orientation_loss(leader, leader.detach(), leader).mean()
     (gradient,) = torch.autograd.grad(loss, leader)
@@ -60,9 +60,9 @@ def test_orientation_is_relative_to_the_leader() -> None:
     assert orientation_loss(leader, truth, truth).abs().max() < 1e-6
 
 
-def test_contact_loss_sees_a_slide_under_a_planted_foot_only() -> None:
+def test_contact_loss_is_the_speed_of_planted_feet_alone() -> None:
     truth = torch.zeros(1, 10, 22, 3)
-    truth[:, :, 10] = torch.arange(10.0)[:, None] * 0.05  # the left toe is on its way, the other feet stand
+    truth[:, :, 10] = torch.arange(10.0)[:, None] * 0.05  # the left toe moves, the other feet stand
     slide = truth.clone()
     slide[:, :, 11, 0] += torch.arange(10.0) * 0.02  # 2 cm a frame under the planted right toe
     assert float(contact_loss(truth, truth)) == pytest.approx(0, abs=1e-2)
@@ -72,8 +72,8 @@ def test_contact_loss_sees_a_slide_under_a_planted_foot_only() -> None:
     assert float(contact_loss(truth, swing)) == pytest.approx(0, abs=1e-2)
 
 
-def test_layer_weights_reach_their_layers() -> None:
-    """Eq. 6's lambda: typed tuple, no routing by name. Doubling a weight doubles that layer's part alone."""
+def test_each_weight_scales_its_own_layer() -> None:
+    """Eq. 6's lambda."""
     truth = torch.zeros(2, 5, 2, 4)
     predicted = truth.clone()
     predicted[:, :, 0], predicted[:, :, 1] = 1.0, 3.0
@@ -85,7 +85,7 @@ def test_layer_weights_reach_their_layers() -> None:
     assert layers.tolist() == [1.0, 9.0]
 
 
-def test_padding_does_not_count() -> None:
+def test_padded_tokens_have_no_loss() -> None:
     truth = torch.zeros(1, 6, 2, 4)
     predicted = truth.clone()
     predicted[:, 3:] = 100
@@ -93,8 +93,8 @@ def test_padding_does_not_count() -> None:
     assert float(simple_loss(truth, predicted, valid, (1.0, 1.0), torch.ones(1))[0]) == 0
 
 
-def test_decoded_losses_fade_with_noise() -> None:
-    """Geometry of a noisy window is ambiguous: at alpha bar 0 it must not pull at all."""
+def test_losses_of_motion_are_proportional_to_alpha_bar() -> None:
+    """At alpha bar 0 they are 0."""
     leader, truth, made = dancer(0), dancer(1), dancer(2)
     config = DenoiserLossConfig()
     full = motion_loss(leader, truth, made, torch.ones(1), config)
@@ -121,8 +121,8 @@ def test_noise_weights_grow_with_the_signal_to_noise_ratio() -> None:
     weights = noise_weights(signal, 0.5)
     assert float(weights.mean()) == pytest.approx(1)
     assert (weights.diff() >= 0).all()
-    assert float(weights[0]) == pytest.approx(0.5, abs=0.01), "noisy windows keep their share"
-    assert weights[-1] == weights[-5], "capped: the least noise does not rule alone"
+    assert float(weights[0]) == pytest.approx(0.5, abs=0.01), "noisy windows keep half of their weight"
+    assert weights[-1] == weights[-5], "the ratio is capped"
     truth, valid = torch.zeros(2, 5, 1, 4), torch.ones(2, 5)
     predicted = torch.stack([torch.zeros(5, 1, 4), torch.ones(5, 1, 4)])
     assert float(simple_loss(truth, predicted, valid, (1.0,), torch.tensor([0.5, 1.5]))[0]) == pytest.approx(

@@ -145,7 +145,7 @@ def test_without_a_song_music_guidance_changes_nothing(model: Model) -> None:
     assert not np.allclose(loud, react(model, Request(leader, music, 1, music_guidance=0.0)), atol=1e-3)
 
 
-def test_what_guidance_gives_is_clamped_to_the_range_of_the_quantiser(model: Model) -> None:
+def test_guided_predictions_are_clamped_to_the_range_of_the_quantiser(model: Model) -> None:
     d = model.denoiser
     torch.manual_seed(0)
     x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
@@ -161,13 +161,13 @@ def test_what_guidance_gives_is_clamped_to_the_range_of_the_quantiser(model: Mod
         assert met.any(-1).flatten(0, 1).any(0).all(), "every stream and layer meets its limit"
 
 
-def test_a_range_without_ends_clamps_nothing() -> None:
+def test_an_infinite_range_clamps_nothing() -> None:
     d = Denoiser(6, 1, DenoiserConfig(width=32, depths=(1,), mlp=2, condition=ConditionConfig(depth=1)))
     x0 = 100 * torch.randn(2, 60, 1, 6)
     assert torch.equal(clamp_to_range(d, x0), x0)
 
 
-def test_plain_blocks_are_independent_and_alternating_ones_are_not(model: Model) -> None:
+def test_blocks_are_independent_unless_their_phase_alternates(model: Model) -> None:
     """One block alone equals the same block of the whole song; alternating phase couples neighbours on purpose."""
     whole = run(model, 150, flat(0.5, 0.5), alternating_phase=False)
     alone = run(model, 60, flat(0.5, 0.5), start=60, alternating_phase=False)
@@ -176,7 +176,7 @@ def test_plain_blocks_are_independent_and_alternating_ones_are_not(model: Model)
     assert not torch.allclose(coupled[60:120], alone, atol=1e-2)
 
 
-def test_a_longer_song_keeps_its_beginning(model: Model) -> None:
+def test_the_beginning_does_not_depend_on_the_length(model: Model) -> None:
     """Causal blocks and counter-based noise: later blocks change nothing before them."""
     assert torch.allclose(
         run(model, 150, flat(0, 0), alternating_phase=False)[:120],
@@ -185,7 +185,7 @@ def test_a_longer_song_keeps_its_beginning(model: Model) -> None:
     )
 
 
-def test_stitching_is_a_way_to_sample_too(model: Model) -> None:
+def test_sampling_with_stitching(model: Model) -> None:
     stitched = run(model, 150, flat(0, 0), alternating_phase=False, stitching=True)
     assert stitched.isfinite().all()
     assert not torch.allclose(stitched, run(model, 150, flat(0, 0), alternating_phase=False), atol=1e-2)

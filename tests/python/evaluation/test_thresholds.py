@@ -175,7 +175,7 @@ def test_what_was_not_measured_has_no_target_and_what_is_not_a_number_fails():
     assert "BED forward above chance over the truth's" in missed(below_chance)
 
 
-def test_the_foot_lock_halves_skating_and_long_dances_do_not_loop():
+def test_limits_of_the_foot_lock_and_of_repetition():
     numbers = good()
     numbers["rows"]["solved, foot lock"] = row(skate_share=0.16)
     assert missed(numbers)["foot lock: skating over without"].value == pytest.approx(0.16 / 0.3)

@@ -26,7 +26,7 @@ SHIPPED = Path(__file__).parents[3] / "web/public/models/salsa"
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
 def test_the_pages_solver_keeps_bones_rigid():
-    """A body whose bones breathe comes back with constant ones, close to where it was."""
+    """A body whose bones change length gets constant ones, near where it was."""
     motion = made_duet(60, 1).leader
     breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
     far = motion + np.array([3, 0, 0], np.float32)
@@ -38,7 +38,7 @@ def test_the_pages_solver_keeps_bones_rigid():
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
 def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
-    """Somebody who stands within the leader steps aside, level, and no farther than must be."""
+    """A dancer inside the leader is moved aside over the floor, no farther than needed."""
     motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
     inside = motion + np.array([0.1, 0, 0], np.float32)
     free, solved = (solve_with_node(inside, motion + np.array([x, 0, 0], np.float32)) for x in (3, 0))

@@ -32,7 +32,7 @@ def test_fsq_uses_exactly_the_bins_of_each_dimension(levels: tuple[int, ...]) ->
 
 
 @pytest.mark.parametrize("levels", [(8, 5, 5, 5), (4, 3)])
-def test_the_range_is_what_extreme_features_give(levels: tuple[int, ...]) -> None:
+def test_extreme_features_give_the_ends_of_the_range(levels: tuple[int, ...]) -> None:
     low, high = fsq_range(torch.tensor(levels, dtype=torch.float32))
     extreme = torch.full((len(levels),), 50.0)
     assert torch.allclose(fsq(-extreme, torch.tensor(levels, dtype=torch.float32)), low)
@@ -67,7 +67,7 @@ def test_fsq_passes_the_gradient_of_its_bound_straight_through() -> None:
     assert torch.allclose(e.grad, expected, atol=1e-6)  # pyright: ignore[reportArgumentType]
 
 
-def test_later_layers_code_what_earlier_ones_leave() -> None:
+def test_each_layer_codes_the_residual_of_the_earlier_ones() -> None:
     """Eq. 1: v minus the sum of the layers is the residual, and it shrinks with every layer."""
     torch.manual_seed(0)
     quantiser = Hfsq(SMALL)
@@ -80,7 +80,7 @@ def test_later_layers_code_what_earlier_ones_leave() -> None:
     assert both < coarse < v.square().mean()
 
 
-def test_the_second_layer_divides_its_residual_so_it_uses_its_bins() -> None:
+def test_dividing_the_residual_lets_the_second_layer_use_its_bins() -> None:
     """Undivided residuals mostly round to zero: with the same projection, a scale of 1 leaves bins unused."""
 
     def used(scale: float) -> float:
@@ -119,7 +119,7 @@ def test_code_masking_zeroes_the_asked_share_of_dimensions() -> None:
     assert share[touched].mean() == pytest.approx(0.2, abs=0.01)
 
 
-def test_normalised_latents_have_unit_variance_and_come_back() -> None:
+def test_normalised_latents_have_unit_variance_and_are_denormalised_exactly() -> None:
     torch.manual_seed(0)
     model = Autoencoder(SMALL).eval()
     latents = model.encode(motions(4, 240))
@@ -145,8 +145,8 @@ def test_normalised_latents_have_unit_variance_and_come_back() -> None:
     ],
     ids=["hfsq", "one-layer", "three-layers", "no-masking", "rvq", "kl"],
 )  # fmt: skip
-def test_every_quantiser_of_the_papers_tables_learns(config: HfsqConfig) -> None:
-    """One batch is learnt by heart a little: loss falls and every encoder parameter receives a gradient."""
+def test_every_quantiser_of_the_papers_table_2_learns(config: HfsqConfig) -> None:
+    """On one batch the loss falls, and every parameter of the encoder has a gradient."""
     torch.manual_seed(0)
     model = Autoencoder(config).train()
     batch = tuple(m.cumsum(1) * 0.02 for m in motions(4, 32))
@@ -186,7 +186,7 @@ def test_slow_motion_keeps_what_is_below_the_cutoff() -> None:
     assert torch.equal(slow_motion(quick[:, None], None), quick[:, None])
 
 
-def test_a_window_with_hidden_layers_is_held_to_the_slow_motion() -> None:
+def test_the_target_of_a_window_with_hidden_layers_is_the_slow_motion() -> None:
     torch.manual_seed(0)
     config = HfsqConfig(
         groups=2, widths=(16, 16, 8), depth=1, refine_width=8,

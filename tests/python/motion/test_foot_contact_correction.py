@@ -26,7 +26,7 @@ def standing(frames: int = FRAMES) -> Tensor:
 
 
 def slid(speed: float, seconds: float) -> Tensor:
-    """`standing`, carried along x by `speed` for some seconds in the middle."""
+    """`standing`, moved along x with `speed` m/s for some seconds in the middle."""
     motion = standing()
     half = int(seconds * FPS / 2)
     moved = torch.zeros(FRAMES)
@@ -48,7 +48,7 @@ def test_a_planted_foot_that_slides_a_little_stops() -> None:
     assert foot_speed(correct_foot_contact(motion, STRENGTH))[middle].mean() < 0.05
 
 
-def test_a_foot_that_is_dragged_on_purpose_goes_on() -> None:
+def test_a_foot_that_is_dragged_fast_keeps_moving() -> None:
     motion = slid(3.0, 0.5)
     middle = slice(FRAMES // 2 - 5, FRAMES // 2 + 5)
     assert foot_speed(correct_foot_contact(motion, STRENGTH))[middle].mean() > 0.8 * 3.0
@@ -60,7 +60,7 @@ def test_a_body_in_the_air_or_at_rest_is_left_alone() -> None:
     assert torch.allclose(correct_foot_contact(standing(), STRENGTH), standing(), atol=1e-6)
 
 
-def test_a_foot_that_rises_does_not_hold_the_body() -> None:
+def test_a_rising_foot_is_not_in_contact() -> None:
     motion = slid(0.3, 0.5)
     motion[..., 1] += (torch.arange(FRAMES) % 2 * 0.02)[:, None]  # 0.6 m/s up and down, low all the time
     assert torch.allclose(correct_foot_contact(motion, STRENGTH), motion, atol=2e-3)
@@ -74,7 +74,7 @@ def test_only_the_place_on_the_floor_changes_and_the_whole_body_moves() -> None:
     assert torch.allclose(shift, shift[:, :1].expand_as(shift), atol=1e-5)
 
 
-def test_the_correction_turns_with_the_motion() -> None:
+def test_the_correction_of_a_turned_motion_is_turned() -> None:
     motion = torch.from_numpy(made_duet(150, 5).reactor)
     c, s = np.cos(0.7), np.sin(0.7)
     turn = torch.tensor([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=torch.float32)

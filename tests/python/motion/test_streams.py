@@ -29,13 +29,13 @@ def pair(frames: int = 120) -> tuple[torch.Tensor, torch.Tensor]:
 
 
 def moved(motion: torch.Tensor, angle: float, shift: tuple[float, float]) -> torch.Tensor:
-    """Turned about the vertical by `angle` and carried over the floor."""
+    """Turned about the vertical by `angle` radians and moved over the floor by `shift` metres."""
     c, s = np.cos(angle), np.sin(angle)
     turn = torch.tensor([[c, 0, s], [0, 1, 0], [-s, 0, c]], dtype=torch.float32)
     return motion @ turn.T + torch.tensor([shift[0], 0, shift[1]])
 
 
-def test_streams_come_back() -> None:
+def test_from_streams_inverts_to_streams() -> None:
     leader, reactor = pair()
     heading = smoothed_heading(leader, FRAME)
     streams = to_streams(leader, reactor, heading)
@@ -44,7 +44,7 @@ def test_streams_come_back() -> None:
 
 
 @pytest.mark.parametrize("angle", [0.4, 2.0, -3.0])
-def test_the_frame_does_not_see_where_the_couple_is_or_faces(angle: float) -> None:
+def test_streams_do_not_depend_on_the_couples_place_and_facing(angle: float) -> None:
     leader, reactor = pair()
     before = (*to_streams(leader, reactor, smoothed_heading(leader, FRAME)),)
     led, reacted = moved(leader, angle, (3, -2)), moved(reactor, angle, (3, -2))
@@ -66,8 +66,8 @@ def test_heading_is_the_direction_the_hips_face() -> None:
     assert torch.allclose(out_of_frame(into_frame(vector, heading), heading), vector, atol=1e-5)
 
 
-def test_the_condition_knows_where_the_leader_goes() -> None:
-    """Root height, velocity and turn rate are there: without them placement would collapse to a mean distance."""
+def test_leader_features_hold_height_velocity_and_turn_rate() -> None:
+    """Without them placement would be a mean distance."""
     leader, _ = pair(200)
     walking = leader + torch.arange(200)[:, None, None] * torch.tensor([0.02, 0.0, 0.0])
     lifted = leader + torch.tensor([0.0, 0.3, 0.0])
@@ -107,7 +107,7 @@ def test_the_frame_turns_evenly_with_a_leader_who_spins() -> None:
     assert torch.allclose(heading, torch.stack([angles.sin(), angles.cos()], dim=-1), atol=1e-3)
 
 
-def test_the_frame_leaves_out_the_swing_of_the_hips() -> None:
+def test_the_frame_does_not_follow_the_swing_of_the_hips() -> None:
     swing = 0.5 * torch.sin(2 * np.pi * 1.5 * torch.arange(240) / 30)
     still = torch.zeros(1, 22, 3)
     still[:, 1, 0], still[:, 2, 0] = 0.1, -0.1
@@ -134,7 +134,7 @@ def test_bones_keep_their_length_and_direction() -> None:
     assert torch.allclose(constant_bones(made), made, atol=1e-5)
 
 
-def test_a_body_on_longer_legs_stands_as_high_as_before() -> None:
+def test_the_lower_toe_keeps_its_height_when_legs_are_lengthened() -> None:
     """Feet that bones of their mean length would push through the floor stay where they were."""
     reactor = pair(120)[1] + torch.tensor([0.0, 0.1, 0.0])
     shrunk = reactor.clone()

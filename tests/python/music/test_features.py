@@ -64,7 +64,7 @@ def test_silence_is_zeros_without_beats(samples: int) -> None:
 @pytest.mark.parametrize(
     "audio", [np.zeros(0, np.float32), np.zeros((2, 100), np.float32), np.array([0, np.nan], np.float32)]
 )
-def test_refuses_what_is_no_signal(audio: np.ndarray) -> None:
+def test_an_invalid_signal_is_an_error(audio: np.ndarray) -> None:
     with pytest.raises(ValueError):
         features(audio, RECIPE)
 
@@ -115,7 +115,7 @@ def test_recipe_is_unchanged_by_json_and_has_the_frames_of_the_motion() -> None:
     assert RECIPE.sample_rate / RECIPE.hop == FPS
 
 
-def test_golden_files_are_fresh() -> None:
+def test_golden_files_are_up_to_date() -> None:
     golden = json.loads((make_audio.FOLDER / "golden.json").read_text())
     assert golden["recipe"] == RECIPE.to_dict(), "run python -m tests.fixtures.make_audio"
     assert golden["songs"].keys() == make_audio.SONGS.keys()

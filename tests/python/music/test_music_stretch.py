@@ -1,4 +1,4 @@
-"""Songs bent onto the beat of a dance."""
+"""Songs that are time-stretched to the beats of a dance."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_octave_keeps_the_stretch_within_bounds(song: float, octave: float) -> N
     assert 0.75 <= 165.0 / (song * octave) <= 1.33
 
 
-def test_a_song_that_no_octave_fits_is_refused() -> None:
+def test_a_song_out_of_bounds_at_every_octave_gives_none() -> None:
     assert beats_at_tempo(np.arange(0, 30, 60 / 118.0), 165.0) is None
     assert beats_at_tempo(np.arange(0, 2, 60 / 160.0), 165.0) is None
 
@@ -70,7 +70,7 @@ def test_stretching_keeps_pitch_and_changes_length() -> None:
     assert spectrum.argmax() * RATE / len(fast) == pytest.approx(440, abs=1)
 
 
-def test_time_map_of_the_identity_returns_the_song() -> None:
+def test_an_identical_course_of_time_returns_the_song() -> None:
     rng = np.random.default_rng(0)
     audio = rng.standard_normal(2 * RATE).astype(np.float32)
     same = warp_time(audio, np.arange(0, len(audio), 256.0))[: len(audio)]

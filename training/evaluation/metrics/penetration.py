@@ -1,8 +1,8 @@
 """Inter-penetration rate (IPR) of two dancers whose bodies are capsules round their bones: `IPR (capsules)`.
 
 The paper uses SMPL meshes and generalised winding numbers. Without a body model each bone gets a radius of
-human size, so the number is never to be compared with the paper's column. Hands have no capsule: a dance
-hold is a touch of hands, not a collision.
+human size, so the number does not compare with the paper's. Hands have no capsule: touching hands are a
+dance hold, not a collision.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ CAPSULES: tuple[tuple[str, str, float, float], ...] = (
 )
 RADII = np.array([radius for _, _, radius, _ in CAPSULES])
 REFERENCE_HEIGHT = 1.4  # metres of leg plus spine (training.motion.skeleton.body_height) of the radii' body
-DEEP = 0.01  # metres; a shallower overlap is a touch
+DEEP = 0.01  # metres; a shallower overlap does not count
 
 
 def capsules(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -43,7 +43,7 @@ def capsules(motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     first = motion[:, [JOINTS.index(a) for a, _, _, _ in CAPSULES]].astype(np.float64)
     last = motion[:, [JOINTS.index(b) for _, b, _, _ in CAPSULES]].astype(np.float64)
     beyond = np.array([extra for _, _, _, extra in CAPSULES])[:, None]
-    start = np.where(beyond > 0, last, first)  # the skull sits on the neck's end
+    start = np.where(beyond > 0, last, first)  # the skull begins at the head joint
     return start, last + (last - first) * beyond
 
 

@@ -16,7 +16,7 @@ def relative_change(leader: np.ndarray, base: np.ndarray, changed: np.ndarray) -
     3).
 
     Movement is the difference from its mean over time, relative to the leader's root. 0: the condition has no
-    effect; two unrelated dances come to about 1.4.
+    effect; two unrelated dances have about 1.4.
     """
     first = base - leader[:, :1]
     difference = changed - base

@@ -185,7 +185,7 @@ def _guidance(numbers: Numbers) -> Sections:
     return [
         "## Classifier-free guidance, (1+s) cond - s uncond",
         markdown_table(keys, [[number(cell[key]) for key in keys] for cell in numbers["guidance"]]),
-        "### Are coarse and fine two controls?",
+        "### Separability of coarse and fine",
         "Relative change of energy when one guidance rises from 0 to 1.2 beside 0. Its own end of the "
         "spectrum is under 1.5 Hz for coarse and over 3 Hz for fine.",
         _values(numbers["separability"]),
