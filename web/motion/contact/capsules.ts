@@ -1,6 +1,6 @@
 import type { MotionClip } from '../skeleton/clip';
 import { bodyHeight } from '../skeleton/scale';
-import { segmentDistance } from '../math/segments';
+import { segmentPair, squaredDistance } from '../math/segments';
 import { J, JOINT_COUNT, type JointName } from '../skeleton/skeleton';
 
 /** A capsule around a bone: a segment with a radius. */
@@ -39,14 +39,15 @@ export function capsuleBody(clip: MotionClip, { capsules, reference_height }: Bo
   const radii = capsules.map(({ radius }) => radius * size);
   const axes = new Float64Array(frames * capsules.length * 6);
   const spheres = new Float64Array(frames * capsules.length * 4);
-  for (let frame = 0; frame < frames; frame++) {
-    capsules.forEach(({ from, to, beyond }, index) => {
+  capsules.forEach(({ from, to, beyond }, index) => {
+    for (let frame = 0; frame < frames; frame++) {
       const a = (frame * JOINT_COUNT + J[from]) * 3;
       const b = (frame * JOINT_COUNT + J[to]) * 3;
       const capsule = frame * capsules.length + index;
       let square = 0;
       for (let axis = 0; axis < 3; axis++) {
-        const [first, last] = [positions[a + axis]!, positions[b + axis]!];
+        const first = positions[a + axis]!;
+        const last = positions[b + axis]!;
         const start = beyond > 0 ? last : first;
         const end = last + (last - first) * beyond;
         axes[capsule * 6 + axis] = start;
@@ -55,8 +56,8 @@ export function capsuleBody(clip: MotionClip, { capsules, reference_height }: Bo
         square += (end - start) ** 2;
       }
       spheres[capsule * 4 + 3] = Math.sqrt(square) / 2 + radii[index]!;
-    });
-  }
+    }
+  });
   return { axes, spheres, radii };
 }
 
@@ -67,54 +68,105 @@ export interface CapsulePair {
   readonly radii: number;
 }
 
-/** Whether the bounding spheres of two capsules come within `margin` metres, the second one shifted level by x, z. */
-function spheresOverlap(
-  { spheres: a }: CapsuleBody,
-  p: number,
-  { spheres: b }: CapsuleBody,
-  q: number,
-  x: number,
-  z: number,
-  margin: number,
-): boolean {
-  const gapX = a[p * 4]! - b[q * 4]! - x;
-  const gapY = a[p * 4 + 1]! - b[q * 4 + 1]!;
-  const gapZ = a[p * 4 + 2]! - b[q * 4 + 2]! - z;
-  const limit = a[p * 4 + 3]! + b[q * 4 + 3]! + margin;
-  return gapX * gapX + gapY * gapY + gapZ * gapZ < limit * limit;
-}
-
 /**
- * Broad phase of the collision test: the pairs of capsules that may overlap in a frame if one dancer is shifted by up to
- * `margin` metres, those whose bounding spheres come that near. A few in a hundred remain.
+ * Broad phase of the collision test: the pairs of capsules that may overlap in a frame, those whose bounding spheres
+ * overlap. A few in a hundred remain.
  */
-export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number, margin = 0): CapsulePair[] {
+export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number): CapsulePair[] {
   const pairs: CapsulePair[] = [];
-  a.radii.forEach((first, i) => {
+  const [first, second] = [a.spheres, b.spheres];
+  for (let i = 0; i < a.radii.length; i++) {
     const p = frame * a.radii.length + i;
-    b.radii.forEach((second, j) => {
+    for (let j = 0; j < b.radii.length; j++) {
       const q = frame * b.radii.length + j;
-      if (spheresOverlap(a, p, b, q, 0, 0, margin)) pairs.push({ a: p, b: q, radii: first + second });
-    });
-  });
+      const gapX = first[p * 4]! - second[q * 4]!;
+      const gapY = first[p * 4 + 1]! - second[q * 4 + 1]!;
+      const gapZ = first[p * 4 + 2]! - second[q * 4 + 2]!;
+      const limit = first[p * 4 + 3]! + second[q * 4 + 3]!;
+      if (gapX * gapX + gapY * gapY + gapZ * gapZ < limit * limit) {
+        pairs.push({ a: p, b: q, radii: a.radii[i]! + b.radii[j]! });
+      }
+    }
+  }
   return pairs;
 }
 
-/**
- * Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none.
- * @param x with `z`: level shift of the second dancer, metres
- */
-export function penetrationDepth(
-  a: CapsuleBody,
-  b: CapsuleBody,
-  pairs: readonly CapsulePair[],
-  x = 0,
-  z = 0,
-): number {
+/** Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none. */
+export function penetrationDepth(a: CapsuleBody, b: CapsuleBody, pairs: readonly CapsulePair[]): number {
   let depth = 0;
   for (const pair of pairs) {
-    if (!spheresOverlap(a, pair.a, b, pair.b, x, z, 0)) continue;
-    depth = Math.max(depth, pair.radii - segmentDistance(a.axes, pair.a * 6, b.axes, pair.b * 6, x, z));
+    const square = squaredDistance(segmentPair(a.axes, pair.a * 6, b.axes, pair.b * 6));
+    depth = Math.max(depth, pair.radii - Math.sqrt(square));
   }
   return depth;
+}
+
+/** Level shifts of equal x, metres. */
+export interface ShiftColumn {
+  readonly x: number;
+  readonly z: Float64Array;
+}
+
+/**
+ * How far the second of two segments has to be shifted along an axis until it begins where the first one ends. With
+ * the segments swapped it is the same for the other direction, and the larger of the two is the gap between them.
+ */
+function gapAfter(a: Float64Array, p: number, b: Float64Array, q: number): number {
+  return Math.min(b[q]!, b[q + 3]!) - Math.max(a[p]!, a[p + 3]!);
+}
+
+/**
+ * Deepest overlap of two dancers in a frame with the second one shifted level with the floor by each of many shifts.
+ *
+ * @param columns the shifts, n in all
+ * @returns n depths, metres, 0 where there is no overlap
+ */
+export function shiftedDepths(
+  a: CapsuleBody,
+  b: CapsuleBody,
+  frame: number,
+  columns: readonly ShiftColumn[],
+): Float64Array {
+  const depths = new Float64Array(columns.reduce((count, { z }) => count + z.length, 0));
+  for (let i = 0; i < a.radii.length; i++) {
+    for (let j = 0; j < b.radii.length; j++) deepen(depths, a, i, b, j, frame, columns);
+  }
+  return depths;
+}
+
+/**
+ * Raises the depths by those of one pair of capsules. The boxes around two axes are at most as far apart as the axes:
+ * where even boxes leave no room for a deeper overlap, the distance of the axes is not computed.
+ */
+function deepen(
+  depths: Float64Array,
+  { axes: a, radii: first }: CapsuleBody,
+  i: number,
+  { axes: b, radii: second }: CapsuleBody,
+  j: number,
+  frame: number,
+  columns: readonly ShiftColumn[],
+): void {
+  const p = (frame * first.length + i) * 6;
+  const q = (frame * second.length + j) * 6;
+  const radii = first[i]! + second[j]!;
+  const gapY = Math.max(0, gapAfter(a, p + 1, b, q + 1), gapAfter(b, q + 1, a, p + 1));
+  if (gapY >= radii) return;
+  const [afterX, beforeX] = [gapAfter(a, p, b, q), gapAfter(b, q, a, p)];
+  const [afterZ, beforeZ] = [gapAfter(a, p + 2, b, q + 2), gapAfter(b, q + 2, a, p + 2)];
+  const segments = segmentPair(a, p, b, q);
+  let shift = 0;
+  for (const { x, z: column } of columns) {
+    const gapX = Math.max(0, afterX + x, beforeX - x);
+    const square = gapX * gapX + gapY * gapY;
+    const near = square < radii * radii;
+    for (let k = 0; near && k < column.length; k++) {
+      const z = column[k]!;
+      const gapZ = Math.max(0, afterZ + z, beforeZ - z);
+      const reach = radii - depths[shift + k]!;
+      if (square + gapZ * gapZ >= reach * reach) continue;
+      depths[shift + k] = Math.max(radii - Math.sqrt(squaredDistance(segments, x, z)), depths[shift + k]!);
+    }
+    shift += column.length;
+  }
 }

@@ -1,10 +1,10 @@
 import type { SolvedMotion } from '../skeleton/clip';
-import { leastSquaresShift, type Track } from './least-squares-shift';
-import { type Leg, twoBoneIk, maxLegLength } from './two-bone-ik';
 import { contactIntervals } from './foot-contacts';
-import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
+import { leastSquaresShift, type FloorShift, normalEquations } from './least-squares-shift';
+import { LEG, maxLegLength, twoBoneIk } from './two-bone-ik';
+import { multiplyInto, multiplyInverseInto, rotateInto } from '../math/flat-quaternions';
+import { addInto, AXES, copyInto, subtractInto } from '../math/flat-vectors';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
 
 /** Joint indices of a leg. */
 interface LegJoints {
@@ -26,92 +26,97 @@ const PASSES = 6;
 /** By how much a leg may be too short for a shift before the weight of a shift of zero doubles, metres. */
 const SHORTFALL = 0.002;
 
-/** The leg of one frame, and the rotations of its bones, both in world axes. */
-function legAt(
-  motion: SolvedMotion,
-  joints: LegJoints,
-  frame: number,
-): { leg: Leg; thigh: Quat; shin: Quat; foot: Quat } {
-  const at = (joint: number): Vec3 => readVec(motion.positions, frame * JOINT_COUNT + joint);
-  const turn = (joint: number): Quat => readQuat(motion.rotations, frame * JOINT_COUNT + joint);
-  const thigh = multiply(turn(J.pelvis), turn(joints.hip));
-  const shin = multiply(thigh, turn(joints.knee));
-  const foot = multiply(shin, turn(joints.ankle));
-  const [hip, knee, ankle] = [at(joints.hip), at(joints.knee), at(joints.ankle)];
-  // In the rest pose knees bend about x.
-  const leg = { hip, thigh: sub(knee, hip), shin: sub(ankle, knee), hinge: rotate(thigh, X_AXIS) };
-  return { leg, thigh, shin, foot };
+const ROW = 3 * JOINT_COUNT;
+
+/** A leg over time: `LEG` rows, and the world rotations of thigh, shin and foot, frames x 3 x 4. */
+interface MovingLeg {
+  readonly rows: Float64Array;
+  readonly turns: Float64Array;
+}
+
+/** Both arrays are those of the motion, as doubles. */
+function movingLeg(
+  positions: Float64Array,
+  rotations: Float64Array,
+  { hip, knee, ankle }: LegJoints,
+): MovingLeg {
+  const frames = positions.length / ROW;
+  const rows = new Float64Array(frames * LEG.size);
+  const turns = new Float64Array(frames * 12);
+  for (let frame = 0; frame < frames; frame++) {
+    const [at, turn, leg] = [ROW * frame, 12 * frame, LEG.size * frame];
+    const local = 4 * JOINT_COUNT * frame;
+    multiplyInto(turns, turn, rotations, local + 4 * J.pelvis, rotations, local + 4 * hip);
+    multiplyInto(turns, turn + 4, turns, turn, rotations, local + 4 * knee);
+    multiplyInto(turns, turn + 8, turns, turn + 4, rotations, local + 4 * ankle);
+    copyInto(rows, leg + LEG.hip, positions, at + 3 * hip);
+    subtractInto(rows, leg + LEG.thigh, positions, at + 3 * knee, positions, at + 3 * hip);
+    subtractInto(rows, leg + LEG.shin, positions, at + 3 * ankle, positions, at + 3 * knee);
+    // In the rest pose knees bend about x.
+    rotateInto(rows, leg + LEG.hinge, turns, turn, AXES, 0);
+  }
+  return { rows, turns };
 }
 
 /**
- * The shift that keeps a foot in place while it is in contact: one vector level with the floor a frame, metres. Each pass
- * raises the weight of a shift of zero where the pass before asked for too much.
+ * The shift that keeps a foot in place while it is in contact. Each pass raises the weight of a shift of zero where the
+ * pass before asked for too much.
  */
-function shiftsOf(motion: SolvedMotion, joints: LegJoints, legs: readonly Leg[]): Vec3[] {
-  const tracks = (axis: 0 | 2): Track[] =>
-    [joints.ankle, joints.toe].map((joint) => ({
-      contacts: intervals.get(joint)!,
-      positions: Float64Array.from(legs, (_, t) => motion.positions[(t * JOINT_COUNT + joint) * 3 + axis]!),
-    }));
-  const intervals = new Map(
-    [joints.ankle, joints.toe].map((joint) => [joint, contactIntervals(motion, joint)]),
-  );
-  const [along, across] = [tracks(0), tracks(2)];
-  const zeroWeights = new Float64Array(legs.length).fill(1);
-  let shifts: Vec3[] = [];
-  for (let pass = 0; pass < PASSES; pass++) {
-    const [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
-    shifts = legs.map((_, t) => [x[t]!, 0, z[t]!]);
-    legs.forEach((leg, t) => {
-      const excess = Math.max(1, Math.hypot(x[t]!, z[t]!) / MAX_SHIFT);
-      const ankle = add(leg.thigh, add(leg.shin, shifts[t]!));
-      const shortfall = Math.max(0, Math.hypot(...ankle) - maxLegLength(leg));
-      zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
-    });
+function shiftOf(motion: SolvedMotion, { ankle, toe }: LegJoints, legs: Float64Array): FloorShift {
+  const { frames, positions } = motion;
+  const coordinate = (joint: number, axis: 0 | 2): Float64Array =>
+    Float64Array.from({ length: frames }, (_, frame) => positions[frame * ROW + 3 * joint + axis]!);
+  const tracks = [ankle, toe].map((joint) => ({
+    contacts: contactIntervals(motion, joint),
+    x: coordinate(joint, 0),
+    z: coordinate(joint, 2),
+  }));
+  const equations = normalEquations(tracks, frames);
+  const zeroWeights = new Float64Array(frames).fill(1);
+  let shift = leastSquaresShift(equations, zeroWeights);
+  for (let pass = 1; pass < PASSES; pass++) {
+    raiseWeights(zeroWeights, shift, legs);
+    shift = leastSquaresShift(equations, zeroWeights);
   }
-  return shifts;
+  return shift;
 }
 
-/**
- * Foot lock: the motion with feet that do not slide while they are in contact.
- *
- * Each foot is shifted level with the floor and keeps its rotation, so that heel and ball still roll and pivot; thigh and
- * shin follow by two-bone inverse kinematics. Joints above the knees do not move. Bone lengths stay, rotations stay
- * continuous, and positions are again the forward kinematics of the rotations. `fitError` remains that of the fit
- * before. Pure.
- */
-export function lockFeet(motion: SolvedMotion): SolvedMotion {
-  const rotations = motion.rotations.slice();
-  const positions = motion.positions.slice();
-  for (const joints of LEGS) {
-    const { hip, knee, ankle, toe } = joints;
-    const frames = Array.from({ length: motion.frames }, (_, frame) => legAt(motion, joints, frame));
-    const shifts = shiftsOf(
-      motion,
-      joints,
-      frames.map(({ leg }) => leg),
-    );
-    frames.forEach(({ leg, thigh, shin, foot }, frame) => {
-      const row = frame * JOINT_COUNT;
-      const put = (joint: number, parent: Quat, turn: Quat): void => {
-        writeQuat(rotations, row + joint, multiply(conjugate(parent), turn));
-      };
-      const target = add(add(leg.hip, add(leg.thigh, leg.shin)), shifts[frame]!);
-      const turns = twoBoneIk(leg, target);
-      const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
-      put(hip, readQuat(rotations, row), upper);
-      put(knee, upper, lower);
-      put(ankle, lower, foot);
-      let place = leg.hip;
-      for (const [joint, turn] of [
-        [knee, upper],
-        [ankle, lower],
-        [toe, foot],
-      ] as const) {
-        place = add(place, rotate(turn, readVec(motion.offsets, joint)));
-        writeVec(positions, row + joint, place);
-      }
-    });
+/** Raises the weights of a shift of zero where a shift is too long, or its leg too short for it. */
+function raiseWeights(zeroWeights: Float64Array, { x, z }: FloorShift, legs: Float64Array): void {
+  for (let t = 0; t < zeroWeights.length; t++) {
+    const thigh = LEG.size * t + LEG.thigh;
+    const shin = LEG.size * t + LEG.shin;
+    const excess = Math.max(1, Math.sqrt(x[t]! * x[t]! + z[t]! * z[t]!) / MAX_SHIFT);
+    const legX = legs[thigh]! + legs[shin]! + x[t]!;
+    const legY = legs[thigh + 1]! + legs[shin + 1]!;
+    const legZ = legs[thigh + 2]! + legs[shin + 2]! + z[t]!;
+    const length = Math.sqrt(legX * legX + legY * legY + legZ * legZ);
+    const shortfall = Math.max(0, length - maxLegLength(legs, LEG.size * t));
+    zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
   }
-  return { ...motion, rotations, positions };
+}
+
+/** Writes a leg with its foot shifted into the rotations and positions of a motion. */
+function putLeg(
+  { offsets, rotations, positions }: SolvedMotion,
+  { hip, knee, ankle, toe }: LegJoints,
+  { rows, turns }: MovingLeg,
+  shift: FloorShift,
+): void {
+  const bones = new Float64Array(offsets);
+  const target = new Float64Array(3);
+  const bone = new Float64Array(3);
+  /** The leg's new rotations in world axes: pelvis, thigh, shin and foot. */
+  const world = new Float64Array(16);
+  const local = new Float64Array(4);
+  const chain = [hip, knee, ankle, toe];
+  for (let frame = 0; frame < shift.x.length; frame++) {
+    const leg = LEG.size * frame;
+    addInto(target, 0, rows, leg + LEG.hip, rows, leg + LEG.thigh);
+    addInto(target, 0, target, 0, rows, leg + LEG.shin);
+    target[0]! += shift.x[frame]!;
+    target[2]! += shift.z[frame]!;
+    for (let i = 0; i < 4; i++) world[i] = rotations[4 * JOINT_COUNT * frame + i]!;
+    twoBoneIk(ikTurns, rows, leg, target);
+  }
 }

@@ -1,134 +1,44 @@
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { forwardKinematics } from '../skeleton/kinematics';
-import { type Bones, bonesOf, fitPose, type Pose } from './pose-fit';
-import {
-  between,
-  conjugate,
-  fromAxes,
-  multiply,
-  negate,
-  type Quat,
-  quatDot,
-  rotate,
-  slerp,
-  writeQuat,
-} from '../math/quat';
-import { restOffsets } from './rest-pose';
-import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
-import { smoothHinges } from './twist';
-import {
-  add,
-  cross,
-  direction,
-  distance,
-  readVec,
-  scale,
-  sub,
-  type Vec3,
-  writeVec,
-  Y_AXIS,
-} from '../math/vec3';
+import { multiplyInverseInto } from '../math/flat-quaternions';
+import { dotAt } from '../math/flat-vectors';
+import { bonesOf, fitPoses } from './pose-fit';
+import { restOffsets, trunkRotations } from './rest-pose';
+import { JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
+import { worldRotations } from './world-rotations';
 
-/** A limb whose upper bone gets its twist from the hinge at its middle joint. */
-interface Limb {
-  readonly part: 'pelvis' | 'chest';
-  readonly start: number;
-  readonly middle: number;
-  readonly end: number;
-  readonly toe: number | null;
-  /** Hinge axis in the rest pose, about which the limb bends. */
-  readonly hinge: Vec3;
-}
-
-const LIMBS: readonly Limb[] = [
-  {
-    part: 'pelvis',
-    start: J.left_hip,
-    middle: J.left_knee,
-    end: J.left_ankle,
-    toe: J.left_foot,
-    hinge: [1, 0, 0],
-  },
-  {
-    part: 'pelvis',
-    start: J.right_hip,
-    middle: J.right_knee,
-    end: J.right_ankle,
-    toe: J.right_foot,
-    hinge: [1, 0, 0],
-  },
-  {
-    part: 'chest',
-    start: J.left_shoulder,
-    middle: J.left_elbow,
-    end: J.left_wrist,
-    toe: null,
-    hinge: [0, -1, 0],
-  },
-  {
-    part: 'chest',
-    start: J.right_shoulder,
-    middle: J.right_elbow,
-    end: J.right_wrist,
-    toe: null,
-    hinge: [0, 1, 0],
-  },
-];
-
-/** Weight of the foot's direction in the leg's twist, where a knee bent at a right angle has 1. */
-const FOOT_WEIGHT = 0.3;
-
-/** Hinge axis of a limb in world axes, one a frame. */
-function hingesOf(limb: Limb, poses: readonly Pose[], bones: Bones): Vec3[] {
-  const rest = direction(bones.offsets[limb.middle]!, Y_AXIS);
-  const directions: Vec3[] = [];
-  const observed: Vec3[] = [];
-  const priors: Vec3[] = [];
-  for (const pose of poses) {
-    const inverse = conjugate(pose[limb.part]);
-    const bone = (from: number, to: number): Vec3 =>
-      direction(rotate(inverse, sub(pose.joints[to]!, pose.joints[from]!)), rest);
-    const upper = bone(limb.start, limb.middle);
-    const lower = bone(limb.middle, limb.end);
-    let hinge = cross(upper, lower);
-    if (limb.toe !== null) {
-      hinge = add(hinge, scale(cross(bone(limb.end, limb.toe), lower), FOOT_WEIGHT));
+/** Rotations relative to the parent, frames x 22 x 4, of world rotations; no sign changes from frame to frame. */
+function localRotations(world: Float64Array): Float32Array {
+  const row = 4 * JOINT_COUNT;
+  const local = new Float32Array(world.length);
+  const own = new Float64Array(4);
+  const before = new Float64Array(row);
+  for (let first = 0; first < world.length; first += row) {
+    for (let joint = 0; joint < JOINT_COUNT; joint++) {
+      const at = 4 * joint;
+      const parent = PARENTS[joint]!;
+      if (parent < 0) own.set(world.subarray(first, first + 4));
+      else multiplyInverseInto(own, 0, world, first + 4 * parent, world, first + at);
+      const sign = dotAt(own, 0, before, at) + own[3]! * before[at + 3]! < 0 ? -1 : 1;
+      for (let i = 0; i < 4; i++) {
+        before[at + i] = own[i]! * sign;
+        local[first + at + i] = before[at + i]!;
+      }
     }
-    directions.push(upper);
-    observed.push(hinge);
-    priors.push(rotate(between(rest, upper), limb.hinge));
   }
-  return smoothHinges(directions, observed, priors).map((axis, t) => rotate(poses[t]![limb.part], axis));
+  return local;
 }
 
-/** World rotation of every joint of one pose, given the hinge axes of the four limbs. */
-function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
-  const turns: Quat[] = [];
-  const aimed = (base: Quat, from: number, to: number): Quat => {
-    const rest = rotate(base, direction(bones.offsets[to]!, Y_AXIS));
-    return multiply(between(rest, direction(sub(pose.joints[to]!, pose.joints[from]!), rest)), base);
-  };
-  turns[J.pelvis] = pose.pelvis;
-  turns[J.spine1] = aimed(slerp(pose.pelvis, pose.chest, 1 / 3), J.spine1, J.spine2);
-  turns[J.spine2] = aimed(slerp(pose.pelvis, pose.chest, 2 / 3), J.spine2, J.spine3);
-  turns[J.spine3] = pose.chest;
-  const neck = aimed(pose.chest, J.neck, J.head);
-  turns[J.neck] = neck;
-  // No joint position shows the head's own rotation: it is that of the neck.
-  turns[J.head] = neck;
-  turns[J.left_collar] = aimed(pose.chest, J.left_collar, J.left_shoulder);
-  turns[J.right_collar] = aimed(pose.chest, J.right_collar, J.right_shoulder);
-  LIMBS.forEach(({ start, middle, end, toe, hinge }, i) => {
-    const rest = direction(bones.offsets[middle]!, Y_AXIS);
-    const bone = direction(sub(pose.joints[middle]!, pose.joints[start]!), rest);
-    const upper = multiply(fromAxes(hinges[i]!, bone), conjugate(fromAxes(hinge, rest)));
-    turns[start] = upper;
-    const lower = aimed(upper, middle, end);
-    turns[middle] = lower;
-    turns[end] = toe === null ? lower : aimed(lower, end, toe);
-    if (toe !== null) turns[toe] = turns[end];
-  });
-  return turns;
+/** Mean distance between joints at two times frames x 22 x 3, metres. */
+function meanDistance(a: Float32Array, b: Float32Array): number {
+  let sum = 0;
+  for (let i = 0; i < a.length; i += 3) {
+    const x = a[i]! - b[i]!;
+    const y = a[i + 1]! - b[i + 1]!;
+    const z = a[i + 2]! - b[i + 2]!;
+    sum += Math.sqrt(x * x + y * y + z * z);
+  }
+  return sum / (a.length / 3);
 }
 
 /**
@@ -143,34 +53,24 @@ function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat
  */
 export function solve(clip: MotionClip): SolvedMotion {
   const { frames, fps } = clip;
-  const offsets = restOffsets(clip);
+  const observed = new Float64Array(clip.positions);
+  const trunk = trunkRotations(observed);
+  const offsets = restOffsets(observed, trunk);
   const bones = bonesOf(offsets);
-  const poses = Array.from({ length: frames }, (_, frame) => fitPose(clip, frame, bones));
-  const hinges = LIMBS.map((limb) => hingesOf(limb, poses, bones));
-
+  const poses = fitPoses(observed, bones, trunk);
+  const rotations = localRotations(worldRotations(poses, bones));
   const root = new Float32Array(frames * 3);
-  const rotations = new Float32Array(frames * JOINT_COUNT * 4);
-  const previous: Quat[] = [];
-  poses.forEach((pose, frame) => {
-    writeVec(root, frame, pose.joints[J.pelvis]!);
-    const turns = worldRotations(
-      pose,
-      bones,
-      hinges.map((axes) => axes[frame]!),
-    );
-    for (let joint = 0; joint < JOINT_COUNT; joint++) {
-      const parent = PARENTS[joint]!;
-      let local = parent < 0 ? turns[joint]! : multiply(conjugate(turns[parent]!), turns[joint]!);
-      const before = previous[joint];
-      if (before !== undefined && quatDot(before, local) < 0) local = negate(local);
-      previous[joint] = local;
-      writeQuat(rotations, frame * JOINT_COUNT + joint, local);
-    }
-  });
-  const positions = forwardKinematics(offsets, root, rotations);
-  let error = 0;
-  for (let i = 0; i < frames * JOINT_COUNT; i++) {
-    error += distance(readVec(positions, i), readVec(clip.positions, i));
+  for (let i = 0; i < root.length; i++) {
+    root[i] = poses.joints[Math.floor(i / 3) * JOINT_COUNT * 3 + (i % 3)]!;
   }
-  return { fps, frames, offsets, root, rotations, positions, fitError: error / (frames * JOINT_COUNT) };
+  const positions = forwardKinematics(offsets, root, rotations);
+  return {
+    fps,
+    frames,
+    offsets,
+    root,
+    rotations,
+    positions,
+    fitError: meanDistance(positions, clip.positions),
+  };
 }

@@ -1,5 +1,12 @@
-import { between, rotate } from '../math/quat';
-import { cross, dot, perpendicular, scale, type Vec3, add, anyPerpendicular } from '../math/vec3';
+import { betweenInto, rotateInto } from '../math/flat-quaternions';
+import {
+  addInto,
+  anyPerpendicularInto,
+  copyInto,
+  crossInto,
+  dotAt,
+  perpendicularInto,
+} from '../math/flat-vectors';
 
 /** Weight of the squared change of the twist per frame, where the squared error of a fully bent limb has 1. */
 const SMOOTHNESS_WEIGHT = 0.1;
@@ -13,6 +20,32 @@ function wrap(angle: number): number {
 }
 
 /**
+ * Axes perpendicular to a bone that are carried along with it without twist (parallel transport).
+ * @param first about where the first one points
+ * @returns frames x 3 unit vectors, and those that complete them to right angles with the bone
+ */
+function carriedAxes(
+  bones: Float64Array,
+  first: Float64Array,
+): { references: Float64Array; sides: Float64Array } {
+  const references = new Float64Array(bones.length);
+  const sides = new Float64Array(bones.length);
+  const turn = new Float64Array(4);
+  const any = new Float64Array(3);
+  copyInto(references, 0, first, 0);
+  for (let t = 0; t < bones.length; t += 3) {
+    if (t > 0) {
+      betweenInto(turn, 0, bones, t - 3, bones, t);
+      rotateInto(references, t, turn, 0, references, t - 3);
+    }
+    anyPerpendicularInto(any, 0, bones, t);
+    perpendicularInto(references, t, references, t, bones, t, any, 0);
+    crossInto(sides, t, bones, t, references, t);
+  }
+  return { references, sides };
+}
+
+/**
  * Twist of a limb over time: the hinge axis of its elbow or knee, interpolated where the limb is straight.
  *
  * A hinge shows only while the limb is bent. The axis is written as an angle to a reference axis that is carried along
@@ -22,43 +55,37 @@ function wrap(angle: number): number {
  *
  * All vectors are in the axes of the body part that carries the limb, so that a spin of the dancer is no twist.
  *
- * @param bones unit vectors along the upper bone, one a frame
- * @param hinges observed hinge axes; the squared length is their weight
- * @param priors hinge axes of the anatomical prior
- * @returns unit vectors perpendicular to the bones
+ * @param bones frames x 3, unit vectors along the upper bone
+ * @param hinges frames x 3, observed hinge axes; the squared length is their weight
+ * @param priors frames x 3, hinge axes of the anatomical prior
+ * @returns frames x 3, unit vectors perpendicular to the bones
  */
-export function smoothHinges(
-  bones: readonly Vec3[],
-  hinges: readonly Vec3[],
-  priors: readonly Vec3[],
-): Vec3[] {
-  const frames = bones.length;
-  const references: Vec3[] = [];
+export function smoothHinges(bones: Float64Array, hinges: Float64Array, priors: Float64Array): Float64Array {
+  const frames = bones.length / 3;
+  const { references, sides } = carriedAxes(bones, priors);
   const weights = new Float64Array(frames);
   const targets = new Float64Array(frames);
+  const flat = new Float64Array(3);
   let estimate = 0;
   for (let t = 0; t < frames; t++) {
-    const bone = bones[t]!;
-    const carried = t === 0 ? priors[0]! : rotate(between(bones[t - 1]!, bone), references[t - 1]!);
-    const reference = perpendicular(carried, bone, anyPerpendicular(bone));
-    references.push(reference);
-    const side = cross(bone, reference);
-    const angleOf = (axis: Vec3): number => Math.atan2(dot(axis, side), dot(axis, reference));
-
-    const hinge = hinges[t]!;
-    const flat = add(hinge, scale(bone, -dot(hinge, bone)));
-    const weight = dot(flat, flat);
-    const observed = weight > 0 ? estimate + wrap(angleOf(flat) - estimate) : estimate;
+    const at = 3 * t;
+    addInto(flat, 0, hinges, at, bones, at, -dotAt(hinges, at, bones, at));
+    const weight = dotAt(flat, 0, flat, 0);
+    const angle = Math.atan2(dotAt(flat, 0, sides, at), dotAt(flat, 0, references, at));
+    const observed = weight > 0 ? estimate + wrap(angle - estimate) : estimate;
     estimate += ((observed - estimate) * weight) / (weight + UNWRAP_WEIGHT);
-    const prior = estimate + wrap(angleOf(priors[t]!) - estimate);
+    const priorAngle = Math.atan2(dotAt(priors, at, sides, at), dotAt(priors, at, references, at));
+    const prior = estimate + wrap(priorAngle - estimate);
     weights[t] = weight + PRIOR_WEIGHT;
     targets[t] = (weight * observed + PRIOR_WEIGHT * prior) / weights[t]!;
   }
   const angles = smooth(targets, weights);
-  return references.map((reference, t) => {
-    const side = cross(bones[t]!, reference);
-    return add(scale(reference, Math.cos(angles[t]!)), scale(side, Math.sin(angles[t]!)));
-  });
+  const axes = new Float64Array(bones.length);
+  for (let t = 0; t < frames; t++) {
+    addInto(axes, 3 * t, axes, 3 * t, references, 3 * t, Math.cos(angles[t]!));
+    addInto(axes, 3 * t, axes, 3 * t, sides, 3 * t, Math.sin(angles[t]!));
+  }
+  return axes;
 }
 
 /** Minimises sum w (x - target)^2 + SMOOTHNESS_WEIGHT sum (x_t - x_(t-1))^2: one tridiagonal system, solved in place. */

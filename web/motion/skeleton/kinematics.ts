@@ -1,6 +1,6 @@
-import { multiply, type Quat, readQuat, rotate } from '../math/quat';
+import { multiplyInto, rotateInto } from '../math/flat-quaternions';
+import { addInto } from '../math/flat-vectors';
 import { JOINT_COUNT, PARENTS } from './skeleton';
-import { add, readVec, type Vec3, writeVec } from '../math/vec3';
 
 /**
  * Forward kinematics: joint positions of a skeleton in motion.
@@ -17,19 +17,22 @@ export function forwardKinematics(
 ): Float32Array {
   const frames = root.length / 3;
   const positions = new Float32Array(frames * JOINT_COUNT * 3);
-  const bones = PARENTS.map((_, joint) => readVec(offsets, joint));
-  const world: Quat[] = [];
-  const placed: Vec3[] = [];
+  const bones = new Float64Array(offsets);
+  // One frame: world rotations, positions, and the world vector of one bone.
+  const world = new Float64Array(JOINT_COUNT * 4);
+  const placed = new Float64Array(JOINT_COUNT * 3);
+  const bone = new Float64Array(3);
   for (let frame = 0; frame < frames; frame++) {
-    for (let joint = 0; joint < JOINT_COUNT; joint++) {
+    const first = frame * JOINT_COUNT * 4;
+    for (let i = 0; i < world.length; i++) world[i] = rotations[first + i]!;
+    for (let i = 0; i < 3; i++) placed[i] = root[3 * frame + i]!;
+    for (let joint = 1; joint < JOINT_COUNT; joint++) {
       const parent = PARENTS[joint]!;
-      const local = readQuat(rotations, frame * JOINT_COUNT + joint);
-      world[joint] = parent < 0 ? local : multiply(world[parent]!, local);
-      const place =
-        parent < 0 ? readVec(root, frame) : add(placed[parent]!, rotate(world[parent]!, bones[joint]!));
-      placed[joint] = place;
-      writeVec(positions, frame * JOINT_COUNT + joint, place);
+      rotateInto(bone, 0, world, 4 * parent, bones, 3 * joint);
+      addInto(placed, 3 * joint, placed, 3 * parent, bone, 0);
+      multiplyInto(world, 4 * joint, world, 4 * parent, world, 4 * joint);
     }
+    positions.set(placed, frame * placed.length);
   }
   return positions;
 }
