@@ -20,12 +20,13 @@ import tyro
 
 from export.runtime import open_model
 from training.checkpoint import load_model
-from training.config import STRIDE
+from training.config import STREAMS, STRIDE
 from training.data.made import made_dancer
-from training.diffusion.model import ReactionModel, for_all_streams
+from training.diffusion.model import ReactionModel
 from training.diffusion.react import music_of_length, pad_to_stride
-from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.sampler import initial_noise, sample_branch, sample_branches
 from training.diffusion.schedule import ddim_steps
+from training.motion.skeleton import JOINTS
 from training.music.features import features
 from training.music.recipe import AudioRecipe
 
@@ -71,17 +72,19 @@ class Stopwatch:
 
 @torch.no_grad()
 def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Options) -> Seconds:
-    """Seconds of condition, steps and decode with the model's default guidance."""
+    """Seconds of condition, steps of the conditional branch, of all three branches, and decode."""
     watch, sampling = Stopwatch(), model.sampling
     padded = torch.from_numpy(pad_to_stride(leader))
     features, valid = music_of_length(music, len(padded))
-    steps, guidance = ddim_steps(sampling.alpha_bar, options.steps), for_all_streams(sampling.guidance)
-    weight, layers = sampling.music_guidance, torch.ones(sampling.layers)
+    steps, role = ddim_steps(sampling.alpha_bar, options.steps), torch.zeros(1)
+    gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
     initial = initial_noise(sampling, SEED, len(padded) // STRIDE)
+    silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)
     for _ in range(1 + options.repeats):
-        memory = watch("condition", lambda: model.condition(padded, features, valid, torch.zeros(1)))
-        latents = watch("steps", lambda m=memory: sample(model, m, initial, steps, guidance, weight))
-        watch("decode", lambda x=latents: model.decode(x, padded, layers))
+        memory = watch("condition", lambda: model.condition(padded, features, valid, role))
+        latents = watch("steps", lambda m=memory: sample_branch(model, m, 1.0, initial, steps))
+        watch("branches", lambda m=memory: sample_branches(model, m, silent, initial, steps))
+        watch("decode", lambda x=latents: model.decode(x, padded, gains, bones))
     return watch.seconds
 
 

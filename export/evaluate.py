@@ -95,7 +95,6 @@ def reactor_generator(
         seed: int,
         condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
-        layers: int | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
         return react(
@@ -108,7 +107,6 @@ def reactor_generator(
                 guidance or default,
                 music_guidance,
                 role,
-                layers,
                 condition_leader,
             ),
         )

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from training.config import STREAMS
 from training.data.made import made_dancer
+from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
-from training.diffusion.sampler import initial_noise, sample
+from training.diffusion.react import measure_bones
+from training.diffusion.sampler import initial_noise, sample_branches
 from training.diffusion.schedule import ddim_steps
 from training.music.recipe import MUSIC_FEATURES
 
@@ -26,56 +27,54 @@ class Scene:
     silent_from: int | None = None  # motion frame after which there is no song
 
 
-def inputs(model: Model, scene: Scene) -> dict[str, np.ndarray]:
-    """leader, music, music_valid, role, guidance (different for each stream and layer), music_guidance."""
+def inputs(scene: Scene) -> dict[str, np.ndarray]:
+    """leader, music, music_valid, role; weights coarse and fine, different for each stream, and music_guidance."""
     random = np.random.default_rng(scene.seed)
     valid = np.ones(scene.frames, dtype=np.float32)
     if scene.silent_from is not None:
         valid[scene.silent_from :] = 0
-    guidance = np.linspace(-0.5, 1.5, len(STREAMS) * model.denoiser.layers, dtype=np.float32)
     return {
         "leader": made_dancer(scene.frames, scene.seed),
         "music": random.normal(size=(scene.frames, MUSIC_FEATURES)).astype(np.float32),
         "music_valid": valid,
         "role": np.zeros(1, dtype=np.float32),
-        "guidance": guidance.reshape(len(STREAMS), model.denoiser.layers),
+        "coarse": np.array([-0.5, 0.25, 0.75], dtype=np.float32),
+        "fine": np.array([0.5, -0.25, 1.0], dtype=np.float32),
         "music_guidance": np.full(1, 1.5, dtype=np.float32),
     }
 
 
 @torch.no_grad()
-def reference(model: Model, scene: Scene, every_step: bool = True) -> dict[str, np.ndarray]:
-    """Inputs and everything PyTorch makes of them: memory, initial noise, x and x0 after each step, joints.
-
-    x and x0 are (steps, L, R, C), or the last step alone when `every_step` is off; reactor and coarse are (T, 22, 3).
+def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
+    """Inputs and everything PyTorch makes of them: memory with and without the song, initial noise, the branches'
+    latents (3, L, R, C), the blended latents (L, R, C), bone lengths (22,), the joints (T, 22, 3), and those of the
+    coarse layer alone.
     """
-    given = inputs(model, scene)
+    given = inputs(scene)
     tensors = {name: torch.from_numpy(value) for name, value in given.items()}
     sampling = model.sampling
-    memory = model.condition(tensors["leader"], tensors["music"], tensors["music_valid"], tensors["role"])
-    initial = initial_noise(sampling, scene.seed, len(memory))
-    states: list[tuple[np.ndarray, np.ndarray]] = []
-    latents = sample(
-        model,
-        memory,
-        initial,
-        ddim_steps(sampling.alpha_bar, scene.steps),
-        tensors["guidance"],
-        float(given["music_guidance"][0]),
-        on_step=lambda _, x, x0: states.append((x.numpy().copy(), x0.numpy().copy())),
+    leader, role, valid = tensors["leader"], tensors["role"], tensors["music_valid"]
+    memory, silent = (
+        model.condition(leader, tensors["music"], heard, role) for heard in (valid, torch.zeros_like(valid))
     )
-    every_layer, only_coarse = torch.ones(sampling.layers), torch.zeros(sampling.layers)
-    only_coarse[0] = 1
-    kept = states if every_step else states[-1:]
+    initial = initial_noise(sampling, scene.seed, len(memory))
+    steps = ddim_steps(sampling.alpha_bar, scene.steps)
+    branches = sample_branches(model, memory, silent, initial, steps)
+    latents = blend(branches, per_channel(tensors["coarse"], sampling.channels), tensors["music_guidance"])
+    gains = layer_gains(tensors["fine"], sampling.layers)
+    bones = measure_bones(model, branches.conditional, leader)
+    coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)
     return given | {
         "seed": np.array([scene.seed], dtype=np.float32),
         "steps": np.array([scene.steps], dtype=np.float32),
         "memory": memory.numpy(),
+        "silent": silent.numpy(),
         "initial": initial.numpy(),
-        "x": np.stack([x for x, _ in kept]),
-        "x0": np.stack([x0 for _, x0 in kept]),
-        "reactor": model.decode(latents, tensors["leader"], every_layer).numpy(),
-        "coarse": model.decode(latents, tensors["leader"], only_coarse).numpy(),
+        "branches": torch.stack([branches.conditional, branches.silent, branches.unconditional]).numpy(),
+        "latents": latents.numpy(),
+        "reactor": model.decode(latents, leader, gains, bones)[0].numpy(),
+        "coarse_alone": model.decode(latents, leader, coarse_alone, bones)[0].numpy(),
+        "bones": bones.numpy(),
     }
 
 

@@ -1,6 +1,6 @@
 """The three graphs of the browser, as modules: condition and decode over the clip, step over blocks.
 
-They carry the maths (normalisation, frame of reference, guidance, sampler update), so that the page passes metres and
+They carry the maths (normalisation, frame of reference, sampler update), so that the page passes metres and
 features. Batch-free at their edges: one clip at a time.
 """
 
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from torch import Tensor, nn
 
-from training.diffusion.guidance import classifier_free_guidance
 from training.diffusion.model import Model
 
 
@@ -25,38 +24,32 @@ class Condition(nn.Module):
 
 
 class SamplerStep(nn.Module):
-    """One denoising step with guidance over B blocks, see `classifier_free_guidance`: x_next = a x + b x0.
+    """One step over B blocks: a x + b x0 (B, block, R, C), see `Model.predict`.
 
-    x (B, block, R, C), memory (B, block, M), valid (B, block), time (1), guidance (S, R), music_guidance (1),
-    coefficients a and b (2) to x_next and x0 (B, block, R, C).
+    x (B, block, R, C), memory (B, block, M), valid (B, block), keep (1), time (1), coefficients a and b (2).
     """
 
     def __init__(self, model: Model) -> None:
         super().__init__()
-        self.denoiser = model.denoiser
+        self.model = model
+        self.denoiser = model.denoiser  # registers its parameters
 
     def forward(
-        self,
-        x: Tensor,
-        memory: Tensor,
-        valid: Tensor,
-        time: Tensor,
-        guidance: Tensor,
-        music_guidance: Tensor,
-        coefficients: Tensor,
-    ) -> tuple[Tensor, Tensor]:
-        x0 = classifier_free_guidance(self.denoiser, x, time, memory, valid, guidance, music_guidance)
+        self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor, coefficients: Tensor
+    ) -> Tensor:
         a, b = coefficients.unbind(0)
-        return a * x + b * x0, x0
+        return a * x + b * self.model.predict(x, memory, valid, keep, time)
 
 
 class Decode(nn.Module):
-    """latents (L, R, C) normalised, leader (4 L, 22, 3), layers (R) to reactor (4 L, 22, 3) metres."""
+    """latents (L, R, C) normalised, leader (4 L, 22, 3), gains (S, R) and bones (22) metres to reactor (4 L, 22, 3)
+    metres and lengths (4 L, 22), see `ReactionModel.decode`.
+    """
 
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.model = model
         self.hfsq = model.hfsq  # registers its parameters
 
-    def forward(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        return self.model.decode(latents, leader, layers)
+    def forward(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
+        return self.model.decode(latents, leader, gains, bones)

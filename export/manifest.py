@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-from training.config import FPS, STREAMS, STRIDE, per_layer, to_json
+from training.config import FPS, STREAMS, STRIDE, to_json
+from training.diffusion.decode import RECEPTIVE_FIELD
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
 from training.evaluation.metrics import beats, contact, penetration, seams
@@ -15,7 +16,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 2
+FORMAT, VERSION = "reactdance-model", 3
 LAYER_NAMES = ("coarse", "fine")
 
 
@@ -94,7 +95,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "streams": list(STREAMS),
             "layers": names,
             "memory_width": model.denoiser.condition.memory_width,
-            "receptive_field": {"condition": condition_field(model)},
+            "receptive_field": {"condition": condition_field(model), "decode": RECEPTIVE_FIELD},
         },
         "diffusion": {
             "train_steps": diffusion.train_steps,
@@ -107,12 +108,14 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
         },
         "guidance": {
-            "convention": "(1+s)*cond - s*uncond + m*(cond - no_music)",
-            "min": -1,
-            "max": 3,
-            "step": 0.05,
-            "default": dict(zip(names, per_layer(diffusion.guidance, len(names)), strict=True)),
-            "music": {"min": 0, "max": 4, "default": diffusion.music_guidance},
+            "convention": {
+                "coarse": "cond + s (cond - uncond), sampled latents of the coarse layer",
+                "music": "+ m (cond - silent), sampled latents of all layers",
+                "fine": "(1 + s) times the fine layer, decoded after the clamp",
+            },
+            "coarse": {"min": -0.75, "max": 1, "step": 0.05, "default": diffusion.guidance[0]},
+            "fine": {"min": -1, "max": 1, "step": 0.05, "default": diffusion.guidance[1]},
+            "music": {"min": 0, "max": 6, "step": 0.25, "default": diffusion.music_guidance},
         },
         "noise": {"algorithm": "philox4x32-10"},
         "decode": {"sharpen": diffusion.sharpen, "foot_contact": diffusion.foot_contact},

@@ -53,18 +53,22 @@ def graphs(model: Model) -> list[Graph]:
                 "x": state,
                 "memory": ("blocks", block, memory),
                 "valid": ("blocks", block),
+                "keep": (1,),
                 "time": (1,),
-                "guidance": (len(STREAMS), layers),
-                "music_guidance": (1,),
                 "coefficients": (2,),
             },
-            {"x_next": state, "x0": state},
+            {"x_next": state},
         ),
         Graph(
             "decode",
             Decode(model),
-            {"latents": ("latents", layers, channels), "leader": motion, "layers": (layers,)},
-            {"reactor": motion},
+            {
+                "latents": ("latents", layers, channels),
+                "leader": motion,
+                "gains": (len(STREAMS), layers),
+                "bones": (len(JOINTS),),
+            },
+            {"reactor": motion, "lengths": ("frames", len(JOINTS))},
         ),
     ]
 

@@ -35,7 +35,7 @@ class Exported:
             alternating_phase=diffusion["alternating_phase"],
             stitching=False,
             steps=diffusion["steps"]["default"],
-            guidance=tuple(guidance["default"][name] for name in latent["layers"]),
+            guidance=(guidance["coarse"]["default"], guidance["fine"]["default"]),
             music_guidance=guidance["music"]["default"],
             reference_height=self.manifest["skeleton"]["reference_height"],
         )
@@ -44,24 +44,21 @@ class Exported:
         (memory,) = self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)
         return memory
 
-    def step(
-        self, x: Tensor, memory: Tensor, valid: Tensor, step: Step, guidance: Tensor, music_guidance: float
-    ) -> tuple[Tensor, Tensor]:
-        x_next, x0 = self._run(
+    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
+        (following,) = self._run(
             "step",
             x=x,
             memory=memory,
             valid=valid,
+            keep=torch.tensor([keep]),
             time=torch.tensor([step.time]),
-            guidance=guidance,
-            music_guidance=torch.tensor([music_guidance]),
             coefficients=torch.tensor([step.a, step.b]),
         )
-        return x_next, x0
+        return following
 
-    def decode(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        (reactor,) = self._run("decode", latents=latents, leader=leader, layers=layers)
-        return reactor
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
+        reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)
+        return reactor, lengths
 
     def _run(self, graph: str, **inputs: Tensor) -> list[Tensor]:
         feed = {name: np.ascontiguousarray(value.numpy(), dtype=np.float32) for name, value in inputs.items()}

@@ -66,7 +66,7 @@ def tiny_model(seed: int = 0) -> Model:
 
 
 def main(options: Options) -> None:
-    write_model(tiny_model(), CARD, options.out, SCENE, every_step=True)
+    write_model(tiny_model(), CARD, options.out, SCENE)
     print(f"wrote {options.out}")
 
 

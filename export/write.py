@@ -30,11 +30,11 @@ class Options:
     """Folder of the exported model; files of an earlier export are replaced."""
 
 
-def write_model(model: Model, card: Card, folder: Path, scene: Scene, every_step: bool) -> None:
+def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     """Graphs, golden tensors and manifest into `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
     entries = {graph.name: describe(graph, write_onnx(graph, folder)) for graph in graphs(model)}
-    write_golden(folder / GOLDEN, reference(model, scene, every_step))
+    write_golden(folder / GOLDEN, reference(model, scene))
     text = json.dumps(manifest(model, card, entries, GOLDEN), indent=1)
     (folder / "manifest.json").write_text(text + "\n")
 
@@ -42,7 +42,7 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene, every_step
 def main(options: Options) -> None:
     model = load_model(options.checkpoint)
     card = Card(**read_card(options.checkpoint))
-    write_model(model, card, options.out, Scene(frames=480, steps=4, silent_from=400), every_step=False)
+    write_model(model, card, options.out, Scene(frames=480, steps=4, silent_from=400))
     worst = max(value for row in verify(model, options.out, BLOCKS).values() for value in row.values())
     size = sum(path.stat().st_size for path in options.out.glob("*.onnx")) / 1e6
     print(f"{options.out}: {size:.1f} MB of graphs, at most {worst:.1e} from PyTorch")

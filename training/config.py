@@ -98,7 +98,7 @@ class DiffusionConfig:
     alternating_phase: bool = False
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
-    music_guidance: float = 0.0  # default guidance weight m of the music, see `classifier_free_guidance`
+    music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
     sharpen: float = 0.0  # gain above 6 Hz in the decoded motion
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 
@@ -116,11 +116,6 @@ class DenoiserLossConfig:
     energy: float = 0.2
     orientation: float = 0.05
     windows: int = 8  # the windows with least noise in the batch, the only ones that are decoded
-
-
-def per_layer(coarse_and_fine: tuple[float, float], layers: int) -> list[float]:
-    """The value of coarse for the first residual layer, that of fine for all others."""
-    return [coarse_and_fine[min(r, 1)] for r in range(layers)]
 
 
 def to_json(config: Any) -> dict[str, Any]:

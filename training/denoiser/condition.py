@@ -79,18 +79,8 @@ class ConditionEncoder(nn.Module):
 
     @property
     def memory_width(self) -> int:
-        """Channels of what `of_clip` gives."""
-        return 3 * len(self.silence)
-
-    def of_clip(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        """Memory of a whole clip with what guidance by music needs beside it, (N, L, 3 D): leader, music, and the
-        music's part where there is no song.
-        """
-        memory = self(leader, music, music_valid, role)
-        silence = torch.zeros_like(memory).chunk(2, dim=-1)[1].transpose(1, 2)
-        if self.config.music:
-            silence = self.music.context(silence + self.silence[None, :, None], None)
-        return torch.cat([memory, silence.transpose(1, 2)], dim=-1)
+        """Channels of the memory: 2 D."""
+        return 2 * len(self.silence)
 
     def forward(
         self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None

@@ -8,8 +8,13 @@ from training.config import DiffusionConfig, FrameConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.foot_contact_correction import correct_foot_contact
 from training.motion.leader_frame import smoothed_heading
+from training.motion.rigid_body import bone_lengths, rigid_body
 from training.motion.sharpen import sharpen
-from training.motion.streams import reactor_motion
+from training.motion.streams import from_streams
+
+# Latent frames on each side of a part of a clip that its decoded joints depend on, to 2e-5 m: the iterations of the
+# foot-contact correction reach farthest, and fade.
+RECEPTIVE_FIELD = 48
 
 
 def decode(
@@ -18,14 +23,17 @@ def decode(
     config: DiffusionConfig,
     latents: Tensor,
     leader: Tensor,
-    layers: Tensor,
-) -> Tensor:
-    """The reactor's joints (4 L, 22, 3), metres at the model's height, of normalised latents (L, R, C).
+    gains: Tensor,
+    bones: Tensor,
+) -> tuple[Tensor, Tensor]:
+    """The reactor's joints (4 L, 22, 3), metres at the model's height, of normalised latents (L, R, C), and the
+    lengths (4 L, 22) that its bones had before they were made constant.
 
-    leader: (4 L, 22, 3), what the placement stream is relative to. layers: (R,) factor of each residual layer; 0
-    leaves it out.
+    leader: (4 L, 22, 3), what the placement stream is relative to. gains: (S, R) factor of each residual layer of
+    each stream; 0 leaves it out. bones: (22,) metres, the lengths to give them.
     """
-    raw = hfsq.denormalise(latents) * layers[:, None]
-    streams = [sharpen(stream[0], config.sharpen) for stream in hfsq.decode(raw[None])]
-    motion = reactor_motion(streams, leader, smoothed_heading(leader, frame))
-    return correct_foot_contact(motion, config.foot_contact)
+    raw = hfsq.denormalise(latents) * gains.T.repeat_interleave(hfsq.stream_latent, dim=1)
+    upper, lower, placement = (sharpen(stream[0], config.sharpen) for stream in hfsq.decode(raw[None]))
+    joints = from_streams(upper, lower, placement, leader, smoothed_heading(leader, frame))
+    motion = rigid_body(joints[None], bones)[0]
+    return correct_foot_contact(motion, config.foot_contact), bone_lengths(joints)

@@ -1,12 +1,56 @@
-"""Classifier-free guidance per stream and layer (paper 3.5), clamped to the quantiser's range."""
+"""Classifier-free guidance (paper 3.5): after sampling, as the page does it, and at every step, as the paper does.
+
+The paper applies Eq. 9 to every prediction. Once the first steps agree on a dance, conditional and unconditional
+predictions are alike, so the result hardly moves, and every change of a weight costs a sampling. Applied once, to
+latents that were sampled from the same noise, the same equation acts over its whole range and needs no network pass.
+"""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import torch
 from torch import Tensor
 
-from training.config import STREAMS
 from training.denoiser.denoiser import Denoiser
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """Latents (..., L, R, C) of one dance that were sampled from the same noise under three conditions."""
+
+    conditional: Tensor  # leader and song
+    silent: Tensor  # the leader without a song
+    unconditional: Tensor  # neither
+
+
+def blend(branches: Branches, coarse: Tensor, music: Tensor) -> Tensor:
+    """Eq. 9 on sampled latents, with a term for the song (Liu et al. 2022, guidance by a single condition):
+
+        x = cond + m (cond - silent), in the coarse layer + s (cond - uncond)
+
+    coarse: s, broadcastable to a layer (..., L, C). music: m, broadcastable to (..., L, R, C). Returns
+    (..., L, R, C). The fine layer's guidance acts where latents are decoded, see `layer_gains`.
+    """
+    conditional = branches.conditional
+    x = conditional + music * (conditional - branches.silent)
+    base = x[..., :1, :] + coarse[..., None, :] * (conditional - branches.unconditional)[..., :1, :]
+    return torch.cat([base, x[..., 1:, :]], dim=-2)
+
+
+def per_channel(values: Tensor, channels: int) -> Tensor:
+    """(C,) of values (S,), one for each stream: the channels of a layer are its streams' one after the other."""
+    return values.repeat_interleave(channels // len(values))
+
+
+def layer_gains(fine: Tensor, layers: int) -> Tensor:
+    """(S, R) factors of the residual layers for guidance s of the fine layer (S,) of each stream.
+
+    Eq. 9 between a dance with its fine layer and the same dance without, which the decoder knows from residual
+    masking (paper 3.2): (1 + s) fine - s 0.
+    """
+    coarse = torch.ones(len(fine), 1)
+    return torch.cat([coarse, (1 + fine)[:, None].expand(-1, layers - 1)], dim=1)
 
 
 def clamp_to_range(denoiser: Denoiser, x0: Tensor) -> Tensor:
@@ -22,34 +66,26 @@ def classifier_free_guidance(
     x: Tensor,
     time: Tensor,
     memory: Tensor,
+    silent: Tensor,
     valid: Tensor,
     guidance: Tensor,
-    music_guidance: Tensor,
+    music_guidance: float,
 ) -> Tensor:
-    """Classifier-free guidance (Ho and Salimans 2022) per stream and layer, the paper's Eq. 9, with a term for music:
+    """Guidance at every step (Ho and Salimans 2022): Eq. 9 per stream and layer, with a term for the song:
 
         x0 = (1 + s) cond - s uncond + m (cond - no_music)
 
-    cond is the prediction for leader and music, uncond for neither, no_music for the leader alone. The last term is
-    guidance by a single condition (Liu et al. 2022) and not in the paper; m = 0 leaves Eq. 9.
+    cond is the prediction for leader and music, uncond for neither, no_music for the leader alone; m = 0 leaves Eq. 9.
 
-    x (B, block, R, C), time (1,), memory (B, block, 3 D) of `condition`, valid (B, block), guidance s (S, R),
-    music_guidance m (1,). Returns x0 (B, block, R, C), clamped to the quantiser's range. The coarse layer is combined
+    x (B, block, R, C), time (1,), memory and silent (B, block, 2 D) with and without a song, valid (B, block),
+    guidance s (S, R). Returns x0 (B, block, R, C), clamped to the quantiser's range. The coarse layer is combined
     from coarse predictions alone, so no fine weight reaches it.
     """
-    leader, music, silence = memory.chunk(3, dim=-1)
-    with_music, without_music = torch.cat([leader, music], dim=-1), torch.cat([leader, silence], dim=-1)
-    ones = valid[:, :1].expand(-1, denoiser.layers) * 0 + 1
-    keep = torch.cat([ones, ones * 0, ones])
+    ones = torch.ones(len(x), denoiser.layers)
+    keep = torch.cat([ones, 0 * ones, ones])
     predictions = denoiser(
-        torch.cat([x, x, x]),
-        time,
-        torch.cat([with_music, with_music, without_music]),
-        torch.cat([valid, valid, valid]),
-        keep,
-        keep,
+        torch.cat([x, x, x]), time, torch.cat([memory, memory, silent]), valid.repeat(3, 1), keep, keep
     )
-    # Written so that the exported graph needs no shape arithmetic.
-    cond, uncond, no_music = predictions.reshape(3, -1, *predictions.shape[1:]).unbind(0)
-    s = guidance.T.repeat_interleave(denoiser.latent_width // len(STREAMS), dim=1)  # (R, C)
+    cond, uncond, no_music = predictions.chunk(3)
+    s = torch.stack([per_channel(layer, denoiser.latent_width) for layer in guidance.T])  # (R, C)
     return clamp_to_range(denoiser, cond + s * (cond - uncond) + music_guidance * (cond - no_music))

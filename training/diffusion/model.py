@@ -11,10 +11,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from training.config import STREAMS, DiffusionConfig, FrameConfig, per_layer
+from training.config import DiffusionConfig, FrameConfig
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.decode import decode
-from training.diffusion.guidance import classifier_free_guidance
+from training.diffusion.guidance import clamp_to_range
 from training.diffusion.schedule import Step, alphas_cumprod
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
@@ -32,7 +32,7 @@ class Sampling:
     alternating_phase: bool  # every other step begins with half a block
     stitching: bool  # blocks overlap by half and cross-fade
     steps: int
-    guidance: tuple[float, ...]  # Eq. 9's s of each layer
+    guidance: tuple[float, float]  # Eq. 9's s of the coarse and the fine layer
     music_guidance: float
     reference_height: float  # metres, `body_height` of the leaders that the model knows
 
@@ -44,17 +44,20 @@ class ReactionModel(Protocol):
     def sampling(self) -> Sampling: ...
 
     def condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        """Memory (L, 3 D) of leader (T, 22, 3) metres, music (T, F), music_valid (T,) and role (1,)."""
+        """Memory (L, 2 D) of leader (T, 22, 3) metres, music (T, F), music_valid (T,) and role (1,)."""
         ...
 
-    def step(
-        self, x: Tensor, memory: Tensor, valid: Tensor, step: Step, guidance: Tensor, music_guidance: float
-    ) -> tuple[Tensor, Tensor]:
-        """x after one step, and x0: x (B, block, R, C), memory (B, block, 3 D), valid (B, block), guidance (S, R)."""
+    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
+        """x after one step: x (B, block, R, C), memory (B, block, 2 D), valid (B, block).
+
+        keep: 1 with leader and song as they are in the memory, 0 without both.
+        """
         ...
 
-    def decode(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        """Joints (T, 22, 3) metres of normalised latents (L, R, C); layers (R,) multiplies each residual layer."""
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
+        """Joints (T, 22, 3) metres of normalised latents (L, R, C), and the bone lengths (T, 22) before they were
+        made constant, metres. gains (S, R) multiplies each stream's layers; bones (22,) metres are the lengths to give.
+        """
         ...
 
 
@@ -70,35 +73,34 @@ class Model:
 
     @property
     def sampling(self) -> Sampling:
-        config, layers = self.diffusion, self.denoiser.layers
+        config = self.diffusion
         return Sampling(
             block=self.denoiser.config.block,
-            layers=layers,
+            layers=self.denoiser.layers,
             channels=self.denoiser.latent_width,
             alpha_bar=alphas_cumprod(config),
             alternating_phase=config.alternating_phase,
             stitching=config.stitching,
             steps=config.steps,
-            guidance=tuple(per_layer(config.guidance, layers)),
+            guidance=config.guidance,
             music_guidance=config.music_guidance,
             reference_height=self.reference_height,
         )
 
     def condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
         features = leader_features(leader, smoothed_heading(leader, self.frame))
-        return self.denoiser.condition.of_clip(features[None], music[None], music_valid[None], role)[0]
+        return self.denoiser.condition(features[None], music[None], music_valid[None], role)[0]
 
-    def step(
-        self, x: Tensor, memory: Tensor, valid: Tensor, step: Step, guidance: Tensor, music_guidance: float
-    ) -> tuple[Tensor, Tensor]:
-        time, weight = torch.tensor([step.time]).float(), torch.tensor([music_guidance]).float()
-        x0 = classifier_free_guidance(self.denoiser, x, time, memory, valid, guidance, weight)
-        return step.a * x + step.b * x0, x0
+    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
+        x0 = self.predict(x, memory, valid, torch.tensor([keep]), torch.tensor([step.time]))
+        return step.a * x + step.b * x0
 
-    def decode(self, latents: Tensor, leader: Tensor, layers: Tensor) -> Tensor:
-        return decode(self.hfsq, self.frame, self.diffusion, latents, leader, layers)
+    def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
+        """x0 (B, block, R, C), clamped to the quantiser's range; keep and time (1,) float32, the rest as in `step`."""
+        # Written so that the exported graph needs no shape arithmetic.
+        every = (valid[:, :1] * 0 + keep).expand(-1, self.denoiser.layers)
+        return clamp_to_range(self.denoiser, self.denoiser(x, time, memory, valid, every, every))
 
-
-def for_all_streams(guidance: tuple[float, ...]) -> Tensor:
-    """(S, R): each layer's guidance, the same for every stream."""
-    return torch.tensor(guidance, dtype=torch.float32).repeat(len(STREAMS), 1)
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
+        clamped = clamp_to_range(self.denoiser, latents)
+        return decode(self.hfsq, self.frame, self.diffusion, clamped, leader, gains, bones)

@@ -8,11 +8,12 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from training.config import STRIDE, per_layer
-from training.diffusion.model import ReactionModel, for_all_streams
-from training.diffusion.sampler import initial_noise, sample
+from training.config import STREAMS, STRIDE
+from training.diffusion.guidance import blend, layer_gains
+from training.diffusion.model import ReactionModel
+from training.diffusion.sampler import initial_noise, sample_branches
 from training.diffusion.schedule import ddim_steps
-from training.motion.skeleton import body_height
+from training.motion.skeleton import JOINTS, body_height
 from training.music.recipe import MUSIC_FEATURES
 
 
@@ -24,10 +25,11 @@ class Request:
     music: np.ndarray | None = None  # (T', F) features; silence where they end, and without them
     seed: int = 0
     steps: int | None = None
-    guidance: tuple[float, float] | None = None  # Eq. 9's s of coarse and fine, for all streams
-    music_guidance: float | None = None  # m of `classifier_free_guidance`
+    guidance: tuple[float, float] | None = (
+        None  # Eq. 9's s of coarse and fine; fine -1 leaves the coarse layer alone
+    )
+    music_guidance: float | None = None  # m of `blend`
     role: float = 0.0  # 0 dances the reactor, 1 the leader, to a partner in the leader's place
-    layers: int | None = None  # residual layers that are decoded, from the coarse one up; None decodes all
     condition_leader: np.ndarray | None = None  # (T, 22, 3), given to the condition in the leader's place
 
 
@@ -38,19 +40,28 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     height = sampling.reference_height
     leader = at_height(request.leader, height)
     conditioning = leader if request.condition_leader is None else at_height(request.condition_leader, height)
-    music, music_valid = music_of_length(request.music, len(leader))
-    memory = model.condition(conditioning, music, music_valid, torch.tensor([float(request.role)]))
-
-    default = sampling.guidance
-    guidance = default if request.guidance is None else tuple(per_layer(request.guidance, sampling.layers))
+    role = torch.tensor([float(request.role)])
+    memory, silent = (
+        model.condition(conditioning, *music_of_length(music, len(leader)), role)
+        for music in (request.music, None)
+    )
+    coarse, fine = sampling.guidance if request.guidance is None else request.guidance
     weight = sampling.music_guidance if request.music_guidance is None else request.music_guidance
     steps = ddim_steps(sampling.alpha_bar, request.steps or sampling.steps)
     initial = initial_noise(sampling, request.seed, len(memory))
-    latents = sample(model, memory, initial, steps, for_all_streams(guidance), weight)
+    branches = sample_branches(model, memory, silent, initial, steps)
+    latents = blend(branches, torch.full((1,), coarse), torch.full((1,), weight))
+    gains = layer_gains(torch.full((len(STREAMS),), fine), sampling.layers)
+    bones = measure_bones(model, branches.conditional, leader)
+    reactor, _ = model.decode(latents, leader, gains, bones)
+    return reactor[: len(request.leader)].numpy() / scale_to(request.leader, height)
 
-    layers = torch.arange(sampling.layers) < (request.layers or sampling.layers)
-    reactor = model.decode(latents, leader, layers.float())[: len(request.leader)]
-    return reactor.numpy() / scale_to(request.leader, height)
+
+def measure_bones(model: ReactionModel, latents: Tensor, leader: Tensor) -> Tensor:
+    """(22,) metres: mean bone lengths of the conditional branch (L, R, C), so that no control changes the body."""
+    gains = torch.ones(len(STREAMS), model.sampling.layers)
+    _, lengths = model.decode(latents, leader, gains, torch.ones(len(JOINTS)))
+    return lengths.mean(0)
 
 
 def scale_to(motion: np.ndarray, height: float) -> np.float32:

@@ -110,7 +110,7 @@ def evaluate(
             generate, out_of_distribution, held_out, settings, solve
         )
     seed = settings.seeds[0]
-    coarse = {i.duet.name: [generate(i.duet.leader, i.music, seed, layers=1)] for i in held_out}
+    coarse = {i.duet.name: [generate(i.duet.leader, i.music, seed, guidance=(0.0, -1.0))] for i in held_out}
     return Evaluation(numbers, {**rows, COARSE_ALONE: coarse}, swapped, dances)
 
 

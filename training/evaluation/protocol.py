@@ -26,16 +26,14 @@ class ReactorGenerator(Protocol):
         seed: int,
         condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
-        layers: int | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
         """The reactor (T, 22, 3) metres, at the leader's own size.
 
         leader: (T, 22, 3) metres. music: (T', 54) features, None for silence. condition_leader: (T, 22, 3),
         takes the leader's place in the condition, while the reactor is still decoded beside `leader`.
-        guidance: classifier-free guidance of the coarse and the fine layer, None for the model's default.
-        layers: residual layers that are decoded, 1 for the coarse one alone, None for all. role: 0 generates
-        the reactor, 1 the leader of a partner in the leader's place.
+        guidance: of the coarse and the fine layer, None for the model's default; fine -1 leaves the coarse layer
+        alone. role: 0 generates the reactor, 1 the leader of a partner in the leader's place.
         """
         ...
 

@@ -9,7 +9,8 @@ from training.config import STRIDE, FrameConfig
 from training.data.duet import Duet
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
-from training.motion.streams import reactor_motion, to_streams
+from training.motion.rigid_body import rigid_body
+from training.motion.streams import from_streams, to_streams
 
 
 @torch.no_grad()
@@ -22,4 +23,5 @@ def reconstruct(model: Autoencoder, duet: Duet, frame: FrameConfig, layers: int 
     latents = model.encode([s[None] for s in streams])
     if layers is not None:
         latents[:, :, layers:] = 0
-    return reactor_motion([s[0] for s in model.decode(latents)], leader, heading).numpy()
+    upper, lower, placement = (stream[0] for stream in model.decode(latents))
+    return rigid_body(from_streams(upper, lower, placement, leader, heading)[None])[0].numpy()

@@ -26,17 +26,23 @@ def _bones_above() -> Tensor:
 _BONES_ABOVE = _bones_above()
 
 
-def constant_bones(motion: Tensor) -> Tensor:
-    """The same directions on bones that keep their mean length. motion: (N, T, 22, 3) metres.
+def _bones(motion: Tensor) -> Tensor:
+    """Each joint relative to its parent, (N, T, 22, 3) metres; the root relative to itself."""
+    parents = torch.tensor([max(parent, 0) for parent in PARENTS], device=motion.device)
+    return motion - motion.index_select(-2, parents)
+
+
+def bone_lengths(motion: Tensor) -> Tensor:
+    """(N, T, 22) metres from each joint to its parent, 0 for the root; motion: (N, T, 22, 3) metres."""
+    return _bones(motion).square().sum(-1).clamp_min(1e-10).sqrt()
+
+
+def constant_bones(motion: Tensor, lengths: Tensor) -> Tensor:
+    """The same directions on bones of these lengths (22,) metres, or (N, 1, 22). motion: (N, T, 22, 3) metres.
 
     Where a decoder is unsure of a direction it shortens the bone.
     """
-    parents = motion.index_select(
-        -2, torch.tensor([max(parent, 0) for parent in PARENTS], device=motion.device)
-    )
-    bones = motion - parents
-    lengths = bones.square().sum(-1, keepdim=True).clamp_min(1e-10).sqrt()
-    bones = bones / lengths * lengths.mean(-3, keepdim=True)
+    bones = _bones(motion) * (lengths / bone_lengths(motion))[..., None]
     return motion[..., :1, :] + _BONES_ABOVE.to(motion) @ bones
 
 
@@ -55,8 +61,10 @@ def keep_toe_height(motion: Tensor, before: Tensor, floor: bool = True) -> Tenso
     return motion + torch.stack([torch.zeros_like(rise), rise, torch.zeros_like(rise)], dim=-1)[..., None, :]
 
 
-def rigid_body(motion: Tensor, floor: bool = True) -> Tensor:
+def rigid_body(motion: Tensor, lengths: Tensor | None = None, floor: bool = True) -> Tensor:
     """Joints (N, T, 22, 3) metres with bones of constant length and the lower toe at its height before; with `floor`,
-    at least `LOWEST_TOE` above y = 0.
+    at least `LOWEST_TOE` above y = 0. lengths: (22,) metres of the bones; by default their means over each motion.
     """
-    return keep_toe_height(constant_bones(motion), motion, floor)
+    if lengths is None:
+        lengths = bone_lengths(motion).mean(-2, keepdim=True)
+    return keep_toe_height(constant_bones(motion, lengths), motion, floor)

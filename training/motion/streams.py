@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import torch
 from torch import Tensor
 
 from training.config import FPS
 from training.motion.heading import into_frame, out_of_frame
-from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import JOINTS, LOWER, UPPER
 
 UPPER_WIDTH, LOWER_WIDTH, PLACEMENT_WIDTH = 3 * len(UPPER), 3 * len(LOWER), 3
@@ -52,12 +49,6 @@ def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor
         [torch.zeros_like(placement[:, 1]), placement[:, 1], torch.zeros_like(placement[:, 1])], dim=-1
     )
     return out_of_frame(local, heading) + shift + ground[:, None] + height[:, None]
-
-
-def reactor_motion(streams: Sequence[Tensor], leader: Tensor, heading: Tensor) -> Tensor:
-    """Decoded streams (T, c) as a body (T, 22, 3) with rigid bones, in the world."""
-    upper, lower, placement = streams
-    return rigid_body(from_streams(upper, lower, placement, leader, heading)[None])[0]
 
 
 def leader_features(leader: Tensor, heading: Tensor) -> Tensor:

@@ -20,6 +20,9 @@ const graph = v.object({
 
 const positive = v.pipe(v.number(), v.minValue(0));
 
+/** Least and greatest weight, the distance between two of them, and the default. */
+const range = v.object({ min: v.number(), max: v.number(), step: positive, default: v.number() });
+
 /** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
 const quality = v.object({
   contact: v.object({
@@ -41,7 +44,7 @@ const quality = v.object({
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(2),
+  version: v.literal(3),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -71,7 +74,7 @@ const schema = v.object({
     layers: v.pipe(v.array(v.string()), v.minLength(1)),
     memory_width: count,
     /** Latent frames that a graph needs on each side of a piece of clip for an exact result inside it. */
-    receptive_field: v.object({ condition: natural }),
+    receptive_field: v.object({ condition: natural, decode: natural }),
   }),
   diffusion: v.object({
     train_steps: count,
@@ -87,13 +90,11 @@ const schema = v.object({
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
-    convention: v.string(),
-    min: v.number(),
-    max: v.number(),
-    step: v.number(),
-    default: v.record(v.string(), v.number()),
-    /** Weight of the guidance by music, which is added to Eq. 9; 0 leaves Eq. 9 alone. */
-    music: v.object({ min: v.number(), max: v.number(), default: v.number() }),
+    /** How each weight acts, for a reader; blend.ts does it. */
+    convention: v.record(v.string(), v.string()),
+    coarse: range,
+    fine: range,
+    music: range,
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
   /** What the decode graph does to decoded joints: gain above 6 Hz, strength of the foot-contact correction in m/s. */
@@ -131,7 +132,9 @@ function describe(issue: v.BaseIssue<unknown>): string {
 
 /** Statements that tie fields to each other and to what this page can draw. */
 function check(manifest: Manifest): void {
-  const { skeleton, latent, diffusion, guidance } = manifest;
+  const { skeleton, latent, diffusion } = manifest;
+  const { coarse, fine, music } = manifest.guidance;
+  const ranges = { coarse, fine, music };
   const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
     a.length === b.length && a.every((value, i) => value === b[i]);
   if (!same(skeleton.joints, SMPL22) || !same(skeleton.parents, PARENTS)) {
@@ -163,9 +166,9 @@ function check(manifest: Manifest): void {
   if (!(min <= preset && preset <= max && max <= diffusion.train_steps)) {
     throw invalid('The model\'s manifest has a "diffusion.steps" that is not in order: min, default, max.');
   }
-  const missing = latent.layers.find((layer) => guidance.default[layer] === undefined);
-  if (missing !== undefined)
-    throw invalid(`The model's manifest has no field "guidance.default.${missing}".`);
+  for (const [name, { min, max, default: preset }] of Object.entries(ranges))
+    if (!(min <= preset && preset <= max))
+      throw invalid(`The model's manifest has a "guidance.${name}" that is not in order: min, default, max.`);
 }
 
 /**

@@ -13,7 +13,7 @@ const graph = (path: string) => ({
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 2,
+    version: 3,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -37,7 +37,7 @@ export function smallJson() {
       streams: ['upper', 'lower', 'placement'],
       layers: ['coarse', 'fine'],
       memory_width: 2,
-      receptive_field: { condition: 2 },
+      receptive_field: { condition: 2, decode: 2 },
     },
     diffusion: {
       train_steps: 1000,
@@ -50,12 +50,10 @@ export function smallJson() {
       steps: { default: 10, min: 1, max: 50 },
     },
     guidance: {
-      convention: '(1+s)*cond - s*uncond',
-      min: -1,
-      max: 3,
-      step: 0.05,
-      default: { coarse: 0, fine: 0 } as Record<string, number>,
-      music: { min: 0, max: 4, default: 2 },
+      convention: {} as Record<string, string>,
+      coarse: { min: -1, max: 1, step: 0.05, default: 0 },
+      fine: { min: -1, max: 1, step: 0.05, default: 0 },
+      music: { min: 0, max: 4, step: 0.25, default: 2 },
     },
     noise: { algorithm: 'philox4x32-10' },
     decode: { sharpen: 0, foot_contact: 0 },

@@ -1,9 +1,8 @@
-import { conditionClip } from '../sample/condition';
 import type { Manifest } from '../manifest';
-import { noise } from '../sample/noise';
+import { blend, layerGains } from '../sample/blend';
+import { BranchSampler } from '../sample/branch-sampler';
+import { decodeClip } from '../sample/decoder';
 import { type NpzArray, readNpz } from './npz';
-import { sample } from '../sample/sampler';
-import { ddim } from '../sample/schedule';
 import type { ModelSession } from './session';
 
 /** One small sampling as Python computed it: its inputs and its result. */
@@ -12,10 +11,13 @@ export interface Golden {
   readonly music: Float32Array;
   readonly musicValid: Float32Array;
   readonly role: number;
+  /** streams x layers. */
   readonly guidance: Float32Array;
   readonly musicGuidance: number;
   readonly seed: number;
   readonly steps: number;
+  /** 22 bone lengths, metres. */
+  readonly bones: Float32Array;
   /** T x 22 x 3 metres. */
   readonly reactor: Float32Array;
 }
@@ -35,12 +37,18 @@ export function readGolden(bytes: Uint8Array): Golden {
     music: floats('music'),
     musicValid: floats('music_valid'),
     role: number('role'),
-    guidance: floats('guidance'),
+    guidance: interleaved(floats('coarse'), floats('fine')),
     musicGuidance: number('music_guidance'),
     seed: number('seed'),
     steps: number('steps'),
+    bones: floats('bones'),
     reactor: floats('reactor'),
   };
+}
+
+/** Weights of coarse and fine, one a stream each, as streams x layers. */
+function interleaved(coarse: Float32Array, fine: Float32Array): Float32Array {
+  return Float32Array.from({ length: 2 * coarse.length }, (_, i) => (i % 2 === 0 ? coarse : fine)[i >> 1]!);
 }
 
 /**
@@ -52,23 +60,15 @@ export async function goldenError(
   session: ModelSession,
   golden: Golden,
 ): Promise<number> {
-  const { latent, diffusion } = manifest;
-  const latents = golden.musicValid.length / latent.stride;
-  const memory = await conditionClip(session.condition, golden, manifest, latents);
-  const sampled = await sample({
-    latent,
-    alternatingPhase: diffusion.alternating_phase,
-    schedule: ddim(diffusion, golden.steps),
-    latents,
-    memory,
-    guidance: golden.guidance,
-    musicGuidance: golden.musicGuidance,
-    noise: noise(golden.seed, latents, latent.layers.length * latent.channels),
-    runStep: session.step,
-    blocksPerRun: latents,
+  const { latent } = manifest;
+  const wanted = { silent: true, unconditional: true };
+  const branches = await new BranchSampler(manifest, session).branches(golden, golden, wanted);
+  const { joints: reactor } = await decodeClip(session, manifest, {
+    latents: blend(branches, golden, latent),
+    leader: golden.leader,
+    gains: layerGains(golden.guidance, latent),
+    bones: golden.bones,
   });
-  const layers = new Float32Array(latent.layers.length).fill(1);
-  const reactor = await session.decode({ latents: sampled, leader: golden.leader, layers });
   let worst = 0;
   for (let i = 0; i < golden.reactor.length; i += 3) {
     const [x, y, z] = [0, 1, 2].map((axis) => (reactor[i + axis] ?? NaN) - (golden.reactor[i + axis] ?? NaN));

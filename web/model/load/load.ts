@@ -1,15 +1,14 @@
 import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
-import { conditionClip } from '../sample/condition';
 import { AppError } from '../../common/error';
 import { goldenError, readGolden } from './golden';
 import { folderFetch, type ModelFolder } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { type DownloadPart, downloadParts } from './assets';
+import { BranchSampler } from '../sample/branch-sampler';
+import { decodeClip } from '../sample/decoder';
 import { Pipeline } from '../sample/pipeline';
 import { type ModelSession, openSession, type Provider } from './session';
-import { sample } from '../sample/sampler';
-import { ddim } from '../sample/schedule';
 import { type ResponseCache, responseCache } from './cache';
 
 export interface LoadOptions {
@@ -73,26 +72,17 @@ async function checkGolden(
 /** Runs each graph once on zeros: the first run compiles it, which would delay the first generation. */
 async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> {
   const { latent, audio, skeleton } = manifest;
-  const [latents, frames] = [latent.block, latent.block * latent.stride];
-  const width = latent.layers.length * latent.channels;
-  const leader = new Float32Array(frames * skeleton.joints.length * 3);
+  const frames = latent.block * latent.stride;
+  const joints = skeleton.joints.length;
+  const leader = new Float32Array(frames * joints * 3);
   const music = new Float32Array(frames * audio.features);
   const condition = { leader, music, musicValid: new Float32Array(frames), role: 0 };
-  const memory = await conditionClip(session.condition, condition, manifest, latents);
-  const sampled = await sample({
-    latent,
-    alternatingPhase: false,
-    schedule: ddim(manifest.diffusion, 1),
-    latents,
-    memory,
-    guidance: new Float32Array(latent.streams.length * latent.layers.length),
-    musicGuidance: 0,
-    noise: new Float32Array(latents * width),
-    runStep: session.step,
-    blocksPerRun: 1,
-  });
-  const layers = new Float32Array(latent.layers.length).fill(1);
-  await session.decode({ latents: sampled, leader, layers });
+  const one = { seed: 0, steps: 1 };
+  const alone = { silent: false, unconditional: false };
+  const { conditional: latents } = await new BranchSampler(manifest, session).branches(condition, one, alone);
+  const gains = new Float32Array(latent.streams.length * latent.layers.length).fill(1);
+  const bones = new Float32Array(joints).fill(1);
+  await decodeClip(session, manifest, { latents, leader, gains, bones });
 }
 
 /**

@@ -27,13 +27,13 @@ type Arrays = Record<string, Float32Array>;
 
 const INPUTS: Record<GraphName, readonly string[]> = {
   condition: ['leader', 'music', 'music_valid', 'role'],
-  step: ['x', 'memory', 'valid', 'time', 'guidance', 'music_guidance', 'coefficients'],
-  decode: ['latents', 'leader', 'layers'],
+  step: ['x', 'memory', 'valid', 'keep', 'time', 'coefficients'],
+  decode: ['latents', 'leader', 'gains', 'bones'],
 };
 const OUTPUTS: Record<GraphName, readonly string[]> = {
   condition: ['memory'],
-  step: ['x_next', 'x0'],
-  decode: ['reactor'],
+  step: ['x_next'],
+  decode: ['reactor', 'lengths'],
 };
 
 // Overlapping runs on a WebGPU device hang for ever without an error, so all sessions share one queue.
@@ -154,28 +154,28 @@ export async function openSession(
         });
         return output(results, 'memory');
       }),
-    step: ({ blocks, x, memory, valid, time, guidance, musicGuidance, coefficients }: StepInput) =>
+    step: ({ blocks, x, memory, valid, keep, time, coefficients }: StepInput) =>
       enqueue(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
           x: tensor(x, state),
           memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
           valid: tensor(valid, [blocks, latent.block]),
+          keep: tensor([keep], [1]),
           time: tensor([time], [1]),
-          guidance: tensor(guidance, [streams, layers]),
-          music_guidance: tensor([musicGuidance], [1]),
           coefficients: tensor(coefficients, [2]),
         });
-        return { x: output(results, 'x_next'), x0: output(results, 'x0') };
+        return output(results, 'x_next');
       }),
-    decode: ({ latents, leader, layers: multipliers }: DecodeInput) =>
+    decode: ({ latents, leader, gains, bones }: DecodeInput) =>
       enqueue(async () => {
         const results = await run(decode, {
           latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
           leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
-          layers: tensor(multipliers, [layers]),
+          gains: tensor(gains, [streams, layers]),
+          bones: tensor(bones, [joints]),
         });
-        return output(results, 'reactor');
+        return { reactor: output(results, 'reactor'), lengths: output(results, 'lengths') };
       }),
     release: () => enqueue(release),
   };

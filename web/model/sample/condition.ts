@@ -21,11 +21,17 @@ interface ConditionOptions {
  * @param latents latent frames of the clip
  * @param size latent frames of one chunk's output
  * @param receptiveField latent frames to each side that an output frame depends on
+ * @param range latent frames to cut, the whole clip when not given
  */
-export function chunks(latents: number, size: number, receptiveField: number): Chunk[] {
-  return Array.from({ length: Math.ceil(latents / size) }, (_, i) => {
-    const start = i * size;
-    const end = Math.min(start + size, latents);
+export function chunks(
+  latents: number,
+  size: number,
+  receptiveField: number,
+  range: { readonly start: number; readonly end: number } = { start: 0, end: latents },
+): Chunk[] {
+  return Array.from({ length: Math.ceil((range.end - range.start) / size) }, (_, i) => {
+    const start = range.start + i * size;
+    const end = Math.min(start + size, range.end);
     return {
       start,
       end,

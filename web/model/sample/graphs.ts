@@ -24,23 +24,16 @@ export interface StepInput {
   readonly memory: Float32Array;
   /** blocks x block, 1 inside the clip and 0 in padding. */
   readonly valid: Float32Array;
+  /** 1 with leader and song as the memory has them, 0 without both. */
+  readonly keep: number;
   /** Timestep divided by the number of train steps. */
   readonly time: number;
-  /** streams x layers, s of the paper's Eq. 9. */
-  readonly guidance: Float32Array;
-  /** Weight of the guidance by music, which is added to Eq. 9. */
-  readonly musicGuidance: number;
   /** a and b of x_next = a x + b x0. */
   readonly coefficients: readonly [number, number];
 }
 
-/** Outputs of the step graph, both blocks x block x width. */
-interface StepOutput {
-  readonly x: Float32Array;
-  readonly x0: Float32Array;
-}
-
-export type StepRunner = (input: StepInput) => Promise<StepOutput>;
+/** Returns the next latents, blocks x block x width. */
+export type StepRunner = (input: StepInput) => Promise<Float32Array>;
 
 /** Inputs of the decode graph. */
 export interface DecodeInput {
@@ -48,9 +41,18 @@ export interface DecodeInput {
   readonly latents: Float32Array;
   /** As in `ConditionInput`. */
   readonly leader: Float32Array;
-  /** One multiplier per residual layer: 1 to decode it, 0 to leave it out. */
-  readonly layers: Float32Array;
+  /** streams x layers: a factor of each residual layer, 0 to leave it out. */
+  readonly gains: Float32Array;
+  /** 22 bone lengths, metres, that the dancer gets. */
+  readonly bones: Float32Array;
 }
 
-/** Returns T x 22 x 3 metres. Takes a clip in one piece: bones have their mean length over all of it. */
-export type DecodeRunner = (input: DecodeInput) => Promise<Float32Array>;
+export interface DecodeOutput {
+  /** T x 22 x 3 metres. */
+  readonly reactor: Float32Array;
+  /** T x 22 metres: what the bones were before they were made constant. */
+  readonly lengths: Float32Array;
+}
+
+/** A part of a clip is exact but for the manifest's receptive field at its ends. */
+export type DecodeRunner = (input: DecodeInput) => Promise<DecodeOutput>;

@@ -17,9 +17,9 @@ export interface GenerateRequest {
     readonly frames: number;
     readonly start?: number | undefined;
   } | null;
-  /** streams x layers, s of the paper's Eq. 9. */
+  /** streams x layers, s of the paper's Eq. 9 as blend.ts applies it. */
   readonly guidance: Float32Array;
-  /** Weight of the guidance by music, which is added to Eq. 9. */
+  /** Guidance weight of the music. */
   readonly musicGuidance: number;
   readonly steps: number;
   /** Its lowest 32 bits count. */

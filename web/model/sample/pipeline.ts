@@ -1,11 +1,14 @@
-import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
-import { lockFeet } from '../../motion/contact/foot-lock';
+import { yieldToEvents } from '../../common/yield-to-events';
 import { avoidCollisions } from '../../motion/contact/collision-avoidance';
+import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
-import type { Block } from './blocks';
-import { conditionClip } from './condition';
-import { AppError } from '../../common/error';
-import type { ConditionInput } from './graphs';
+import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import type { ModelSession } from '../load/session';
+import type { Manifest } from '../manifest';
+import { stageProgress } from '../progress';
+import { blend, coarseAlone, layerGains, neededBranches } from './blend';
+import { BranchSampler } from './branch-sampler';
+import { decodeClip, type LatentRange, meanLengths } from './decoder';
 import {
   checkCoarse,
   checkRequest,
@@ -14,64 +17,61 @@ import {
   type ModelInput,
   prepareInput,
 } from './inputs';
-import type { Manifest } from '../manifest';
-import { noise } from './noise';
-import { fillAround, type Plan, planWork } from './preview';
-import { blockProgress, stageProgress } from '../progress';
 import type { GenerateOptions, GenerateResult, Preview } from './results';
-import { sample, type Sampling } from './sampler';
-import { ddim } from './schedule';
-import type { ModelSession } from '../load/session';
-import { yieldToEvents } from '../../common/yield-to-events';
 
-/** A minute of dance at a time bounds the memory of the condition graph's convolutions. */
-const LATENTS_PER_CHUNK = 480;
-/** Bounds the memory of attention in the step graph. */
-const BLOCKS_PER_RUN = 16;
+/** Length of the part that is shown before the whole, seconds; it begins half a second before the frame on view. */
+const PREVIEW = { before: 0.5, length: 3 };
+/** A clip that is not longer than this many parts is shown at once. */
+const PREVIEW_WORTH = 2;
+
+/** A dance ready to be decoded. */
+interface Blended {
+  readonly latents: Float32Array;
+  readonly gains: Float32Array;
+  readonly bones: Float32Array;
+  readonly input: ModelInput;
+  readonly leader: MotionClip;
+}
 
 /** From a leader and a song to the solved motion of the other dancer, on an open session. */
 export class Pipeline {
-  /** Input and output of the last run of the condition graph. */
-  #condition: { input: ConditionInput; memory: Float32Array } | undefined;
-  /** Latents of the last generation. */
-  #latents: Float32Array | undefined;
-  /** Time of one block in one step of that generation. */
-  #secondsPerBlock: number | undefined;
+  readonly #branches: BranchSampler;
+  /** Bone lengths by the conditional latents that they were measured on: no weight changes the body. */
+  readonly #bones = new WeakMap<Float32Array, Float32Array>();
 
   /** `now` gives seconds. */
   constructor(
     readonly manifest: Manifest,
     readonly session: ModelSession,
     readonly now: () => number,
-  ) {}
+  ) {
+    this.#branches = new BranchSampler(manifest, session);
+  }
 
   /**
+   * Samples the branches that the weights need and are not there yet, blends, decodes and solves. With
+   * `options.at` the part around that frame is handed over first.
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
   async generate(request: GenerateRequest, options: GenerateOptions = {}): Promise<GenerateResult> {
     checkRequest(request, this.manifest);
-    const { leader } = request;
-    const { signal, onProgress } = options;
-    const input = prepareInput(request, this.manifest);
+    const { signal, onProgress, at, onPreview } = options;
     const lap = lapTimer(this.now);
-    const memory = await this.#conditionMemory(input.condition, options);
-    const condition = lap();
-    const latents = await this.#sample(request, input, this.#sampling(request, memory, options), options);
+    const blended = await this.#blend(request, options);
     const steps = lap();
-    const clip = await this.#decode(leader, input, latents, this.#allLayers(), signal);
+    if (onPreview && at !== undefined) {
+      const part = await this.#preview(blended, at, signal);
+      if (part) onPreview(part);
+    }
+    const clip = await this.#decode(blended, signal);
     stageProgress(onProgress, 'decode')(1, 1);
     const decode = lap();
     await yieldToEvents(signal);
-    const motion = this.#solve(clip, leader);
+    const motion = this.#solve(clip, blended.leader);
     const locked = lockFeet(motion);
     stageProgress(onProgress, 'solve')(1, 1);
-    return {
-      motion,
-      locked,
-      latents: latents.slice(), // transferred to the page, while the pipeline keeps its own for the next preview
-      seconds: { condition, steps, decode, solve: lap() },
-    };
+    return { motion, locked, latents: blended.latents, seconds: { steps, decode, solve: lap() } };
   }
 
   /**
@@ -79,169 +79,104 @@ export class Pipeline {
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
-  async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
-    checkCoarse(request, this.manifest);
-    const { leader, latents } = request;
+  async coarse({ leader, latents }: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
+    checkCoarse({ leader, latents }, this.manifest);
     const input = prepareInput({ leader, music: null }, this.manifest);
-    const layers = this.manifest.latent.layers.map((layer) => (layer === 'coarse' ? 1 : 0));
-    const clip = await this.#decode(leader, input, latents, layers, signal);
+    const gains = coarseAlone(this.manifest.latent);
+    const bones = await this.#measureBones(latents, gains, input, signal);
+    const clip = await this.#decode({ latents, gains, bones, input, leader }, signal);
     await yieldToEvents(signal);
     return this.#solve(clip, leader);
   }
 
-  /** Memory of this leader and song, computed once however often guidance, seed or steps change. */
-  async #conditionMemory(
-    input: ConditionInput,
-    { signal, onProgress }: GenerateOptions,
-  ): Promise<Float32Array> {
-    const listener = stageProgress(onProgress, 'condition');
-    if (this.#condition !== undefined && sameInput(this.#condition.input, input)) {
-      listener(1, 1);
-      return this.#condition.memory;
-    }
-    const memory = await conditionClip(this.session.condition, input, this.manifest, LATENTS_PER_CHUNK, {
+  async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<Blended> {
+    const { latent } = this.manifest;
+    const input = prepareInput(request, this.manifest);
+    const wanted = neededBranches(request, latent);
+    const branches = await this.#branches.branches(input.condition, request, wanted, {
       signal,
-      onProgress: listener,
+      onCondition: stageProgress(onProgress, 'condition'),
+      onStep: stageProgress(onProgress, 'step'),
     });
-    this.#condition = { input, memory };
-    return memory;
-  }
-
-  #sampling(request: GenerateRequest, memory: Float32Array, { signal }: GenerateOptions): Sampling {
-    const { latent, diffusion } = this.manifest;
-    const latents = memory.length / latent.memory_width;
     return {
-      latent,
-      alternatingPhase: diffusion.alternating_phase,
-      schedule: ddim(diffusion, request.steps),
-      latents,
-      memory,
-      guidance: request.guidance,
-      musicGuidance: request.musicGuidance,
-      noise: noise(request.seed, latents, this.#width),
-      runStep: this.session.step,
-      blocksPerRun: BLOCKS_PER_RUN,
-      signal,
+      latents: blend(branches, request, latent),
+      gains: layerGains(request.guidance, latent),
+      bones: await this.#bonesOf(branches.conditional, input, signal),
+      input,
+      leader: request.leader,
     };
   }
 
-  /** Samples the latents of the whole clip; where a frame is on view, hands over previews on the way. */
-  async #sample(
-    request: GenerateRequest,
-    input: ModelInput,
-    sampling: Sampling,
-    options: GenerateOptions,
-  ): Promise<Float32Array> {
-    const { at, onPreview, onProgress, signal } = options;
-    const frame = onPreview && at !== undefined ? at / this.manifest.latent.stride : null;
-    const plan = planWork(sampling, frame, this.#secondsPerBlock);
-    const onPart = async (part: Block, latents: Float32Array): Promise<void> => {
-      onPreview?.(await this.#preview(part, latents, sampling.latents, request.leader, input, signal));
-      await yieldToEvents(signal);
-    };
-    if (plan.preview) {
-      await onPart(
-        plan.preview,
-        await this.#sampleAlone(plan.preview, request.seed, sampling, plan, options),
-      );
-    }
-    const { previewBlocks, totalBlocks, parts } = plan;
-    const began = this.now();
-    const latents = await sample({
-      ...sampling,
-      parts,
-      onPart,
-      onProgress: blockProgress(onProgress, 'step', previewBlocks, previewBlocks + totalBlocks),
-    });
-    this.#secondsPerBlock = (this.now() - began) / totalBlocks;
-    this.#latents = latents;
-    return latents;
-  }
-
-  /** Latents of one block sampled without its neighbours: near to the final ones, and soon there. */
-  #sampleAlone(
-    { start, length }: Block,
-    seed: number,
-    sampling: Sampling,
-    { previewBlocks, totalBlocks }: Plan,
-    { onProgress }: GenerateOptions,
-  ): Promise<Float32Array> {
-    const { memory_width: memoryWidth } = this.manifest.latent;
-    return sample({
-      ...sampling,
-      latents: length,
-      memory: sampling.memory.subarray(start * memoryWidth, (start + length) * memoryWidth),
-      noise: noise(seed, length, this.#width, start),
-      onProgress: blockProgress(onProgress, 'preview', 0, previewBlocks + totalBlocks),
-    });
-  }
-
-  /**
-   * The dancer with one new part.
-   * @param sampled latents of the part
-   * @param latents latent frames of the whole clip
-   */
-  async #preview(
-    part: Block,
-    sampled: Float32Array,
-    latents: number,
-    leader: MotionClip,
+  /** Bone lengths of the conditional latents, metres. */
+  async #bonesOf(
+    conditional: Float32Array,
     input: ModelInput,
     signal: AbortSignal | undefined,
-  ): Promise<Preview> {
-    const { stride } = this.manifest.latent;
-    const earlier = this.#latents?.length === latents * this.#width ? this.#latents : null;
-    const filled = fillAround(sampled, part, earlier, latents, this.#width);
-    const clip = await this.#decode(leader, input, filled, this.#allLayers(), signal);
-    await yieldToEvents(signal);
-    const motion = this.#solve(clip, leader);
-    const from = part.start * stride;
-    const to = Math.min(clip.frames, (part.start + part.length) * stride);
-    return { motion, locked: lockFeet(motion), fresh: { from, to } };
+  ): Promise<Float32Array> {
+    const { streams, layers } = this.manifest.latent;
+    const gains = new Float32Array(streams.length * layers.length).fill(1);
+    const bones =
+      this.#bones.get(conditional) ?? (await this.#measureBones(conditional, gains, input, signal));
+    this.#bones.set(conditional, bones);
+    return bones;
   }
 
-  /**
-   * Joints at the leader's own size and length.
-   * @param layers one multiplier per residual layer
-   */
-  async #decode(
-    { fps, frames }: MotionClip,
-    { condition, scale }: ModelInput,
+  async #measureBones(
     latents: Float32Array,
-    layers: readonly number[],
+    gains: Float32Array,
+    { condition }: ModelInput,
     signal: AbortSignal | undefined,
+  ): Promise<Float32Array> {
+    const joints = this.manifest.skeleton.joints.length;
+    const bones = new Float32Array(joints).fill(1); // any: lengths are measured before they are made constant
+    const request = { latents, leader: condition.leader, gains, bones };
+    const { lengths } = await decodeClip(this.session, this.manifest, request, undefined, signal);
+    return meanLengths(lengths, joints);
+  }
+
+  /** The part of the dance around a motion frame; null where the whole is there as soon. */
+  async #preview(blended: Blended, at: number, signal: AbortSignal | undefined): Promise<Preview | null> {
+    const { fps, latent } = this.manifest;
+    const { leader } = blended;
+    if (leader.frames <= PREVIEW_WORTH * PREVIEW.length * fps) return null;
+    const from = Math.min(
+      Math.max(0, Math.floor((at - PREVIEW.before * fps) / latent.stride)),
+      Math.floor((leader.frames - PREVIEW.length * fps) / latent.stride),
+    );
+    const end = Math.min(from + Math.ceil((PREVIEW.length * fps) / latent.stride), leader.frames / latent.stride);
+    const range = { start: from, end: Math.floor(end) };
+    const clip = await this.#decode(blended, signal, range);
+    const fresh = { from: range.start * latent.stride, to: range.end * latent.stride };
+    const motion = this.#solve(clip, partOf(leader, fresh.from, fresh.to));
+    return { motion, locked: lockFeet(motion), fresh };
+  }
+
+  /** Joints at the leader's own size, of the whole clip or of a range of latent frames. */
+  async #decode(
+    { latents, gains, bones, input, leader }: Blended,
+    signal: AbortSignal | undefined,
+    range?: LatentRange,
   ): Promise<MotionClip> {
-    const { skeleton } = this.manifest;
-    await yieldToEvents(signal);
-    const decoded = await this.session.decode({
-      latents,
-      leader: condition.leader,
-      layers: Float32Array.from(layers),
-    });
-    const positions = decoded.slice(0, frames * skeleton.joints.length * 3).map((value) => value / scale);
-    if (!positions.every(Number.isFinite)) {
-      throw new AppError(
-        'not-finite',
-        'The model answered with positions that are not numbers.',
-        'Lower the guidance, or choose the processor instead of WebGPU.',
-      );
-    }
-    return { fps, frames, positions };
+    const { skeleton, latent } = this.manifest;
+    const request = { latents, leader: input.condition.leader, gains, bones };
+    const { joints } = await decodeClip(this.session, this.manifest, request, range, signal);
+    const frames = range ? (range.end - range.start) * latent.stride : leader.frames;
+    const positions = joints
+      .subarray(0, frames * skeleton.joints.length * 3)
+      .map((value) => value / input.scale);
+    return { fps: leader.fps, frames, positions };
   }
 
   /** Fits a skeleton to decoded joints and moves the body out of the leader's. */
   #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
     return avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
   }
+}
 
-  /** Numbers of one latent frame: layers x channels. */
-  get #width(): number {
-    return this.manifest.latent.layers.length * this.manifest.latent.channels;
-  }
-
-  #allLayers(): number[] {
-    return this.manifest.latent.layers.map(() => 1);
-  }
+/** Frames `from` to `to` of a clip, the latter excluded. */
+function partOf({ fps, positions, frames }: MotionClip, from: number, to: number): MotionClip {
+  const width = positions.length / frames;
+  return { fps, frames: to - from, positions: positions.subarray(from * width, to * width) };
 }
 
 /** Returns a function that gives the seconds since its last call, or since this one. */
@@ -252,17 +187,4 @@ function lapTimer(now: () => number): () => number {
     last = now();
     return last - before;
   };
-}
-
-function sameInput(a: ConditionInput, b: ConditionInput): boolean {
-  return (
-    a.role === b.role &&
-    equal(a.leader, b.leader) &&
-    equal(a.musicValid, b.musicValid) &&
-    equal(a.music, b.music)
-  );
-}
-
-function equal(a: Float32Array, b: Float32Array): boolean {
-  return a.length === b.length && a.every((value, i) => value === b[i]);
 }

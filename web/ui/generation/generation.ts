@@ -5,23 +5,25 @@ import type {
   Manifest,
   Preview as ModelPreview,
 } from '../../model/client';
-import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
-import { guidanceMatrix, sameInputs, readyInputs } from '../store/selectors';
+import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
 import { splice } from './splice';
 import type { Inputs, Reaction } from '../store/reaction';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
-/** Time without a change after which a new reaction is begun. */
+/** Time without a change of song, leader, seed or steps after which a new reaction is begun. */
 const DEBOUNCE_MS = 60;
 
 /**
- * Makes a new reaction whenever song, leader or settings change; a newer request aborts the older one. The reaction
- * on the stage stays there until the new one is ready, except for the frames around the playhead, which are replaced
- * by a preview as soon as the model has one.
+ * Makes a new reaction whenever song, leader or settings change. The reaction on the stage stays there until the new
+ * one is ready, except for the frames around the playhead, which are replaced by a preview before.
+ *
+ * A new song, leader or seed has to be sampled, so the request aborts the older one. Weights only blend what is
+ * sampled: a request under way goes on until its preview is shown, then the newest weights follow, so that the dance
+ * changes while a fader moves.
  */
 export class Generation {
   readonly #store: Store;
@@ -30,6 +32,8 @@ export class Generation {
   /** The inputs requested last, whether answered, running, failed or cancelled: they are not requested again. */
   #requested: Inputs | null = null;
   #running: { readonly controller: AbortController; readonly inputs: Inputs } | null = null;
+  /** Weights that came while a request was under way. */
+  #waiting: Inputs | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   /** @param model resolves with the model when it is loaded; rejects when it can't be, which is reported elsewhere */
@@ -60,6 +64,7 @@ export class Generation {
 
   #abort(): void {
     clearTimeout(this.#timer);
+    this.#waiting = null;
     this.#running?.controller.abort();
     this.#running = null;
   }
@@ -73,11 +78,15 @@ export class Generation {
       return;
     }
     if (sameInputs(inputs, this.#requested)) return;
+    const before = this.#requested;
     this.#requested = inputs;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => {
-      void this.#run(inputs);
-    }, DEBOUNCE_MS);
+    if (!before || !differOnlyInWeights(before, inputs)) {
+      this.#timer = setTimeout(() => {
+        void this.#run(inputs);
+      }, DEBOUNCE_MS);
+    } else if (this.#running) this.#waiting = inputs;
+    else void this.#run(inputs);
   }
 
   /** The reaction on the stage has these inputs: requests for others are aborted. */
@@ -98,7 +107,9 @@ export class Generation {
       const result = await this.#request(inputs, signal);
       if (signal.aborted) return;
       this.#running = null;
+      const waiting = this.#waiting;
       apply(this.#store, reactionAdded(reactionOf(result, inputs)));
+      if (waiting) void this.#run(waiting);
     } catch (error) {
       if (signal.aborted) return;
       this.#running = null;
@@ -121,7 +132,9 @@ export class Generation {
       },
       at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
       onPreview: (preview) => {
-        if (!signal.aborted) showPreview(this.#store, preview);
+        if (signal.aborted) return;
+        showPreview(this.#store, preview);
+        if (this.#waiting) void this.#run(this.#waiting);
       },
     });
   }
@@ -147,14 +160,14 @@ export function reactionOf({ motion, locked, latents, seconds }: GenerateResult,
   return { motion, latents, inputs, label: null, seconds: total };
 }
 
-/** Puts the new frames into the reaction on the stage; without one, shows all that the model has so far. */
+/** Puts the new frames into the reaction on the stage, if it is one of this dance. */
 function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): void {
-  const { reaction } = store.getState();
-  const into = (shown: SolvedMotion | null, made: SolvedMotion): SolvedMotion =>
-    shown?.frames === made.frames ? splice(shown, made, fresh) : made;
+  const { reaction, preview: before, leader } = store.getState();
+  const shown = before ?? (reaction && { motion: reaction.motion, locked: reactorMotion({ reaction, footLock: true }) });
+  if (!shown?.locked || shown.motion.frames !== leader?.file.clip.frames) return;
   const preview = {
-    motion: into(reaction?.motion ?? null, motion),
-    locked: into(reactorMotion({ reaction, footLock: true }), locked),
+    motion: splice(shown.motion, motion, fresh),
+    locked: splice(shown.locked, locked, fresh),
   };
   apply(store, previewShown(preview, fresh));
 }

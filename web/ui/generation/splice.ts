@@ -7,10 +7,10 @@ import type { FrameRange } from '../store/state';
 const CROSSFADE_FRAMES = 8;
 
 /**
- * Replaces frames of a motion by those of another one.
+ * Replaces frames of a motion by a newer part of it.
  * @param shown the motion whose bone lengths the result has
- * @param made a motion of the same number of frames
- * @param fresh the frames taken from `made`; at both ends, unless the dance ends there, the two are crossfaded
+ * @param made a motion of `to - from` frames
+ * @param fresh where they go; at both ends, unless the dance ends there, the two are crossfaded
  */
 export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: FrameRange): SolvedMotion {
   const root = shown.root.slice();
@@ -21,9 +21,10 @@ export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: Fr
     const leaving = to === shown.frames ? 1 : (to - frame) / (CROSSFADE_FRAMES + 1);
     const weight = Math.min(1, entering, leaving);
     for (let i = frame * 3; i < frame * 3 + 3; i++)
-      root[i] = (root[i] ?? 0) + ((made.root[i] ?? 0) - (root[i] ?? 0)) * weight;
-    for (let joint = 0; joint < JOINT_COUNT; joint++)
-      nlerp(rotations, made.rotations, (frame * JOINT_COUNT + joint) * 4, weight);
+      root[i] = (root[i] ?? 0) + ((made.root[i - from * 3] ?? 0) - (root[i] ?? 0)) * weight;
+    const first = frame * JOINT_COUNT * 4;
+    const newer = made.rotations.subarray((frame - from) * JOINT_COUNT * 4, (frame - from + 1) * JOINT_COUNT * 4);
+    nlerpAll(rotations.subarray(first, first + JOINT_COUNT * 4), newer, weight);
   }
   const part = forwardKinematics(
     shown.offsets,
@@ -34,12 +35,14 @@ export function splice(shown: SolvedMotion, made: SolvedMotion, { from, to }: Fr
   return { ...shown, root, rotations, positions };
 }
 
-/** Normalised linear interpolation from the quaternion at index `at` towards that of `to`, along the shorter arc. */
-function nlerp(rotations: Float32Array, to: Float32Array, at: number, weight: number): void {
-  const [a, b] = [rotations.subarray(at, at + 4), to.subarray(at, at + 4)];
-  const dot = a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
-  const sign = dot < 0 ? -1 : 1;
-  const mixed = a.map((value, i) => value * (1 - weight) + sign * (b[i] ?? 0) * weight);
-  const length = Math.hypot(...mixed);
-  a.set(mixed.map((value) => value / length));
+/** Normalised linear interpolation of quaternions towards `to`, along the shorter arcs. */
+function nlerpAll(rotations: Float32Array, to: Float32Array, weight: number): void {
+  for (let at = 0; at < rotations.length; at += 4) {
+    const [a, b] = [rotations.subarray(at, at + 4), to.subarray(at, at + 4)];
+    const dot = a.reduce((sum, value, i) => sum + value * (b[i] ?? 0), 0);
+    const sign = dot < 0 ? -1 : 1;
+    const mixed = a.map((value, i) => value * (1 - weight) + sign * (b[i] ?? 0) * weight);
+    const length = Math.hypot(...mixed);
+    a.set(mixed.map((value) => value / length));
+  }
 }

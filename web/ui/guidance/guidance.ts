@@ -1,7 +1,7 @@
 import { iconButton } from '../widgets/button';
 import { el, combineDisposers } from '../widgets/dom';
 import { createFader } from '../widgets/fader';
-import { columnOf } from '../store/guidance-matrix';
+import { columnOf, rangeOf } from '../store/guidance-matrix';
 import { mountMatrix } from './matrix';
 import { mountMusicFader } from './music-fader';
 import { mountPresetMenu } from './preset-menu';
@@ -99,7 +99,7 @@ function createLayerFaders(store: Store): {
       hadJob = job !== null;
       for (const { layer, fader } of faders) {
         const { value, mixed } = columnOf(settings?.guidance ?? {}, layer);
-        fader.show(settings && manifest ? manifest.guidance : null, value, mixed);
+        fader.show(settings && manifest ? rangeOf(manifest.guidance, layer) : null, value, mixed);
         fader.setApplying(job !== null && changed === layer);
       }
     },

@@ -1,6 +1,7 @@
+import { valueText } from '../widgets/fader';
 import type { Manifest } from '../../model/client';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { columnOf, guidanceAt } from '../store/guidance-matrix';
+import { columnOf, guidanceAt, rangeOf } from '../store/guidance-matrix';
 import { icon } from '../widgets/icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
 import type { Mount } from '../store/services';
@@ -52,7 +53,7 @@ export const mountMatrix: Mount = (root, store) => {
         if (!settings || !manifest) return;
         setText(summary, isMixed(settings.guidance) ? 'Mixed' : 'Same for all');
         for (const { stream, layer, fader } of cells)
-          fader.show(manifest.guidance, guidanceAt(settings.guidance, stream, layer));
+          fader.show(rangeOf(manifest.guidance, layer), guidanceAt(settings.guidance, stream, layer));
       },
     ),
     () => {
@@ -99,7 +100,7 @@ function createCells(store: Store, { latent }: Manifest): Cell[] {
         reset: () => {
           apply(store, guidanceCellReset(stream, layer));
         },
-      });
+      }, (value, range) => valueText(value, range, layer === 'coarse' ? 'coarse' : 'fine'));
       return { stream, layer, fader };
     }),
   );

@@ -1,5 +1,5 @@
 import { el, setText, setVariable } from '../widgets/dom';
-import { type FaderEvents, type FaderRange, connectFaderInput, valueText } from '../widgets/fader';
+import { type FaderEvents, type FaderRange, connectFaderInput } from '../widgets/fader';
 
 export interface MiniFader {
   readonly root: HTMLElement;
@@ -18,7 +18,7 @@ export function createMiniFader(
   label: string,
   hint: string,
   on: FaderEvents,
-  describe: (value: number) => string = valueText,
+  describe: (value: number, range: FaderRange) => string,
 ): MiniFader {
   const value = el('output');
   const input = el('input', {
@@ -41,7 +41,7 @@ export function createMiniFader(
       input.max = String(range.max);
       input.step = String(range.step);
       if (input.valueAsNumber !== current) input.value = String(current);
-      input.setAttribute('aria-valuetext', describe(current));
+      input.setAttribute('aria-valuetext', describe(current, range));
       const share = (current - range.min) / (range.max - range.min);
       setVariable(root, '--v', share);
       root.classList.toggle('high', share > HIGH_SHARE);

@@ -1,4 +1,5 @@
 import { el, setText, combineDisposers } from '../widgets/dom';
+import type { FaderRange } from '../widgets/fader';
 import { createMiniFader } from './mini-fader';
 import type { Mount } from '../store/services';
 import { musicReset, musicSet } from '../store/actions/settings';
@@ -35,8 +36,7 @@ export const mountMusicFader: Mount = (root, store) => {
       store,
       ({ settings, manifest, song }) => [settings?.music, manifest, song !== null],
       ({ settings, manifest, song }) => {
-        const range = manifest && { ...manifest.guidance.music, step: manifest.guidance.step };
-        fader.show(song ? range : null, settings?.music ?? 0);
+        fader.show(song && manifest ? manifest.guidance.music : null, settings?.music ?? 0);
         setText(note, song || !settings ? '' : 'no song');
       },
     ),
@@ -47,8 +47,9 @@ export const mountMusicFader: Mount = (root, store) => {
 };
 
 /** Text of a value for screen readers. */
-function musicText(value: number): string {
+function musicText(value: number, { max }: FaderRange): string {
+  const share = value / max;
   const strength =
-    value === 0 ? 'as it comes' : value < 2 ? 'a little more' : value < 3.5 ? 'clearly' : 'strongly';
+    value === 0 ? 'as it comes' : share < 0.4 ? 'a little more' : share < 0.75 ? 'clearly' : 'strongly';
   return `${value.toFixed(2)}, the song is heard ${strength}`;
 }

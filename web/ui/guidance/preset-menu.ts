@@ -28,7 +28,7 @@ export const mountPresetMenu: Mount = (root, store) => {
       ({ manifest }) => manifest,
       (manifest) => {
         list = manifest ? presets(manifest) : [];
-        menu.replaceChildren(...optionGroups(list), customOption());
+        menu.replaceChildren(...list.map(presetOption), customOption());
       },
     ),
     watchAll(
@@ -49,32 +49,11 @@ export const mountPresetMenu: Mount = (root, store) => {
   );
 };
 
-function optionGroups(list: readonly Preset[]): HTMLElement[] {
-  return [...new Set(list.map(({ group }) => group))].map((group) =>
-    el(
-      'optgroup',
-      { attributes: { label: group } },
-      ...list
-        .filter((preset) => preset.group === group)
-        .map((preset) =>
-          el('option', {
-            text: `${preset.name}  ${numbers(preset)}`,
-            attributes: { title: preset.description },
-          }),
-        ),
-    ),
-  );
+function presetOption({ name, description }: Preset): HTMLElement {
+  return el('option', { text: name, attributes: { title: description } });
 }
 
 /** Shown for values that are no preset; it can't be chosen. */
 function customOption(): HTMLElement {
   return el('option', { text: CUSTOM, attributes: { disabled: true, hidden: true } });
-}
-
-/** `(1.2, 1.5)`: guidance of the layers. */
-function numbers({ guidance }: Preset): string {
-  const [row = {}] = Object.values(guidance);
-  return `(${Object.values(row)
-    .map((value) => value.toFixed(1))
-    .join(', ')})`;
 }

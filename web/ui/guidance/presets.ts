@@ -1,49 +1,48 @@
 import type { Manifest } from '../../model/client';
-import { defaultGuidance, sameGuidance, uniform } from '../store/guidance-matrix';
+import { clampedToStep, rangeOf, sameGuidance, uniform } from '../store/guidance-matrix';
 import type { Guidance, Settings } from '../store/reaction';
+
+type Range = Manifest['guidance']['coarse'];
 
 /** Named guidance weights. */
 export interface Preset {
   readonly name: string;
   /** What to expect of it, in a sentence. */
   readonly description: string;
-  readonly group: 'This model' | 'From the paper, Table 4';
   readonly guidance: Guidance;
   readonly music: number;
 }
 
-/**
- * Rows of the paper's Table 4, S = [coarse, fine], with what they did best there. The exported graphs follow the
- * paper's Eq. 9, so the numbers mean the same here; the descriptions are of the paper's model and dances.
- */
-const TABLE_4: readonly (readonly [coarse: number, fine: number, name: string, description: string])[] = [
-  [1, 1, 'Lightest', 'The least guidance that the paper tried.'],
-  [1, 1.2, 'Finer detail', 'More of the detail, a light hand on the shape.'],
-  [1, 1.5, 'Closest couple', 'The couple moved most like real couples.'],
-  [1.2, 1.2, "Paper's choice", 'What the paper chose: a balance of both.'],
-  [1.2, 1.5, 'Truest poses', 'Poses and speeds were nearest to the recorded ones.'],
-  [1.5, 1.5, 'Most varied', 'The most varied motion, the loosest couple.'],
+/** Presets by what they do: share of the way from the default to an end of the range, below 0 to the lower end. */
+const KINDS: readonly {
+  readonly name: string;
+  readonly description: string;
+  readonly towards: Readonly<Partial<Record<'coarse' | 'fine' | 'music', number>>>;
+}[] = [
+  { name: 'Balanced', description: 'What suits this model best.', towards: {} },
+  { name: 'Loose', description: 'Smaller moves, a path more of its own.', towards: { coarse: -0.7 } },
+  { name: 'Large', description: 'Larger moves, farther around the leader.', towards: { coarse: 0.6 } },
+  { name: 'Soft', description: 'Without accents.', towards: { fine: -0.8 } },
+  { name: 'Sharp', description: 'Strong accents.', towards: { fine: 0.8 } },
+  { name: 'Song first', description: 'The song shapes the dance most.', towards: { music: 1 } },
+  { name: 'Leader only', description: 'The song is not listened to.', towards: { music: -1 } },
 ];
 
-/** The presets for a model: its own default and the paper's. */
-export function presets(manifest: Pick<Manifest, 'latent' | 'guidance'>): Preset[] {
-  const { streams, layers } = manifest.latent;
-  const own: Preset = {
-    name: 'Balanced',
-    description: 'What suits this model best.',
-    group: 'This model',
-    guidance: defaultGuidance(manifest),
-    music: manifest.guidance.music.default,
-  };
-  const paper = TABLE_4.map(([coarse, fine, name, description]): Preset => ({
+/** The presets for a model's ranges. */
+export function presets({ latent, guidance }: Pick<Manifest, 'latent' | 'guidance'>): Preset[] {
+  const at = (range: Range, share = 0): number =>
+    clampedToStep(
+      range.default + (share < 0 ? range.default - range.min : range.max - range.default) * share,
+      range,
+    );
+  return KINDS.map(({ name, description, towards }) => ({
     name,
     description,
-    group: 'From the paper, Table 4',
-    guidance: uniform(streams, layers, (layer) => (layer === 'coarse' ? coarse : fine)),
-    // Eq. 9 has no separate guidance by the music.
-    music: 0,
+    guidance: uniform(latent.streams, latent.layers, (layer) =>
+      at(rangeOf(guidance, layer), layer === 'coarse' ? towards.coarse : towards.fine),
+    ),
+    music: at(guidance.music, towards.music),
   }));
-  return [own, ...paper];
 }
 
 /** The preset whose values these are, if any. */

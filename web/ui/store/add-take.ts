@@ -1,5 +1,5 @@
-import { sameInputs } from './selectors';
-import type { Inputs, Reaction, Take } from './reaction';
+import { differOnlyInWeights, sameInputs } from './selectors';
+import type { Reaction, Take } from './reaction';
 import type { AppState } from './state';
 import { sealed } from './history';
 import { takeOnStage, withTake } from './take';
@@ -33,7 +33,7 @@ export function withReaction(
   const { takes, takesMade } = state;
   const before = takeOnStage(state);
   // A drag stays one step of undo however many reactions come while it lasts.
-  const sameDrag = before !== null && differOnlyInGuidance(before.reaction.inputs, reaction.inputs);
+  const sameDrag = before !== null && differOnlyInWeights(before.reaction.inputs, reaction.inputs);
   const history = sameDrag ? state.history : sealed(state.history);
   const keep = (take: Take): Pick<AppState, 'takes' | 'takesMade' | 'history'> => ({
     takes: withTake(takes, take),
@@ -72,11 +72,6 @@ export function withReaction(
 function isReplaceable(take: Take, { other }: AppState, now: number): boolean {
   const unmarked = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
   return unmarked && now - take.createdAt < SAME_DRAG_MS;
-}
-
-function differOnlyInGuidance(a: Inputs, b: Inputs): boolean {
-  const { guidance, music } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance, music } }, b);
 }
 
 /** At most `MAX_TAKES`, unless more are starred, named or in use. */

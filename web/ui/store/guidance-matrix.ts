@@ -2,7 +2,7 @@ import type { Manifest } from '../../model/client';
 import { toStep } from './format';
 import type { Guidance, Layer, Settings } from './reaction';
 
-type Range = Pick<Manifest['guidance'], 'min' | 'max' | 'step'>;
+type Range = Pick<Manifest['guidance']['coarse'], 'min' | 'max' | 'step'>;
 
 /** A matrix with the same value per layer in every stream. */
 export function uniform(
@@ -17,7 +17,12 @@ export function uniform(
 
 /** The manifest's default. */
 export function defaultGuidance({ latent, guidance }: Pick<Manifest, 'latent' | 'guidance'>): Guidance {
-  return uniform(latent.streams, latent.layers, (layer) => guidance.default[layer] ?? 0);
+  return uniform(latent.streams, latent.layers, (layer) => rangeOf(guidance, layer).default);
+}
+
+/** The weights that a layer can have: coarse for the first, fine for those above it. */
+export function rangeOf(guidance: Manifest['guidance'], layer: string): Manifest['guidance']['coarse'] {
+  return layer === 'coarse' ? guidance.coarse : guidance.fine;
 }
 
 /** Guidance of one layer in one stream; 0, the plain condition, where the matrix has none. */

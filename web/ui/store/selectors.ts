@@ -37,6 +37,12 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   return sameFiles && sameSettings(a.settings, b.settings);
 }
 
+/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance differ. */
+export function differOnlyInWeights(a: Inputs, b: Inputs): boolean {
+  const { guidance, music } = b.settings;
+  return sameInputs({ ...a, settings: { ...a.settings, guidance, music } }, b);
+}
+
 /** Whether the reaction on the stage is the one that files and settings ask for. */
 export function upToDate(state: AppState): boolean {
   return state.reaction !== null && sameInputs(state.reaction.inputs, readyInputs(state));
@@ -82,8 +88,6 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
         : 'waiting for the model';
     case 'condition':
       return 'listening and watching';
-    case 'preview':
-      return 'what plays now first';
     case 'step':
       return stepText(job, settings?.steps ?? job.total);
     case 'decode':

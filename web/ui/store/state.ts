@@ -48,7 +48,7 @@ export type ModelState =
   | { readonly phase: 'failed'; readonly problem: Problem };
 
 export interface Job {
-  readonly stage: 'waiting' | 'condition' | 'preview' | 'step' | 'decode' | 'solve';
+  readonly stage: 'waiting' | 'condition' | 'step' | 'decode' | 'solve';
   readonly done: number;
   readonly total: number;
   /** 0 to 1 over the whole job. */

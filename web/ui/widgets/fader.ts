@@ -15,6 +15,7 @@ export interface FaderRange {
   readonly min: number;
   readonly max: number;
   readonly step: number;
+  readonly default: number;
 }
 
 interface Fader {
@@ -25,6 +26,12 @@ interface Fader {
   /** Outlines it while its change is being applied. */
   readonly setApplying: (applying: boolean) => void;
 }
+
+/** What the dance is towards the lower and the upper end, as measured (docs/results.md). */
+const LAYER_ENDS: Readonly<Record<Layer, readonly [low: string, high: string]>> = {
+  coarse: ['looser', 'larger'],
+  fine: ['softer', 'sharper'],
+};
 
 /** Size of the drawn curve, in its own units. */
 const CURVE_SIZE = { width: 112, height: 26 };
@@ -44,7 +51,12 @@ function curvePath(layer: Layer): string {
  * A native range input over a drawn track, so that keyboard, touch and screen readers work by themselves. Dragging
  * with Shift is ten times finer; a double click resets to the default.
  */
-export function createFader(layer: Layer, name: string, hint: string, on: FaderEvents): Fader {
+export function createFader(
+  layer: Layer,
+  name: string,
+  hint: string,
+  on: FaderEvents,
+): Fader {
   const hintId = `hint-${layer}`;
   const value = el('output', { class: 'val' });
   const mix = el('small', { class: 'mix', text: 'mixed' });
@@ -91,11 +103,11 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
         input.min = String(range.min);
         input.max = String(range.max);
         input.step = String(range.step);
-        scale.replaceChildren(...marks(range));
+        scale.replaceChildren(...marks(range, LAYER_ENDS[layer]));
       }
       if (input.valueAsNumber !== current) input.value = String(current);
       mix.hidden = !mixed;
-      input.setAttribute('aria-valuetext', valueText(current, mixed));
+      input.setAttribute('aria-valuetext', valueText(current, range, layer, mixed));
       setVariable(root, '--v', (current - range.min) / (range.max - range.min));
     },
     setApplying: (applying) => {
@@ -104,29 +116,29 @@ export function createFader(layer: Layer, name: string, hint: string, on: FaderE
   };
 }
 
-/** One mark per whole number, with a word at each end. */
-function marks({ min, max }: FaderRange): HTMLElement[] {
-  const list: HTMLElement[] = [];
-  for (let at = Math.ceil(min); at <= max; at++) {
-    const number = String(at).replace('-', '−');
-    const text = at === min ? `${number} loose` : at === max ? `close ${number}` : number;
-    const mark = el('span', { text });
-    setVariable(mark, '--at', (at - min) / (max - min));
-    list.push(mark);
-  }
-  return list;
+/** A mark at each end with its word, and one at the default. */
+function marks({ min, max, default: preset }: FaderRange, [low, high]: readonly [string, string]): HTMLElement[] {
+  const mark = (at: number, text: string): HTMLElement => {
+    const element = el('span', { text });
+    setVariable(element, '--at', (at - min) / (max - min));
+    return element;
+  };
+  return [mark(min, low), ...(preset > min && preset < max ? [mark(preset, 'default')] : []), mark(max, high)];
 }
 
 /** Text of a value for screen readers. */
-export function valueText(value: number, mixed = false): string {
-  const text = `${value.toFixed(2)}, ${closeness(value)}`;
+export function valueText(
+  value: number,
+  { min, max, default: preset }: FaderRange,
+  layer: Layer,
+  mixed = false,
+): string {
+  const [low, high] = LAYER_ENDS[layer];
+  const way = value < preset ? (preset - value) / (preset - min) : (value - preset) / (max - preset);
+  const word = value < preset ? low : high;
+  const amount = way < 0.35 ? 'a little ' : way > 0.7 ? 'much ' : '';
+  const text = value === preset ? `${value.toFixed(2)}, default` : `${value.toFixed(2)}, ${amount}${word}`;
   return mixed ? `${text}, on average: the body parts are mixed` : text;
-}
-
-function closeness(value: number): string {
-  if (value <= -0.75) return 'hardly follows';
-  if (value < 0.5) return 'follows';
-  return value < 1.75 ? 'follows closely' : 'follows very closely';
 }
 
 /** Connects a range input to callbacks: drag, keys, double click for the default, Shift for a finer drag. */

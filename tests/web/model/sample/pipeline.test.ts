@@ -133,13 +133,16 @@ describe('Pipeline', () => {
     const watched: ModelSession = {
       ...session,
       decode(input) {
-        asked.push([...input.layers]);
+        asked.push([...input.gains]);
         return session.decode(input);
       },
     };
     const runs = stepRuns;
     const coarse = await new Pipeline(manifest, watched, () => 0).coarse({ leader: large.leader, latents });
-    expect(asked).toEqual([[1, 0]]);
+    expect(asked).toEqual([
+      [1, 0, 1, 0, 1, 0],
+      [1, 0, 1, 0, 1, 0],
+    ]);
     expect(stepRuns).toBe(runs);
     expect(coarse.frames).toBe(motion.frames);
     expect(maxDifference(coarse.positions, motion.positions)).toBeGreaterThan(1e-4);
@@ -154,7 +157,11 @@ describe('Pipeline', () => {
     // What is decoded is the leader, a hand's breadth beside itself.
     const session: ModelSession = {
       ...model.session,
-      decode: ({ leader }) => Promise.resolve(leader.map((value, i) => (i % 3 === 0 ? value + 0.1 : value))),
+      decode: ({ leader }) =>
+        Promise.resolve({
+          reactor: leader.map((value, i) => (i % 3 === 0 ? value + 0.1 : value)),
+          lengths: new Float32Array(leader.length / 3).fill(0.2),
+        }),
     };
     const inside = new Pipeline(model.manifest, session, () => 0);
     const { leader, ...rest } = request(120);
@@ -239,7 +246,12 @@ describe('Pipeline', () => {
 
   it('reports an output of the model that is not finite', async () => {
     const { session, manifest } = model;
-    const broken = { ...session, decode: () => Promise.resolve(new Float32Array(120 * 66).fill(NaN)) };
+    const broken = { ...session, decode: () =>
+        Promise.resolve({
+          reactor: new Float32Array(120 * 66).fill(NaN),
+          lengths: new Float32Array(120 * 22).fill(1),
+        }),
+    };
     const result = new Pipeline(manifest, broken, () => 0).generate(request(120));
     await expect(result).rejects.toMatchObject({ code: 'not-finite' });
   });

@@ -6,6 +6,7 @@ import {
   defaultGuidance,
   guidanceAt,
   clampedToStep,
+  rangeOf,
   withCell,
   withColumn,
 } from '../guidance-matrix';
@@ -23,21 +24,21 @@ export function settingsSet(settings: Settings): Change {
  * @param from the matrix when the drag of the fader began; the present one when not given
  */
 export function guidanceSet(layer: Layer, value: number, from?: Guidance): Change {
-  return guided(({ guidance }, { guidance: range }) => ({
-    guidance: withColumn(from ?? guidance, layer, value, range),
+  return guided(({ guidance }, { guidance: ranges }) => ({
+    guidance: withColumn(from ?? guidance, layer, value, rangeOf(ranges, layer)),
   }));
 }
 
 /** Sets one layer of one stream. */
 export function guidanceCellSet(stream: string, layer: string, value: number): Change {
-  return guided(({ guidance }, { guidance: range }) => ({
-    guidance: withCell(guidance, stream, layer, value, range),
+  return guided(({ guidance }, { guidance: ranges }) => ({
+    guidance: withCell(guidance, stream, layer, value, rangeOf(ranges, layer)),
   }));
 }
 
 /** Sets the guidance weight of the music, clamped to the manifest's range and step. */
 export function musicSet(value: number): Change {
-  return guided((_, { guidance: { music, step } }) => ({ music: clampedToStep(value, { ...music, step }) }));
+  return guided((_, { guidance }) => ({ music: clampedToStep(value, guidance.music) }));
 }
 
 /** Sets the whole matrix and the music to those of a preset. */
@@ -51,7 +52,7 @@ export function guidanceReset(layer?: Layer): Change {
     const own = defaultGuidance(manifest);
     if (!layer) return { guidance: own, music: manifest.guidance.music.default };
     const reset = (all: Guidance, stream: string): Guidance =>
-      withCell(all, stream, layer, columnOf(own, layer).value, manifest.guidance);
+      withCell(all, stream, layer, columnOf(own, layer).value, rangeOf(manifest.guidance, layer));
     return { guidance: Object.keys(guidance).reduce(reset, guidance) };
   });
 }
@@ -60,7 +61,7 @@ export function guidanceReset(layer?: Layer): Change {
 export function guidanceCellReset(stream: string, layer: string): Change {
   return guided(({ guidance }, manifest) => {
     const value = guidanceAt(defaultGuidance(manifest), stream, layer);
-    return { guidance: withCell(guidance, stream, layer, value, manifest.guidance) };
+    return { guidance: withCell(guidance, stream, layer, value, rangeOf(manifest.guidance, layer)) };
   });
 }
 

@@ -1,0 +1,66 @@
+/** Classifier-free guidance after sampling: the paper's Eq. 9 on sampled latents. */
+import type { Manifest } from '../manifest';
+
+type Latent = Pick<Manifest['latent'], 'streams' | 'layers' | 'channels'>;
+
+/** Latents (latents x layers x channels, normalised) of one dance, sampled from the same noise. */
+export interface Branches {
+  /** Leader and song. */
+  readonly conditional: Float32Array;
+  /** The leader without a song; null where no weight needs it. */
+  readonly silent: Float32Array | null;
+  /** Neither; null where no weight needs it. */
+  readonly unconditional: Float32Array | null;
+}
+
+/** Weights of guidance. */
+export interface Weights {
+  /** streams x layers, s of Eq. 9. */
+  readonly guidance: Float32Array;
+  /** Guidance weight m of the music. */
+  readonly musicGuidance: number;
+}
+
+/** Which branches these weights need beside the conditional one. */
+export function neededBranches(
+  { guidance, musicGuidance }: Weights,
+  { layers }: Latent,
+): { readonly silent: boolean; readonly unconditional: boolean } {
+  const coarse = guidance.some((weight, i) => i % layers.length === 0 && weight !== 0);
+  return { silent: musicGuidance !== 0, unconditional: coarse };
+}
+
+/**
+ * cond + m (cond - silent), in the coarse layer also + s (cond - uncond). The fine layer's guidance acts where latents
+ * are decoded, see `layerGains`.
+ * @returns latents x layers x channels
+ */
+export function blend(branches: Branches, { guidance, musicGuidance }: Weights, latent: Latent): Float32Array {
+  const { conditional, silent, unconditional } = branches;
+  const [layers, streams] = [latent.layers.length, latent.streams.length];
+  const perStream = latent.channels / streams;
+  const out = conditional.slice();
+  if (silent && musicGuidance !== 0)
+    for (let i = 0; i < out.length; i++) out[i]! += musicGuidance * (conditional[i]! - silent[i]!);
+  if (!unconditional) return out;
+  for (let stream = 0; stream < streams; stream++) {
+    const weight = guidance[stream * layers] ?? 0;
+    if (weight === 0) continue;
+    for (let first = stream * perStream; first < out.length; first += layers * latent.channels)
+      for (let i = first; i < first + perStream; i++) out[i]! += weight * (conditional[i]! - unconditional[i]!);
+  }
+  return out;
+}
+
+/**
+ * Factors of the residual layers, streams x layers: Eq. 9 between a dance with its fine layer and the same dance
+ * without it, (1 + s) fine - s 0.
+ */
+export function layerGains(guidance: Float32Array, { layers }: Latent): Float32Array {
+  return guidance.map((weight, i) => (i % layers.length === 0 ? 1 : 1 + weight));
+}
+
+/** Factors that leave the coarse layer alone. */
+export function coarseAlone({ streams, layers }: Latent): Float32Array {
+  return Float32Array.from(streams.flatMap(() => layers.map((_, layer) => (layer === 0 ? 1 : 0))));
+}
