@@ -76,14 +76,14 @@ def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Op
     watch, sampling = Stopwatch(), model.sampling
     padded = torch.from_numpy(pad_to_stride(leader))
     features, valid = music_of_length(music, len(padded))
-    steps, role = ddim_steps(sampling.alpha_bar, options.steps), torch.zeros(1)
+    steps, role = ddim_steps(sampling.alpha_bar, options.steps, sampling.last_time), torch.zeros(1)
     gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
     initial = initial_noise(sampling, SEED, len(padded) // STRIDE)
     silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)
     for _ in range(1 + options.repeats):
         memory = watch("condition", lambda: model.condition(padded, features, valid, role))
         latents = watch("steps", lambda m=memory: sample_branch(model, m, 1.0, initial, steps))
-        watch("branches", lambda m=memory: sample_branches(model, m, silent, initial, steps))
+        watch("branches", lambda m=memory: sample_branches(model, m, silent, initial, steps, torch.zeros(())))
         watch("decode", lambda x=latents: model.decode(x, padded, gains, bones))
     return watch.seconds
 

@@ -4,7 +4,7 @@
         --data ../shared/data/cmu_salsa/duets.npz --val salsa_03 --test salsa_05 salsa_11 \
         --out runs/evaluation \
         --out-of-distribution ../shared/data/cmu_solo/solo.npz --solve \
-        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 \
+        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls \
         --settings.beats-unknown salsa_05 --settings.seen-leaders indian modern
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
@@ -16,7 +16,7 @@ from __future__ import annotations
 import json
 import subprocess
 import tempfile
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -65,10 +65,7 @@ class Options:
     out_of_distribution: tuple[Path, ...] = ()
     """Leaders of other dances, without a partner: npz archives of solo dances, single BVH files."""
     steps: int | None = None
-    guidance: tuple[float, float] | None = None
-    """Coarse and fine, Eq. 9's s; the model's default when left out."""
-    music_guidance: float | None = None
-    """Guidance weight of the music; the model's default when left out."""
+    """Sampling steps; the model's default when left out."""
     threads: int = 0
     pictures: bool = True
     """Spectra and filmstrips."""
@@ -82,12 +79,9 @@ class Options:
 
 
 def reactor_generator(
-    model: ReactionModel,
-    steps: int | None = None,
-    default: tuple[float, float] | None = None,
-    music_guidance: float | None = None,
+    model: ReactionModel, steps: int | None = None, at_every_step: bool = False
 ) -> ReactorGenerator:
-    """A model as evaluation asks it, with these in the place of its own defaults."""
+    """A model as evaluation asks it. at_every_step: with the paper's form of guidance, under PyTorch alone."""
 
     def generate(
         leader: np.ndarray,
@@ -95,6 +89,8 @@ def reactor_generator(
         seed: int,
         condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
+        music_guidance: float | None = None,
+        variety: float | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
         return react(
@@ -103,11 +99,13 @@ def reactor_generator(
                 leader,
                 music,
                 seed,
-                steps,
-                guidance or default,
-                music_guidance,
-                role,
-                condition_leader,
+                steps=steps,
+                guidance=guidance,
+                music_guidance=music_guidance,
+                variety=variety,
+                role=role,
+                condition_leader=condition_leader,
+                at_every_step=at_every_step,
             ),
         )
 
@@ -193,24 +191,33 @@ def main(options: Options) -> None:
         baseline = reactor_generator(load_model(options.no_latent_baseline))
         given["no-latent baseline"] = generate_motions(baseline, held_out, options.settings.seeds)[0]
     sampling = model.sampling
-    spacing = Settings.seam_spacing // 2 if sampling.alternating_phase else Settings.seam_spacing
-    settings = replace(options.settings, seam_spacing=spacing)
+    coarse, fine = sampling.guidance
+    defaults = {
+        "coarse": coarse,
+        "fine": fine,
+        "music": sampling.music_guidance,
+        "variety": sampling.variety,
+    }
     facts |= {
         "commit": commit(),
         "sampling": {
             "steps": options.steps or sampling.steps,
-            "guidance": options.guidance or sampling.guidance,
-            "music": sampling.music_guidance if options.music_guidance is None else options.music_guidance,
+            "last_time": sampling.last_time,
+            "extrapolation": sampling.extrapolation,
+            **defaults,
         },
     }
+    every_step = reactor_generator(checkpoint, options.steps, at_every_step=True) if checkpoint else None
     evaluation = evaluate(
-        reactor_generator(model, options.steps, options.guidance, options.music_guidance),
+        reactor_generator(model, options.steps),
         held_out,
         duets.train,
-        settings,
+        options.settings,
         given,
         SOLVERS if options.solve else None,
         read_leaders(options.out_of_distribution),
+        defaults,
+        every_step,
         console.print,
     )
     title = f"{name}, measured"

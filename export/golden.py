@@ -12,7 +12,7 @@ from training.data.made import made_dancer
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.react import measure_bones
-from training.diffusion.sampler import initial_noise, sample_branches
+from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 from training.diffusion.schedule import ddim_steps
 from training.music.recipe import MUSIC_FEATURES
 
@@ -28,7 +28,7 @@ class Scene:
 
 
 def inputs(scene: Scene) -> dict[str, np.ndarray]:
-    """leader, music, music_valid, role; weights coarse and fine, different for each stream, and music_guidance."""
+    """leader, music, music_valid, role; weights coarse and fine for each stream, music_guidance and variety."""
     random = np.random.default_rng(scene.seed)
     valid = np.ones(scene.frames, dtype=np.float32)
     if scene.silent_from is not None:
@@ -41,14 +41,15 @@ def inputs(scene: Scene) -> dict[str, np.ndarray]:
         "coarse": np.array([-0.5, 0.25, 0.75], dtype=np.float32),
         "fine": np.array([0.5, -0.25, 1.0], dtype=np.float32),
         "music_guidance": np.full(1, 1.5, dtype=np.float32),
+        "variety": np.full(1, 1.25, dtype=np.float32),
     }
 
 
 @torch.no_grad()
 def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     """Inputs and everything PyTorch makes of them: memory with and without the song, initial noise, the branches'
-    latents (3, L, R, C), the blended latents (L, R, C), bone lengths (22,), the joints (T, 22, 3), and those of the
-    coarse layer alone.
+    latents and their mean (4, L, R, C), the blended latents (L, R, C), bone lengths (22,), the joints (T, 22, 3),
+    and those of the coarse layer alone.
     """
     given = inputs(scene)
     tensors = {name: torch.from_numpy(value) for name, value in given.items()}
@@ -58,9 +59,14 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         model.condition(leader, tensors["music"], heard, role) for heard in (valid, torch.zeros_like(valid))
     )
     initial = initial_noise(sampling, scene.seed, len(memory))
-    steps = ddim_steps(sampling.alpha_bar, scene.steps)
-    branches = sample_branches(model, memory, silent, initial, steps)
-    latents = blend(branches, per_channel(tensors["coarse"], sampling.channels), tensors["music_guidance"])
+    steps = ddim_steps(sampling.alpha_bar, scene.steps, sampling.last_time)
+    branches = sample_branches(model, memory, silent, initial, steps, sample_mean(model, memory, steps))
+    latents = blend(
+        branches,
+        per_channel(tensors["coarse"], sampling.channels),
+        float(tensors["music_guidance"]),
+        float(tensors["variety"]),
+    )
     gains = layer_gains(tensors["fine"], sampling.layers)
     bones = measure_bones(model, branches.conditional, leader)
     coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)
@@ -70,7 +76,9 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         "memory": memory.numpy(),
         "silent": silent.numpy(),
         "initial": initial.numpy(),
-        "branches": torch.stack([branches.conditional, branches.silent, branches.unconditional]).numpy(),
+        "branches": torch.stack(
+            [branches.conditional, branches.silent, branches.unconditional, branches.mean]
+        ).numpy(),
         "latents": latents.numpy(),
         "reactor": model.decode(latents, leader, gains, bones)[0].numpy(),
         "coarse_alone": model.decode(latents, leader, coarse_alone, bones)[0].numpy(),

@@ -1,6 +1,6 @@
 """The three graphs of the browser, as modules: condition and decode over the clip, step over blocks.
 
-They carry the maths (normalisation, frame of reference, sampler update), so that the page passes metres and
+They carry the maths (normalisation, frame of reference, clamp), so that the page passes metres and
 features. Batch-free at their edges: one clip at a time.
 """
 
@@ -23,22 +23,16 @@ class Condition(nn.Module):
         return self.model.condition(leader, music, music_valid, role)
 
 
-class SamplerStep(nn.Module):
-    """One step over B blocks: a x + b x0 (B, block, R, C), see `Model.predict`.
-
-    x (B, block, R, C), memory (B, block, M), valid (B, block), keep (1), time (1), coefficients a and b (2).
-    """
+class Step(nn.Module):
+    """The prediction of one sampling step over B blocks, see `ReactionModel.predict`."""
 
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.model = model
         self.denoiser = model.denoiser  # registers its parameters
 
-    def forward(
-        self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor, coefficients: Tensor
-    ) -> Tensor:
-        a, b = coefficients.unbind(0)
-        return a * x + b * self.model.predict(x, memory, valid, keep, time)
+    def forward(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
+        return self.model.predict(x, memory, valid, keep, time)
 
 
 class Decode(nn.Module):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-from training.config import FPS, STREAMS, STRIDE, to_json
+from training.config import CONTROLS, FPS, STREAMS, STRIDE, to_json
 from training.diffusion.decode import RECEPTIVE_FIELD
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
@@ -104,21 +104,24 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "schedule": diffusion.schedule,
             "prediction": "x0",
             "clamp": "quantiser range",
-            "alternating_phase": diffusion.alternating_phase,
+            "last_time": diffusion.last_time,
+            "extrapolation": list(diffusion.extrapolation),
             "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
         },
         "guidance": {
             "convention": {
                 "coarse": "cond + s (cond - uncond), sampled latents of the coarse layer",
                 "music": "+ m (cond - silent), sampled latents of all layers",
+                "variety": "+ (v - 1) (cond - mean over the seeds), sampled latents of the coarse layer",
                 "fine": "(1 + s) times the fine layer, decoded after the clamp",
             },
-            "coarse": {"min": -0.75, "max": 1, "step": 0.05, "default": diffusion.guidance[0]},
-            "fine": {"min": -1, "max": 1, "step": 0.05, "default": diffusion.guidance[1]},
-            "music": {"min": 0, "max": 6, "step": 0.25, "default": diffusion.music_guidance},
+            "coarse": _range("coarse", diffusion.guidance[0]),
+            "fine": _range("fine", diffusion.guidance[1]),
+            "music": _range("music", diffusion.music_guidance),
+            "variety": {**_range("variety", diffusion.variety), "seeds": diffusion.mean_seeds},
         },
         "noise": {"algorithm": "philox4x32-10"},
-        "decode": {"sharpen": diffusion.sharpen, "foot_contact": diffusion.foot_contact},
+        "decode": {"foot_contact": diffusion.foot_contact},
         "architecture": {
             "frame": to_json(model.frame),
             "hfsq": to_json(model.hfsq.config),
@@ -129,3 +132,9 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
         "graphs": entries,
         "golden": {"path": golden},
     }
+
+
+def _range(control: str, default: float) -> dict[str, float]:
+    """Least and greatest weight of a control, the distance between two of them, and the default."""
+    limits = CONTROLS[control]
+    return {"min": limits.low, "max": limits.high, "step": limits.step, "default": default}

@@ -14,7 +14,7 @@ from onnx import numpy_helper
 from torch import Tensor, nn
 from torch.export import Dim
 
-from export.graphs import Condition, Decode, SamplerStep
+from export.graphs import Condition, Decode, Step
 from training.config import STREAMS, STRIDE
 from training.diffusion.model import Model
 from training.motion.skeleton import JOINTS
@@ -48,16 +48,15 @@ def graphs(model: Model) -> list[Graph]:
         ),
         Graph(
             "step",
-            SamplerStep(model),
+            Step(model),
             {
                 "x": state,
                 "memory": ("blocks", block, memory),
                 "valid": ("blocks", block),
                 "keep": (1,),
                 "time": (1,),
-                "coefficients": (2,),
             },
-            {"x_next": state},
+            {"x0": state},
         ),
         Graph(
             "decode",

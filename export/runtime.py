@@ -13,7 +13,6 @@ import torch
 from torch import Tensor
 
 from training.diffusion.model import Sampling
-from training.diffusion.schedule import Step
 
 
 @dataclass(frozen=True)
@@ -32,11 +31,14 @@ class Exported:
             layers=len(latent["layers"]),
             channels=latent["channels"],
             alpha_bar=np.array(diffusion["alphas_cumprod"]),
-            alternating_phase=diffusion["alternating_phase"],
+            last_time=diffusion["last_time"],
+            extrapolation=tuple(diffusion["extrapolation"]),
             stitching=False,
             steps=diffusion["steps"]["default"],
             guidance=(guidance["coarse"]["default"], guidance["fine"]["default"]),
             music_guidance=guidance["music"]["default"],
+            variety=guidance["variety"]["default"],
+            mean_seeds=guidance["variety"]["seeds"],
             reference_height=self.manifest["skeleton"]["reference_height"],
         )
 
@@ -44,17 +46,9 @@ class Exported:
         (memory,) = self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)
         return memory
 
-    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
-        (following,) = self._run(
-            "step",
-            x=x,
-            memory=memory,
-            valid=valid,
-            keep=torch.tensor([keep]),
-            time=torch.tensor([step.time]),
-            coefficients=torch.tensor([step.a, step.b]),
-        )
-        return following
+    def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
+        (x0,) = self._run("step", x=x, memory=memory, valid=valid, keep=keep, time=time)
+        return x0
 
     def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
         reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)

@@ -57,9 +57,9 @@ def tiny_model(seed: int = 0) -> Model:
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
     diffusion = DiffusionConfig(
         steps=4,
-        alternating_phase=True,
+        last_time=0.25,
+        extrapolation=(0.5, 0.25, 0.0),
         music_guidance=1.0,
-        sharpen=0.3,
         foot_contact=0.5,
     )
     return Model(hfsq.eval(), FrameConfig(), denoiser.eval(), diffusion, CARD.reference_height)

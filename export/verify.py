@@ -21,7 +21,7 @@ from training.checkpoint import load_model
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.react import measure_bones
-from training.diffusion.sampler import initial_noise, sample_branches
+from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 from training.diffusion.schedule import ddim_steps
 
 TOLERANCE = 1e-4
@@ -41,11 +41,21 @@ def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, flo
     given = {name: torch.from_numpy(value) for name, value in truth.items()}
     memory = exported.condition(*(given[name] for name in ("leader", "music", "music_valid", "role")))
     sampling = exported.sampling
-    steps = ddim_steps(sampling.alpha_bar, scene.steps)
+    steps = ddim_steps(sampling.alpha_bar, scene.steps, sampling.last_time)
     branches = sample_branches(
-        exported, given["memory"], given["silent"], initial_noise(sampling, scene.seed, len(memory)), steps
+        exported,
+        given["memory"],
+        given["silent"],
+        initial_noise(sampling, scene.seed, len(memory)),
+        steps,
+        sample_mean(exported, given["memory"], steps),
     )
-    latents = blend(branches, per_channel(given["coarse"], sampling.channels), given["music_guidance"])
+    latents = blend(
+        branches,
+        per_channel(given["coarse"], sampling.channels),
+        float(given["music_guidance"]),
+        float(given["variety"]),
+    )
     bones = measure_bones(exported, branches.conditional, given["leader"])
     gains = layer_gains(given["fine"], sampling.layers)
     reactor, _ = exported.decode(latents, given["leader"], gains, bones)
@@ -53,7 +63,7 @@ def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, flo
     def worst(a: Tensor, b: np.ndarray) -> float:
         return float(np.abs(a.numpy() - b).max())
 
-    each = torch.stack([branches.conditional, branches.silent, branches.unconditional])
+    each = torch.stack([branches.conditional, branches.silent, branches.unconditional, branches.mean])
     return {
         "memory": worst(memory, truth["memory"]),
         "branches": worst(each, truth["branches"]),

@@ -48,11 +48,6 @@ def save_denoiser(folder: Path, model: Denoiser, diffusion: DiffusionConfig, pro
     save_weights(folder, "denoiser", model, config)
 
 
-def save_student(folder: Path, model: Denoiser, diffusion: DiffusionConfig, provenance: dict) -> None:
-    config = {"denoiser": to_json(model.config), "diffusion": to_json(diffusion), "provenance": provenance}
-    save_weights(folder, "student", model, config)
-
-
 def read_config(folder: Path, name: str) -> dict:
     """NAME.json of a checkpoint. Raises FileNotFoundError."""
     path = folder / f"{name}.json"

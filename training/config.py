@@ -95,12 +95,35 @@ class DiffusionConfig:
     schedule: Literal["cosine"] = "cosine"
     steps: int = 10
     max_steps: int = 50
-    alternating_phase: bool = False
+    last_time: float = 0.1  # share of train_steps at which the last step predicts
+    extrapolation: tuple[float, float, float] = (
+        0.0,
+        0.0,
+        0.0,
+    )  # of each stream's last two predictions, see `sample`
     stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
-    sharpen: float = 0.0  # gain above 6 Hz in the decoded motion
+    variety: float = 1.0  # default distance v from the mean of several seeds, see `blend`
+    mean_seeds: int = 4  # seeds 0, 1, ... whose mean that is
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
+
+
+@dataclass(frozen=True)
+class ControlRange:
+    """Weights that a control of the page reaches, chosen on validation; where the effect is, see docs/results.md."""
+
+    low: float
+    high: float
+    step: float
+
+
+CONTROLS = {
+    "coarse": ControlRange(-0.6, 0.75, 0.05),
+    "fine": ControlRange(-1.0, 1.0, 0.05),
+    "music": ControlRange(0.0, 10.0, 0.5),
+    "variety": ControlRange(0.0, 2.0, 0.05),
+}
 
 
 @dataclass(frozen=True)

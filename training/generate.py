@@ -38,6 +38,8 @@ class Options:
     fine: float | None = None
     music_guidance: float | None = None
     """Guidance weight of the music; the model's default when left out."""
+    variety: float | None = None
+    """Distance from the mean of several seeds; the model's default when left out."""
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
 
@@ -66,7 +68,9 @@ def main(options: Options) -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     made: dict[str, np.ndarray] = {}
     for seed in options.seeds:
-        request = Request(leader, music, seed, options.steps, guidance, options.music_guidance)
+        request = Request(
+            leader, music, seed, options.steps, guidance, options.music_guidance, options.variety
+        )
         reactor = react(model, request)
         made[f"seed_{seed}/leader"], made[f"seed_{seed}/follower"] = leader, reactor
         filmstrip(leader, reactor, options.out / f"seed_{seed}.png")

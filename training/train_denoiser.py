@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 import torch
@@ -14,13 +15,14 @@ import tyro
 from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
-from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig, FrameConfig
 from training.data.duet import Duet
-from training.data.music_pairing import MusicBank
+from training.data.music_pairing import MusicBank, build_music_bank, variants
+from training.data.npz import read_solo
 from training.data.sources import read_split
-from training.denoiser.clips import Clip
+from training.data.splits import Split
+from training.denoiser.clips import Augmentation, Clip, augmented_clips, solo_pair_clips
 from training.denoiser.condition import condition_dropout
-from training.denoiser.dataset import DatasetOptions, duet_clips, music_of, solo_clips
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
@@ -29,26 +31,38 @@ from training.diffusion.react import Request, react
 from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import Run, launch
+from training.loop import LoopOptions, Run, launch
 from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import body_height
 from training.motion.streams import from_streams
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options(DatasetOptions):
-    """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq)."""
+class Options(LoopOptions):
+    """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq); solo: dances
+    of which pairs are made (see training/data/solo_pairs.py).
+    """
 
+    songs: Path | None = None
+    """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
+    music_cache: Path | None = None
+    """Folder in which music features are kept between runs."""
+    solo_copies: int = 1
+    """Pairs of every solo dance and of its mirror image."""
     steps: int = 6000
     batch: int = 32
     stride: int = 4
     """Frames between training windows (the paper's Table 6)."""
     learning_rate: float = 5e-4
     weight_decay: float = 0.02
+    synths: int = 3
+    pieces: int = 2
+    """Synthesised pieces and songs per duet and tempo."""
     evaluate_every: int = 600
     denoiser: DenoiserConfig = field(default_factory=DenoiserConfig)
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
     loss: DenoiserLossConfig = field(default_factory=DenoiserLossConfig)
+    augmentation: Augmentation = field(default_factory=Augmentation)
 
 
 def main(options: Options) -> None:
@@ -57,11 +71,11 @@ def main(options: Options) -> None:
     hfsq, frame = load_hfsq(options.out)
     duets = read_split(options.data, options.val, options.test)
     bank = music_of(options, duets)
-    clips = duet_clips(options, duets, bank, hfsq, frame, options.denoiser.condition)
+    clips = duet_clips(options, duets, bank, hfsq, frame)
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = initial_denoiser(options, hfsq, clips)
-    clips += solo_clips(options, hfsq, frame, options.denoiser.condition)
+    clips += solo_clips(options, hfsq, frame)
     torch.manual_seed(options.seed + 1 + fabric.global_rank)
     windows = Windows(
         clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,
@@ -90,6 +104,28 @@ def main(options: Options) -> None:
     if fabric.is_global_zero:
         finish()
     fabric.barrier()
+
+
+def music_of(options: Options, duets: Split) -> MusicBank:
+    """Music features for every duet at every tempo: its own song, songs that fit, synthesised pieces."""
+    wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
+    return build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
+
+
+def duet_clips(
+    options: Options, duets: Split, bank: MusicBank, hfsq: Autoencoder, frame: FrameConfig
+) -> list[Clip]:
+    """The training duets, augmented and encoded."""
+    condition = options.denoiser.condition
+    return augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, condition, options.seed)
+
+
+def solo_clips(options: Options, hfsq: Autoencoder, frame: FrameConfig) -> list[Clip]:
+    """Pairs made from solo dances, encoded; none without an archive of solos."""
+    if options.solo is None:
+        return []
+    solos, condition = read_solo(options.solo, options.solo_prefixes), options.denoiser.condition
+    return solo_pair_clips(solos, options.solo_copies, hfsq, frame, condition, options.seed)
 
 
 def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> Denoiser:

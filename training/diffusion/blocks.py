@@ -16,13 +16,9 @@ class Block:
     length: int
 
 
-def partition(frames: int, block: int, shifted: bool = False) -> list[Block]:
-    """Blocks that tile `frames` latent frames; a shifted partition begins with half a block."""
-    first = block // 2 if shifted else block
-    blocks = [Block(0, min(first, frames))]
-    while (start := blocks[-1].start + blocks[-1].length) < frames:
-        blocks.append(Block(start, min(block, frames - start)))
-    return blocks
+def partition(frames: int, block: int) -> list[Block]:
+    """Blocks that tile `frames` latent frames; the last one may be shorter."""
+    return [Block(start, min(block, frames - start)) for start in range(0, frames, block)]
 
 
 def overlapping(frames: int, block: int) -> list[Block]:

@@ -9,7 +9,6 @@ from training.hfsq.autoencoder import Autoencoder
 from training.motion.foot_contact_correction import correct_foot_contact
 from training.motion.leader_frame import smoothed_heading
 from training.motion.rigid_body import bone_lengths, rigid_body
-from training.motion.sharpen import sharpen
 from training.motion.streams import from_streams
 
 # Latent frames on each side of a part of a clip that its decoded joints depend on, to 2e-5 m: the iterations of the
@@ -33,7 +32,7 @@ def decode(
     each stream; 0 leaves it out. bones: (22,) metres, the lengths to give them.
     """
     raw = hfsq.denormalise(latents) * gains.T.repeat_interleave(hfsq.stream_latent, dim=1)
-    upper, lower, placement = (sharpen(stream[0], config.sharpen) for stream in hfsq.decode(raw[None]))
+    upper, lower, placement = (stream[0] for stream in hfsq.decode(raw[None]))
     joints = from_streams(upper, lower, placement, leader, smoothed_heading(leader, frame))
     motion = rigid_body(joints[None], bones)[0]
     return correct_foot_contact(motion, config.foot_contact), bone_lengths(joints)

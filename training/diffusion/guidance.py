@@ -17,25 +17,29 @@ from training.denoiser.denoiser import Denoiser
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Latents (..., L, R, C) of one dance that were sampled from the same noise under three conditions."""
+    """Latents (..., L, R, C) of one dance that were sampled from the same noise under three conditions, and the mean
+    over several noises."""
 
     conditional: Tensor  # leader and song
     silent: Tensor  # the leader without a song
     unconditional: Tensor  # neither
+    mean: Tensor  # of the conditional latents of several seeds
 
 
-def blend(branches: Branches, coarse: Tensor, music: Tensor) -> Tensor:
-    """Eq. 9 on sampled latents, with a term for the song (Liu et al. 2022, guidance by a single condition):
+def blend(branches: Branches, coarse: Tensor, music: float, variety: float) -> Tensor:
+    """Eq. 9 on sampled latents, with a term for the song (Liu et al. 2022, guidance by a single condition) and one
+    for the distance from other seeds:
 
-        x = cond + m (cond - silent), in the coarse layer + s (cond - uncond)
+        x = cond + m (cond - silent), in the coarse layer + s (cond - uncond) + (v - 1) (cond - mean)
 
-    coarse: s, broadcastable to a layer (..., L, C). music: m, broadcastable to (..., L, R, C). Returns
-    (..., L, R, C). The fine layer's guidance acts where latents are decoded, see `layer_gains`.
+    coarse: s, broadcastable to a layer (..., L, C). music: m. variety: v. Returns (..., L, R, C). The fine layer's
+    guidance acts where latents are decoded, see `layer_gains`.
     """
     conditional = branches.conditional
     x = conditional + music * (conditional - branches.silent)
-    base = x[..., :1, :] + coarse[..., None, :] * (conditional - branches.unconditional)[..., :1, :]
-    return torch.cat([base, x[..., 1:, :]], dim=-2)
+    away = coarse[..., None, :] * (conditional - branches.unconditional)[..., :1, :]
+    away = away + (variety - 1) * (conditional - branches.mean)[..., :1, :]
+    return torch.cat([x[..., :1, :] + away, x[..., 1:, :]], dim=-2)
 
 
 def per_channel(values: Tensor, channels: int) -> Tensor:

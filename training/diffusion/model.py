@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import torch
 from torch import Tensor
 
 from training.config import DiffusionConfig, FrameConfig
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.decode import decode
 from training.diffusion.guidance import clamp_to_range
-from training.diffusion.schedule import Step, alphas_cumprod
+from training.diffusion.schedule import alphas_cumprod
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
 from training.motion.streams import leader_features
@@ -29,11 +28,14 @@ class Sampling:
     layers: int  # R
     channels: int  # C, of one layer
     alpha_bar: np.ndarray  # (train_steps,), the noise schedule
-    alternating_phase: bool  # every other step begins with half a block
+    last_time: float  # of the last step, a share of the training timesteps
+    extrapolation: tuple[float, ...]  # (S,) of the last two predictions, see `sample`
     stitching: bool  # blocks overlap by half and cross-fade
     steps: int
     guidance: tuple[float, float]  # Eq. 9's s of the coarse and the fine layer
-    music_guidance: float
+    music_guidance: float  # m of `blend`
+    variety: float  # v of `blend`
+    mean_seeds: int  # seeds 0, 1, ... whose mean variety is measured from
     reference_height: float  # metres, `body_height` of the leaders that the model knows
 
 
@@ -47,10 +49,11 @@ class ReactionModel(Protocol):
         """Memory (L, 2 D) of leader (T, 22, 3) metres, music (T, F), music_valid (T,) and role (1,)."""
         ...
 
-    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
-        """x after one step: x (B, block, R, C), memory (B, block, 2 D), valid (B, block).
+    def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
+        """Clean latents x0 (B, block, R, C), clamped to the quantiser's range, of noisy ones x (B, block, R, C).
 
-        keep: 1 with leader and song as they are in the memory, 0 without both.
+        memory (B, block, 2 D), valid (B, block); keep (1,): 1 with leader and song as they are in the memory, 0
+        without both; time (1,): timestep over the number of training timesteps.
         """
         ...
 
@@ -79,11 +82,14 @@ class Model:
             layers=self.denoiser.layers,
             channels=self.denoiser.latent_width,
             alpha_bar=alphas_cumprod(config),
-            alternating_phase=config.alternating_phase,
+            last_time=config.last_time,
+            extrapolation=config.extrapolation,
             stitching=config.stitching,
             steps=config.steps,
             guidance=config.guidance,
             music_guidance=config.music_guidance,
+            variety=config.variety,
+            mean_seeds=config.mean_seeds,
             reference_height=self.reference_height,
         )
 
@@ -91,12 +97,7 @@ class Model:
         features = leader_features(leader, smoothed_heading(leader, self.frame))
         return self.denoiser.condition(features[None], music[None], music_valid[None], role)[0]
 
-    def step(self, x: Tensor, memory: Tensor, valid: Tensor, keep: float, step: Step) -> Tensor:
-        x0 = self.predict(x, memory, valid, torch.tensor([keep]), torch.tensor([step.time]))
-        return step.a * x + step.b * x0
-
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
-        """x0 (B, block, R, C), clamped to the quantiser's range; keep and time (1,) float32, the rest as in `step`."""
         # Written so that the exported graph needs no shape arithmetic.
         every = (valid[:, :1] * 0 + keep).expand(-1, self.denoiser.layers)
         return clamp_to_range(self.denoiser, self.denoiser(x, time, memory, valid, every, every))

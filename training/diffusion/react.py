@@ -10,8 +10,13 @@ from torch import Tensor
 
 from training.config import STREAMS, STRIDE
 from training.diffusion.guidance import blend, layer_gains
-from training.diffusion.model import ReactionModel
-from training.diffusion.sampler import initial_noise, sample_branches
+from training.diffusion.model import Model, ReactionModel
+from training.diffusion.sampler import (
+    initial_noise,
+    sample_branches,
+    sample_guided_at_every_step,
+    sample_mean,
+)
 from training.diffusion.schedule import ddim_steps
 from training.motion.skeleton import JOINTS, body_height
 from training.music.recipe import MUSIC_FEATURES
@@ -29,13 +34,18 @@ class Request:
         None  # Eq. 9's s of coarse and fine; fine -1 leaves the coarse layer alone
     )
     music_guidance: float | None = None  # m of `blend`
+    variety: float | None = None  # v of `blend`
+    at_every_step: bool = False  # the paper's form of guidance, for its Table 4; with a `Model` alone
     role: float = 0.0  # 0 dances the reactor, 1 the leader, to a partner in the leader's place
     condition_leader: np.ndarray | None = None  # (T, 22, 3), given to the condition in the leader's place
 
 
 @torch.no_grad()
 def react(model: ReactionModel, request: Request) -> np.ndarray:
-    """The reactor (T, 22, 3) metres, as much smaller or taller than the model's reference as the leader is."""
+    """The reactor (T, 22, 3) metres, as much smaller or taller than the model's reference as the leader is.
+
+    Raises ValueError for guidance at every step with an exported model.
+    """
     sampling = model.sampling
     height = sampling.reference_height
     leader = at_height(request.leader, height)
@@ -47,18 +57,31 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     )
     coarse, fine = sampling.guidance if request.guidance is None else request.guidance
     weight = sampling.music_guidance if request.music_guidance is None else request.music_guidance
-    steps = ddim_steps(sampling.alpha_bar, request.steps or sampling.steps)
+    steps = ddim_steps(sampling.alpha_bar, request.steps or sampling.steps, sampling.last_time)
     initial = initial_noise(sampling, request.seed, len(memory))
-    branches = sample_branches(model, memory, silent, initial, steps)
-    latents = blend(branches, torch.full((1,), coarse), torch.full((1,), weight))
+    variety = sampling.variety if request.variety is None else request.variety
+    if request.at_every_step:
+        if not isinstance(model, Model):
+            raise ValueError("guidance at every step needs a checkpoint, not an exported model")
+        guidance = torch.tensor([[coarse, fine]] * len(STREAMS))
+        latents = sample_guided_at_every_step(model, memory, silent, initial, steps, guidance, weight)
+        measured, fine = latents, 0.0
+    else:
+        # At 1 the mean has no weight.
+        mean = sample_mean(model, memory, steps) if variety != 1 else torch.zeros(())
+        branches = sample_branches(model, memory, silent, initial, steps, mean)
+        latents = blend(branches, torch.full((1,), coarse), weight, variety)
+        measured = branches.conditional
     gains = layer_gains(torch.full((len(STREAMS),), fine), sampling.layers)
-    bones = measure_bones(model, branches.conditional, leader)
+    bones = measure_bones(model, measured, leader)
     reactor, _ = model.decode(latents, leader, gains, bones)
     return reactor[: len(request.leader)].numpy() / scale_to(request.leader, height)
 
 
 def measure_bones(model: ReactionModel, latents: Tensor, leader: Tensor) -> Tensor:
-    """(22,) metres: mean bone lengths of the conditional branch (L, R, C), so that no control changes the body."""
+    """(22,) metres: mean bone lengths of latents (L, R, C); of the conditional branch, so that no control changes the
+    body.
+    """
     gains = torch.ones(len(STREAMS), model.sampling.layers)
     _, lengths = model.decode(latents, leader, gains, torch.ones(len(JOINTS)))
     return lengths.mean(0)

@@ -1,4 +1,4 @@
-"""DDIM over blocks (paper 3.4): all blocks of a dance in parallel, whatever computes a step."""
+"""DDIM over blocks (paper 3.4): all blocks of a dance in parallel, whatever computes a prediction."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import torch
 from torch import Tensor
 
 from training.diffusion.blocks import gather, overlapping, partition, scatter
-from training.diffusion.guidance import Branches, classifier_free_guidance
+from training.diffusion.guidance import Branches, classifier_free_guidance, per_channel
 from training.diffusion.model import Model, ReactionModel, Sampling
 from training.diffusion.noise import noise
 from training.diffusion.schedule import Step
 
-OnStep = Callable[[int, Tensor], None]
-
-RunStep = Callable[[Tensor, Tensor, Tensor, Step], Tensor]
-"""x (B, block, R, C), memory (B, block, M), valid (B, block) and a step to the next x."""
+Predict = Callable[[Tensor, Tensor, Tensor, Tensor], Tensor]
+"""x (B, block, R, C), memory (B, block, M), valid (B, block) and time (1,) to clean latents x0 (B, block, R, C)."""
 
 
 def initial_noise(sampling: Sampling, seed: int, frames: int) -> Tensor:
@@ -27,43 +25,37 @@ def initial_noise(sampling: Sampling, seed: int, frames: int) -> Tensor:
 
 @torch.no_grad()
 def sample(
-    sampling: Sampling,
-    run_step: RunStep,
-    memory: Tensor,
-    initial: Tensor,
-    steps: Sequence[Step],
-    on_step: OnStep | None = None,
+    sampling: Sampling, predict: Predict, memory: Tensor, initial: Tensor, steps: Sequence[Step]
 ) -> Tensor:
     """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C).
 
-    All blocks of a step are computed in parallel. `on_step(k, x)` sees the state after each step.
+    All blocks of a step are computed in parallel. The last prediction is extrapolated from the one before it,
+    x0 + c (x0 - x0 before) with c of each stream, as multistep solvers do (Lu et al. 2022, DPM-Solver++): few steps
+    stop short of where many would arrive, with too little energy and too little difference between seeds.
     """
     frames, size = len(memory), sampling.block
-    x = initial
+    blocks = overlapping(frames, size) if sampling.stitching else partition(frames, size)
+    memory_blocks = gather(memory, blocks, size)
+    valid = gather(torch.ones(frames), blocks, size)
+    extrapolation = per_channel(torch.tensor(sampling.extrapolation), sampling.channels)
+    x, before = initial, None
     for k, step in enumerate(steps):
-        if sampling.stitching:
-            blocks = overlapping(frames, size)
-        else:
-            blocks = partition(frames, size, shifted=sampling.alternating_phase and k % 2 == 1)
-        following = run_step(
-            gather(x, blocks, size),
-            gather(memory, blocks, size),
-            gather(torch.ones(frames), blocks, size),
-            step,
-        )
-        x = scatter(following, blocks, frames)
-        if on_step is not None:
-            on_step(k, x)
+        time = torch.tensor([step.time], dtype=torch.float32)
+        x0 = scatter(predict(gather(x, blocks, size), memory_blocks, valid, time), blocks, frames)
+        if k == len(steps) - 1 and before is not None:
+            x0 = x0 + extrapolation * (x0 - before)
+        x, before = step.a * x + step.b * x0, x0
     return x
 
 
 def sample_branch(
     model: ReactionModel, memory: Tensor, keep: float, initial: Tensor, steps: Sequence[Step]
 ) -> Tensor:
-    """Latents (L, R, C) without guidance; memory (L, 2 D), keep as in `ReactionModel.step`."""
+    """Latents (L, R, C) without guidance; memory (L, 2 D), keep as in `ReactionModel.predict`."""
+    kept = torch.tensor([keep])
     return sample(
         model.sampling,
-        lambda x, m, valid, step: model.step(x, m, valid, keep, step),
+        lambda x, m, valid, time: model.predict(x, m, valid, kept, time),
         memory,
         initial,
         steps,
@@ -71,14 +63,21 @@ def sample_branch(
 
 
 def sample_branches(
-    model: ReactionModel, memory: Tensor, silent: Tensor, initial: Tensor, steps: Sequence[Step]
+    model: ReactionModel, memory: Tensor, silent: Tensor, initial: Tensor, steps: Sequence[Step], mean: Tensor
 ) -> Branches:
-    """The three branches of `blend`; memory and silent (L, 2 D) are with and without a song."""
+    """The branches of `blend`; memory and silent (L, 2 D) are with and without a song, mean is of `sample_mean`."""
     return Branches(
         sample_branch(model, memory, 1.0, initial, steps),
         sample_branch(model, silent, 1.0, initial, steps),
         sample_branch(model, silent, 0.0, initial, steps),
+        mean,
     )
+
+
+def sample_mean(model: ReactionModel, memory: Tensor, steps: Sequence[Step]) -> Tensor:
+    """Mean (L, R, C) of the conditional latents of seeds 0, 1, ...; memory (L, 2 D)."""
+    noises = (initial_noise(model.sampling, seed, len(memory)) for seed in range(model.sampling.mean_seeds))
+    return torch.stack([sample_branch(model, memory, 1.0, noise, steps) for noise in noises]).mean(0)
 
 
 def sample_guided_at_every_step(
@@ -92,12 +91,10 @@ def sample_guided_at_every_step(
 ) -> Tensor:
     """Latents (L, R, C) with the paper's form of guidance, for its Table 4; guidance s (S, R)."""
 
-    def run_step(x: Tensor, both: Tensor, valid: Tensor, step: Step) -> Tensor:
+    def predict(x: Tensor, both: Tensor, valid: Tensor, time: Tensor) -> Tensor:
         with_song, without = both.chunk(2, dim=-1)
-        time = torch.tensor([step.time]).float()
-        x0 = classifier_free_guidance(
+        return classifier_free_guidance(
             model.denoiser, x, time, with_song, without, valid, guidance, music_guidance
         )
-        return step.a * x + step.b * x0
 
-    return sample(model.sampling, run_step, torch.cat([memory, silent], dim=-1), initial, steps)
+    return sample(model.sampling, predict, torch.cat([memory, silent], dim=-1), initial, steps)

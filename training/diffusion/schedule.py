@@ -40,12 +40,19 @@ class Step:
     b: float
 
 
-def ddim_steps(alpha_bar: np.ndarray, count: int) -> list[Step]:
-    """Deterministic DDIM (Song et al. 2021, eta = 0): `count` steps from the last training timestep to clean data."""
+def ddim_steps(alpha_bar: np.ndarray, count: int, last_time: float) -> list[Step]:
+    """Deterministic DDIM (Song et al. 2021, eta = 0) to clean data: `count` steps, evenly spaced from the noisiest
+    timestep to `last_time`, a share of the training timesteps.
+
+    Raises ValueError for a count or time out of range.
+    """
     total = len(alpha_bar)
     if not 1 <= count <= total:
         raise ValueError(f"between 1 and {total} steps, got {count}")
-    timesteps = [(count - k) * total // count - 1 for k in range(count)]
+    if not 1 / total <= last_time <= 1:
+        raise ValueError(f"the last time has to be between {1 / total} and 1, got {last_time}")
+    times = np.linspace(1, last_time, count)
+    timesteps = [round(time * total) - 1 for time in times]
     steps = []
     for k, t in enumerate(timesteps):
         now = alpha_bar[t]

@@ -15,7 +15,8 @@ import numpy as np
 
 from training.data.duet import Duet, Solo
 from training.evaluation.baselines import baselines
-from training.evaluation.guidance import measure_guidance, separability
+from training.evaluation.controls import measure_controls
+from training.evaluation.guidance import measure_guidance
 from training.evaluation.long_dance import measure_long_dance
 from training.evaluation.metrics.duet import CLIP_FRAMES, HOP_FRAMES, clip_count
 from training.evaluation.out_of_distribution import OutOfDistributionDance, measure_out_of_distribution
@@ -24,11 +25,13 @@ from training.evaluation.protocol import (
     COARSE_ALONE,
     GENERATED,
     TRUTH,
+    ControlledDance,
     HeldOutDuet,
     Motions,
     ReactorGenerator,
     Settings,
     Solver,
+    fit_length,
 )
 from training.evaluation.role_swap import measure_role_swap
 from training.evaluation.rows import generate_motions, measure_row, measure_two_sample
@@ -56,6 +59,8 @@ def evaluate(
     given: Mapping[str, Motions] | None = None,
     solvers: Mapping[str, Solver] | None = None,
     out_of_distribution: Sequence[Solo] = (),
+    control_defaults: Mapping[str, float] | None = None,
+    guided_at_every_step: ReactorGenerator | None = None,
     log: Log = lambda _: None,
 ) -> Evaluation:
     """Every measure in one run.
@@ -63,6 +68,8 @@ def evaluate(
     train: duets that the baselines learn from. given: further rows whose motions exist already, such as
     reconstructions. solvers: each gives a row of its name, the generated motions on a skeleton of constant
     bone lengths, as drawn and exported. out_of_distribution: leaders of other dances, without a partner.
+    control_defaults: the model's weight of every control, needed where the settings ask for controls.
+    guided_at_every_step: the model with the paper's form of guidance, for the settings' grid.
     Raises ValueError without a held-out duet.
     """
     settings = settings or Settings()
@@ -97,6 +104,20 @@ def evaluate(
     frames = float(np.mean([len(i.duet) for i in held_out]))
     numbers["seconds"] = {"mean": float(np.mean(seconds)), "frames": frames}
     numbers |= _probes(generate, held_out, rows, settings, log)
+    solve = next(iter((solvers or {}).values()), None)
+    if settings.controls:
+        log("controls")
+        assert control_defaults is not None, "controls need the model's defaults"
+        numbers["controls"] = measure_controls(
+            generate,
+            _controlled(held_out, out_of_distribution, settings),
+            control_defaults,
+            settings.seeds[: settings.response_seeds],
+            solve,
+        )
+    if settings.guidance_grid and guided_at_every_step:
+        log("guidance at every step")
+        numbers["guidance"] = measure_guidance(guided_at_every_step, held_out, settings)
     log("a long dance")
     numbers["long_dance"] = measure_long_dance(generate, held_out, settings.seeds)
     log("role swap")
@@ -105,7 +126,6 @@ def evaluate(
     dances: list[OutOfDistributionDance] = []
     if out_of_distribution:
         log("out-of-distribution leaders")
-        solve = next(iter((solvers or {}).values()), None)
         numbers["out_of_distribution"], dances = measure_out_of_distribution(
             generate, out_of_distribution, held_out, settings, solve
         )
@@ -133,8 +153,26 @@ def _probes(
     if settings.phase_seeds:
         log("beat following")
         numbers["beat_following"] = measure_beat_following(generate, held_out, settings.phase_seeds)
-    if settings.guidance_grid:
-        log("guidance")
-        numbers["guidance"] = measure_guidance(generate, held_out, settings)
-        numbers["separability"] = separability(numbers["guidance"])
     return numbers
+
+
+def _controlled(
+    held_out: Sequence[HeldOutDuet], leaders: Sequence[Solo], settings: Settings
+) -> list[ControlledDance]:
+    """The held-out duets and the leaders that the settings name; the other song is that of the next duet."""
+    songs = [item.music for item in held_out]
+
+    def dance(index: int, leader: np.ndarray, reactor: np.ndarray | None) -> ControlledDance:
+        music, other = (
+            None if song is None else fit_length(song, len(leader))
+            for song in (songs[index % len(songs)], songs[(index + 1) % len(songs)])
+        )
+        return ControlledDance(leader, music, other, reactor)
+
+    named = [leader for leader in leaders if leader.name in settings.controlled_leaders]
+    if missing := set(settings.controlled_leaders) - {leader.name for leader in named}:
+        raise ValueError(f"no out-of-distribution leader is called {', '.join(sorted(missing))}")
+    return [
+        *(dance(i, item.duet.leader, item.duet.reactor) for i, item in enumerate(held_out)),
+        *(dance(i, leader.motion, None) for i, leader in enumerate(named)),
+    ]

@@ -1,22 +1,13 @@
-"""Classifier-free guidance of the coarse and the fine layer: a grid of both (the paper's Table 4), and how separate the
-two are: coarse guidance should change low frequencies only, fine guidance high ones only.
-"""
+"""Classifier-free guidance of the coarse and the fine layer at every step: a grid of both (the paper's Table 4)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
+from training.evaluation.controls import QUICK_HZ, SLOW_HZ
 from training.evaluation.metrics import mean_report, quick_report
 from training.evaluation.metrics.speed import band_power
 from training.evaluation.protocol import HeldOutDuet, ReactorGenerator, Settings
-
-# What guidance of the coarse layer should change, and what that of the fine layer should.
-SLOW_HZ, QUICK_HZ = (0.0, 1.5), (3.0, 15.0)
-PAPER_GUIDANCE = 1.2  # compared with none
-
-# Which energy of `measure_guidance` a layer's guidance is meant for, and which it should leave alone.
-OWN = {"coarse": "slow_energy", "fine": "quick_energy"}
-OTHER = {"coarse": "quick_energy", "fine": "slow_energy"}
 
 
 def measure_guidance(
@@ -25,7 +16,8 @@ def measure_guidance(
     """`quick_report` and energy for every pair of coarse and fine guidance of the settings' grid, mean over
     duets and seeds.
 
-    slow_energy and quick_energy are powers of joint velocity under 1.5 Hz and over 3 Hz, (m/s)^2.
+    generate: with guidance at every step. slow_energy and quick_energy are powers of joint velocity under 1.5 Hz and
+    over 3 Hz, (m/s)^2.
     """
     cells = []
     for coarse in settings.guidance_grid:
@@ -39,24 +31,3 @@ def measure_guidance(
                     rows.append(quick_report(item.duet.leader, item.duet.reactor, made) | energy)
             cells.append({"coarse": coarse, "fine": fine} | mean_report(rows))
     return cells
-
-
-def separability(cells: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    """Relative change of energy when one layer's guidance rises from 0 to 1.2 and the other's stays 0.
-
-    cells: of `measure_guidance`. `LAYER_moves_own` is taken under 1.5 Hz for coarse and over 3 Hz for fine,
-    `LAYER_moves_other` at the opposite end; 0.05 is 5 % more energy. Layers whose cells are not in the grid
-    are left out.
-    """
-    by_guidance = {(cell["coarse"], cell["fine"]): cell for cell in cells}
-    none = by_guidance.get((0.0, 0.0))
-    raised = {
-        "coarse": by_guidance.get((PAPER_GUIDANCE, 0.0)),
-        "fine": by_guidance.get((0.0, PAPER_GUIDANCE)),
-    }
-    result: dict[str, float] = {}
-    for layer, cell in raised.items():
-        if none is not None and cell is not None:
-            for name, energy in (("own", OWN[layer]), ("other", OTHER[layer])):
-                result[f"{layer}_moves_{name}"] = cell[energy] / none[energy] - 1
-    return result

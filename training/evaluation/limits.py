@@ -71,14 +71,14 @@ def constant(value: float) -> Read:
     return lambda _: value
 
 
-def absolute(read: Read) -> Read:
-    """The value without its sign."""
+def at_end(control: str, end: str, key: str) -> Read:
+    """What a control does at the `lower` or `upper` end of its travel."""
 
-    def read_absolute(numbers: Numbers) -> float | None:
-        value = read(numbers)
-        return None if value is None else abs(value)
+    def read(numbers: Numbers) -> float | None:
+        rows = numbers.get("controls", {}).get(control)
+        return rows[0 if end == "lower" else -1].get(key) if rows else None
 
-    return read_absolute
+    return read
 
 
 def ratio(row: str, key: str, other: str) -> Read:

@@ -26,14 +26,17 @@ class ReactorGenerator(Protocol):
         seed: int,
         condition_leader: np.ndarray | None = None,
         guidance: tuple[float, float] | None = None,
+        music_guidance: float | None = None,
+        variety: float | None = None,
         role: float = 0.0,
     ) -> np.ndarray:
         """The reactor (T, 22, 3) metres, at the leader's own size.
 
         leader: (T, 22, 3) metres. music: (T', 54) features, None for silence. condition_leader: (T, 22, 3),
         takes the leader's place in the condition, while the reactor is still decoded beside `leader`.
-        guidance: of the coarse and the fine layer, None for the model's default; fine -1 leaves the coarse layer
-        alone. role: 0 generates the reactor, 1 the leader of a partner in the leader's place.
+        guidance of the coarse and the fine layer, music_guidance and variety: weights of the controls, None for the
+        model's defaults; fine -1 leaves the coarse layer alone. role: 0 generates the reactor, 1 the leader of a
+        partner in the leader's place.
         """
         ...
 
@@ -54,17 +57,31 @@ class HeldOutDuet:
     music: np.ndarray | None
 
 
+@dataclass(frozen=True, eq=False)
+class ControlledDance:
+    """A leader beside whom the controls are moved, with two songs, and the true reactor where there is one."""
+
+    leader: np.ndarray
+    music: np.ndarray | None
+    other_music: np.ndarray | None
+    reactor: np.ndarray | None
+
+
 @dataclass(frozen=True)
 class Settings:
     """How much is measured."""
 
     seeds: tuple[int, ...] = (0, 1, 2, 3, 4)
-    seam_spacing: int = 240  # frames between block boundaries; half of it with alternating block phase
+    seam_spacing: int = 240  # frames between block boundaries
     seam_starts: tuple[int, ...] = (0, 60, 120, 180)  # frames cut off the start, to move the boundaries
     response_seeds: int = 3  # seeds with which conditions are changed
     two_sample: bool = True  # train networks to tell generated from true windows
     phase_seeds: int = 0  # seeds of the half-beat test; 0 leaves it out, 16 are needed for p < 0.01
-    guidance_grid: tuple[float, ...] = ()  # values of coarse and fine guidance to try; none leaves it out
+    guidance_grid: tuple[float, ...] = ()
+    """Values of coarse and fine guidance at every step to try (the paper's Table 4); none leaves it out."""
+    controls: bool = False  # move every control over its travel
+    controlled_leaders: tuple[str, ...] = ()
+    """Names of out-of-distribution leaders beside whom controls are moved too."""
     beats_unknown: tuple[str, ...] = ()
     """Held-out duets whose music has no reliable beats: their beat alignment has no threshold."""
     seen_leaders: tuple[str, ...] = ()

@@ -12,7 +12,9 @@ from training.evaluation.protocol import HeldOutDuet, Settings
 
 
 def test_each_guidance_changes_the_energy_of_its_layer(held_out: list[HeldOutDuet], train: list[Duet]):
-    def guided(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def guided(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         coarse, fine = guidance or (0.0, 0.0)
         time = np.arange(len(leader))[:, None, None] / 30
         slow, quick = np.sin(2 * np.pi * 0.5 * time), 0.1 * np.sin(2 * np.pi * 6 * time)

@@ -97,7 +97,9 @@ def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_pa
     leaders = [Solo(name, put_on_floor(made_dancer(50 + 40 * i, i))) for i, name in enumerate(names)]
     calls = []
 
-    def generate(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def generate(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         calls.append((len(leader), music.shape, float(music.mean()), seed, role))
         return near(leader) + (10.0 if len(leader) == 90 else 0.0)
 

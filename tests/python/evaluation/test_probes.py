@@ -21,7 +21,9 @@ def test_a_motion_is_made_longer_forwards_and_backwards():
 def test_seams_are_found_at_block_boundaries(held_out: list[HeldOutDuet]):
     """A motion that jumps at every 240th frame of what is generated, wherever the leader was cut."""
 
-    def jumping(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def jumping(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         reactor = next(
             i.duet.reactor[-len(leader) :] for i in held_out if np.array_equal(i.duet.leader[-1], leader[-1])
         )
@@ -34,7 +36,9 @@ def test_seams_are_found_at_block_boundaries(held_out: list[HeldOutDuet]):
     assert found["ratio"] > 3
     assert found["paper_jitter_mm"] > found["paper_jitter_truth_mm"]
 
-    def true(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def true(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         return next(
             i.duet.reactor[-len(leader) :] for i in held_out if np.array_equal(i.duet.leader[-1], leader[-1])
         )
@@ -49,7 +53,9 @@ def test_seams_are_found_at_block_boundaries(held_out: list[HeldOutDuet]):
 def test_motion_that_slows_down_on_the_beat_is_told_from_motion_that_ignores_the_music(
     held_out: list[HeldOutDuet],
 ):
-    def pulsing(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def pulsing(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         beats = np.flatnonzero(music[:, BEAT_COLUMN])
         phase = (np.arange(len(leader)) - beats[0]) / 20
         speed = (
@@ -57,7 +63,9 @@ def test_motion_that_slows_down_on_the_beat_is_told_from_motion_that_ignores_the
         )
         return (np.cumsum(speed) * 0.01)[:, None, None] * np.ones((1, 22, 3))
 
-    def unchanging(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def unchanging(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         return pulsing(leader, held_out[0].music, seed)
 
     assert measure_beat_following(pulsing, held_out[:1], 12)["one"]["p"] < 0.01

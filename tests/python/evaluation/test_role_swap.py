@@ -24,7 +24,9 @@ def test_a_generator_that_knows_the_leader_has_the_error_of_its_seed():
     held_out = [HeldOutDuet(made_duet(80, 1, "one"), None), HeldOutDuet(made_duet(60, 2, "two"), None)]
     calls = []
 
-    def generate(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def generate(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         calls.append(leader)
         true = next(i.duet for i in held_out if np.array_equal(i.duet.reactor, leader))
         return (true.leader if role == 1.0 else true.reactor) + np.array([0.01 * seed, 0.0, 0.0])
@@ -49,7 +51,9 @@ def test_nearest_neighbour_is_swapped_too():
     """A training duet that is danced again is found by its reactor, and its leader is copied."""
     known = made_duet(120, 5, "known")
 
-    def still(leader, music, seed, condition_leader=None, guidance=None, role=0.0):
+    def still(
+        leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+    ):
         return np.repeat(leader[:1], len(leader), axis=0)
 
     numbers, _ = measure_role_swap(still, [HeldOutDuet(known, None)], [made_duet(120, 6), known], (0,))

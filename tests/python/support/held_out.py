@@ -30,7 +30,9 @@ def made_train() -> list[Duet]:
     return [made_duet(400, seed) for seed in (3, 4)]
 
 
-def generate_mirrored(leader, music, seed, condition_leader=None, guidance=None, role=0.0) -> np.ndarray:
+def generate_mirrored(
+    leader, music, seed, condition_leader=None, guidance=None, music_guidance=None, variety=None, role=0.0
+) -> np.ndarray:
     """Mirrors the leader of the condition; the head leans by a seed's random offset and nods on every beat."""
     condition = leader if condition_leader is None else condition_leader
     made = mirrored_leader(condition, 0.8).astype(np.float64)

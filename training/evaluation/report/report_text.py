@@ -55,8 +55,8 @@ def markdown(numbers: Numbers, title: str, pictures: list[Path], videos: list[Pa
     """The whole report: thresholds, the main table, every measure, then each experiment that was made."""
     sections = [f"# {title}", *_summary(numbers), *_every_measure(numbers), *_per_seed(numbers)]
     sections += [*_per_duet(numbers), *_boundaries_and_responses(numbers), *_two_sample(numbers)]
-    sections += [*_beat_following(numbers), *_guidance(numbers), *_long_dance(numbers)]
-    sections += [*_role_swap(numbers), *_out_of_distribution(numbers)]
+    sections += [*_beat_following(numbers), *_controls(numbers), *_guidance(numbers)]
+    sections += [*_long_dance(numbers), *_role_swap(numbers), *_out_of_distribution(numbers)]
     if videos:
         sections += ["## Videos", "From two sides.", *(f"[{p.stem}]({p.name})" for p in videos)]
     if pictures:
@@ -183,13 +183,26 @@ def _guidance(numbers: Numbers) -> Sections:
         return []
     keys = list(numbers["guidance"][0])
     return [
-        "## Classifier-free guidance, (1+s) cond - s uncond",
+        "## Classifier-free guidance at every step, (1+s) cond - s uncond",
         markdown_table(keys, [[number(cell[key]) for key in keys] for cell in numbers["guidance"]]),
-        "### Separability of coarse and fine",
-        "Relative change of energy when one guidance rises from 0 to 1.2 beside 0. Its own end of the "
-        "spectrum is under 1.5 Hz for coarse and over 3 Hz for fine.",
-        _values(numbers["separability"]),
     ]
+
+
+def _controls(numbers: Numbers) -> Sections:
+    if "controls" not in numbers:
+        return []
+    sections = [
+        "## Controls over their travel",
+        "`moved`: mean distance from the dance at the defaults from the same noise. `slow` and `quick`: energy under "
+        "1.5 Hz and over 3 Hz over that dance's. `bed_forward`: how often the reactor's beats follow the leader's.",
+    ]
+    for control, rows in numbers["controls"].items():
+        keys = list(rows[0])
+        sections += [
+            f"### {control}",
+            markdown_table(keys, [[number(row[key]) for key in keys] for row in rows]),
+        ]
+    return sections
 
 
 def _long_dance(numbers: Numbers) -> Sections:
