@@ -4,7 +4,7 @@
  *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
- * With --beside collisions with the leader are avoided; body.json has the capsules of both bodies (quality.penetration
+ * With --beside collisions with the leader are avoided and the root's speed is limited; body.json has the capsules of both bodies (quality.penetration
  * of a manifest). With --foot-lock feet in contact do not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -42,18 +42,22 @@ function read(file) {
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/collision-avoidance')} */
 const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
+/** @type {typeof import('../web/motion/contact/root-speed')} */
+const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const clip = read(from);
-let motion = solve(clip);
-if (values.beside !== undefined && values.body !== undefined) {
-  const leader = read(values.beside);
-  if (leader.frames !== clip.frames) {
-    console.error(`${values.beside} has ${leader.frames} frames, ${from} has ${clip.frames}.`);
-    process.exit(2);
-  }
-  motion = avoidCollisions(motion, leader, JSON.parse(readFileSync(values.body, 'utf8')));
+const leader = values.beside === undefined ? null : read(values.beside);
+if (leader !== null && leader.frames !== clip.frames) {
+  console.error(`${values.beside} has ${leader.frames} frames, ${from} has ${clip.frames}.`);
+  process.exit(2);
 }
+let motion = solve(clip);
+if (leader !== null && values.body !== undefined)
+  motion = limitRootSpeed(
+    avoidCollisions(motion, leader, JSON.parse(readFileSync(values.body, 'utf8'))),
+    leader,
+  );
 if (values['foot-lock']) motion = lockFeet(motion);
 writeFileSync(to, new Uint8Array(motion.positions.buffer));
 console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

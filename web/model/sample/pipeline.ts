@@ -1,6 +1,7 @@
 import { yieldToEvents } from '../../common/yield-to-events';
 import { avoidCollisions } from '../../motion/contact/collision-avoidance';
 import { lockFeet } from '../../motion/contact/foot-lock';
+import { limitRootSpeed } from '../../motion/contact/root-speed';
 import { solve } from '../../motion/fit/ik';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
@@ -143,7 +144,10 @@ export class Pipeline {
       Math.max(0, Math.floor((at - PREVIEW.before * fps) / latent.stride)),
       Math.floor((leader.frames - PREVIEW.length * fps) / latent.stride),
     );
-    const end = Math.min(from + Math.ceil((PREVIEW.length * fps) / latent.stride), leader.frames / latent.stride);
+    const end = Math.min(
+      from + Math.ceil((PREVIEW.length * fps) / latent.stride),
+      leader.frames / latent.stride,
+    );
     const range = { start: from, end: Math.floor(end) };
     const clip = await this.#decode(blended, signal, range);
     const fresh = { from: range.start * latent.stride, to: range.end * latent.stride };
@@ -167,9 +171,10 @@ export class Pipeline {
     return { fps: leader.fps, frames, positions };
   }
 
-  /** Fits a skeleton to decoded joints and moves the body out of the leader's. */
+  /** Fits a skeleton to decoded joints, moves the body out of the leader's and limits the root's speed. */
   #solve(clip: MotionClip, leader: MotionClip): SolvedMotion {
-    return avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
+    const apart = avoidCollisions(solve(clip), leader, this.manifest.quality.penetration);
+    return limitRootSpeed(apart, leader);
   }
 }
 

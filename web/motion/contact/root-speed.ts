@@ -1,0 +1,83 @@
+import type { MotionClip, SolvedMotion } from '../skeleton/clip';
+import { JOINT_COUNT } from '../skeleton/skeleton';
+
+/** A dancer's root may be this much faster than the partner's. */
+const SPEED_RATIO = 1.5;
+/** Speed that every root may have, metres a second. */
+const FREE_SPEED = 1.5;
+/** Time to each side within which the partner's greatest speed counts, seconds. */
+const REACH = 0.5;
+
+/**
+ * Slows a dancer down who would glide over the floor: a place that is told from the partner's heading swings far when
+ * an unfamiliar partner turns fast. The root keeps to `SPEED_RATIO` times the partner's speed or `FREE_SPEED`, whichever
+ * is more; a motion within that is returned as it is. Pure.
+ *
+ * The path is followed forwards and backwards, never faster than allowed, and the mean of both is taken: it begins to
+ * move as early as it arrives late.
+ *
+ * @param motion the dancer who is slowed down
+ * @param partner of the same frames and rate
+ */
+export function limitRootSpeed(motion: SolvedMotion, partner: MotionClip): SolvedMotion {
+  const limits = stepLimits(partner);
+  const path = levelPath(motion);
+  const there = followed(path, limits);
+  const back = followed(path.toReversed(), limits.toReversed()).toReversed();
+  const shifts = path.map(([x, z], t): Level => [
+    (there[t]![0] + back[t]![0]) / 2 - x,
+    (there[t]![1] + back[t]![1]) / 2 - z,
+  ]);
+  if (shifts.every(([x, z]) => x === 0 && z === 0)) return motion;
+  return {
+    ...motion,
+    root: shifted(motion.root, 1, shifts),
+    positions: shifted(motion.positions, JOINT_COUNT, shifts),
+  };
+}
+
+/** Points, `perFrame` a frame, x y z each, moved level with the floor by one shift a frame. */
+function shifted(points: Float32Array, perFrame: number, shifts: readonly Level[]): Float32Array {
+  const out = points.slice();
+  for (let i = 0; i < out.length / 3; i++) {
+    const [x, z] = shifts[Math.floor(i / perFrame)]!;
+    out[i * 3]! += x;
+    out[i * 3 + 2]! += z;
+  }
+  return out;
+}
+
+type Level = readonly [x: number, z: number];
+
+/** Place of the root over the floor, metres. */
+function levelPath({ positions, frames }: Pick<MotionClip, 'positions' | 'frames'>): Level[] {
+  return Array.from({ length: frames }, (_, t) => {
+    const root = t * JOINT_COUNT * 3;
+    return [positions[root]!, positions[root + 2]!];
+  });
+}
+
+/** How far a root may move from each frame to the next, metres; frames - 1 numbers. */
+function stepLimits(partner: MotionClip): Float64Array {
+  const path = levelPath(partner);
+  const steps = path.slice(1).map(([x, z], t) => Math.hypot(x - path[t]![0], z - path[t]![1]));
+  const reach = Math.round(REACH * partner.fps);
+  return Float64Array.from(steps, (_, t) =>
+    Math.max(
+      FREE_SPEED / partner.fps,
+      SPEED_RATIO * Math.max(...steps.slice(Math.max(0, t - reach), t + reach + 1)),
+    ),
+  );
+}
+
+/** A path that follows another one in steps that are not longer than the limits. */
+function followed(path: readonly Level[], limits: Float64Array): Level[] {
+  const out: Level[] = [path[0]!];
+  for (let t = 1; t < path.length; t++) {
+    const [x, z] = out[t - 1]!;
+    const [dx, dz] = [path[t]![0] - x, path[t]![1] - z];
+    const share = Math.min(1, limits[t - 1]! / Math.hypot(dx, dz) || 1);
+    out.push(share === 1 ? path[t]! : [x + dx * share, z + dz * share]);
+  }
+  return out;
+}
