@@ -47,7 +47,8 @@ def inputs(scene: Scene) -> dict[str, np.ndarray]:
 
 @torch.no_grad()
 def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
-    """Inputs and everything PyTorch makes of them: memory with and without the song, initial noise, the branches'
+    """Inputs and everything PyTorch makes of them: memory with and without the song, the
+    leader's unfamiliarity (L,), initial noise, the branches'
     latents and their mean (4, L, R, C), the blended latents (L, R, C), bone lengths (22,), the joints (T, 22, 3),
     and those of the coarse layer alone.
     """
@@ -75,6 +76,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         "steps": np.array([scene.steps], dtype=np.float32),
         "memory": memory.numpy(),
         "silent": silent.numpy(),
+        "unfamiliarity": model.unfamiliarity(leader).numpy(),
         "initial": initial.numpy(),
         "branches": torch.stack(
             [branches.conditional, branches.silent, branches.unconditional, branches.mean]

@@ -12,15 +12,18 @@ from training.diffusion.model import Model
 
 
 class Condition(nn.Module):
-    """leader (T, 22, 3), music (T, 54), music_valid (T), role (1) to memory (T / 4, M)."""
+    """leader (T, 22, 3), music (T, 54), music_valid (T), role (1) to memory (T / 4, M) and unfamiliarity (T / 4)."""
 
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.model = model
         self.encoder = model.denoiser.condition  # registers its parameters
 
-    def forward(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        return self.model.condition(leader, music, music_valid, role)
+    def forward(
+        self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        memory = self.model.condition(leader, music, music_valid, role)
+        return memory, self.model.unfamiliarity(leader)
 
 
 class Step(nn.Module):

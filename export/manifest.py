@@ -31,6 +31,7 @@ class Card:
     attribution: str
     notes: tuple[str, ...]
     reference_height: float  # metres, `body_height` of the leaders it was trained on
+    unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
 
 
 def layer_names(layers: int) -> list[str]:
@@ -88,6 +89,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },
         "fps": FPS,
+        "leader": {"unfamiliar_from": card.unfamiliar_from},
         "latent": {
             "stride": STRIDE,
             "block": model.denoiser.config.block,

@@ -44,7 +44,7 @@ def graphs(model: Model) -> list[Graph]:
             "condition",
             Condition(model),
             {"leader": motion, "music": ("frames", MUSIC_FEATURES), "music_valid": ("frames",), "role": (1,)},
-            {"memory": ("latents", memory)},
+            {"memory": ("latents", memory), "unfamiliarity": ("latents",)},
         ),
         Graph(
             "step",

@@ -13,6 +13,7 @@ import torch
 from torch import Tensor
 
 from training.diffusion.model import Sampling
+from training.music.recipe import MUSIC_FEATURES
 
 
 @dataclass(frozen=True)
@@ -43,8 +44,11 @@ class Exported:
         )
 
     def condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
-        (memory,) = self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)
-        return memory
+        return self._condition(leader, music, music_valid, role)[0]
+
+    def unfamiliarity(self, leader: Tensor) -> Tensor:
+        silence = torch.zeros(len(leader), MUSIC_FEATURES)
+        return self._condition(leader, silence, silence[:, 0], torch.zeros(1))[1]
 
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
         (x0,) = self._run("step", x=x, memory=memory, valid=valid, keep=keep, time=time)
@@ -53,6 +57,9 @@ class Exported:
     def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
         reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)
         return reactor, lengths
+
+    def _condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> list[Tensor]:
+        return self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)
 
     def _run(self, graph: str, **inputs: Tensor) -> list[Tensor]:
         feed = {name: np.ascontiguousarray(value.numpy(), dtype=np.float32) for name, value in inputs.items()}

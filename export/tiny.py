@@ -29,6 +29,7 @@ CARD = Card(
     attribution="Made by the project for its tests.",
     notes=("Untrained. Its motion means nothing.",),
     reference_height=1.5,
+    unfamiliar_from=10.0,
 )
 
 

@@ -36,7 +36,7 @@ class Options:
 
 
 def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, float]:
-    """Largest absolute difference of memory, of the branches' latents, and of the decoded joints in metres."""
+    """Largest absolute difference of memory, unfamiliarity, the branches' latents, and of decoded joints in metres."""
     truth = reference(model, scene)
     given = {name: torch.from_numpy(value) for name, value in truth.items()}
     memory = exported.condition(*(given[name] for name in ("leader", "music", "music_valid", "role")))
@@ -66,6 +66,7 @@ def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, flo
     each = torch.stack([branches.conditional, branches.silent, branches.unconditional, branches.mean])
     return {
         "memory": worst(memory, truth["memory"]),
+        "unfamiliarity": worst(exported.unfamiliarity(given["leader"]), truth["unfamiliarity"]),
         "branches": worst(each, truth["branches"]),
         "reactor": worst(reactor, truth["reactor"]),
     }

@@ -90,10 +90,11 @@ def read_card(folder: Path) -> dict:
     return read_config(folder, "card")
 
 
-def write_first_card(folder: Path, reference_height: float) -> None:
+def write_first_card(folder: Path, reference_height: float, unfamiliar_from: float) -> None:
     """Writes a card.json to be filled in by hand; one that exists is kept.
 
-    reference_height: metres, the mean `body_height` of the leaders it was trained on.
+    reference_height: metres, the mean `body_height` of the leaders it was trained on. unfamiliar_from: mean
+    `ConditionEncoder.unfamiliarity` of a leader from which the page says that the model does not know such a dance.
     """
     if (folder / "card.json").exists():
         return
@@ -105,5 +106,6 @@ def write_first_card(folder: Path, reference_height: float) -> None:
         "attribution": "not stated",
         "notes": [],
         "reference_height": round(reference_height, 4),
+        "unfamiliar_from": round(unfamiliar_from, 2),
     }
     write_json(folder / "card.json", card)

@@ -27,7 +27,7 @@ from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
-from training.diffusion.react import Request, react
+from training.diffusion.react import Request, at_height, react
 from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
@@ -35,6 +35,10 @@ from training.loop import LoopOptions, Run, launch
 from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import body_height
 from training.motion.streams import from_streams
+
+
+UNFAMILIAR_RATIO = 1.2
+"""How much farther from the mean of training than any leader of training an unfamiliar leader is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +101,8 @@ def main(options: Options) -> None:
             run.logger.draw()
             provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
             save_denoiser(options.out, averaged, options.diffusion, provenance | {"validation": report})
-            write_first_card(options.out, height)
+            known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
+            write_first_card(options.out, height, UNFAMILIAR_RATIO * known)
         hfsq.to(fabric.device)
 
     run.train(lambda: windows.batch(options.batch), finish)

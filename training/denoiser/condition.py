@@ -82,6 +82,13 @@ class ConditionEncoder(nn.Module):
         """Channels of the memory: 2 D."""
         return 2 * len(self.silence)
 
+    def unfamiliarity(self, leader: Tensor) -> Tensor:
+        """How far leader features (N, T, 68) are from those of training: (N, L), the root mean square of the normalised
+        features, about 1 for a leader of training.
+        """
+        features = (leader - self.leader.mean) / self.leader.std
+        return features.square().mean(-1).reshape(len(features), -1, STRIDE).mean(-1).sqrt()
+
     def forward(
         self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor, inside: Tensor | None = None
     ) -> Tensor:

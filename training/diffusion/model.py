@@ -49,6 +49,10 @@ class ReactionModel(Protocol):
         """Memory (L, 2 D) of leader (T, 22, 3) metres, music (T, F), music_valid (T,) and role (1,)."""
         ...
 
+    def unfamiliarity(self, leader: Tensor) -> Tensor:
+        """(L,) how far a leader (T, 22, 3) metres is from those of training, see `ConditionEncoder.unfamiliarity`."""
+        ...
+
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
         """Clean latents x0 (B, block, R, C), clamped to the quantiser's range, of noisy ones x (B, block, R, C).
 
@@ -96,6 +100,10 @@ class Model:
     def condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> Tensor:
         features = leader_features(leader, smoothed_heading(leader, self.frame))
         return self.denoiser.condition(features[None], music[None], music_valid[None], role)[0]
+
+    def unfamiliarity(self, leader: Tensor) -> Tensor:
+        features = leader_features(leader, smoothed_heading(leader, self.frame))
+        return self.denoiser.condition.unfamiliarity(features[None])[0]
 
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
         # Written so that the exported graph needs no shape arithmetic.
