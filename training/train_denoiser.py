@@ -36,7 +36,6 @@ from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import body_height
 from training.motion.streams import from_streams
 
-
 UNFAMILIAR_RATIO = 1.2
 """How much farther from the mean of training than any leader of training an unfamiliar leader is."""
 
