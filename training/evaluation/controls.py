@@ -8,7 +8,7 @@ import numpy as np
 
 from training.config import CONTROLS
 from training.evaluation.metrics import mean_report
-from training.evaluation.metrics.beats import bed
+from training.evaluation.metrics.beats import beat_alignment, motion_beats
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.distance import facing, root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error
@@ -100,7 +100,7 @@ def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dic
         "quick_ratio": quick,
         "distance_m": float(np.median(root_distance(leader, made))),
         "facing_deg": float(facing(leader, made).mean()),
-        "bed_forward": bed(leader, made)["bed_forward"],
+        "bed_forward": beat_alignment(motion_beats(leader), motion_beats(made)),
     }
     if truth is None:
         return row
