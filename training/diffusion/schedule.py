@@ -44,15 +44,16 @@ def ddim_steps(alpha_bar: np.ndarray, count: int, last_time: float) -> list[Step
     """Deterministic DDIM (Song et al. 2021, eta = 0) to clean data: `count` steps, evenly spaced from the noisiest
     timestep to `last_time`, a share of the training timesteps.
 
-    Raises ValueError for a count or time out of range.
+    Timesteps are counted in whole numbers, so that no rounding differs between languages. Raises ValueError for a time
+    out of range, or for more steps than there are timesteps between.
     """
     total = len(alpha_bar)
-    if not 1 <= count <= total:
-        raise ValueError(f"between 1 and {total} steps, got {count}")
     if not 1 / total <= last_time <= 1:
         raise ValueError(f"the last time has to be between {1 / total} and 1, got {last_time}")
-    times = np.linspace(1, last_time, count)
-    timesteps = [round(time * total) - 1 for time in times]
+    way = total - round(last_time * total)
+    if not 1 <= count <= way + 1:
+        raise ValueError(f"between 1 and {way + 1} steps, got {count}")
+    timesteps = [total - 1 - way * k // max(count - 1, 1) for k in range(count)]
     steps = []
     for k, t in enumerate(timesteps):
         now = alpha_bar[t]

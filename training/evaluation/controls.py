@@ -8,7 +8,7 @@ import numpy as np
 
 from training.config import CONTROLS
 from training.evaluation.metrics import mean_report
-from training.evaluation.metrics.beats import bed
+from training.evaluation.metrics.beats import beat_alignment, motion_beats
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.distance import facing, root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error
@@ -37,6 +37,7 @@ def measure_controls(
     solve: Solver | None = None,
 ) -> dict[str, list[dict[str, float]]]:
     """For each control the rows of its `travel`, means over dances and seeds; the other controls at their defaults.
+    What is measured against the truth is the mean over the dances that have one.
 
     `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song),
     for variety seeds_apart_mm (pose, between the seeds). solve: what is drawn is measured in the place of the joints.
@@ -72,8 +73,14 @@ def measure_controls(
                 if control == "variety" and len(seeds) > 1:
                     row["seeds_apart_mm"] = between_seeds(made)["pose_mm"]
                 rows.append(row)
-            result[control].append({"value": value} | mean_report(rows))
+            result[control].append({"value": value} | _mean_where_measured(rows))
     return result
+
+
+def _mean_where_measured(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """The mean of every measure over the rows that have it."""
+    keys = dict.fromkeys(key for row in rows for key in row)
+    return {key: float(np.mean([row[key] for row in rows if key in row])) for key in keys}
 
 
 def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dict[str, float]:
@@ -100,7 +107,7 @@ def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dic
         "quick_ratio": quick,
         "distance_m": float(np.median(root_distance(leader, made))),
         "facing_deg": float(facing(leader, made).mean()),
-        "bed_forward": bed(leader, made)["bed_forward"],
+        "bed_forward": beat_alignment(motion_beats(leader), motion_beats(made)),
     }
     if truth is None:
         return row
