@@ -1,5 +1,5 @@
 import { el, combineDisposers } from '../widgets/dom';
-import { coarseMotion } from '../store/reactor-motion';
+import { coarseMotion, earlierMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
 import { icon } from '../widgets/icons';
@@ -45,12 +45,14 @@ const mountStageTools: Mount = (root, store, services) => {
 /** Over the picture: the legend, the cameras, overlays and stage tools. */
 export const mountStageControls: Mount = (root, store, services) => {
   const coarse = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Coarse only');
+  const earlier = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Before');
   const legend = el(
     'ul',
     { class: 'over legend' },
     el('li', { class: 'leader' }, el('span', { class: 'dot' }), 'Leader'),
     el('li', { class: 'reactor' }, el('span', { class: 'dot' }), 'Reactor'),
     coarse,
+    earlier,
   );
   const select = (camera: Camera): void => {
     apply(store, cameraSet(camera));
@@ -103,6 +105,13 @@ export const mountStageControls: Mount = (root, store, services) => {
       (state) => coarseMotion(state) !== null,
       (seen) => {
         coarse.hidden = !seen;
+      },
+    ),
+    watch(
+      store,
+      (state) => earlierMotion(state) !== null,
+      (seen) => {
+        earlier.hidden = !seen;
       },
     ),
     watch(

@@ -172,6 +172,8 @@ export interface AppState {
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
+  /** The reaction before the last change of a setting, for as long as the stage shows it as a ghost. */
+  readonly earlier: Reaction | null;
   readonly variations: Variations | null;
   /** Whether the seed stays when a reaction is generated again. */
   readonly seedLocked: boolean;

@@ -1,0 +1,61 @@
+import { differOnlyInWeights, readyInputs, sameInputs } from '../store/selectors';
+import type { Inputs, Reaction } from '../store/reaction';
+import type { AppState } from '../store/state';
+import { apply, type Store } from '../store/store';
+import { earlierShown } from '../store/actions/view';
+
+/** How long the earlier dance stays on the stage after the last change, milliseconds. */
+const SHOWN_MS = 2000;
+
+/**
+ * Keeps the dance before a change of the settings beside the new one for a while, so that one sees what the change did.
+ * While guidance is moved again and again it stays the dance from before the first move.
+ * @returns a function that stops it
+ */
+export function createEarlierDance(store: Store): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let seen = store.getState();
+  const show = (earlier: Reaction | null): void => {
+    clearTimeout(timer);
+    if (earlier) timer = setTimeout(() => show(null), SHOWN_MS);
+    if (earlier !== store.getState().earlier) apply(store, earlierShown(earlier));
+  };
+  const stop = store.subscribe(() => {
+    // Not the listener's arguments: another listener may have changed the state once more.
+    const [before, now] = [seen, store.getState()];
+    seen = now;
+    const inputs = newInputs(before, now);
+    if (inputs !== undefined) show(earlierAfter(before, now, inputs));
+  });
+  return () => {
+    stop();
+    clearTimeout(timer);
+  };
+}
+
+/** What the dance that has just come onto the stage was made from, null without one; undefined where none has come. */
+function newInputs(before: AppState, now: AppState): Inputs | null | undefined {
+  if (now.preview !== null && now.preview !== before.preview) return readyInputs(now);
+  if (now.reaction === before.reaction) return undefined;
+  const frame = now.playback.time * (now.reaction?.motion.fps ?? 0);
+  const previewed = before.preview && before.job?.previewed;
+  // The dance at the playhead came with its preview already.
+  if (previewed && now.reaction && frame >= previewed.from && frame < previewed.to) return undefined;
+  return now.reaction?.inputs ?? null;
+}
+
+/** The earlier dance beside a dance from these inputs; null where files or roles have changed too. */
+function earlierAfter(before: AppState, now: AppState, inputs: Inputs | null): Reaction | null {
+  const { reaction: replaced, takes } = before;
+  if (!replaced || !inputs || now.compare !== 'off' || !differInSettings(replaced.inputs, inputs))
+    return null;
+  const isNew = now.reaction === replaced || !takes.some(({ reaction }) => reaction === now.reaction);
+  const moves = isNew && now.earlier !== null && differOnlyInWeights(now.earlier.inputs, inputs);
+  return moves ? now.earlier : replaced;
+}
+
+/** Whether files are the same and settings other than the role differ. */
+function differInSettings(a: Inputs, b: Inputs): boolean {
+  const sameDancers = a.settings.role === b.settings.role && sameInputs({ ...a, settings: b.settings }, b);
+  return sameDancers && !sameInputs(a, b);
+}
