@@ -95,6 +95,8 @@ const schema = v.object({
     coarse: range,
     fine: range,
     music: range,
+    /** `seeds`: how many seeds, from 0, the mean is taken of that variety keeps a seed away from. */
+    variety: v.object({ ...range.entries, seeds: count }),
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
   /** What the decode graph does to decoded joints: gain above 6 Hz, strength of the foot-contact correction in m/s. */
@@ -133,8 +135,8 @@ function describe(issue: v.BaseIssue<unknown>): string {
 /** Statements that tie fields to each other and to what this page can draw. */
 function check(manifest: Manifest): void {
   const { skeleton, latent, diffusion } = manifest;
-  const { coarse, fine, music } = manifest.guidance;
-  const ranges = { coarse, fine, music };
+  const { coarse, fine, music, variety } = manifest.guidance;
+  const ranges = { coarse, fine, music, variety };
   const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
     a.length === b.length && a.every((value, i) => value === b[i]);
   if (!same(skeleton.joints, SMPL22) || !same(skeleton.parents, PARENTS)) {

@@ -54,6 +54,7 @@ export function smallJson() {
       coarse: { min: -1, max: 1, step: 0.05, default: 0 },
       fine: { min: -1, max: 1, step: 0.05, default: 0 },
       music: { min: 0, max: 4, step: 0.25, default: 2 },
+      variety: { min: 0, max: 2, step: 0.05, default: 1, seeds: 4 },
     },
     noise: { algorithm: 'philox4x32-10' },
     decode: { sharpen: 0, foot_contact: 0 },

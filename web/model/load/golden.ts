@@ -61,10 +61,10 @@ export async function goldenError(
   golden: Golden,
 ): Promise<number> {
   const { latent } = manifest;
-  const wanted = { silent: true, unconditional: true };
+  const wanted = { silent: true, unconditional: true, mean: false };
   const branches = await new BranchSampler(manifest, session).branches(golden, golden, wanted);
   const { joints: reactor } = await decodeClip(session, manifest, {
-    latents: blend(branches, golden, latent),
+    latents: blend(branches, { ...golden, variety: 1 }, latent),
     leader: golden.leader,
     gains: layerGains(golden.guidance, latent),
     bones: golden.bones,

@@ -78,7 +78,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   const music = new Float32Array(frames * audio.features);
   const condition = { leader, music, musicValid: new Float32Array(frames), role: 0 };
   const one = { seed: 0, steps: 1 };
-  const alone = { silent: false, unconditional: false };
+  const alone = { silent: false, unconditional: false, mean: false };
   const { conditional: latents } = await new BranchSampler(manifest, session).branches(condition, one, alone);
   const gains = new Float32Array(latent.streams.length * latent.layers.length).fill(1);
   const bones = new Float32Array(joints).fill(1);

@@ -11,6 +11,8 @@ export interface Branches {
   readonly silent: Float32Array | null;
   /** Neither; null where no weight needs it. */
   readonly unconditional: Float32Array | null;
+  /** Mean coarse layer of the conditional branches of several seeds, latents x channels; null where not needed. */
+  readonly mean: Float32Array | null;
 }
 
 /** Weights of guidance. */
@@ -19,35 +21,50 @@ export interface Weights {
   readonly guidance: Float32Array;
   /** Guidance weight m of the music. */
   readonly musicGuidance: number;
+  /** How far a seed's coarse layer is from the mean of several seeds: 0 is the mean, 1 the seed as sampled. */
+  readonly variety: number;
 }
+
+export type NeededBranches = Readonly<Record<'silent' | 'unconditional' | 'mean', boolean>>;
 
 /** Which branches these weights need beside the conditional one. */
 export function neededBranches(
-  { guidance, musicGuidance }: Weights,
+  { guidance, musicGuidance, variety }: Weights,
   { layers }: Latent,
-): { readonly silent: boolean; readonly unconditional: boolean } {
+): NeededBranches {
   const coarse = guidance.some((weight, i) => i % layers.length === 0 && weight !== 0);
-  return { silent: musicGuidance !== 0, unconditional: coarse };
+  return { silent: musicGuidance !== 0, unconditional: coarse, mean: variety !== 1 };
 }
 
 /**
- * cond + m (cond - silent), in the coarse layer also + s (cond - uncond). The fine layer's guidance acts where latents
- * are decoded, see `layerGains`.
+ * cond + m (cond - silent), in the coarse layer also + s (cond - uncond) + (v - 1)(cond - mean): variety moves the
+ * seed's own coarse layer to mean + v (cond - mean). The fine layer's guidance acts where latents are decoded, see
+ * `layerGains`.
  * @returns latents x layers x channels
  */
-export function blend(branches: Branches, { guidance, musicGuidance }: Weights, latent: Latent): Float32Array {
-  const { conditional, silent, unconditional } = branches;
+export function blend(
+  branches: Branches,
+  { guidance, musicGuidance, variety }: Weights,
+  latent: Latent,
+): Float32Array {
+  const { conditional, silent, unconditional, mean } = branches;
   const [layers, streams] = [latent.layers.length, latent.streams.length];
   const perStream = latent.channels / streams;
   const out = conditional.slice();
   if (silent && musicGuidance !== 0)
     for (let i = 0; i < out.length; i++) out[i]! += musicGuidance * (conditional[i]! - silent[i]!);
+  if (mean && variety !== 1)
+    for (const [i, value] of mean.entries()) {
+      const at = Math.floor(i / latent.channels) * layers * latent.channels + (i % latent.channels);
+      out[at]! += (variety - 1) * (conditional[at]! - value);
+    }
   if (!unconditional) return out;
   for (let stream = 0; stream < streams; stream++) {
     const weight = guidance[stream * layers] ?? 0;
     if (weight === 0) continue;
     for (let first = stream * perStream; first < out.length; first += layers * latent.channels)
-      for (let i = first; i < first + perStream; i++) out[i]! += weight * (conditional[i]! - unconditional[i]!);
+      for (let i = first; i < first + perStream; i++)
+        out[i]! += weight * (conditional[i]! - unconditional[i]!);
   }
   return out;
 }

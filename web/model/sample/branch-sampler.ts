@@ -1,6 +1,6 @@
 import type { Manifest } from '../manifest';
 import type { ModelSession } from '../load/session';
-import type { Branches } from './blend';
+import type { Branches, NeededBranches } from './blend';
 import { conditionClip } from './condition';
 import type { ConditionInput } from './graphs';
 import { noise } from './noise';
@@ -14,7 +14,7 @@ const BLOCKS_PER_RUN = 16;
 /** Seeds whose latents are kept. */
 const KEPT_SEEDS = 8;
 
-type Branch = keyof Branches;
+type Branch = Exclude<keyof Branches, 'mean'>;
 
 /** Memory and latents of one leader and song. */
 interface Known {
@@ -22,6 +22,8 @@ interface Known {
   readonly memories: Map<'song' | 'silence', Float32Array>;
   /** By seed and steps, the one used last at the end. */
   readonly latents: Map<string, Map<Branch, Float32Array>>;
+  /** Mean coarse layers of several seeds, by steps. */
+  readonly means: Map<number, Float32Array>;
 }
 
 export interface BranchOptions {
@@ -47,7 +49,7 @@ export class BranchSampler {
   async branches(
     input: ConditionInput,
     { seed, steps }: { readonly seed: number; readonly steps: number },
-    wanted: { readonly silent: boolean; readonly unconditional: boolean },
+    wanted: NeededBranches,
     { signal, onCondition, onStep }: BranchOptions = {},
   ): Promise<Branches> {
     const known = this.#knownFor(input);
@@ -57,23 +59,35 @@ export class BranchSampler {
     if (wanted.unconditional) list.push('unconditional');
     const latents = kept(known.latents, `${seed} ${steps}`);
     const missing = list.filter((branch) => !latents.has(branch));
-    for (const [i, branch] of missing.entries()) {
+    const { seeds } = this.manifest.guidance.variety;
+    const meanMissing = wanted.mean && !known.means.has(steps);
+    const runs = missing.length + (meanMissing ? seeds : 0);
+    let run = 0;
+    const sampleNext = async (branch: Branch, of: number): Promise<Float32Array> => {
       const memory = await this.#memory(known, branch !== 'silent' && song, signal, onCondition);
-      const sampled = await this.#sample(memory, branch, seed, steps, signal, (done, total) =>
-        onStep?.(i * total + done, missing.length * total),
+      const before = run++;
+      return this.#sample(memory, branch, of, steps, signal, (done, total) =>
+        onStep?.(before * total + done, runs * total),
       );
-      latents.set(branch, sampled);
+    };
+    for (const branch of missing) latents.set(branch, await sampleNext(branch, seed));
+    if (meanMissing) {
+      const coarse: Float32Array[] = [];
+      for (let of = 0; of < seeds; of++)
+        coarse.push(coarseLayer(await sampleNext('conditional', of), this.manifest.latent));
+      known.means.set(steps, mean(coarse));
     }
     return {
       conditional: latents.get('conditional')!,
       silent: list.includes('silent') ? latents.get('silent')! : null,
       unconditional: list.includes('unconditional') ? latents.get('unconditional')! : null,
+      mean: wanted.mean ? known.means.get(steps)! : null,
     };
   }
 
   #knownFor(input: ConditionInput): Known {
     if (!this.#known || !sameInput(this.#known.input, input))
-      this.#known = { input, memories: new Map(), latents: new Map() };
+      this.#known = { input, memories: new Map(), latents: new Map(), means: new Map() };
     return this.#known;
   }
 
@@ -121,11 +135,22 @@ export class BranchSampler {
   }
 }
 
+/** The first layer of latents: latents x layers x channels to latents x channels. */
+function coarseLayer(latents: Float32Array, { layers, channels }: Manifest['latent']): Float32Array {
+  const coarse = new Float32Array(latents.length / layers.length);
+  for (let at = 0; at < coarse.length; at += channels)
+    coarse.set(latents.subarray(at * layers.length, at * layers.length + channels), at);
+  return coarse;
+}
+
+function mean(all: readonly Float32Array[]): Float32Array {
+  const sum = new Float64Array(all[0]?.length ?? 0);
+  for (const values of all) values.forEach((value, i) => (sum[i]! += value));
+  return Float32Array.from(sum, (value) => value / all.length);
+}
+
 /** The latents under a key, which becomes the one used last; beyond `KEPT_SEEDS` the oldest key is dropped. */
-function kept(
-  all: Map<string, Map<Branch, Float32Array>>,
-  key: string,
-): Map<Branch, Float32Array> {
+function kept(all: Map<string, Map<Branch, Float32Array>>, key: string): Map<Branch, Float32Array> {
   const latents = all.get(key) ?? new Map<Branch, Float32Array>();
   all.delete(key);
   all.set(key, latents);

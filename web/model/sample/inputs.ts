@@ -21,6 +21,8 @@ export interface GenerateRequest {
   readonly guidance: Float32Array;
   /** Guidance weight of the music. */
   readonly musicGuidance: number;
+  /** How far the seed's coarse layer is from the mean of several seeds; 1 leaves it as sampled. */
+  readonly variety: number;
   readonly steps: number;
   /** Its lowest 32 bits count. */
   readonly seed: number;
@@ -49,7 +51,7 @@ function refuse(message: string, hint: string): never {
 
 /** @throws {AppError} `bad-request`, a sentence about the first thing that the model cannot take */
 export function checkRequest(
-  { leader, music, guidance, musicGuidance, steps, seed }: GenerateRequest,
+  { leader, music, guidance, musicGuidance, variety, steps, seed }: GenerateRequest,
   manifest: Manifest,
 ): void {
   const { skeleton, fps, diffusion, latent, audio } = manifest;
@@ -89,6 +91,7 @@ export function checkRequest(
   if (!Number.isFinite(musicGuidance)) {
     refuse('The guidance of the music is not a number.', 'Set the music slider again.');
   }
+  if (!Number.isFinite(variety)) refuse('The variety is not a number.', 'Set the variety slider again.');
   if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
 }
 

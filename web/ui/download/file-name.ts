@@ -16,7 +16,7 @@ export interface FileNameParts {
 /**
  * `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_reactor.bvh`, after what the reaction was made from. The file of
  * the loaded dancer alone is named after the inputs only. Where body parts differ, `c` and `f` are their means; `m`, the
- * guidance of the music, is there only with a song.
+ * guidance of the music, is there only with a song, and `v`, the variety, only where it changes the seed.
  */
 export function motionFileName(named: FileNameParts, who: DancerSelection, format: MotionFormat): string {
   const parts =
@@ -45,6 +45,7 @@ function settingsParts({ inputs: { song, settings }, footLock, take }: FileNameP
       `f${fine.value.toFixed(2)}`,
       ...(coarse.mixed || fine.mixed ? ['mixed'] : []),
       ...(song ? [`m${settings.music.toFixed(2)}`] : []),
+      ...(settings.variety === 1 ? [] : [`v${settings.variety.toFixed(2)}`]),
     ].join('-'),
     ...(footLock ? ['footlock'] : []),
   ];

@@ -27,6 +27,7 @@ const schema = v.object({
         /** By stream and layer. */
         guidance: v.record(v.string(), v.record(v.string(), v.number())),
         music: v.number(),
+        variety: v.number(),
         steps: v.number(),
         seed: v.number(),
         role: v.picklist(['leader', 'reactor']),

@@ -147,6 +147,7 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
     music: song ? { features: song.data.features, frames: song.data.frames, start: shift } : null,
     guidance: guidanceMatrix(settings, manifest.latent),
     musicGuidance: settings.music,
+    variety: settings.variety,
     steps: settings.steps,
     seed: settings.seed,
     role: settings.role,
@@ -163,7 +164,8 @@ export function reactionOf({ motion, locked, latents, seconds }: GenerateResult,
 /** Puts the new frames into the reaction on the stage, if it is one of this dance. */
 function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): void {
   const { reaction, preview: before, leader } = store.getState();
-  const shown = before ?? (reaction && { motion: reaction.motion, locked: reactorMotion({ reaction, footLock: true }) });
+  const shown =
+    before ?? (reaction && { motion: reaction.motion, locked: reactorMotion({ reaction, footLock: true }) });
   if (!shown?.locked || shown.motion.frames !== leader?.file.clip.frames) return;
   const preview = {
     motion: splice(shown.motion, motion, fresh),

@@ -93,11 +93,15 @@ export function clampedToStep(value: number, { min, max, step }: Range): number 
   return toStep(Math.min(max, Math.max(min, value)), step, min);
 }
 
-/** `1.20 coarse, 0.60 fine, 3.00 music`, with `about` where the body parts differ. */
-export function guidanceText({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): string {
+/** `1.20 coarse, 0.60 fine, 3.00 music, 1.00 variety`, with `about` where the body parts differ. */
+export function guidanceText({
+  guidance,
+  music,
+  variety,
+}: Pick<Settings, 'guidance' | 'music' | 'variety'>): string {
   const layers = (['coarse', 'fine'] as const).map((layer) => {
     const { value, mixed } = columnOf(guidance, layer);
     return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;
   });
-  return [...layers, `${music.toFixed(2)} music`].join(', ');
+  return [...layers, `${music.toFixed(2)} music`, `${variety.toFixed(2)} variety`].join(', ');
 }

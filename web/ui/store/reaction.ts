@@ -34,6 +34,8 @@ export interface Settings {
   readonly guidance: Guidance;
   /** Guidance weight of the music: how much of what the song changes is added to Eq. 9. */
   readonly music: number;
+  /** How far the coarse layer of the seed is from the mean of several seeds; 1 leaves it as it was sampled. */
+  readonly variety: number;
   readonly steps: number;
   /** 0 to 2^32 - 1. */
   readonly seed: number;

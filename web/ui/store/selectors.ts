@@ -27,6 +27,7 @@ export function sameSettings(a: Settings, b: Settings): boolean {
     a.steps === b.steps &&
     a.role === b.role &&
     a.music === b.music &&
+    a.variety === b.variety &&
     sameGuidance(a.guidance, b.guidance)
   );
 }
@@ -39,8 +40,8 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
 
 /** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance differ. */
 export function differOnlyInWeights(a: Inputs, b: Inputs): boolean {
-  const { guidance, music } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance, music } }, b);
+  const { guidance, music, variety } = b.settings;
+  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety } }, b);
 }
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */

@@ -23,6 +23,9 @@ export function takeText({ reaction: { inputs } }: Take, { leader, song, manifes
       return `${mixed ? 'about ' : ''}${plain(value)} ${layer}`;
     }),
     ...(settings.music === manifest?.guidance.music.default ? [] : [`${plain(settings.music)} music`]),
+    ...(settings.variety === manifest?.guidance.variety.default
+      ? []
+      : [`${plain(settings.variety)} variety`]),
   ].join(', ');
 }
 

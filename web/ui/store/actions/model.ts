@@ -13,6 +13,7 @@ export function manifestLoaded(manifest: Manifest, seed: number): Change {
     settings: {
       guidance: defaultGuidance(manifest),
       music: manifest.guidance.music.default,
+      variety: manifest.guidance.variety.default,
       steps: manifest.diffusion.steps.default,
       seed,
       role: 'reactor',

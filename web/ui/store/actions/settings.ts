@@ -41,16 +41,22 @@ export function musicSet(value: number): Change {
   return guided((_, { guidance }) => ({ music: clampedToStep(value, guidance.music) }));
 }
 
+/** Sets how far the seed is from the mean of several seeds, clamped to the manifest's range and step. */
+export function varietySet(value: number): Change {
+  return guided((_, { guidance }) => ({ variety: clampedToStep(value, guidance.variety) }));
+}
+
 /** Sets the whole matrix and the music to those of a preset. */
-export function presetChosen({ guidance, music }: Guided): Change {
+export function presetChosen({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): Change {
   return guided(() => ({ guidance, music }));
 }
 
-/** Back to the manifest's guidance: one layer of all streams, or everything, the music too. */
+/** Back to the manifest's guidance: one layer of all streams, or everything, music and variety too. */
 export function guidanceReset(layer?: Layer): Change {
   return guided(({ guidance }, manifest) => {
     const own = defaultGuidance(manifest);
-    if (!layer) return { guidance: own, music: manifest.guidance.music.default };
+    const { music, variety } = manifest.guidance;
+    if (!layer) return { guidance: own, music: music.default, variety: variety.default };
     const reset = (all: Guidance, stream: string): Guidance =>
       withCell(all, stream, layer, columnOf(own, layer).value, rangeOf(manifest.guidance, layer));
     return { guidance: Object.keys(guidance).reduce(reset, guidance) };
@@ -70,7 +76,12 @@ export function musicReset(): Change {
   return guided((_, { guidance }) => ({ music: guidance.music.default }));
 }
 
-type Guided = Pick<Settings, 'guidance' | 'music'>;
+/** Back to the manifest's variety. */
+export function varietyReset(): Change {
+  return guided((_, { guidance }) => ({ variety: guidance.variety.default }));
+}
+
+type Guided = Pick<Settings, 'guidance' | 'music' | 'variety'>;
 
 /** A change of the guidance alone; settings stay the same object when it comes out as it was. */
 function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided>): Change {
