@@ -70,7 +70,7 @@ const readers = { loadSong, readLeader, manifest: model.manifest };
 const files = new FileLoader(store, readers);
 const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
-const variations = new VariationMaker(store, model.generator, generation.generate);
+const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
 createEarlierDance(store);
 const playback = new PlaybackControl(store, new AudioPlayer());

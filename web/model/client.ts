@@ -3,11 +3,11 @@ import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
 import type { ModelFolder } from './load/download';
-import type { CoarseRequest, GenerateRequest } from './sample/inputs';
+import type { CoarseRequest, GenerateRequest, SeedsRequest } from './sample/inputs';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
-import type { GenerateOptions, GenerateResult, Preview } from './sample/results';
+import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './sample/results';
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
@@ -23,6 +23,8 @@ export type {
   Preference,
   Preview,
   Progress,
+  SeedsOptions,
+  SeedsRequest,
   Status,
 };
 
@@ -49,6 +51,12 @@ export interface Generator {
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
+  /**
+   * Samples dances of several seeds and finds the seeds of those that differ most.
+   * @throws {AppError}
+   * @throws the signal's reason, soon after it is aborted
+   */
+  differingSeeds(request: SeedsRequest, options?: SeedsOptions): Promise<number[]>;
   /**
    * Decodes the coarse layer of a reaction without the fine one.
    * @throws {AppError}
@@ -128,6 +136,11 @@ class WorkerGenerator implements Generator {
         },
       },
     );
+  }
+
+  async differingSeeds(request: SeedsRequest, { signal, onProgress }: SeedsOptions = {}): Promise<number[]> {
+    const connection = await this.#ready(signal);
+    return connection.call('differingSeeds', request, { signal, onReport: onProgress });
   }
 
   async coarse(

@@ -5,7 +5,7 @@ import type { Backend } from './load/backend';
 import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { Progress } from './progress';
-import type { CoarseRequest, GenerateRequest } from './sample/inputs';
+import type { CoarseRequest, GenerateRequest, SeedsRequest } from './sample/inputs';
 import type { Pipeline } from './sample/pipeline';
 import type { GenerateResult, Preview } from './sample/results';
 
@@ -43,6 +43,10 @@ const tasks = {
       onProgress: (progress) => report({ kind: 'progress', progress }),
       onPreview: (preview) => report({ kind: 'preview', preview }),
     });
+  },
+
+  differingSeeds(request: SeedsRequest, { signal, report }: TaskContext<number>): Promise<number[]> {
+    return pipeline().differingSeeds(request, { signal, onProgress: report });
   },
 
   coarse(request: CoarseRequest, { signal }: TaskContext<never>): Promise<SolvedMotion> {

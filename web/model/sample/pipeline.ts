@@ -3,6 +3,7 @@ import { avoidCollisions } from '../../motion/contact/collision-avoidance';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import { mostDifferent } from '../../motion/skeleton/difference';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
 import { stageProgress } from '../progress';
@@ -16,8 +17,9 @@ import {
   type GenerateRequest,
   type ModelInput,
   prepareInput,
+  type SeedsRequest,
 } from './inputs';
-import type { GenerateOptions, GenerateResult, Preview } from './results';
+import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './results';
 
 /** Length of the part that is shown before the whole, seconds; it begins half a second before the frame on view. */
 const PREVIEW = { before: 0.5, length: 3 };
@@ -89,6 +91,31 @@ export class Pipeline {
     return this.#solve(clip, leader);
   }
 
+  /**
+   * Samples and decodes the dances of several seeds and finds those that differ most. What was sampled for them is kept
+   * for `generate`.
+   * @returns `count` of the seeds
+   * @throws {AppError} `bad-request` or `not-finite`
+   * @throws the signal's reason
+   */
+  async differingSeeds(
+    { request, seeds, count, seconds }: SeedsRequest,
+    { signal, onProgress }: SeedsOptions = {},
+  ): Promise<number[]> {
+    checkRequest(request, this.manifest);
+    const start = this.now();
+    const dances: Float32Array[] = [];
+    for (const seed of seeds) {
+      const expected = ((this.now() - start) * (dances.length + 1)) / dances.length;
+      if (dances.length >= count && expected > seconds) break;
+      const blended = await this.#blend({ ...request, seed }, { signal });
+      const { positions } = await this.#decode(blended, signal);
+      dances.push(positions);
+      onProgress?.(dances.length / seeds.length);
+    }
+    return mostDifferent(dances, count).map((index) => seeds[index]!);
+  }
+
   async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<Blended> {
     const { latent } = this.manifest;
     const input = prepareInput(request, this.manifest);
@@ -143,7 +170,10 @@ export class Pipeline {
       Math.max(0, Math.floor((at - PREVIEW.before * fps) / latent.stride)),
       Math.floor((leader.frames - PREVIEW.length * fps) / latent.stride),
     );
-    const end = Math.min(from + Math.ceil((PREVIEW.length * fps) / latent.stride), leader.frames / latent.stride);
+    const end = Math.min(
+      from + Math.ceil((PREVIEW.length * fps) / latent.stride),
+      leader.frames / latent.stride,
+    );
     const range = { start: from, end: Math.floor(end) };
     const clip = await this.#decode(blended, signal, range);
     const fresh = { from: range.start * latent.stride, to: range.end * latent.stride };

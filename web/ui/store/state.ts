@@ -72,7 +72,8 @@ export interface Preview {
 
 /** One of several reactions to choose from. */
 export interface Variation {
-  readonly seed: number;
+  /** Null until it is chosen. */
+  readonly seed: number | null;
   /** Null until it is generated. */
   readonly reaction: Reaction | null;
   /** Progress of generating it, 0 to 1. */
@@ -83,6 +84,8 @@ export interface Variation {
 export interface Variations {
   /** What they are generated from; its seed is not used. */
   readonly inputs: Inputs;
+  /** First of the consecutive seeds that theirs are chosen from. */
+  readonly firstSeed: number;
   readonly list: readonly Variation[];
   /** Some are still being generated. */
   readonly making: boolean;
