@@ -1,8 +1,8 @@
 import type { Generator } from '../../model/client';
 import {
   allVariationsMade,
+  asksForVariations,
   candidateSeeds,
-  sameButSeed,
   seedsChosen,
   seedsTried,
   VARIATION_COUNT,
@@ -28,7 +28,7 @@ const CHOOSING_SECONDS = 8;
 
 /**
  * Makes several reactions to pick from: samples the dances of more seeds, and finishes those that differ most one after
- * the other. All are dropped when files or settings other than the seed change.
+ * the other. All are dropped when files or settings other than seed and variety change.
  */
 export class VariationMaker {
   readonly #store: Store;
@@ -82,7 +82,7 @@ export class VariationMaker {
     const state = this.#store.getState();
     if (!state.variations) return;
     const inputs = readyInputs(state);
-    if (inputs && sameButSeed(inputs, state.variations.inputs)) return;
+    if (inputs && asksForVariations(inputs, state.variations)) return;
     this.#abort();
     apply(this.#store, variationsDropped());
   }

@@ -80,7 +80,7 @@ export interface Variation {
   readonly fraction: number;
 }
 
-/** Reactions to the same files and settings that differ in their seed. */
+/** Reactions to the same files and settings that differ in their seed; their variety is above the one that was set. */
 export interface Variations {
   /** What they are generated from; its seed is not used. */
   readonly inputs: Inputs;
