@@ -25,7 +25,8 @@ export function createEarlierDance(store: Store): () => void {
     const [before, now] = [seen, store.getState()];
     seen = now;
     const inputs = newInputs(before, now);
-    if (inputs !== undefined) show(earlierAfter(before, now, inputs));
+    const isNew = inputs !== undefined && !sameInputs(before.reaction?.inputs ?? null, inputs);
+    if (isNew) show(earlierAfter(before, now, inputs));
   });
   return () => {
     stop();
@@ -46,16 +47,14 @@ function newInputs(before: AppState, now: AppState): Inputs | null | undefined {
 
 /** The earlier dance beside a dance from these inputs; null where files or roles have changed too. */
 function earlierAfter(before: AppState, now: AppState, inputs: Inputs | null): Reaction | null {
-  const { reaction: replaced, takes } = before;
-  if (!replaced || !inputs || now.compare !== 'off' || !differInSettings(replaced.inputs, inputs))
-    return null;
-  const isNew = now.reaction === replaced || !takes.some(({ reaction }) => reaction === now.reaction);
-  const moves = isNew && now.earlier !== null && differOnlyInWeights(now.earlier.inputs, inputs);
+  const { reaction: replaced, job } = before;
+  if (!replaced || !inputs || now.compare !== 'off' || !sameFiles(replaced.inputs, inputs)) return null;
+  // Without a job it was there before, as a take is that is shown again: no further move of a drag.
+  const moves = job !== null && now.earlier !== null && differOnlyInWeights(now.earlier.inputs, inputs);
   return moves ? now.earlier : replaced;
 }
 
-/** Whether files are the same and settings other than the role differ. */
-function differInSettings(a: Inputs, b: Inputs): boolean {
-  const sameDancers = a.settings.role === b.settings.role && sameInputs({ ...a, settings: b.settings }, b);
-  return sameDancers && !sameInputs(a, b);
+/** Whether all but the settings is the same, and the role too. */
+function sameFiles(a: Inputs, b: Inputs): boolean {
+  return a.settings.role === b.settings.role && sameInputs({ ...a, settings: b.settings }, b);
 }
