@@ -3,7 +3,7 @@ import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { combineDisposers } from './ui/widgets/dom';
 import type { VideoStage } from './ui/download/downloads';
-import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
+import { coarseMotion, earlierMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
 import { createOffscreenStage } from './view/offscreen-stage';
@@ -34,6 +34,11 @@ export function bindStage(stage: Stage, store: Store): () => void {
       (overlays) => stage.setOverlays(overlays),
     ),
     showOther(store, stage),
+    watch(store, earlierMotion, (motion, { reaction, compare }) => {
+      // It leaves at once where the dance that it was before leaves too, or another ghost comes.
+      const fade = reaction !== null && compare === 'off' && !reducedMotion.matches;
+      stage.setEarlier(motion, fade);
+    }),
     bindBusy(stage, store),
     watch(
       store,
@@ -102,6 +107,7 @@ export async function openCamera(from: Stage, store: Store, size: PictureSize): 
   const stage = createOffscreenStage(from, size);
   try {
     bindStage(stage, store)();
+    stage.setEarlier(null);
     const framing = from.framing();
     await stage.ready();
     stage.setTime(0);

@@ -3,12 +3,18 @@ import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
 import type { ModelFolder } from './load/download';
-import { type CoarseRequest, type GenerateRequest, sameSource, type Source } from './sample/inputs';
+import {
+  type CoarseRequest,
+  type GenerateRequest,
+  sameSource,
+  type SeedsRequest,
+  type Source,
+} from './sample/inputs';
 import { type Playhead, secondsNow } from './sample/playhead';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
-import type { GenerateOptions, GenerateResult, Preview } from './sample/results';
+import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './sample/results';
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
@@ -25,6 +31,8 @@ export type {
   Preference,
   Preview,
   Progress,
+  SeedsOptions,
+  SeedsRequest,
   Status,
 };
 
@@ -51,6 +59,12 @@ export interface Generator {
    * @throws the signal's reason, soon after it is aborted
    */
   generate(request: GenerateRequest, options?: GenerateOptions): Promise<GenerateResult>;
+  /**
+   * Samples dances of several seeds and finds the seeds of those that differ most.
+   * @throws {AppError}
+   * @throws the signal's reason, soon after it is aborted
+   */
+  differingSeeds(request: SeedsRequest, options?: SeedsOptions): Promise<number[]>;
   /**
    * Decodes the coarse layer of a reaction without the fine one.
    * @throws {AppError}
@@ -123,13 +137,13 @@ class WorkerGenerator implements Generator {
     { signal, playhead, onProgress, onPreview }: GenerateOptions = {},
   ): Promise<GenerateResult> {
     const worker = await this.#ready(signal);
-    // A megabyte a minute, which would be copied at every step of a fader.
-    const source = { leader, music, role };
-    const known = worker.source !== null && sameSource(worker.source, source);
-    worker.source = source;
     return worker.connection.call(
       'generate',
-      { source: known ? null : source, settings, playhead: onPreview && playhead },
+      {
+        source: newSource(worker, { leader, music, role }),
+        settings,
+        playhead: onPreview && playhead,
+      },
       {
         signal,
         onReport: (report) => {
@@ -137,6 +151,20 @@ class WorkerGenerator implements Generator {
           else void onPreview?.(report.preview);
         },
       },
+    );
+  }
+
+  async differingSeeds(
+    { request, ...seeds }: SeedsRequest,
+    { signal, onProgress }: SeedsOptions = {},
+  ): Promise<number[]> {
+    const { leader, music, role, ...settings } = request;
+    const worker = await this.#ready(signal);
+    const source = newSource(worker, { leader, music, role });
+    return worker.connection.call(
+      'differingSeeds',
+      { source, settings, seeds },
+      { signal, onReport: onProgress },
     );
   }
 
@@ -165,6 +193,13 @@ class WorkerGenerator implements Generator {
     this.#disposed = true;
     this.#latest.connection.dispose(disposal());
   }
+}
+
+/** What is danced to, or null where the worker has it: a megabyte a minute, copied at every step of a fader otherwise. */
+function newSource(worker: LoadedWorker, source: Source): Source | null {
+  const known = worker.source !== null && sameSource(worker.source, source);
+  worker.source = source;
+  return known ? null : source;
 }
 
 function disposal(): DOMException {

@@ -5,7 +5,7 @@ import type { Backend } from './load/backend';
 import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { Progress } from './progress';
-import type { CoarseRequest, DanceSettings, Source } from './sample/inputs';
+import type { CoarseRequest, DanceSettings, SeedsRequest, Source } from './sample/inputs';
 import type { Pipeline } from './sample/pipeline';
 import type { Playhead } from './sample/playhead';
 import type { GenerateResult, Preview } from './sample/results';
@@ -20,13 +20,8 @@ type GenerateReport =
   | { readonly kind: 'progress'; readonly progress: Progress }
   | { readonly kind: 'preview'; readonly preview: Preview };
 
-/** What is generated: what is danced to is sent once, and left out of the calls after it that have the same. */
-export interface GenerateCall {
-  readonly source: Source | null;
-  readonly settings: DanceSettings;
-  /** Where the dance is on view; undefined for no preview. */
-  readonly playhead: Playhead | undefined;
-}
+/** What is danced to: sent once, and null in the calls after it that have the same. */
+type SourceCall = { readonly source: Source | null };
 
 let model: LoadedModel | undefined;
 let lastSource: Source | undefined;
@@ -36,6 +31,12 @@ function pipeline(): Pipeline {
   return model.pipeline;
 }
 
+function sourceOf({ source }: SourceCall): Source {
+  lastSource = source ?? lastSource;
+  if (lastSource === undefined) throw new Error('the first call has to say what is danced to');
+  return lastSource;
+}
+
 const tasks = {
   async load(options: LoadOptions, { report }: TaskContext<Status>): Promise<Loaded> {
     model = await loadModel(options, globalThis, (status) => void report(status));
@@ -43,19 +44,32 @@ const tasks = {
   },
 
   generate(
-    { source, settings, playhead }: GenerateCall,
+    { settings, playhead, ...call }: SourceCall & { settings: DanceSettings; playhead: Playhead | undefined },
     { signal, report }: TaskContext<GenerateReport>,
   ): Promise<GenerateResult> {
-    lastSource = source ?? lastSource;
-    if (!lastSource) throw new Error('the first call has to say what is danced to');
     return pipeline().generate(
-      { ...lastSource, ...settings },
+      { ...sourceOf(call), ...settings },
       {
         signal,
         playhead,
         onProgress: (progress) => void report({ kind: 'progress', progress }),
         onPreview: (preview) => report({ kind: 'preview', preview }),
       },
+    );
+  },
+
+  differingSeeds(
+    {
+      settings,
+      seeds,
+      ...call
+    }: SourceCall & { settings: DanceSettings; seeds: Omit<SeedsRequest, 'request'> },
+    { signal, report }: TaskContext<number>,
+  ): Promise<number[]> {
+    const request = { ...sourceOf(call), ...settings };
+    return pipeline().differingSeeds(
+      { request, ...seeds },
+      { signal, onProgress: (fraction) => void report(fraction) },
     );
   },
 

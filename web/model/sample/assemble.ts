@@ -49,13 +49,13 @@ export class Assembler {
     const request = { latents, gains, leader: input.condition.leader, bones: any };
     const { lengths } = await decodeClip(this.session, this.manifest, request, { signal });
     const bones = meanLengths(lengths, skeleton.joints.length);
-    const clip = await this.#decode(dance, bones, { signal });
+    const clip = await this.decode({ ...dance, body: { bones } }, { signal });
     return { bones, offsets: restOffsets(clip) };
   }
 
   /** The whole dance. `onDecoded` is called between decoding and solving. */
   async whole(dance: Dance, signal?: AbortSignal, onDecoded?: () => void): Promise<GeneratedMotion> {
-    const clip = await this.#decode(dance, dance.body.bones, { signal });
+    const clip = await this.decode(dance, { signal });
     onDecoded?.();
     await yieldToEvents(signal);
     const motion = this.#solve(clip, dance);
@@ -84,7 +84,7 @@ export class Assembler {
     const end = Math.min(leader.frames, first + length);
     const begin = down(first - margin);
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
-    const clip = await this.#decode(dance, body.bones, { range, overlap: 0 });
+    const clip = await this.decode(dance, { range, overlap: 0 });
     const motion = this.#solve(clip, { body, leader: partOfClip(leader, begin, clip.frames) });
     const locked = lockFeet(motion);
     const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
@@ -92,9 +92,8 @@ export class Assembler {
   }
 
   /** Joints at the leader's size. */
-  async #decode(
-    { latents, gains, input, leader }: Latents,
-    bones: Float32Array,
+  async decode(
+    { latents, gains, input, leader, body: { bones } }: Latents & { readonly body: Pick<Body, 'bones'> },
     options: DecodeOptions,
   ): Promise<MotionClip> {
     const { skeleton, latent } = this.manifest;

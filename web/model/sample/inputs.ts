@@ -42,6 +42,17 @@ export interface DanceSettings extends Weights {
 /** What to generate, and from what. */
 export interface GenerateRequest extends Source, DanceSettings {}
 
+/** Seeds of which those are wanted whose dances differ most. */
+export interface SeedsRequest {
+  /** What the dances have in common; its own seed is not used. */
+  readonly request: GenerateRequest;
+  readonly seeds: readonly number[];
+  /** How many are wanted. */
+  readonly count: number;
+  /** Once there are that many dances, no other is begun that would take longer than this altogether, seconds. */
+  readonly seconds: number;
+}
+
 /** A reaction that was generated before, of which the coarse layer is to be decoded alone. */
 export interface CoarseRequest {
   /** The leader that it was generated for, at the size of their file. */

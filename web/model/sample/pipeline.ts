@@ -1,4 +1,5 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { mostDifferent } from '../../motion/skeleton/difference';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
 import { stageProgress } from '../progress';
@@ -14,10 +15,11 @@ import {
   type ModelInput,
   prepareInput,
   sameSource,
+  type SeedsRequest,
   type Source,
 } from './inputs';
 import { frameAt, type Playhead } from './playhead';
-import type { GenerateOptions, GenerateResult, Preview } from './results';
+import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './results';
 
 /** Length of the part that is shown before the whole, and how much of it lies before the frame on view, seconds. */
 const PREVIEW = { length: 2.5, before: 0.3 };
@@ -80,6 +82,30 @@ export class Pipeline {
     const body = await this.#assembler.measureBody(dance, signal);
     const { motion } = await this.#assembler.whole({ ...dance, body }, signal);
     return motion;
+  }
+
+  /**
+   * Samples and decodes the dances of several seeds and finds those that differ most. What was sampled for them is kept
+   * for `generate`.
+   * @returns `count` of the seeds
+   * @throws {AppError} `bad-request` or `not-finite`
+   * @throws the signal's reason
+   */
+  async differingSeeds(
+    { request, seeds, count, seconds }: SeedsRequest,
+    { signal, onProgress }: SeedsOptions = {},
+  ): Promise<number[]> {
+    const start = this.now();
+    const dances: Float32Array[] = [];
+    for (const seed of seeds) {
+      const expected = ((this.now() - start) * (dances.length + 1)) / dances.length;
+      if (dances.length >= count && expected > seconds) break;
+      const dance = await this.#blend({ ...request, seed }, { signal });
+      const { positions } = await this.#assembler.decode(dance, { signal });
+      dances.push(positions);
+      onProgress?.(dances.length / seeds.length);
+    }
+    return mostDifferent(dances, count).map((index) => seeds[index]!);
   }
 
   async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<Dance> {

@@ -22,6 +22,13 @@ export interface GenerateResult extends GeneratedMotion {
   readonly seconds: Readonly<Record<'steps' | 'decode' | 'solve', number>>;
 }
 
+export interface SeedsOptions {
+  /** Stops the work as in `GenerateOptions`. */
+  readonly signal?: AbortSignal | undefined;
+  /** Called with the share of the dances that are there, 0 to 1. */
+  readonly onProgress?: ((share: number) => void) | undefined;
+}
+
 export interface GenerateOptions {
   /** Stops the work before the next graph run; the promise is then rejected with the signal's reason. */
   readonly signal?: AbortSignal | undefined;

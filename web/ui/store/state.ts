@@ -64,17 +64,20 @@ export interface Preview {
 
 /** One of several reactions to choose from. */
 export interface Variation {
-  readonly seed: number;
+  /** Null until it is chosen. */
+  readonly seed: number | null;
   /** Null until it is generated. */
   readonly reaction: Reaction | null;
   /** Progress of generating it, 0 to 1. */
   readonly fraction: number;
 }
 
-/** Reactions to the same files and settings that differ in their seed. */
+/** Reactions to the same files and settings that differ in their seed; their variety is above the one that was set. */
 export interface Variations {
   /** What they are generated from; its seed is not used. */
   readonly inputs: Inputs;
+  /** First of the consecutive seeds that theirs are chosen from. */
+  readonly firstSeed: number;
   readonly list: readonly Variation[];
   /** Some are still being generated. */
   readonly making: boolean;
@@ -164,6 +167,8 @@ export interface AppState {
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
+  /** The reaction before the last change of a setting, for as long as the stage shows it as a ghost. */
+  readonly earlier: Reaction | null;
   readonly variations: Variations | null;
   /** Whether the seed stays when a reaction is generated again. */
   readonly seedLocked: boolean;
