@@ -28,7 +28,7 @@ class Scene:
 
 
 def inputs(scene: Scene) -> dict[str, np.ndarray]:
-    """leader, music, music_valid, role; weights coarse and fine for each stream, music_guidance and variety."""
+    """leader, music, music_valid, role; weights coarse and fine for each stream, and music_guidance."""
     random = np.random.default_rng(scene.seed)
     valid = np.ones(scene.frames, dtype=np.float32)
     if scene.silent_from is not None:
@@ -41,7 +41,6 @@ def inputs(scene: Scene) -> dict[str, np.ndarray]:
         "coarse": np.array([-0.5, 0.25, 0.75], dtype=np.float32),
         "fine": np.array([0.5, -0.25, 1.0], dtype=np.float32),
         "music_guidance": np.full(1, 1.5, dtype=np.float32),
-        "variety": np.full(1, 1.25, dtype=np.float32),
     }
 
 
@@ -66,7 +65,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         branches,
         per_channel(tensors["coarse"], sampling.channels),
         float(tensors["music_guidance"]),
-        float(tensors["variety"]),
+        variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
     )
     gains = layer_gains(tensors["fine"], sampling.layers)
     bones = measure_bones(model, branches.conditional, leader)

@@ -54,7 +54,7 @@ def differences(model: Model, exported: Exported, scene: Scene) -> dict[str, flo
         branches,
         per_channel(given["coarse"], sampling.channels),
         float(given["music_guidance"]),
-        float(given["variety"]),
+        variety=1.0,
     )
     bones = measure_bones(exported, branches.conditional, given["leader"])
     gains = layer_gains(given["fine"], sampling.layers)

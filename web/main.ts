@@ -22,6 +22,7 @@ import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
+import { createEarlierDance } from './ui/generation/earlier-dance';
 import { mountFootLock } from './ui/generation/foot-lock';
 import { Generation } from './ui/generation/generation';
 import { mountOptions } from './ui/generation/options';
@@ -69,8 +70,9 @@ const readers = { loadSong, readLeader, manifest: model.manifest };
 const files = new FileLoader(store, readers);
 const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
-const variations = new VariationMaker(store, model.generator, generation.generate);
+const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
+createEarlierDance(store);
 const playback = new PlaybackControl(store, new AudioPlayer());
 createQuality(store, measureDance);
 const offline = import.meta.env.PROD

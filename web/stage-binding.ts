@@ -3,7 +3,7 @@ import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { combineDisposers } from './ui/widgets/dom';
 import type { VideoStage } from './ui/download/downloads';
-import { coarseMotion, otherCoarseMotion } from './ui/store/reactor-motion';
+import { coarseMotion, earlierMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import { type Store, watch, watchAll } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
 import { createOffscreenStage } from './view/offscreen-stage';
@@ -34,6 +34,11 @@ export function bindStage(stage: Stage, store: Store): () => void {
       (overlays) => stage.setOverlays(overlays),
     ),
     showOther(store, stage),
+    watch(store, earlierMotion, (motion, { reaction, compare }) => {
+      // It leaves at once where the dance that it was before leaves too, or another ghost comes.
+      const fade = reaction !== null && compare === 'off' && !reducedMotion.matches;
+      stage.setEarlier(motion, fade);
+    }),
     bindBusy(stage, store),
     watch(
       store,
@@ -49,8 +54,8 @@ export function bindStage(stage: Stage, store: Store): () => void {
 }
 
 /**
- * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a split
- * view is shown at once.
+ * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a
+ * split view is shown at once, and so is a preview, which is to follow the hand.
  */
 function bindDancers(stage: Stage, store: Store): () => void {
   let before = '';
@@ -60,7 +65,7 @@ function bindDancers(stage: Stage, store: Store): () => void {
     (state) => {
       const half = besideStage(state) && state.letter;
       const now = `${generatedRole(state)} ${state.footLock} ${half}`;
-      const crossfade = now === before && !reducedMotion.matches;
+      const crossfade = now === before && state.preview === null && !reducedMotion.matches;
       stage.setDancers(dancers(state), { made: generatedRole(state), crossfade });
       before = now;
     },
@@ -102,6 +107,7 @@ export async function openCamera(from: Stage, store: Store, size: PictureSize): 
   const stage = createOffscreenStage(from, size);
   try {
     bindStage(stage, store)();
+    stage.setEarlier(null);
     const framing = from.framing();
     await stage.ready();
     stage.setTime(0);

@@ -17,7 +17,14 @@ beforeAll(async () => {
 
 const dancer = leader(30);
 const take = (id: string): Take => {
-  const settings = { guidance: uniformGuidance(1, 1), music: 1, steps: 5, seed: 1, role: 'reactor' as Role };
+  const settings = {
+    guidance: uniformGuidance(1, 1),
+    music: 1,
+    variety: 1,
+    steps: 5,
+    seed: 1,
+    role: 'reactor' as Role,
+  };
   const inputs: Inputs = { leader: dancer, song: null, shift: 0, settings };
   const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
   return { id, number: 1, name: null, starred: false, createdAt: 0, reaction };

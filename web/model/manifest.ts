@@ -63,6 +63,8 @@ const schema = v.object({
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   fps: v.pipe(v.number(), v.minValue(1)),
+  /** Mean unfamiliarity from which a leader is unlike all that the model was trained on. */
+  leader: v.object({ unfamiliar_from: positive }),
   latent: v.object({
     /** Motion frames per latent frame. */
     stride: count,
@@ -85,8 +87,10 @@ const schema = v.object({
     /** What predictions are clamped to (static thresholding); part of the step graph. */
     clamp: v.string(),
     sampler: v.literal('ddim'),
-    /** On odd steps, blocks begin half a block later. */
-    alternating_phase: v.boolean(),
+    /** Time of the last step, a share of train_steps. */
+    last_time: v.pipe(v.number(), v.gtValue(0), v.maxValue(1)),
+    /** By stream: how far the last prediction is extrapolated from the one before it. */
+    extrapolation: v.array(v.number()),
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
@@ -99,8 +103,8 @@ const schema = v.object({
     variety: v.object({ ...range.entries, seeds: count }),
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
-  /** What the decode graph does to decoded joints: gain above 6 Hz, strength of the foot-contact correction in m/s. */
-  decode: v.object({ sharpen: v.number(), foot_contact: v.number() }),
+  /** What the decode graph does to decoded joints: strength of the foot-contact correction in m/s. */
+  decode: v.object({ foot_contact: v.number() }),
   /** How the networks are built; the page reads none of it, a person can. */
   architecture: v.looseObject({}),
   /** The feature recipe; its other keys are checked by the audio side, which reads them. */

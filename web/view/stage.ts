@@ -133,6 +133,15 @@ export class Stage {
     this.view.rig.refit(this.view.pose());
   }
 
+  /** Shows the dance before a change as a ghost in the same picture; null ends that, at once or fading it out. */
+  setEarlier(motion: SolvedMotion | null, fade = false): void {
+    const { dancers } = this.view.contents;
+    if (motion === null && fade) dancers.fadeOut('earlier');
+    else dancers.setMotion('earlier', motion);
+    this.view.invalidatePose();
+    this.loop.invalidate();
+  }
+
   setOverlays(overlays: VisibleOverlays): void {
     this.view.contents.dancers.setOverlays(overlays);
     this.view.contents.overlays.setVisible(overlays);

@@ -1,4 +1,11 @@
-import type { GenerateOptions, GenerateRequest, GenerateResult, Generator } from '../../../web/model/client';
+import type {
+  GenerateOptions,
+  GenerateRequest,
+  GenerateResult,
+  Generator,
+  SeedsOptions,
+  SeedsRequest,
+} from '../../../web/model/client';
 import { small } from './small-manifest';
 import { still } from './made-state';
 
@@ -10,12 +17,24 @@ export class ManualGenerator {
     answer: (result: GenerateResult) => void;
     fail: (error: Error) => void;
   }[] = [];
+  readonly seedCalls: {
+    request: SeedsRequest;
+    options: SeedsOptions;
+    answer: (seeds: number[]) => void;
+  }[] = [];
   readonly generator = {
     manifest: small,
     backend: { name: 'wasm', reason: '', threads: 1 },
     generate: (request: GenerateRequest, options: GenerateOptions = {}) =>
       new Promise<GenerateResult>((answer, fail) => {
         this.calls.push({ request, options, answer, fail });
+        options.signal?.addEventListener('abort', () => {
+          fail(options.signal?.reason as Error);
+        });
+      }),
+    differingSeeds: (request: SeedsRequest, options: SeedsOptions = {}) =>
+      new Promise<number[]>((answer, fail) => {
+        this.seedCalls.push({ request, options, answer });
         options.signal?.addEventListener('abort', () => {
           fail(options.signal?.reason as Error);
         });
@@ -30,5 +49,5 @@ export const result = (frames = 60): GenerateResult => ({
   motion: still(frames),
   locked: still(frames),
   latents: new Float32Array(frames),
-  seconds: { condition: 0.5, steps: 2, decode: 0.25, solve: 0.25 },
+  seconds: { steps: 2.5, decode: 0.25, solve: 0.25 },
 });

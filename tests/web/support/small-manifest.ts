@@ -30,6 +30,7 @@ export function smallJson() {
       floor: { ...FLOOR } as { toe_rest: number; percentile: number },
     },
     fps: 30,
+    leader: { unfamiliar_from: 1.2 },
     latent: {
       stride: 4,
       block: 6,
@@ -46,7 +47,8 @@ export function smallJson() {
       prediction: 'x0',
       clamp: 'quantiser range',
       sampler: 'ddim',
-      alternating_phase: true,
+      last_time: 0.25,
+      extrapolation: [0.5, 0.25, 0],
       steps: { default: 10, min: 1, max: 50 },
     },
     guidance: {
@@ -57,7 +59,7 @@ export function smallJson() {
       variety: { min: 0, max: 2, step: 0.05, default: 1, seeds: 4 },
     },
     noise: { algorithm: 'philox4x32-10' },
-    decode: { sharpen: 0, foot_contact: 0 },
+    decode: { foot_contact: 0 },
     architecture: {},
     audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },
     quality: {

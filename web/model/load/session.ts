@@ -27,12 +27,12 @@ type Arrays = Record<string, Float32Array>;
 
 const INPUTS: Record<GraphName, readonly string[]> = {
   condition: ['leader', 'music', 'music_valid', 'role'],
-  step: ['x', 'memory', 'valid', 'keep', 'time', 'coefficients'],
+  step: ['x', 'memory', 'valid', 'keep', 'time'],
   decode: ['latents', 'leader', 'gains', 'bones'],
 };
 const OUTPUTS: Record<GraphName, readonly string[]> = {
-  condition: ['memory'],
-  step: ['x_next'],
+  condition: ['memory', 'unfamiliarity'],
+  step: ['x0'],
   decode: ['reactor', 'lengths'],
 };
 
@@ -152,9 +152,9 @@ export async function openSession(
           music_valid: tensor(musicValid, [frames]),
           role: tensor([role], [1]),
         });
-        return output(results, 'memory');
+        return { memory: output(results, 'memory'), unfamiliarity: output(results, 'unfamiliarity') };
       }),
-    step: ({ blocks, x, memory, valid, keep, time, coefficients }: StepInput) =>
+    step: ({ blocks, x, memory, valid, keep, time }: StepInput) =>
       enqueue(async () => {
         const state = [blocks, latent.block, layers, latent.channels];
         const results = await run(step, {
@@ -163,9 +163,8 @@ export async function openSession(
           valid: tensor(valid, [blocks, latent.block]),
           keep: tensor([keep], [1]),
           time: tensor([time], [1]),
-          coefficients: tensor(coefficients, [2]),
         });
-        return output(results, 'x_next');
+        return output(results, 'x0');
       }),
     decode: ({ latents, leader, gains, bones }: DecodeInput) =>
       enqueue(async () => {

@@ -8,16 +8,14 @@ export interface Block {
  * Cut a clip into blocks (block-wise local conditioning, paper 3.4).
  * @param latents length of the clip in latent frames
  * @param size latent frames of a full block
- * @param shifted begin with half a block, so that boundaries fall where the other partition has none
- * @returns blocks in order; the last one may be short, and so is the first one of a shifted partition
+ * @returns blocks in order; the last one may be short
  */
-export function partition(latents: number, size: number, shifted: boolean): Block[] {
-  const blocks: Block[] = [];
-  const first = shifted ? Math.floor(size / 2) : size;
-  for (let start = 0, end = first; start < latents; start = end, end += size) {
-    blocks.push({ start, length: Math.min(end, latents) - start });
-  }
-  return blocks;
+export function partition(latents: number, size: number): Block[] {
+  const count = Math.ceil(latents / size);
+  return Array.from({ length: count }, (_, i) => ({
+    start: i * size,
+    length: Math.min(size, latents - i * size),
+  }));
 }
 
 /**

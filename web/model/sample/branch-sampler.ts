@@ -1,6 +1,7 @@
 import type { Manifest } from '../manifest';
 import type { ModelSession } from '../load/session';
 import type { Branches, NeededBranches } from './blend';
+import { BranchCache } from './branch-cache';
 import { conditionClip } from './condition';
 import type { ConditionInput } from './graphs';
 import { noise } from './noise';
@@ -11,17 +12,16 @@ import { ddim } from './schedule';
 const LATENTS_PER_CHUNK = 480;
 /** Bounds the memory of attention in the step graph. */
 const BLOCKS_PER_RUN = 16;
-/** Seeds whose latents are kept. */
-const KEPT_SEEDS = 8;
 
+type Condition = Awaited<ReturnType<typeof conditionClip>>;
 type Branch = Exclude<keyof Branches, 'mean'>;
 
-/** Memory and latents of one leader and song. */
+/** What the condition graph says of one leader and song, and the latents sampled for them. */
 interface Known {
   readonly input: ConditionInput;
-  readonly memories: Map<'song' | 'silence', Float32Array>;
-  /** By seed and steps, the one used last at the end. */
-  readonly latents: Map<string, Map<Branch, Float32Array>>;
+  readonly conditions: Map<'song' | 'silence', Condition>;
+  /** Groups by seed and steps. */
+  readonly latents: BranchCache<Branch>;
   /** Mean coarse layers of several seeds, by steps. */
   readonly means: Map<number, Float32Array>;
 }
@@ -30,6 +30,11 @@ export interface BranchOptions {
   readonly signal?: AbortSignal | undefined;
   readonly onCondition?: ((done: number, total: number) => void) | undefined;
   readonly onStep?: ((done: number, total: number) => void) | undefined;
+}
+
+interface SampledBranches extends Branches {
+  /** Of the leader, mean over the clip. */
+  readonly unfamiliarity: number;
 }
 
 /** Samples the branches that guidance blends, each once: as long as leader and song stay, they are kept by seed. */
@@ -51,33 +56,41 @@ export class BranchSampler {
     { seed, steps }: { readonly seed: number; readonly steps: number },
     wanted: NeededBranches,
     { signal, onCondition, onStep }: BranchOptions = {},
-  ): Promise<Branches> {
+  ): Promise<SampledBranches> {
     const known = this.#knownFor(input);
     const song = input.musicValid.some((valid) => valid !== 0);
     const list: Branch[] = ['conditional'];
     if (wanted.silent && song) list.push('silent');
     if (wanted.unconditional) list.push('unconditional');
-    const latents = kept(known.latents, `${seed} ${steps}`);
+    const key = `${seed} ${steps}`;
+    // A copy: other seeds may be sampled meanwhile, and push this one out of the cache.
+    const latents = new Map(known.latents.group(key));
     const missing = list.filter((branch) => !latents.has(branch));
     const { seeds } = this.manifest.guidance.variety;
     const meanMissing = wanted.mean && !known.means.has(steps);
     const runs = missing.length + (meanMissing ? seeds : 0);
     let run = 0;
     const sampleNext = async (branch: Branch, of: number): Promise<Float32Array> => {
-      const memory = await this.#memory(known, branch !== 'silent' && song, signal, onCondition);
+      const { memory } = await this.#condition(known, branch !== 'silent' && song, signal, onCondition);
       const before = run++;
       return this.#sample(memory, branch, of, steps, signal, (done, total) =>
         onStep?.(before * total + done, runs * total),
       );
     };
-    for (const branch of missing) latents.set(branch, await sampleNext(branch, seed));
+    for (const branch of missing) {
+      const sampled = await sampleNext(branch, seed);
+      latents.set(branch, sampled);
+      known.latents.add(key, branch, sampled);
+    }
     if (meanMissing) {
       const coarse: Float32Array[] = [];
       for (let of = 0; of < seeds; of++)
         coarse.push(coarseLayer(await sampleNext('conditional', of), this.manifest.latent));
       known.means.set(steps, mean(coarse));
     }
+    const { unfamiliarity } = await this.#condition(known, song, signal, onCondition);
     return {
+      unfamiliarity,
       conditional: latents.get('conditional')!,
       silent: list.includes('silent') ? latents.get('silent')! : null,
       unconditional: list.includes('unconditional') ? latents.get('unconditional')! : null,
@@ -87,27 +100,27 @@ export class BranchSampler {
 
   #knownFor(input: ConditionInput): Known {
     if (!this.#known || !sameInput(this.#known.input, input))
-      this.#known = { input, memories: new Map(), latents: new Map(), means: new Map() };
+      this.#known = { input, conditions: new Map(), latents: new BranchCache(), means: new Map() };
     return this.#known;
   }
 
-  /** The memory with the song or in silence; what the unconditional branch gets is not read. */
-  async #memory(
-    { input, memories }: Known,
+  /** With the song or in silence; what the unconditional branch gets is not read. */
+  async #condition(
+    { input, conditions }: Known,
     withSong: boolean,
     signal: AbortSignal | undefined,
     onProgress: ((done: number, total: number) => void) | undefined,
-  ): Promise<Float32Array> {
+  ): Promise<Condition> {
     const key = withSong ? 'song' : 'silence';
-    const found = memories.get(key);
+    const found = conditions.get(key);
     if (found) return found;
     const heard = withSong ? input : { ...input, musicValid: new Float32Array(input.musicValid.length) };
-    const memory = await conditionClip(this.session.condition, heard, this.manifest, LATENTS_PER_CHUNK, {
+    const condition = await conditionClip(this.session.condition, heard, this.manifest, LATENTS_PER_CHUNK, {
       signal,
       onProgress,
     });
-    memories.set(key, memory);
-    return memory;
+    conditions.set(key, condition);
+    return condition;
   }
 
   #sample(
@@ -122,7 +135,7 @@ export class BranchSampler {
     const latents = memory.length / latent.memory_width;
     return sample({
       latent,
-      alternatingPhase: diffusion.alternating_phase,
+      extrapolation: diffusion.extrapolation,
       schedule: ddim(diffusion, steps),
       memory,
       keep: branch === 'unconditional' ? 0 : 1,
@@ -149,17 +162,8 @@ function mean(all: readonly Float32Array[]): Float32Array {
   return Float32Array.from(sum, (value) => value / all.length);
 }
 
-/** The latents under a key, which becomes the one used last; beyond `KEPT_SEEDS` the oldest key is dropped. */
-function kept(all: Map<string, Map<Branch, Float32Array>>, key: string): Map<Branch, Float32Array> {
-  const latents = all.get(key) ?? new Map<Branch, Float32Array>();
-  all.delete(key);
-  all.set(key, latents);
-  const oldest = all.keys().next();
-  if (all.size > KEPT_SEEDS && !oldest.done) all.delete(oldest.value);
-  return latents;
-}
-
 function sameInput(a: ConditionInput, b: ConditionInput): boolean {
+  if (a === b) return true;
   return (
     a.role === b.role &&
     equal(a.leader, b.leader) &&

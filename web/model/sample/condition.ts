@@ -44,7 +44,7 @@ export function chunks(
 /**
  * Runs the condition graph over a whole clip, chunk by chunk.
  * @param size latent frames of one chunk
- * @returns memory, latents x memory width
+ * @returns memory, latents x memory width, and the leader's unfamiliarity, mean over the clip
  * @throws the signal's reason, between two chunks
  */
 export async function conditionClip(
@@ -53,11 +53,12 @@ export async function conditionClip(
   manifest: Manifest,
   size: number,
   { signal, onProgress }: ConditionOptions = {},
-): Promise<Float32Array> {
+): Promise<{ readonly memory: Float32Array; readonly unfamiliarity: number }> {
   const { latent, skeleton, audio } = manifest;
   const latents = input.musicValid.length / latent.stride;
   const width = latent.memory_width;
   const memory = new Float32Array(latents * width);
+  let unfamiliarity = 0;
   const all = chunks(latents, size, latent.receptive_field.condition);
   for (const [i, chunk] of all.entries()) {
     await yieldToEvents(signal);
@@ -69,10 +70,11 @@ export async function conditionClip(
     });
     const first = chunk.start - chunk.inputStart;
     const last = chunk.end - chunk.inputStart;
-    memory.set(output.subarray(first * width, last * width), chunk.start * width);
+    memory.set(output.memory.subarray(first * width, last * width), chunk.start * width);
+    for (const value of output.unfamiliarity.subarray(first, last)) unfamiliarity += value / latents;
     onProgress?.(i + 1, all.length);
   }
-  return memory;
+  return { memory, unfamiliarity };
 }
 
 /** The input frames of a chunk. @param width numbers per latent frame */

@@ -12,8 +12,14 @@ export interface ConditionInput {
   readonly role: number;
 }
 
-/** Returns the memory that the step graph attends to: latents x memory width. */
-export type ConditionRunner = (input: ConditionInput) => Promise<Float32Array>;
+export interface ConditionOutput {
+  /** latents x memory width, what the step graph attends to. */
+  readonly memory: Float32Array;
+  /** latents: how far the leader is from those of training, about 1 for one of them. */
+  readonly unfamiliarity: Float32Array;
+}
+
+export type ConditionRunner = (input: ConditionInput) => Promise<ConditionOutput>;
 
 /** Inputs of the step graph; `width` is layers x channels. */
 export interface StepInput {
@@ -28,11 +34,9 @@ export interface StepInput {
   readonly keep: number;
   /** Timestep divided by the number of train steps. */
   readonly time: number;
-  /** a and b of x_next = a x + b x0. */
-  readonly coefficients: readonly [number, number];
 }
 
-/** Returns the next latents, blocks x block x width. */
+/** Returns the predicted clean latents, blocks x block x width. */
 export type StepRunner = (input: StepInput) => Promise<Float32Array>;
 
 /** Inputs of the decode graph. */

@@ -142,14 +142,14 @@ function createVariationsButton(store: Store, services: Services): Controls {
     elements: [button],
     show: (state) => {
       const making = state.variations?.making ?? false;
-      const locked = allVariationsMade(state.variations) && state.seedLocked;
-      button.disabled = !making && (!canGenerate(state) || locked);
-      setText(button, making ? 'Cancel' : 'Three reactions');
+      button.disabled = !making && !canGenerate(state);
+      setText(
+        button,
+        making ? 'Cancel' : allVariationsMade(state.variations) ? 'Three others' : 'Three reactions',
+      );
       button.title = making
         ? 'Make no more'
-        : locked
-          ? 'Unlock the seed to make three others'
-          : 'Make three that differ only by chance, and pick the best';
+        : 'Try several seeds, make the three reactions that differ most, and pick one';
     },
   };
 }

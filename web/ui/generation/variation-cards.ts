@@ -1,30 +1,31 @@
-import { VARIATION_COUNT } from '../store/actions/variations';
+import { allVariationsMade, VARIATION_COUNT } from '../store/actions/variations';
 import { generatedRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { mostDifferentFrame } from '../../motion/skeleton/difference';
 import { headingOf } from '../../motion/skeleton/heading';
 import { drawFigure } from '../widgets/figure';
 import { icon } from '../widgets/icons';
 import { token } from '../widgets/lane-canvas';
-import { sameInputs } from '../store/selectors';
+import { clockTime } from '../store/format';
+import { danceFps, sameInputs } from '../store/selectors';
 import type { Mount } from '../store/services';
 import type { Reaction } from '../store/reaction';
 import type { AppState, Variation } from '../store/state';
 import { watchAll } from '../store/store';
-
-/** A variation, or an empty place for one. */
-type CardContent = Omit<Variation, 'seed'> & { readonly seed: number | null };
 
 /** How a card is shown: whether its reaction is on the stage or being made, and whether Tab leads to the card. */
 interface CardState {
   readonly onStage: boolean;
   readonly making: boolean;
   readonly tabStop: boolean;
+  /** Seconds of the dance that all cards show; null where they follow the playhead. */
+  readonly moment: number | null;
 }
 
 interface Card {
   readonly button: HTMLButtonElement;
   readonly canvas: HTMLCanvasElement;
-  readonly show: (content: CardContent, state: CardState) => void;
+  readonly show: (variation: Variation, state: CardState) => void;
 }
 
 /** Time between two drawings of the figures while they dance. */
@@ -33,7 +34,10 @@ const DRAW_INTERVAL_MS = 100;
 /** Steps between cards, by key. */
 const ARROWS: Readonly<Record<string, number>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
-/** The variations to pick from, as small figures posed at the playhead; the one on the stage is marked. */
+/**
+ * The variations to pick from, as small figures in the moment in which they differ most; the one on the stage is marked.
+ * Until all are there they follow the playhead.
+ */
 export const mountVariationCards: Mount = (root, store, services) => {
   const pick = (index: number): void => {
     const seed = cardContents(store.getState())[index]?.seed ?? null;
@@ -88,7 +92,7 @@ export const mountVariationCards: Mount = (root, store, services) => {
         variations?.list,
         reaction,
         theme,
-        playback.time,
+        allVariationsMade(variations) ? null : playback.time,
         settings?.role,
       ],
       figures.run,
@@ -104,7 +108,8 @@ export const mountVariationCards: Mount = (root, store, services) => {
 
 function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
   const canvas = el('canvas');
-  const seedText = el('span');
+  const seedText = el('span', { class: 'seed' });
+  const momentText = el('span', { class: 'moment' });
   const fill = el('i');
   const meter = el('span', { class: 'meter' }, fill);
   const button = el(
@@ -126,20 +131,23 @@ function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
     canvas,
     el('em', {}, icon('check')),
     seedText,
+    momentText,
     meter,
   );
   return {
     button,
     canvas,
-    show: ({ seed, reaction, fraction }, { onStage, making, tabStop }) => {
+    show: ({ seed, reaction, fraction }, { onStage, making, tabStop, moment }) => {
       setText(seedText, seed === null ? '' : String(seed));
+      setText(momentText, moment === null ? '' : clockTime(moment));
       button.disabled = reaction === null;
       button.classList.toggle('empty', reaction === null);
       meter.hidden = !making;
       setVariable(fill, '--part', fraction);
       setAttribute(button, 'aria-checked', String(onStage));
       setAttribute(button, 'tabindex', tabStop ? 0 : -1);
-      const label = `Reaction, seed ${seed}${reaction ? '' : ', not made yet'}`;
+      const shown = moment === null ? '' : `, shown at ${clockTime(moment)}`;
+      const label = `Reaction, seed ${seed}${reaction ? shown : ', not made yet'}`;
       setAttribute(button, 'aria-label', seed === null ? 'No reaction yet' : label);
       button.title = reaction && !onStage ? 'Bring this one to the stage' : (reaction?.label ?? '');
     },
@@ -149,8 +157,11 @@ function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
 function showCards(cards: readonly Card[], state: AppState): void {
   const contents = cardContents(state);
   const onStage = contents.findIndex(({ reaction }) => isOnStage(state, reaction));
+  const frame = sharedFrame(state);
+  const moment = frame === null ? null : frame / danceFps(state);
   contents.forEach((content, index) => {
     cards[index]?.show(content, {
+      moment,
       onStage: index === onStage,
       making: state.variations?.making === true && !content.reaction,
       tabStop: index === Math.max(0, onStage),
@@ -163,7 +174,7 @@ function madeText(list: readonly Variation[]): string {
 }
 
 /** The variations; without any, the reaction on the stage in the first card. */
-function cardContents({ variations, reaction }: AppState): readonly CardContent[] {
+function cardContents({ variations, reaction }: AppState): readonly Variation[] {
   if (variations) return variations.list;
   const none = { seed: null, reaction: null, fraction: 0 };
   const first = reaction ? { seed: reaction.inputs.settings.seed, reaction, fraction: 1 } : none;
@@ -177,9 +188,22 @@ function isOnStage(state: AppState, reaction: Reaction | null): boolean {
   );
 }
 
-/** Draws each card's dancer at the playhead, all seen from the same direction. */
+/** Frames by the variations that differ most in them. */
+const frames = new WeakMap<readonly Variation[], number>();
+
+/** The frame in which all cards show their dancers: where they differ most; null while one is missing. */
+function sharedFrame({ variations }: Pick<AppState, 'variations'>): number | null {
+  const dances = variations?.list.flatMap(({ reaction }) => reaction?.motion.positions ?? []) ?? [];
+  if (!variations || dances.length < VARIATION_COUNT) return null;
+  const frame = frames.get(variations.list) ?? mostDifferentFrame(dances);
+  frames.set(variations.list, frame);
+  return frame;
+}
+
+/** Draws each card's dancer, all in the same moment and seen from the same direction. */
 function drawFigures(root: HTMLElement, cards: readonly Card[], state: AppState): void {
-  const poses = cardContents(state).map(({ reaction }) => reaction && poseAt(reaction, state.playback.time));
+  const frame = sharedFrame(state) ?? Math.round(state.playback.time * danceFps(state));
+  const poses = cardContents(state).map(({ reaction }) => reaction && poseAt(reaction, frame));
   const direction = headingOf(poses.find((pose) => pose !== null) ?? new Float32Array(66));
   const colour = token(root, `--figure-${generatedRole(state)}`);
   poses.forEach((pose, index) => {
@@ -190,10 +214,10 @@ function drawFigures(root: HTMLElement, cards: readonly Card[], state: AppState)
   });
 }
 
-/** Joint positions (22 x 3, metres) of the frame nearest to `time`, seconds. */
-function poseAt({ motion }: Reaction, time: number): Float32Array {
-  const frame = Math.min(motion.frames - 1, Math.max(0, Math.round(time * motion.fps)));
-  return motion.positions.subarray(frame * 66, (frame + 1) * 66);
+/** Joint positions (22 x 3, metres) in a frame; at the end of the dance in the last one. */
+function poseAt({ motion }: Reaction, frame: number): Float32Array {
+  const at = Math.min(motion.frames - 1, Math.max(0, frame));
+  return motion.positions.subarray(at * 66, (at + 1) * 66);
 }
 
 /** Gives the canvas the pixels of its element; false while it has no size. */

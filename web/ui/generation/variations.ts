@@ -1,7 +1,11 @@
 import type { Generator } from '../../model/client';
 import {
   allVariationsMade,
-  sameButSeed,
+  asksForVariations,
+  candidateSeeds,
+  seedsChosen,
+  seedsTried,
+  VARIATION_COUNT,
   variationInputs,
   variationAdded,
   variationProgressed,
@@ -12,47 +16,41 @@ import {
 } from '../store/actions/variations';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
-import { sameInputs, upToDate, readyInputs } from '../store/selectors';
-import type { Variation } from '../store/state';
+import { sameInputs, readyInputs } from '../store/selectors';
+import type { Inputs, Reaction } from '../store/reaction';
 import { reactionAdded } from '../store/actions/reaction';
-import { randomSeed, seedRandomized, settingsSet } from '../store/actions/settings';
+import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
+/** Time in which seeds are tried once there are enough of them, seconds. */
+const CHOOSING_SECONDS = 8;
+
 /**
- * Makes several reactions to pick from. The first is the one that `Generation` makes anyway; the others follow one
- * after the other. All are dropped when files or settings other than the seed change.
+ * Makes several reactions to pick from: samples the dances of more seeds, and finishes those that differ most one after
+ * the other. All are dropped when files or settings other than seed and variety change.
  */
 export class VariationMaker {
   readonly #store: Store;
   readonly #model: () => Promise<Generator>;
-  readonly #generate: () => void;
   readonly #unsubscribe: () => void;
   #controller: AbortController | null = null;
 
-  /** @param generate makes the reaction to the present inputs, as `Services.generate` */
-  constructor(store: Store, model: () => Promise<Generator>, generate: () => void) {
+  constructor(store: Store, model: () => Promise<Generator>) {
     this.#store = store;
     this.#model = model;
-    this.#generate = generate;
     this.#unsubscribe = store.subscribe(() => {
-      this.#follow();
+      this.#dropOutdated();
     });
   }
 
   /** Makes three reactions that differ in their seed; where three are made already, three others. */
   readonly make = (): void => {
-    const others = allVariationsMade(this.#store.getState().variations);
-    if (others) {
-      apply(this.#store, variationsDropped());
-      apply(this.#store, seedRandomized(randomSeed()));
-    }
     const inputs = readyInputs(this.#store.getState());
     if (!inputs) return;
-    apply(this.#store, this.#store.getState().variations ? variationsResumed() : variationsStarted(inputs));
-    const state = this.#store.getState();
-    if (!upToDate(state) && (others || !state.job)) this.#generate();
-    this.#follow();
+    const { variations } = this.#store.getState();
+    const goesOn = variations && !allVariationsMade(variations);
+    apply(this.#store, goesOn ? variationsResumed() : variationsStarted(inputs));
     void this.#run();
   };
 
@@ -80,34 +78,24 @@ export class VariationMaker {
     this.#controller = null;
   }
 
-  /** Takes over what `Generation` has made, and drops the variations when their inputs have changed. */
-  #follow(): void {
+  #dropOutdated(): void {
     const state = this.#store.getState();
-    const { variations, reaction, job } = state;
-    if (!variations) return;
+    if (!state.variations) return;
     const inputs = readyInputs(state);
-    const known = variations.list.find(({ seed }) => seed === inputs?.settings.seed);
-    if (!inputs || !known || !sameButSeed(inputs, variations.inputs)) {
-      this.#abort();
-      apply(this.#store, variationsDropped());
-    } else if (reaction && !known.reaction && sameInputs(reaction.inputs, inputs))
-      apply(this.#store, variationAdded(known.seed, reaction));
-    else if (job && !known.reaction && known.fraction !== job.fraction && variations.making)
-      apply(this.#store, variationProgressed(known.seed, job.fraction));
+    if (inputs && asksForVariations(inputs, state.variations)) return;
+    this.#abort();
+    apply(this.#store, variationsDropped());
   }
 
-  /** Makes all that are missing, in order. */
   async #run(): Promise<void> {
     this.#abort();
     const controller = new AbortController();
     this.#controller = controller;
     const { signal } = controller;
     try {
-      for (const variation of this.#store.getState().variations?.list ?? []) {
-        if (variation.reaction) continue;
-        if (this.#store.getState().settings?.seed !== variation.seed) await this.#makeOne(variation, signal);
-        else if (!(await this.#madeByGeneration(variation.seed, signal))) break;
-      }
+      // What is asked for first is answered first, and may be one of these reactions.
+      await this.#jobEnded(signal);
+      await this.#finish(await this.#chosenSeeds(signal), signal);
     } catch (error) {
       if (!signal.aborted && !isAbort(error)) apply(this.#store, problemShown(generationProblem(error)));
     }
@@ -117,33 +105,76 @@ export class VariationMaker {
     }
   }
 
-  async #makeOne({ seed }: Variation, signal: AbortSignal): Promise<void> {
+  /** Chooses the seeds, unless they are chosen. */
+  async #chosenSeeds(signal: AbortSignal): Promise<readonly number[]> {
     const { variations } = this.#store.getState();
-    if (!variations) return;
-    const inputs = variationInputs(variations, seed);
+    if (!variations) return [];
+    const known = variations.list.flatMap(({ seed }) => seed ?? []);
+    if (known.length > 0) return known;
+    const generator = await this.#model();
+    signal.throwIfAborted();
+    const seeds = await generator.differingSeeds(
+      {
+        request: requestFor(variations.inputs, generator.manifest),
+        seeds: candidateSeeds(variations),
+        count: VARIATION_COUNT,
+        seconds: CHOOSING_SECONDS,
+      },
+      {
+        signal,
+        onProgress: (share) => {
+          if (!signal.aborted) apply(this.#store, seedsTried(share));
+        },
+      },
+    );
+    signal.throwIfAborted();
+    apply(this.#store, seedsChosen(seeds));
+    return seeds;
+  }
+
+  /** Finishes all that are missing, in order. */
+  async #finish(seeds: readonly number[], signal: AbortSignal): Promise<void> {
+    for (const seed of seeds) {
+      const { variations } = this.#store.getState();
+      if (!variations || variations.list.some((each) => each.seed === seed && each.reaction)) continue;
+      const inputs = variationInputs(variations, seed);
+      const reaction = this.#known(inputs) ?? (await this.#makeOne(inputs, signal));
+      apply(this.#store, variationAdded(seed, reaction));
+    }
+  }
+
+  /** A reaction to these inputs that is there already. */
+  #known(inputs: Inputs): Reaction | undefined {
+    const { reaction: shown, takes } = this.#store.getState();
+    const known = [...(shown ? [shown] : []), ...takes.map(({ reaction }) => reaction)];
+    return known.find((reaction) => sameInputs(reaction.inputs, inputs));
+  }
+
+  async #makeOne(inputs: Inputs, signal: AbortSignal): Promise<Reaction> {
     const generator = await this.#model();
     signal.throwIfAborted();
     const result = await generator.generate(requestFor(inputs, generator.manifest), {
       signal,
       onProgress: ({ fraction }) => {
-        if (!signal.aborted) apply(this.#store, variationProgressed(seed, fraction));
+        if (!signal.aborted) apply(this.#store, variationProgressed(inputs.settings.seed, fraction));
       },
     });
     signal.throwIfAborted();
-    apply(this.#store, variationAdded(seed, reactionOf(result, inputs)));
+    return reactionOf(result, inputs);
   }
 
-  /** Resolves once `Generation` has made the reaction with this seed (true) or has given it up (false). */
-  #madeByGeneration(seed: number, signal: AbortSignal): Promise<boolean> {
-    return new Promise((resolve) => {
+  /** Resolves once no job is under way. */
+  #jobEnded(signal: AbortSignal): Promise<void> {
+    return new Promise((resolve, reject) => {
       const check = (): void => {
-        const { variations, job } = this.#store.getState();
-        const made = variations?.list.some((each) => each.seed === seed && each.reaction) ?? false;
-        if (!made && job && !signal.aborted) return;
+        if (this.#store.getState().job && !signal.aborted) return;
         unsubscribe();
-        resolve(made);
+        signal.removeEventListener('abort', check);
+        if (signal.aborted) reject(signal.reason as Error);
+        else resolve();
       };
       const unsubscribe = this.#store.subscribe(check);
+      signal.addEventListener('abort', check);
       check();
     });
   }

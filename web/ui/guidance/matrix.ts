@@ -93,14 +93,19 @@ function createCells(store: Store, { latent }: Manifest): Cell[] {
   return latent.streams.flatMap((stream) =>
     latent.layers.map((layer) => {
       const part = PARTS[stream];
-      const fader = createMiniFader(`${part?.label ?? stream}, ${layer}`, part?.hint ?? '', {
-        change: (value) => {
-          apply(store, guidanceCellSet(stream, layer, value));
+      const fader = createMiniFader(
+        `${part?.label ?? stream}, ${layer}`,
+        part?.hint ?? '',
+        {
+          change: (value) => {
+            apply(store, guidanceCellSet(stream, layer, value));
+          },
+          reset: () => {
+            apply(store, guidanceCellReset(stream, layer));
+          },
         },
-        reset: () => {
-          apply(store, guidanceCellReset(stream, layer));
-        },
-      }, (value, range) => valueText(value, range, layer === 'coarse' ? 'coarse' : 'fine'));
+        (value, range) => valueText(layer === 'coarse' ? 'coarse' : 'fine', value, range),
+      );
       return { stream, layer, fader };
     }),
   );

@@ -33,7 +33,7 @@ export const mountPresetMenu: Mount = (root, store) => {
     ),
     watchAll(
       store,
-      ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music],
+      ({ manifest, settings }) => [manifest, settings?.guidance, settings?.music, settings?.variety],
       ({ settings }) => {
         menu.disabled = !settings;
         if (!settings) return;

@@ -1,31 +1,45 @@
 import type { Manifest } from '../../model/client';
+import type { Control } from '../widgets/fader';
 import { clampedToStep, rangeOf, sameGuidance, uniform } from '../store/guidance-matrix';
-import type { Guidance, Settings } from '../store/reaction';
+import type { Settings } from '../store/reaction';
 
 type Range = Manifest['guidance']['coarse'];
 
-/** Named guidance weights. */
-export interface Preset {
+/** The settings that a preset sets. */
+type Weights = Pick<Settings, 'guidance' | 'music' | 'variety'>;
+
+/** Weights under a name. */
+export interface Preset extends Weights {
   readonly name: string;
   /** What to expect of it, in a sentence. */
   readonly description: string;
-  readonly guidance: Guidance;
-  readonly music: number;
 }
 
 /** Presets by what they do: share of the way from the default to an end of the range, below 0 to the lower end. */
 const KINDS: readonly {
   readonly name: string;
   readonly description: string;
-  readonly towards: Readonly<Partial<Record<'coarse' | 'fine' | 'music', number>>>;
+  readonly towards: Readonly<Partial<Record<Control, number>>>;
 }[] = [
   { name: 'Balanced', description: 'What suits this model best.', towards: {} },
   { name: 'Loose', description: 'Smaller moves, a path more of its own.', towards: { coarse: -0.7 } },
   { name: 'Large', description: 'Larger moves, farther around the leader.', towards: { coarse: 0.6 } },
-  { name: 'Soft', description: 'Without accents.', towards: { fine: -0.8 } },
-  { name: 'Sharp', description: 'Strong accents.', towards: { fine: 0.8 } },
-  { name: 'Song first', description: 'The song shapes the dance most.', towards: { music: 1 } },
-  { name: 'Leader only', description: 'The song is not listened to.', towards: { music: -1 } },
+  { name: 'Soft', description: 'Less quick movement, few accents.', towards: { fine: -0.8 } },
+  { name: 'Sharp', description: 'More quick movement, strong accents.', towards: { fine: 0.8 } },
+  { name: 'More song', description: 'The song changes the dance most.', towards: { music: 1 } },
+  { name: 'Less song', description: 'The song hardly changes the dance.', towards: { music: -1 } },
+  { name: 'Average', description: 'What the seeds have in common.', towards: { variety: -1 } },
+  { name: 'Individual', description: 'Far from what other seeds dance.', towards: { variety: 0.7 } },
+  {
+    name: 'Calm',
+    description: 'Near the average and soft.',
+    towards: { fine: -0.6, variety: -0.6 },
+  },
+  {
+    name: 'Lively',
+    description: 'Large, sharp and unlike other seeds.',
+    towards: { coarse: 0.4, fine: 0.6, variety: 0.5 },
+  },
 ];
 
 /** The presets for a model's ranges. */
@@ -42,13 +56,16 @@ export function presets({ latent, guidance }: Pick<Manifest, 'latent' | 'guidanc
       at(rangeOf(guidance, layer), layer === 'coarse' ? towards.coarse : towards.fine),
     ),
     music: at(guidance.music, towards.music),
+    variety: at(guidance.variety, towards.variety),
   }));
 }
 
 /** The preset whose values these are, if any. */
-export function presetOf(
-  list: readonly Preset[],
-  { guidance, music }: Pick<Settings, 'guidance' | 'music'>,
-): Preset | null {
-  return list.find((preset) => preset.music === music && sameGuidance(preset.guidance, guidance)) ?? null;
+export function presetOf(list: readonly Preset[], { guidance, music, variety }: Weights): Preset | null {
+  return (
+    list.find(
+      (preset) =>
+        preset.music === music && preset.variety === variety && sameGuidance(preset.guidance, guidance),
+    ) ?? null
+  );
 }

@@ -1,11 +1,11 @@
 import { el, combineDisposers } from '../widgets/dom';
-import { coarseMotion } from '../store/reactor-motion';
+import { coarseMotion, earlierMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
 import { icon } from '../widgets/icons';
 import { mountUndo } from '../takes/undo';
 import type { Camera } from '../store/state';
-import { apply, watch } from '../store/store';
+import { apply, watch, watchAll } from '../store/store';
 import { cameraSet } from '../store/actions/view';
 
 const CAMERAS: readonly (readonly [Camera, string])[] = [
@@ -42,16 +42,36 @@ const mountStageTools: Mount = (root, store, services) => {
   });
 };
 
-/** Over the picture: the legend, the cameras, overlays and stage tools. */
-export const mountStageControls: Mount = (root, store, services) => {
-  const coarse = el('li', { class: 'made' }, el('span', { class: 'dot hollow' }), 'Coarse only');
+/** The dancers' names in their colours; those of ghosts while they are seen. */
+const mountLegend: Mount = (root, store) => {
+  const item = (role: string, dot: string, name: string): HTMLElement =>
+    el('li', { class: role }, el('span', { class: dot }), name);
+  const coarse = item('made', 'dot hollow', 'Coarse only');
+  const earlier = item('made', 'dot hollow', 'Before');
   const legend = el(
     'ul',
     { class: 'over legend' },
-    el('li', { class: 'leader' }, el('span', { class: 'dot' }), 'Leader'),
-    el('li', { class: 'reactor' }, el('span', { class: 'dot' }), 'Reactor'),
+    item('leader', 'dot', 'Leader'),
+    item('reactor', 'dot', 'Reactor'),
     coarse,
+    earlier,
   );
+  root.append(legend);
+  const stop = watchAll(
+    store,
+    (state) => [coarseMotion(state), earlierMotion(state)],
+    (state) => {
+      coarse.hidden = coarseMotion(state) === null;
+      earlier.hidden = earlierMotion(state) === null;
+    },
+  );
+  return combineDisposers(stop, () => {
+    legend.remove();
+  });
+};
+
+/** Over the picture: the legend, the cameras, overlays and stage tools. */
+export const mountStageControls: Mount = (root, store, services) => {
   const select = (camera: Camera): void => {
     apply(store, cameraSet(camera));
   };
@@ -93,18 +113,13 @@ export const mountStageControls: Mount = (root, store, services) => {
     },
   });
   const views = el('div', { class: 'over views' }, group, frame);
-  root.append(legend, views);
+  const legend = mountLegend(root, store, services);
+  root.append(views);
 
   return combineDisposers(
+    legend,
     mountOverlayMenu(root, store, services),
     mountStageTools(root, store, services),
-    watch(
-      store,
-      (state) => coarseMotion(state) !== null,
-      (seen) => {
-        coarse.hidden = !seen;
-      },
-    ),
     watch(
       store,
       (state) => state.camera,
@@ -116,7 +131,6 @@ export const mountStageControls: Mount = (root, store, services) => {
       },
     ),
     () => {
-      legend.remove();
       views.remove();
     },
   );

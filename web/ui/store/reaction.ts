@@ -59,6 +59,8 @@ export interface Reaction {
   readonly latents: Float32Array | null;
   /** What it was generated from. */
   readonly inputs: Inputs;
+  /** How far the leader is from those that the model was trained on; not known of a reaction that is not new. */
+  readonly unfamiliarity?: number;
   /** Set when it was not computed on this page: "demo reaction". */
   readonly label: string | null;
   /** Seconds that generating it took, or null when it came ready-made. */

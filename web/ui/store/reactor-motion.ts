@@ -1,5 +1,6 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { lockFeet } from '../../motion/contact/foot-lock';
+import { sameInputs } from './selectors';
 import type { AppState } from './state';
 
 /** Motions with locked feet by the motions that they were computed from. */
@@ -40,6 +41,22 @@ export function otherCoarseMotion({
   footLock,
 }: Pick<AppState, 'coarse' | 'overlays' | 'footLock'>): SolvedMotion | null {
   return overlays.ghost && coarse.other ? asDrawn(coarse.other, footLock) : null;
+}
+
+/**
+ * The dance before a change as it is drawn beside the new one; null while takes are compared, and where the new one is
+ * the same again.
+ */
+export function earlierMotion({
+  earlier,
+  reaction,
+  preview,
+  compare,
+  footLock,
+}: Pick<AppState, 'earlier' | 'reaction' | 'preview' | 'compare' | 'footLock'>): SolvedMotion | null {
+  if (!earlier || !reaction || compare !== 'off') return null;
+  if (!preview && sameInputs(earlier.inputs, reaction.inputs)) return null;
+  return asDrawn(earlier.motion, footLock);
 }
 
 /** Caches a motion whose feet a worker has locked. */

@@ -80,10 +80,16 @@ export function barAt(beats: readonly number[], time: number): { bar: number; co
   return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
 }
 
+/** Whether the reaction on the stage is being replaced by one that is sampled, which takes seconds. */
+export function isSampling(state: AppState): boolean {
+  return state.job !== null && state.job.fraction > 0 && !upToDate(state);
+}
+
 /** The stage of a job as a text for the visitor. */
 export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
   switch (job.stage) {
     case 'waiting':
+      if (model.phase === 'ready') return 'shaping the dance';
       return model.phase === 'loading' && model.total > 0
         ? `waiting for the model, ${bytesOf(model.received, model.total)}`
         : 'waiting for the model';
@@ -91,10 +97,6 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
       return 'listening and watching';
     case 'step':
       return stepText(job, settings?.steps ?? job.total);
-    case 'decode':
-      return 'shaping the dance';
-    case 'solve':
-      return 'setting the bones';
   }
 }
 
@@ -140,6 +142,15 @@ export interface Note {
   readonly isWarning: boolean;
 }
 
+const UNFAMILIAR =
+  'This leader dances unlike all that the model has learned from. The partner answers in the style it knows, and may ' +
+  'move oddly.';
+
+/** Whether the reaction on the stage is to a leader unlike those that the model was trained on. */
+function isUnfamiliar({ reaction, manifest }: AppState): boolean {
+  return (reaction?.unfamiliarity ?? 0) > (manifest?.leader.unfamiliar_from ?? Infinity);
+}
+
 /** Notes on the song and the leader. */
 function fileNotes(state: AppState): Note[] {
   const { song, leader } = state;
@@ -150,6 +161,7 @@ function fileNotes(state: AppState): Note[] {
     list.push({ text: 'The song is silent: it carries no beat to dance to.', isWarning: true });
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', isWarning: true });
+  if (isUnfamiliar(state)) list.push({ text: UNFAMILIAR, isWarning: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, isWarning: true });
   for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, isWarning: false });
   return list;

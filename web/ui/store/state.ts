@@ -48,19 +48,11 @@ export type ModelState =
   | { readonly phase: 'failed'; readonly problem: Problem };
 
 export interface Job {
-  readonly stage: 'waiting' | 'condition' | 'step' | 'decode' | 'solve';
+  readonly stage: 'waiting' | 'condition' | 'step';
   readonly done: number;
   readonly total: number;
-  /** 0 to 1 over the whole job. */
+  /** 0 to 1 over the whole sampling; 0 where only weights have changed, which needs none. */
   readonly fraction: number;
-  /** Frames of which the stage already shows a preview. */
-  readonly previewed: FrameRange | null;
-}
-
-/** Motion frames `from` to `to`, the latter excluded. */
-export interface FrameRange {
-  readonly from: number;
-  readonly to: number;
 }
 
 /** What is drawn while a reaction is being generated: the previous one, with new frames around the playhead. */
@@ -72,17 +64,20 @@ export interface Preview {
 
 /** One of several reactions to choose from. */
 export interface Variation {
-  readonly seed: number;
+  /** Null until it is chosen. */
+  readonly seed: number | null;
   /** Null until it is generated. */
   readonly reaction: Reaction | null;
   /** Progress of generating it, 0 to 1. */
   readonly fraction: number;
 }
 
-/** Reactions to the same files and settings that differ in their seed. */
+/** Reactions to the same files and settings that differ in their seed; their variety is above the one that was set. */
 export interface Variations {
   /** What they are generated from; its seed is not used. */
   readonly inputs: Inputs;
+  /** First of the consecutive seeds that theirs are chosen from. */
+  readonly firstSeed: number;
   readonly list: readonly Variation[];
   /** Some are still being generated. */
   readonly making: boolean;
@@ -172,6 +167,8 @@ export interface AppState {
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
+  /** The reaction before the last change of a setting, for as long as the stage shows it as a ghost. */
+  readonly earlier: Reaction | null;
   readonly variations: Variations | null;
   /** Whether the seed stays when a reaction is generated again. */
   readonly seedLocked: boolean;

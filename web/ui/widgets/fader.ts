@@ -1,36 +1,37 @@
 import { el, setText, setVariable } from './dom';
+import { connectFaderInput, type FaderEvents, type FaderRange, shareOf, showValue } from './fader-input';
 import { drawing } from './icons';
 import type { Layer } from '../store/reaction';
 
-export interface FaderEvents {
-  readonly change: (value: number) => void;
-  readonly reset: () => void;
-  /** The pointer has grabbed it; all changes until its release belong together. */
-  readonly grab?: () => void;
-  readonly release?: () => void;
+/** What a fader moves: the guidance of a layer, the guidance of the music, or the variety. */
+export type Control = Layer | 'music' | 'variety';
+
+/** How a fader is named. */
+export interface FaderTexts {
+  readonly name: string;
+  /** Its name for screen readers. */
+  readonly label: string;
+  /** What it moves, in a sentence. */
+  readonly hint: string;
 }
 
-/** A fader's range, from the manifest. */
-export interface FaderRange {
-  readonly min: number;
-  readonly max: number;
-  readonly step: number;
-  readonly default: number;
-}
+/** What is said beside the value. */
+export type FaderNote = 'mixed' | 'no song' | null;
 
 interface Fader {
   readonly root: HTMLElement;
-  readonly input: HTMLInputElement;
   /** Sets range and value, the mean where the body parts are mixed; without a range it is disabled. */
-  readonly show: (range: FaderRange | null, value: number, mixed?: boolean) => void;
+  readonly show: (range: FaderRange | null, value: number, note: FaderNote) => void;
   /** Outlines it while its change is being applied. */
   readonly setApplying: (applying: boolean) => void;
 }
 
-/** What the dance is towards the lower and the upper end, as measured (docs/results.md). */
-const LAYER_ENDS: Readonly<Record<Layer, readonly [low: string, high: string]>> = {
+/** What the dance is at the lower and at the upper end, as measured (docs/results.md). */
+const ENDS: Readonly<Record<Control, readonly [low: string, high: string]>> = {
   coarse: ['looser', 'larger'],
   fine: ['softer', 'sharper'],
+  music: ['less song', 'more song'],
+  variety: ['average', 'individual'],
 };
 
 /** Size of the drawn curve, in its own units. */
@@ -49,31 +50,27 @@ function curvePath(layer: Layer): string {
 
 /**
  * A native range input over a drawn track, so that keyboard, touch and screen readers work by themselves. Dragging
- * with Shift is ten times finer; a double click resets to the default.
+ * with Shift is ten times finer; a double click resets to the default. The faders of the layers are large and have a
+ * picture of what they move.
  */
-export function createFader(
-  layer: Layer,
-  name: string,
-  hint: string,
-  on: FaderEvents,
-): Fader {
-  const hintId = `hint-${layer}`;
+export function createFader(control: Control, { name, label, hint }: FaderTexts, on: FaderEvents): Fader {
+  const hintId = `hint-${control}`;
   const value = el('output', { class: 'val' });
-  const mix = el('small', { class: 'mix', text: 'mixed' });
-  mix.hidden = true;
+  const aside = el('small', { class: 'note' });
+  const large = control === 'coarse' || control === 'fine';
   const well = el(
     'span',
     { class: 'well' },
     el('span', { class: 'fill' }),
     el('span', { class: 'name', text: name }),
-    drawing(`0 0 ${CURVE_SIZE.width} ${CURVE_SIZE.height}`, 'w', [[curvePath(layer)]]),
-    mix,
+    large ? drawing(`0 0 ${CURVE_SIZE.width} ${CURVE_SIZE.height}`, 'w', [[curvePath(control)]]) : null,
+    aside,
     value,
   );
   const input = el('input', {
     attributes: {
       type: 'range',
-      'aria-label': `${name} guidance`,
+      'aria-label': label,
       'aria-describedby': hintId,
       title: `${hint} Double click for the default.`,
       disabled: true,
@@ -83,7 +80,7 @@ export function createFader(
   const scale = el('div', { class: 'scale', attributes: { 'aria-hidden': 'true' } });
   const root = el(
     'div',
-    { class: 'fader' },
+    { class: large ? 'fader' : 'fader small' },
     well,
     input,
     scale,
@@ -93,22 +90,17 @@ export function createFader(
   let drawn: FaderRange | null = null;
   return {
     root,
-    input,
-    show: (range, current, mixed = false) => {
+    show: (range, current, note) => {
       input.disabled = range === null;
       setText(value, range ? current.toFixed(2) : '');
+      setText(aside, note ?? '');
       if (!range) return;
-      if (range !== drawn) {
-        drawn = range;
-        input.min = String(range.min);
-        input.max = String(range.max);
-        input.step = String(range.step);
-        scale.replaceChildren(...marks(range, LAYER_ENDS[layer]));
-      }
-      if (input.valueAsNumber !== current) input.value = String(current);
-      mix.hidden = !mixed;
-      input.setAttribute('aria-valuetext', valueText(current, range, layer, mixed));
-      setVariable(root, '--v', (current - range.min) / (range.max - range.min));
+      if (range !== drawn) scale.replaceChildren(...marks(control, range, large ? 'default' : ''));
+      drawn = range;
+      showValue(root, input, range, current);
+      const spoken = valueText(control, current, range);
+      const mixed = note === 'mixed' ? ', on average: the body parts are mixed' : '';
+      input.setAttribute('aria-valuetext', spoken + mixed);
     },
     setApplying: (applying) => {
       root.classList.toggle('applying', applying);
@@ -117,63 +109,29 @@ export function createFader(
 }
 
 /** A mark at each end with its word, and one at the default. */
-function marks({ min, max, default: preset }: FaderRange, [low, high]: readonly [string, string]): HTMLElement[] {
+function marks(control: Control, range: FaderRange, defaultWord: string): HTMLElement[] {
+  const [low, high] = ENDS[control];
   const mark = (at: number, text: string): HTMLElement => {
     const element = el('span', { text });
-    setVariable(element, '--at', (at - min) / (max - min));
+    setVariable(element, '--at', shareOf(at, range));
     return element;
   };
-  return [mark(min, low), ...(preset > min && preset < max ? [mark(preset, 'default')] : []), mark(max, high)];
+  const { min, max, default: preset } = range;
+  const inside = preset > min && preset < max;
+  return [mark(min, low), ...(inside ? [mark(preset, defaultWord)] : []), mark(max, high)];
 }
 
-/** Text of a value for screen readers. */
+/** Text of a value for screen readers: `0.50, towards larger`. */
 export function valueText(
+  control: Control,
   value: number,
   { min, max, default: preset }: FaderRange,
-  layer: Layer,
-  mixed = false,
 ): string {
-  const [low, high] = LAYER_ENDS[layer];
-  const way = value < preset ? (preset - value) / (preset - min) : (value - preset) / (max - preset);
-  const word = value < preset ? low : high;
-  const amount = way < 0.35 ? 'a little ' : way > 0.7 ? 'much ' : '';
-  const text = value === preset ? `${value.toFixed(2)}, default` : `${value.toFixed(2)}, ${amount}${word}`;
-  return mixed ? `${text}, on average: the body parts are mixed` : text;
-}
-
-/** Connects a range input to callbacks: drag, keys, double click for the default, Shift for a finer drag. */
-export function connectFaderInput(
-  input: HTMLInputElement,
-  { change, reset, grab, release }: FaderEvents,
-): void {
-  input.addEventListener('pointerdown', () => grab?.());
-  for (const type of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
-    input.addEventListener(type, () => release?.());
-  input.addEventListener('input', () => {
-    change(input.valueAsNumber);
-  });
-  input.addEventListener('dblclick', reset);
-  dragFinely(input, change);
-}
-
-/** With Shift held the value moves a tenth as far as the pointer. */
-function dragFinely(input: HTMLInputElement, change: (value: number) => void): void {
-  let from: { x: number; value: number } | null = null;
-  input.addEventListener('pointerdown', (event) => {
-    if (!event.shiftKey || input.disabled) return;
-    event.preventDefault();
-    input.focus();
-    input.setPointerCapture(event.pointerId);
-    from = { x: event.clientX, value: input.valueAsNumber };
-  });
-  input.addEventListener('pointermove', (event) => {
-    if (!from) return;
-    const range = Number(input.max) - Number(input.min);
-    change(from.value + ((event.clientX - from.x) / input.clientWidth) * range * 0.1);
-  });
-  const stop = (): void => {
-    from = null;
-  };
-  input.addEventListener('pointerup', stop);
-  input.addEventListener('pointercancel', stop);
+  if (value === preset) return `${value.toFixed(2)}, default`;
+  const [low, high] = ENDS[control];
+  const [word, end] = value < preset ? [low, min] : [high, max];
+  const share = (value - preset) / (end - preset);
+  const way =
+    share === 1 ? '' : share > 0.7 ? 'far towards ' : share < 0.35 ? 'a little towards ' : 'towards ';
+  return `${value.toFixed(2)}, ${way}${word}`;
 }

@@ -27,6 +27,7 @@ export class DancerBody {
   private style: BodyStyle = 'solid';
   private look: Look | null = null;
   private lowDetail = false;
+  private opacity = 1;
 
   /**
    * @param solid material of the solid body, disposed of with it
@@ -77,6 +78,13 @@ export class DancerBody {
     this.update();
   }
 
+  /** Sets the share of its opacity that a ghost has, 0 to 1. */
+  setOpacity(share: number): void {
+    if (share === this.opacity) return;
+    this.opacity = share;
+    this.update();
+  }
+
   /** Draws the solid body with fewer triangles, for when it is small in the picture. */
   setLowDetail(on: boolean): void {
     if (on === this.lowDetail) return;
@@ -92,13 +100,18 @@ export class DancerBody {
 
   /** Colours the body and attaches the mesh of its style, once there is one. */
   private update(): void {
-    const { style, colours, look } = this;
+    const { style, colours, look, opacity } = this;
     if (look !== null) {
       this.solid.setTint(look[colours]);
       // Coarse layer and other take have ghost colours of their own when they are the reactor's.
       const own = style === 'coarse' || style === 'other' ? style : null;
-      if (style !== 'solid')
-        this.ghost.setTint(look[own !== null && colours === 'reactor' ? own : colours], OPACITY[style]);
+      if (style !== 'solid') {
+        const { facing, grazing } = OPACITY[style];
+        this.ghost.setTint(look[own !== null && colours === 'reactor' ? own : colours], {
+          facing: facing * opacity,
+          grazing: grazing * opacity,
+        });
+      }
     }
     this.ghost.setShadow(style === 'translucent');
     if (this.geometry === null) return;

@@ -13,6 +13,8 @@ import { createRig } from './rig';
 
 /** Duration of the crossfade from one motion to the next, seconds. */
 const CROSSFADE = 0.25;
+/** Duration in which a ghost that leaves the stage fades out, seconds. */
+const FADE_OUT = 0.4;
 
 /** One mannequin on the stage: bones that follow a motion, and a body on them. */
 export class Dancer {
@@ -25,6 +27,8 @@ export class Dancer {
   /** Motion that is faded out, and how far that has come, 0 to 1. */
   private fadingMotion: SolvedMotion | null = null;
   private fade = 0;
+  /** Share of its opacity that is left while it fades out, null while it stays. */
+  private leaving: number | null = null;
   private visible = true;
   private bodyRequest = Promise.resolve();
   private shownBody: Body | null = null;
@@ -50,6 +54,7 @@ export class Dancer {
 
   /** Takes another motion, or none, at once or with a crossfade. A body for its skeleton is made in the background. */
   setMotion(motion: SolvedMotion | null, crossfade = false): void {
+    this.leave(null);
     if (motion === this.currentMotion) return;
     this.fadingMotion = crossfade && motion ? this.currentMotion : null;
     this.fade = 0;
@@ -77,8 +82,18 @@ export class Dancer {
     this.updateVisibility();
   }
 
-  /** Goes on with a crossfade by `dt` seconds; true while the pose changes by it. */
+  /** Takes a ghost off the stage, fading it out. */
+  fadeOut(): void {
+    if (this.currentMotion) this.leave(this.leaving ?? 1);
+  }
+
+  /** Goes on with fades by `dt` seconds; true while the picture changes by them. */
   advance(dt: number): boolean {
+    if (this.leaving !== null) {
+      this.leave(this.leaving - dt / FADE_OUT);
+      if (this.leaving <= 0) this.setMotion(null);
+      return true;
+    }
     if (!this.fadingMotion) return false;
     this.fade += dt / CROSSFADE;
     if (this.fade >= 1) this.fadingMotion = null;
@@ -111,6 +126,11 @@ export class Dancer {
     this.currentMotion = null;
     this.body.dispose();
     this.rig.skeleton.dispose();
+  }
+
+  private leave(share: number | null): void {
+    this.leaving = share;
+    this.body.setOpacity(Math.max(0, share ?? 1));
   }
 
   private updateVisibility(): void {

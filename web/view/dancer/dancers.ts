@@ -9,14 +9,18 @@ import { ROLES, type Look, type Role } from '../theme';
 import type { BodyMaterial } from './body-material';
 import { Dancer } from './dancer';
 
-/** Leader and reactor, the coarse layer of the first take, the other take, and its coarse layer. */
-export type DancerName = Role | 'coarse' | 'other' | 'otherCoarse';
+/**
+ * Leader and reactor, the coarse layer of the first take, the other take, its coarse layer, and the dance before a
+ * change.
+ */
+export type DancerName = Role | 'coarse' | 'other' | 'otherCoarse' | 'earlier';
 const NAMES = [
   'leader',
   'reactor',
   'coarse',
   'other',
   'otherCoarse',
+  'earlier',
 ] as const satisfies readonly DancerName[];
 
 /** How the other take is seen: as a ghost, or in this half of a split view, with the first take in the other half. */
@@ -45,9 +49,11 @@ export class Dancers {
       coarse: dancer('reactor'),
       other: dancer('reactor'),
       otherCoarse: dancer('reactor'),
+      earlier: dancer('reactor'),
     };
     this.dancers.coarse.body.setStyle('coarse');
     this.dancers.otherCoarse.body.setStyle('coarse');
+    this.dancers.earlier.body.setStyle('other');
     for (const { object } of this.all) this.object.add(object);
     this.updateStyles();
   }
@@ -67,10 +73,16 @@ export class Dancers {
     this.dancers[name].setMotion(motion, crossfade);
   }
 
-  /** Sets the role that the model made: that of coarse layers and other take. All share the dancer of the other role. */
+  /** Takes a ghost off the stage, fading it out. */
+  fadeOut(name: DancerName): void {
+    this.dancers[name].fadeOut();
+  }
+
+  /** Sets the role that the model made: that of all ghosts and the other take. All share the dancer of the other role. */
   setMade(role: Role): void {
     this.made = role;
-    for (const name of ['coarse', 'other', 'otherCoarse'] as const) this.dancers[name].body.setColours(role);
+    for (const name of ['coarse', 'other', 'otherCoarse', 'earlier'] as const)
+      this.dancers[name].body.setColours(role);
   }
 
   setOtherMode(mode: OtherMode): void {
@@ -97,7 +109,7 @@ export class Dancers {
     await Promise.all(this.all.map((dancer) => dancer.bodyReady()));
   }
 
-  /** Goes on with crossfades by `dt` seconds; true while a pose changes by it. */
+  /** Goes on with fades by `dt` seconds; true while the picture changes by them. */
   advance(dt: number): boolean {
     return this.all.filter((dancer) => dancer.advance(dt)).length > 0;
   }
@@ -131,6 +143,7 @@ export class Dancers {
     dancers.coarse.show(!showsOther && overlays.ghost);
     dancers.other.show(showsOther || (viewport === 'whole' && this.mode === 'ghost'));
     dancers.otherCoarse.show(showsOther && overlays.ghost);
+    dancers.earlier.show(viewport === 'whole');
     return [...this.figure(loaded, loaded), ...this.figure(made, partner)];
   }
 

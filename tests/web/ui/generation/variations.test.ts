@@ -17,9 +17,17 @@ describe('three variations', () => {
     model.calls[index]?.answer(result());
     await pass();
   };
+  const choose = async (...seeds: number[]): Promise<void> => {
+    model.seedCalls.at(-1)?.answer(seeds);
+    await pass();
+  };
   const seeds = (): number[] => model.calls.map(({ request }) => request.seed);
-  const there = (): boolean[] =>
-    store.getState().variations?.list.map(({ reaction }) => reaction !== null) ?? [];
+  const list = () => store.getState().variations?.list ?? [];
+  const there = (): boolean[] => list().map(({ reaction }) => reaction !== null);
+  const make = async (): Promise<void> => {
+    variations.make();
+    await pass();
+  };
 
   beforeEach(async () => {
     vi.useFakeTimers();
@@ -28,7 +36,7 @@ describe('three variations', () => {
     model = new ManualGenerator();
     const load = (): Promise<typeof model.generator> => Promise.resolve(model.generator);
     generation = new Generation(store, load);
-    variations = new VariationMaker(store, load, generation.generate);
+    variations = new VariationMaker(store, load);
     change.apply(store, change.leaderLoaded(leader(60)));
     await pass();
   });
@@ -38,81 +46,128 @@ describe('three variations', () => {
     vi.useRealTimers();
   });
 
-  it('are the one on the stage and two more, one after the other', async () => {
+  it('are chosen from the seeds that follow the present one, then made one after the other', async () => {
     await answer(0);
-    variations.make();
-    await pass();
+    await make();
+    expect(model.seedCalls[0]?.request).toMatchObject({ seeds: [7, 8, 9, 10, 11, 12], count: 3 });
+    model.seedCalls[0]?.options.onProgress?.(0.5);
+    const [half] = list().map(({ fraction }) => fraction);
+    expect(half).toBeGreaterThan(0);
+    expect(seeds()).toEqual([7]);
+    await choose(8, 10, 11);
+    expect(list().map(({ seed }) => seed)).toEqual([8, 10, 11]);
     expect(seeds()).toEqual([7, 8]);
-    expect(there()).toEqual([true, false, false]);
-    model.calls[1]?.options.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
-    expect(store.getState().variations?.list[1]?.fraction).toBe(0.5);
+    // The bar never goes back.
+    model.calls[1]?.options.onProgress?.({ stage: 'condition', done: 0, total: 1, fraction: 0 });
+    const begun = list()[0]!.fraction;
+    expect(begun).toBeGreaterThan(half!);
+    model.calls[1]?.options.onProgress?.({ stage: 'decode', done: 1, total: 1, fraction: 0.94 });
+    expect(list()[0]?.fraction).toBe(0.94);
     await answer(1);
-    expect(seeds()).toEqual([7, 8, 9]);
     await answer(2);
+    expect(seeds()).toEqual([7, 8, 10, 11]);
+    expect(there()).toEqual([true, true, false]);
+    await answer(3);
     expect(there()).toEqual([true, true, true]);
     expect(store.getState().variations?.making).toBe(false);
+    // The stage keeps its dance.
+    expect(store.getState().reaction?.inputs.settings.seed).toBe(7);
+  });
+
+  it('have more variety than is set, within its range', async () => {
+    await answer(0);
+    await make();
+    expect(model.seedCalls[0]?.request.request.variety).toBeCloseTo(1.6, 6);
+    change.apply(store, change.varietySet(1.8));
+    await answer(1);
+    variations.cancel();
+    change.apply(store, change.stepsSet(5));
+    await pass();
+    await answer(2);
+    await make();
+    expect(model.seedCalls[1]?.request.request.variety).toBe(small.guidance.variety.max);
   });
 
   it('wait for the one that is just being made', async () => {
-    variations.make();
-    await pass();
-    expect(seeds()).toEqual([7]);
+    await make();
+    expect(model.seedCalls).toHaveLength(0);
     await answer(0);
-    expect(seeds()).toEqual([7, 8]);
+    expect(model.seedCalls).toHaveLength(1);
   });
 
   it('set their settings when they are picked, and nothing is made again', async () => {
     await answer(0);
-    variations.make();
-    await pass();
+    await make();
+    await choose(8, 10, 11);
     await answer(1);
     variations.pick(8);
     await pass();
     const { reaction, settings, job } = store.getState();
     expect([reaction?.inputs.settings.seed, settings?.seed, job]).toEqual([8, 8, null]);
-    // The third is still on its way.
-    expect(seeds()).toEqual([7, 8, 9]);
+    expect(reaction?.inputs.settings).toEqual(settings);
+    // The second is still on its way.
+    expect(seeds()).toEqual([7, 8, 10]);
     expect(model.calls[2]?.options.signal?.aborted).toBe(false);
+  });
+
+  it('take over a reaction that is there already', async () => {
+    await answer(0);
+    await make();
+    await choose(8, 10, 11);
+    await answer(1);
+    variations.pick(8);
+    change.apply(store, change.stepsSet(5));
+    await pass();
+    await answer(3);
+    change.apply(store, change.settingsSet({ ...store.getState().settings!, steps: 10, variety: 1 }));
+    await pass();
+    await answer(4);
+    await make();
+    const before = seeds().length;
+    await choose(8, 9, 10);
+    expect(there()).toEqual([true, false, false]);
+    expect(seeds().slice(before)).toEqual([9]);
   });
 
   it('stop when cancelled, keep what is made, and go on when requested again', async () => {
     await answer(0);
-    variations.make();
-    await pass();
+    await make();
+    variations.cancel();
+    expect(model.seedCalls[0]?.options.signal?.aborted).toBe(true);
+    expect(list().map(({ fraction }) => fraction)).toEqual([0, 0, 0]);
+    await make();
+    await choose(7, 8, 9);
     await answer(1);
     variations.cancel();
     await pass();
-    expect(there()).toEqual([true, true, false]);
+    expect(there()).toEqual([true, false, false]);
     expect(model.calls[2]?.options.signal?.aborted).toBe(true);
-    variations.make();
-    await pass();
-    expect(seeds()).toEqual([7, 8, 9, 9]);
+    await make();
+    // The seeds are chosen.
+    expect(model.seedCalls).toHaveLength(2);
+    expect(seeds()).toEqual([7, 7, 8, 8]);
   });
 
-  it('are dropped when other settings are chosen', async () => {
+  it('stay for another seed and are dropped when other settings are chosen', async () => {
     await answer(0);
-    variations.make();
-    await pass();
+    await make();
+    await choose(8, 10, 11);
+    change.apply(store, change.seedSet(99));
+    expect(store.getState().variations).not.toBeNull();
     change.apply(store, change.guidanceSet('coarse', 1));
     await pass();
     expect(store.getState().variations).toBeNull();
     expect(model.calls[1]?.options.signal?.aborted).toBe(true);
-    expect(seeds()).toEqual([7, 8, 7]);
   });
 
   it('are three others the next time', async () => {
     await answer(0);
-    variations.make();
-    await pass();
-    await answer(1);
-    await answer(2);
-    vi.spyOn(Math, 'random').mockReturnValue(0.5);
-    variations.make();
-    await pass();
-    expect(store.getState().variations?.list.map(({ seed }) => seed)).toEqual([5000, 5001, 5002]);
-    await answer(3);
-    expect(store.getState().reaction?.inputs.settings.seed).toBe(5000);
-    expect(seeds().slice(3)).toEqual([5000, 5001]);
-    vi.restoreAllMocks();
+    await make();
+    await choose(8, 10, 11);
+    for (const index of [1, 2, 3]) await answer(index);
+    await make();
+    expect(model.seedCalls[1]?.request.seeds).toEqual([13, 14, 15, 16, 17, 18]);
+    expect(there()).toEqual([false, false, false]);
+    expect(store.getState().settings?.seed).toBe(7);
   });
 });

@@ -16,6 +16,7 @@ describe('settings', () => {
     expect(store.getState().settings).toEqual({
       guidance: uniformGuidance(0, 0),
       music: 2,
+      variety: 1,
       steps: 10,
       seed: 7,
       role: 'reactor',
@@ -34,11 +35,25 @@ describe('settings', () => {
     const store = ready();
     change.apply(store, change.guidanceSet('coarse', 9));
     change.apply(store, change.guidanceSet('fine', 0.33));
-    expect(store.getState().settings?.guidance).toEqual(uniformGuidance(3, 0.35));
+    expect(store.getState().settings?.guidance).toEqual(uniformGuidance(1, 0.35));
     change.apply(store, change.guidanceReset('coarse'));
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0.35));
     change.apply(store, change.guidanceReset());
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0));
+  });
+
+  it('clamp the variety to its own range, and reset it with the rest', () => {
+    const store = ready();
+    const variety = () => store.getState().settings?.variety;
+    change.apply(store, change.varietySet(9));
+    expect(variety()).toBe(2);
+    change.apply(store, change.varietySet(0.52));
+    expect(variety()).toBe(0.5);
+    change.apply(store, change.varietyReset());
+    expect(variety()).toBe(1);
+    change.apply(store, change.varietySet(0));
+    change.apply(store, change.guidanceReset());
+    expect(variety()).toBe(1);
   });
 
   it('clamp the guidance of the music to its own range, and reset it with the rest', () => {
@@ -55,8 +70,9 @@ describe('settings', () => {
     expect(music()).toBe(0);
     change.apply(store, change.guidanceReset());
     expect(store.getState().settings).toMatchObject({ guidance: uniformGuidance(0, 0), music: 2 });
-    change.apply(store, change.presetChosen({ guidance: uniformGuidance(1, 1.2), music: 0 }));
-    expect(store.getState().settings).toMatchObject({ guidance: uniformGuidance(1, 1.2), music: 0 });
+    const preset = { guidance: uniformGuidance(1, 0.5), music: 0, variety: 1.5 };
+    change.apply(store, change.presetChosen(preset));
+    expect(store.getState().settings).toMatchObject(preset);
   });
 
   it('are the same object while nothing changes, so that nothing is generated again', () => {

@@ -1,4 +1,4 @@
-import { type MeshStandardMaterial, SkinnedMesh } from 'three';
+import { type MeshStandardMaterial, ShaderMaterial, SkinnedMesh } from 'three';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { J } from '../../../../web/motion/skeleton/skeleton';
 import { createBodyLibrary } from '../../../../web/view/body/library';
@@ -15,12 +15,15 @@ const motions = {
   other: randomMotion(30, 4),
   otherCoarse: randomMotion(30, 5),
 };
+const earlier = randomMotion(30, 6);
 const NAMES = ['leader', 'reactor', 'coarse', 'other', 'otherCoarse'] as const;
 
 describe('the dancers on the stage', () => {
   let dancers: Dancers;
   /** Which dancers are visible, in the order of `NAMES`. */
-  const visible = (): boolean[] => dancers.object.children.map(({ visible }) => visible);
+  const visible = (): boolean[] =>
+    dancers.object.children.slice(0, NAMES.length).map(({ visible }) => visible);
+  const earlierSeen = (): boolean => dancers.object.children[NAMES.length]!.visible;
 
   beforeEach(() => {
     // Node has no Worker: bodies are made on this thread, and most tests do not wait for them.
@@ -96,6 +99,44 @@ describe('the dancers on the stage', () => {
     };
     expect(colour(3)).toBe(colour(0));
     expect(colour(3)).not.toBe(colour(1));
+  });
+
+  it('shows the dance before a change as a ghost, which fades out in less than half a second', async () => {
+    const opacity = (): number => {
+      let found = NaN;
+      dancers.object.children[NAMES.length]!.traverse((object) => {
+        if (object instanceof SkinnedMesh && object.material instanceof ShaderMaterial)
+          found = object.material.uniforms['facing']!.value as number;
+      });
+      return found;
+    };
+    dancers.setLook(LOOKS.dark);
+    const { radius } = dancers.pose(0.4);
+    dancers.setMotion('earlier', { ...earlier, root: earlier.root.map((value) => value + 5) });
+    await dancers.bodiesReady();
+    // It moves no camera.
+    expect(dancers.pose(0.4).radius).toBe(radius);
+    dancers.arrange('whole');
+    expect(earlierSeen()).toBe(true);
+    const full = opacity();
+    dancers.fadeOut('earlier');
+    expect(dancers.advance(0.2)).toBe(true);
+    expect(opacity()).toBeCloseTo(full / 2, 6);
+    // Shown again before it has gone, it is as clear as before.
+    dancers.setMotion('earlier', earlier);
+    expect(opacity()).toBe(full);
+    expect(dancers.advance(1)).toBe(false);
+    dancers.fadeOut('earlier');
+    dancers.advance(0.3);
+    expect(earlierSeen()).toBe(true);
+    dancers.advance(0.2);
+    expect(earlierSeen()).toBe(false);
+    expect(dancers.advance(0.1)).toBe(false);
+    dancers.setMotion('earlier', earlier);
+    expect([earlierSeen(), opacity()]).toEqual([true, full]);
+    dancers.setOtherMode('right');
+    dancers.arrange('left');
+    expect(earlierSeen()).toBe(false);
   });
 
   it('draws low detail when told to, bodies that come later too, and full detail again', async () => {

@@ -46,9 +46,9 @@ export function varietySet(value: number): Change {
   return guided((_, { guidance }) => ({ variety: clampedToStep(value, guidance.variety) }));
 }
 
-/** Sets the whole matrix and the music to those of a preset. */
-export function presetChosen({ guidance, music }: Pick<Settings, 'guidance' | 'music'>): Change {
-  return guided(() => ({ guidance, music }));
+/** Sets the whole matrix, the music and the variety to those of a preset. */
+export function presetChosen({ guidance, music, variety }: Guided): Change {
+  return guided(() => ({ guidance, music, variety }));
 }
 
 /** Back to the manifest's guidance: one layer of all streams, or everything, music and variety too. */

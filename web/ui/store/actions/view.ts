@@ -1,6 +1,7 @@
 /** Playback, camera, theme, overlays and floating panels. */
 import { danceDuration } from '../selectors';
 import type { VisibleOverlays } from '../../../common/visible-overlays';
+import type { Reaction } from '../reaction';
 import type { AppState, Camera, CoarseLayer, Playback, Theme } from '../state';
 import type { Change } from '../store';
 
@@ -34,6 +35,11 @@ export function overlayToggled(what: keyof VisibleOverlays): Change {
 
 export function coarseChanged(change: Partial<CoarseLayer>): Change {
   return ({ coarse }) => ({ coarse: { ...coarse, ...change } });
+}
+
+/** Shows the reaction before a change as a ghost; null ends that. */
+export function earlierShown(earlier: Reaction | null): Change {
+  return () => ({ earlier });
 }
 
 /** Opens a floating panel, or closes it when it is the one that is open. */
