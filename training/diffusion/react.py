@@ -9,11 +9,11 @@ import torch
 from torch import Tensor
 
 from training.config import STREAMS, STRIDE
-from training.diffusion.guidance import blend, layer_gains
+from training.diffusion.guidance import Branches, blend, layer_gains
 from training.diffusion.model import Model, ReactionModel
 from training.diffusion.sampler import (
     initial_noise,
-    sample_branches,
+    sample_branch,
     sample_guided_at_every_step,
     sample_mean,
 )
@@ -67,11 +67,15 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
         latents = sample_guided_at_every_step(model, memory, silent, initial, steps, guidance, weight)
         measured, fine = latents, 0.0
     else:
-        # At 1 the mean has no weight.
-        mean = sample_mean(model, memory, steps) if variety != 1 else torch.zeros(())
-        branches = sample_branches(model, memory, silent, initial, steps, mean)
+        measured = sample_branch(model, memory, 1.0, initial, steps)
+        # A branch without weight need not be sampled.
+        branches = Branches(
+            conditional=measured,
+            silent=sample_branch(model, silent, 1.0, initial, steps) if weight else measured,
+            unconditional=sample_branch(model, silent, 0.0, initial, steps) if coarse else measured,
+            mean=sample_mean(model, memory, steps) if variety != 1 else measured,
+        )
         latents = blend(branches, torch.full((1,), coarse), weight, variety)
-        measured = branches.conditional
     gains = layer_gains(torch.full((len(STREAMS),), fine), sampling.layers)
     bones = measure_bones(model, measured, leader)
     reactor, _ = model.decode(latents, leader, gains, bones)

@@ -15,7 +15,7 @@ from training.evaluation.metrics.errors import mpjpe, root_error
 from training.evaluation.metrics.penetration import penetration
 from training.evaluation.metrics.response import between_seeds
 from training.evaluation.metrics.speed import band_power, joint_acceleration
-from training.evaluation.protocol import ControlledDance, ReactorGenerator, Solver
+from training.evaluation.protocol import ControlledDance, ReactorGenerator
 
 SLOW_HZ, QUICK_HZ = (0.0, 1.5), (3.0, 15.0)
 QUARTERS = (1.0, 0.75, 0.5, 0.25)  # shares of the way from the default to an end
@@ -34,20 +34,19 @@ def measure_controls(
     dances: Sequence[ControlledDance],
     defaults: Mapping[str, float],
     seeds: Sequence[int],
-    solve: Solver | None = None,
 ) -> dict[str, list[dict[str, float]]]:
     """For each control the rows of its `travel`, means over dances and seeds; the other controls at their defaults.
     What is measured against the truth is the mean over the dances that have one.
 
     `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song),
-    for variety seeds_apart_mm (pose, between the seeds). solve: what is drawn is measured in the place of the joints.
+    for variety seeds_apart_mm (pose, between the seeds).
     """
 
     def make(
         dance: ControlledDance, seed: int, changed: Mapping[str, float], other_song: bool = False
     ) -> np.ndarray:
         weights = {**defaults, **changed}
-        made = generate(
+        return generate(
             dance.leader,
             dance.other_music if other_song else dance.music,
             seed,
@@ -55,7 +54,6 @@ def measure_controls(
             music_guidance=weights["music"],
             variety=weights["variety"],
         )
-        return made if solve is None else solve(made, dance.leader)
 
     before = [[make(dance, seed, {}) for seed in seeds] for dance in dances]
     result: dict[str, list[dict[str, float]]] = {}

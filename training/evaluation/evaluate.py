@@ -104,7 +104,6 @@ def evaluate(
     frames = float(np.mean([len(i.duet) for i in held_out]))
     numbers["seconds"] = {"mean": float(np.mean(seconds)), "frames": frames}
     numbers |= _probes(generate, held_out, rows, settings, log)
-    solve = next(iter((solvers or {}).values()), None)
     if settings.controls:
         log("controls")
         assert control_defaults is not None, "controls need the model's defaults"
@@ -113,7 +112,6 @@ def evaluate(
             _controlled(held_out, out_of_distribution, settings),
             control_defaults,
             settings.seeds[: settings.response_seeds],
-            solve,
         )
     if settings.guidance_grid and guided_at_every_step:
         log("guidance at every step")
@@ -126,6 +124,7 @@ def evaluate(
     dances: list[OutOfDistributionDance] = []
     if out_of_distribution:
         log("out-of-distribution leaders")
+        solve = next(iter((solvers or {}).values()), None)
         numbers["out_of_distribution"], dances = measure_out_of_distribution(
             generate, out_of_distribution, held_out, settings, solve
         )
