@@ -178,18 +178,23 @@ def test_features_of_invalid_music_frames_have_no_effect() -> None:
     assert not torch.allclose(made(leader, music, valid, role), made(leader, music, torch.ones(1, 80), role))
 
 
-def test_memory_of_a_clip_holds_leader_music_and_silence() -> None:
+def test_the_first_half_of_the_memory_is_the_leaders_and_the_second_the_musics() -> None:
     made = encoder(ConditionConfig())
     features, music = torch.randn(1, 80, 68), torch.randn(1, 80, 54)
     role, valid = torch.ones(1), torch.ones(1, 80)
     with torch.no_grad():
-        whole = made.of_clip(features, music, valid, role)
-        leader, heard = made(features, music, valid, role).chunk(2, dim=-1)
-        _, silence = made(features, music, torch.zeros_like(valid), role).chunk(2, dim=-1)
-    assert whole.shape[-1] == made.memory_width
-    for part, expected in zip(whole.chunk(3, dim=-1), (leader, heard, silence), strict=True):
-        assert torch.allclose(part, expected, atol=1e-5)
-    assert not torch.allclose(silence, heard, atol=0.1)
+        memory = made(features, music, valid, role)
+        assert memory.shape == (1, 20, made.memory_width)
+        leader, heard = memory.chunk(2, dim=-1)
+        for other, same, changed in (
+            (made(features, music, torch.zeros_like(valid), role), 0, 1),
+            (made(features, torch.randn_like(music), valid, role), 0, 1),
+            (made(torch.randn_like(features), music, valid, role), 1, 0),
+            (made(features, music, valid, 1 - role), 1, 0),
+        ):
+            parts = other.chunk(2, dim=-1)
+            assert torch.equal(parts[same], (leader, heard)[same])
+            assert not torch.allclose(parts[changed], (leader, heard)[changed], atol=0.1)
 
 
 @pytest.mark.parametrize(("leader", "music"), [(False, True), (True, False)])

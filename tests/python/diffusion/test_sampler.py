@@ -1,24 +1,30 @@
-"""Blockwise sampling and layer-decoupled guidance, over whole samplings of a tiny model."""
+"""Blockwise sampling: arithmetic with a known predictor, and whole samplings of a tiny model."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 import torch
+from torch import Tensor
 
 from export.tiny import tiny_model
-from training.config import ConditionConfig, DenoiserConfig
-from training.data.made import made_dancer
-from training.denoiser.denoiser import Denoiser
-from training.diffusion.blocks import Block, gather, overlapping, partition, scatter
-from training.diffusion.guidance import clamp_to_range, classifier_free_guidance
-from training.diffusion.model import Model
+from training.diffusion.guidance import Branches, blend, per_channel
+from training.diffusion.model import Model, Sampling
 from training.diffusion.noise import noise
-from training.diffusion.react import Request, react
-from training.diffusion.sampler import sample
-from training.diffusion.schedule import alphas_cumprod, ddim_steps
+from training.diffusion.sampler import (
+    Predict,
+    initial_noise,
+    sample,
+    sample_branch,
+    sample_branches,
+    sample_guided_at_every_step,
+    sample_mean,
+)
+from training.diffusion.schedule import Step, ddim_steps
+
+SEED = 5
+LENGTH = 150  # latent frames: two full blocks and a half
 
 
 @pytest.fixture(scope="module")
@@ -26,179 +32,196 @@ def model() -> Model:
     return tiny_model()
 
 
-def run(
-    model: Model, length: int, guidance: np.ndarray, start: int = 0, music: float = 0.0, **changes: bool
-) -> torch.Tensor:
-    d = model.denoiser
+def steps_of(sampling: Sampling, count: int = 4) -> list[Step]:
+    return ddim_steps(sampling.alpha_bar, count, sampling.last_time)
+
+
+def memories(model: Model, start: int = 0, length: int = LENGTH) -> tuple[Tensor, Tensor]:
+    """Memory with and without a song of latent frames [start, start + length) of one dance."""
     torch.manual_seed(3)
-    memory = torch.randn(200, d.condition.memory_width)[start : start + length]
-    initial = torch.from_numpy(noise(5, length, d.layers * d.latent_width, start=start))
-    config = replace(model.diffusion, **changes)
-    steps = ddim_steps(alphas_cumprod(config), 4)
-    return sample(
-        replace(model, diffusion=config),
-        memory,
-        initial.reshape(length, d.layers, d.latent_width),
-        steps,
-        torch.from_numpy(guidance).float(),
-        music,
+    with_song, without = torch.randn(2, 200, model.denoiser.condition.memory_width)
+    return with_song[start : start + length], without[start : start + length]
+
+
+def noise_of(model: Model, seed: int = SEED, start: int = 0, length: int = LENGTH) -> Tensor:
+    s = model.sampling
+    values = noise(seed, length, s.layers * s.channels, start=start)
+    return torch.from_numpy(values).view(length, s.layers, s.channels)
+
+
+def branches_of(model: Model, seed: int = SEED, start: int = 0, length: int = LENGTH) -> Branches:
+    memory, silent = memories(model, start, length)
+    steps = steps_of(model.sampling)
+    mean = sample_mean(model, memory, steps)
+    return sample_branches(model, memory, silent, noise_of(model, seed, start, length), steps, mean)
+
+
+def halving(x: Tensor, memory: Tensor, valid: Tensor, time: Tensor) -> Tensor:
+    """A predictor without context: x0 = x / 2 + time."""
+    return x / 2 + time
+
+
+def run(
+    sampling: Sampling, predict: Predict, count: int = 4, length: int = 70
+) -> tuple[Tensor, list[Tensor]]:
+    """Latents of a predictor, and the x that it was asked about at each step."""
+    seen: list[Tensor] = []
+
+    def recorded(x: Tensor, memory: Tensor, valid: Tensor, time: Tensor) -> Tensor:
+        seen.append(x.clone())
+        return predict(x, memory, valid, time)
+
+    initial = initial_noise(sampling, SEED, length)
+    return sample(sampling, recorded, torch.zeros(length, 1), initial, steps_of(sampling, count)), seen
+
+
+def test_sampling_is_ddim_with_the_last_prediction_extrapolated_in_each_stream(model: Model) -> None:
+    weights = (0.8, 0.25, 0.0)
+    plain = replace(model.sampling, extrapolation=(0.0, 0.0, 0.0))
+    made, seen = run(replace(plain, extrapolation=weights), halving)
+    x, before = initial_noise(plain, SEED, 70), torch.zeros(())
+    for step in steps_of(plain)[:-1]:
+        before = x / 2 + step.time
+        x = step.a * x + step.b * before
+    last = x / 2 + steps_of(plain)[-1].time
+    for stream, (c, of_made, of_last, of_before) in enumerate(
+        zip(weights, *(values.chunk(3, dim=-1) for values in (made, last, before)), strict=True)
+    ):
+        assert torch.allclose(of_made, (1 + c) * of_last - c * of_before, atol=1e-5), f"stream {stream}"
+    base, seen_before = run(plain, halving)
+    assert torch.allclose(base, last, atol=1e-5)
+    assert all(torch.equal(a, b) for a, b in zip(seen, seen_before, strict=True)), (
+        "earlier steps are as they were"
     )
 
 
-def flat(coarse: float, fine: float) -> np.ndarray:
-    return np.tile(np.array([coarse, fine], dtype=np.float32), (3, 1))
+def test_a_single_step_has_nothing_to_extrapolate_from(model: Model) -> None:
+    plain, extrapolated = (replace(model.sampling, extrapolation=(weight,) * 3) for weight in (0.0, 0.8))
+    assert torch.equal(run(plain, halving, count=1)[0], run(extrapolated, halving, count=1)[0])
 
 
-@pytest.mark.parametrize("frames", [1, 29, 30, 31, 59, 60, 61, 90, 91, 150, 541])
-@pytest.mark.parametrize("shifted", [False, True])
-def test_blocks_tile_any_length(frames: int, shifted: bool) -> None:
-    blocks = partition(frames, 60, shifted)
-    covered = [i for b in blocks for i in range(b.start, b.start + b.length)]
-    assert covered == list(range(frames))
-    assert blocks[0].length == min(30 if shifted else 60, frames)
-    assert all(b.length == 60 for b in blocks[1:-1])
-    values = torch.randn(frames, 2, 3)
-    assert torch.allclose(scatter(gather(values, blocks, 60), blocks, frames), values, atol=1e-6)
+def test_noise_of_a_seed_is_standard_and_its_own(model: Model) -> None:
+    s = model.sampling
+    made = initial_noise(s, SEED, LENGTH)
+    assert torch.equal(made, noise_of(model))
+    assert not torch.allclose(made, initial_noise(s, SEED + 1, LENGTH))
+    assert float(made.std()) == pytest.approx(1, abs=0.02)
 
 
-def test_a_shifted_partition_has_its_boundaries_in_the_middle_of_the_others() -> None:
-    assert partition(150, 60) == [Block(0, 60), Block(60, 60), Block(120, 30)]
-    assert partition(150, 60, shifted=True) == [Block(0, 30), Block(30, 60), Block(90, 60)]
+def test_one_block_alone_equals_the_same_block_of_the_whole_song(model: Model) -> None:
+    whole, steps = branches_of(model), steps_of(model.sampling)
+    memory, silent = memories(model, start=60, length=60)
+    mean = whole.mean[60:120]
+    alone = sample_branches(model, memory, silent, noise_of(model, start=60, length=60), steps, mean)
+    weights = per_channel(torch.tensor([0.5, -0.5, 1.0]), model.sampling.channels)
+    assert torch.allclose(blend(whole, weights, 2.0, 1.5)[60:120], blend(alone, weights, 2.0, 1.5), atol=1e-4)
 
 
-def test_stitched_windows_overlap_by_half_and_cross_fade() -> None:
-    blocks = overlapping(150, 60)
-    assert [b.start for b in blocks] == [0, 30, 60, 90]
-    parts = torch.stack([torch.full((60,), float(i)) for i in range(len(blocks))])
-    mixed = scatter(parts, blocks, 150)
-    assert mixed[0] == 0
-    assert mixed[149] == 3
-    assert (mixed.diff() >= 0).all(), "a cross-fade from window to window"
-    assert mixed.diff().max() < 0.1
+def test_a_longer_song_keeps_the_blocks_before(model: Model) -> None:
+    weights = per_channel(torch.tensor([0.5, -0.5, 1.0]), model.sampling.channels)
+    long, short = (blend(branches_of(model, length=length), weights, 2.0, 1.5) for length in (LENGTH, 120))
+    assert torch.allclose(long[:120], short, atol=1e-4)
 
 
-def test_any_guidance_weight_changes_the_result(model: Model) -> None:
-    base = run(model, 70, flat(0, 0))
+def test_blocks_next_to_each_other_do_not_see_each_other(model: Model) -> None:
+    memory, _ = memories(model)
+    initial, steps = noise_of(model), steps_of(model.sampling)
+    changed = torch.cat([initial[:60], -initial[60:120], initial[120:]])
+    made, other = (sample_branch(model, memory, 1.0, start, steps) for start in (initial, changed))
+    assert torch.allclose(made[:60], other[:60], atol=1e-5)
+    assert torch.allclose(made[120:], other[120:], atol=1e-5)
+    assert not torch.allclose(made[60:120], other[60:120], atol=1e-2)
+
+
+def test_stitching_samples_windows_that_overlap(model: Model) -> None:
+    """What needs no context comes out the same; what has context differs, at the boundaries too."""
+    plain = replace(model.sampling, stitching=False)
+    stitching = replace(plain, stitching=True)
+    assert torch.allclose(
+        run(plain, halving, length=LENGTH)[0], run(stitching, halving, length=LENGTH)[0], atol=1e-5
+    )
+    memory, _ = memories(model)
+    stitched_model = replace(model, diffusion=replace(model.diffusion, stitching=True))
+    stitched, made = (
+        sample_branch(m, memory, 1.0, noise_of(model), steps_of(plain)) for m in (stitched_model, model)
+    )
+    assert torch.allclose(stitched[:1], made[:1], atol=1e-5), "the first window alone covers the first frame"
+    assert not torch.allclose(stitched[60:90], made[60:90], atol=1e-2)
+
+
+def test_branches_are_sampled_with_the_song_without_it_and_without_any_condition(model: Model) -> None:
+    memory, silent = memories(model)
+    initial, steps = noise_of(model), steps_of(model.sampling)
+    made = branches_of(model)
+    assert torch.equal(made.conditional, sample_branch(model, memory, 1.0, initial, steps))
+    assert torch.equal(made.silent, sample_branch(model, silent, 1.0, initial, steps))
+    # The unconditional branch depends on neither memory.
+    assert torch.allclose(made.unconditional, sample_branch(model, memory, 0.0, initial, steps), atol=1e-5)
+    for other in (made.silent, made.unconditional):
+        assert not torch.allclose(made.conditional, other, atol=1e-2)
+
+
+def test_the_mean_is_of_the_first_seeds_whatever_the_dances_own_seed(model: Model) -> None:
+    memory, _ = memories(model)
+    steps = steps_of(model.sampling)
+    two = replace(model, diffusion=replace(model.diffusion, mean_seeds=2))
+    first, second = (sample_branch(model, memory, 1.0, noise_of(model, seed), steps) for seed in (0, 1))
+    assert torch.allclose(sample_mean(two, memory, steps), (first + second) / 2, atol=1e-5)
+
+
+def test_variety_0_gives_every_seed_the_same_coarse_latents(model: Model) -> None:
+    none = torch.zeros(1)
+    one, other = (branches_of(model, seed) for seed in (1, 2))
+    same = [blend(branches, none, 0.0, 0.0) for branches in (one, other)]
+    assert torch.allclose(same[0][:, 0], same[1][:, 0], atol=1e-5)
+    assert not torch.allclose(same[0][:, 1], same[1][:, 1], atol=1e-2), "each has its own fine layer"
+    apart = [
+        float((blend(one, none, 0.0, v) - blend(other, none, 0.0, v))[:, 0].abs().mean())
+        for v in (0.5, 1.0, 2.0)
+    ]
+    assert apart == pytest.approx([0.5 * apart[1], apart[1], 2 * apart[1]], rel=1e-3)
+    assert apart[1] > 0.1
+
+
+def test_fine_latents_never_reach_coarse_ones(model: Model) -> None:
+    """Other noise in the fine layer leaves the coarse latents bit-identical over a whole sampling."""
+    memory, _ = memories(model)
+    initial, steps = noise_of(model), steps_of(model.sampling)
+    changed = initial.clone()
+    changed[:, 1] *= -1
+    made, other = (sample_branch(model, memory, 1.0, start, steps) for start in (initial, changed))
+    assert torch.equal(made[:, 0], other[:, 0])
+    assert not torch.allclose(made[:, 1], other[:, 1], atol=1e-2)
+
+
+def every_step(model: Model, guidance: Tensor, music: float = 0.0) -> Tensor:
+    memory, silent = memories(model)
+    steps = steps_of(model.sampling)
+    return sample_guided_at_every_step(model, memory, silent, noise_of(model), steps, guidance, music)
+
+
+def test_fine_guidance_at_every_step_leaves_the_coarse_latents_bit_identical(model: Model) -> None:
+    low, high = torch.tensor([[0.4, 0.0]] * 3), torch.tensor([[0.4, 2.5]] * 3)
+    made, other = every_step(model, low), every_step(model, high)
+    assert torch.equal(made[:, 0], other[:, 0])
+    assert (made[:, 1] - other[:, 1]).abs().max() > 1e-3
+
+
+def test_any_weight_of_guidance_at_every_step_changes_its_own_stream_and_layer(model: Model) -> None:
+    base = every_step(model, torch.zeros(3, 2))
     for stream in range(3):
         for layer in range(2):
-            weights = flat(0, 0)
+            weights = torch.zeros(3, 2)
             weights[stream, layer] = 1.0
-            change = (run(model, 70, weights) - base).abs().amax((0,))
-            own = change[layer].reshape(3, -1)[stream].max()
+            change = (every_step(model, weights) - base).abs().amax(0)
+            own = change[layer].view(3, -1)[stream].max()
             assert own > 1e-3, f"stream {stream}, layer {layer}: guidance is a no-op"
 
 
-@pytest.mark.parametrize("alternating", [False, True])
-def test_fine_guidance_leaves_the_coarse_latents_bit_identical(model: Model, alternating: bool) -> None:
-    low = run(model, 150, flat(0.4, 0), alternating_phase=alternating)
-    high = run(model, 150, flat(0.4, 2.5), alternating_phase=alternating)
-    assert torch.equal(low[:, 0], high[:, 0])
-    assert (low[:, 1] - high[:, 1]).abs().max() > 1e-3
-
-
-def test_guidance_is_equation_9_clamped(model: Model) -> None:
-    torch.manual_seed(0)
-    d = model.denoiser
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
-    heard = memory[..., : 2 * d.config.width]
-    valid, time = torch.ones(2, 60), torch.tensor([0.4])
-    yes, no = torch.ones(2, 2), torch.zeros(2, 2)
-    with torch.no_grad():
-        conditional = d(x, time, heard, valid, yes, yes)
-        unconditional = d(x, time, heard, valid, no, no)
-        s = torch.tensor([[0.5, -1.0], [1.2, 0.0], [3.0, 2.0]])
-        guided = classifier_free_guidance(d, x, time, memory, valid, s, torch.zeros(1))
-    per_stream = d.latent_width // 3
-    for stream in range(3):
-        for layer in range(2):
-            channels = slice(stream * per_stream, (stream + 1) * per_stream)
-            w = s[stream, layer]
-            yes, no = conditional[:, :, layer, channels], unconditional[:, :, layer, channels]
-            expected = (1 + w) * yes - w * no
-            expected = expected.clamp(d.lowest[layer, channels], d.highest[layer, channels])
-            assert torch.allclose(guided[:, :, layer, channels], expected, atol=1e-5)
-
-
-def test_music_guidance_adds_the_difference_that_the_song_makes(model: Model) -> None:
-    torch.manual_seed(0)
-    d = model.denoiser
-    width = d.config.width
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
-    valid, time = torch.ones(2, 60), torch.tensor([0.4])
-    yes, none = torch.ones(2, 2), torch.zeros(3, 2)
-    leader, _, silence = memory.chunk(3, dim=-1)
-    with torch.no_grad():
-        with_song = d(x, time, memory[..., : 2 * width], valid, yes, yes)
-        without = d(x, time, torch.cat([leader, silence], dim=-1), valid, yes, yes)
-        guided = classifier_free_guidance(d, x, time, memory, valid, none, torch.tensor([1.5]))
-    expected = (with_song + 1.5 * (with_song - without)).clamp(d.lowest, d.highest)
-    assert torch.allclose(guided, expected, atol=1e-5)
-    assert not torch.allclose(guided, with_song.clamp(d.lowest, d.highest), atol=1e-2)
-
-
-def test_without_a_song_music_guidance_changes_nothing(model: Model) -> None:
-    leader = made_dancer(100, 1)
-    music = np.random.default_rng(0).normal(size=(100, 54)).astype(np.float32)
-    silent = react(model, Request(leader, None, 1, music_guidance=3.0))
-    assert np.allclose(silent, react(model, Request(leader, None, 1, music_guidance=0.0)), atol=1e-5)
-    loud = react(model, Request(leader, music, 1, music_guidance=3.0))
-    assert not np.allclose(loud, react(model, Request(leader, music, 1, music_guidance=0.0)), atol=1e-3)
-
-
-def test_guided_predictions_are_clamped_to_the_range_of_the_quantiser(model: Model) -> None:
-    d = model.denoiser
-    torch.manual_seed(0)
-    x, memory = torch.randn(2, 60, d.layers, d.latent_width), torch.randn(2, 60, d.condition.memory_width)
-    valid, time = torch.ones(2, 60), torch.tensor([0.4])
-    for weights, music in ((flat(0, 0), 20.0), (flat(3, 3), 0.0)):
-        with torch.no_grad():
-            guided = classifier_free_guidance(
-                d, x, time, memory, valid, torch.from_numpy(weights), torch.tensor([music])
-            )
-        assert (guided >= d.lowest).all()
-        assert (guided <= d.highest).all()
-        met = ((guided == d.lowest) | (guided == d.highest)).unflatten(-1, (3, -1))
-        assert met.any(-1).flatten(0, 1).any(0).all(), "every stream and layer meets its limit"
-
-
-def test_an_infinite_range_clamps_nothing() -> None:
-    d = Denoiser(6, 1, DenoiserConfig(width=32, depths=(1,), mlp=2, condition=ConditionConfig(depth=1)))
-    x0 = 100 * torch.randn(2, 60, 1, 6)
-    assert torch.equal(clamp_to_range(d, x0), x0)
-
-
-def test_blocks_are_independent_unless_their_phase_alternates(model: Model) -> None:
-    """One block alone equals the same block of the whole song; alternating phase couples neighbours on purpose."""
-    whole = run(model, 150, flat(0.5, 0.5), alternating_phase=False)
-    alone = run(model, 60, flat(0.5, 0.5), start=60, alternating_phase=False)
-    assert torch.allclose(whole[60:120], alone, atol=1e-5)
-    coupled = run(model, 150, flat(0.5, 0.5), alternating_phase=True)
-    assert not torch.allclose(coupled[60:120], alone, atol=1e-2)
-
-
-def test_the_beginning_does_not_depend_on_the_length(model: Model) -> None:
-    """Causal blocks and counter-based noise: later blocks change nothing before them."""
-    assert torch.allclose(
-        run(model, 150, flat(0, 0), alternating_phase=False)[:120],
-        run(model, 120, flat(0, 0), alternating_phase=False),
-        atol=1e-5,
-    )
-
-
-def test_sampling_with_stitching(model: Model) -> None:
-    stitched = run(model, 150, flat(0, 0), alternating_phase=False, stitching=True)
-    assert stitched.isfinite().all()
-    assert not torch.allclose(stitched, run(model, 150, flat(0, 0), alternating_phase=False), atol=1e-2)
-
-
-@pytest.mark.parametrize("frames", [1, 5, 240, 333])
-def test_a_reaction_is_as_long_as_its_leader(model: Model, frames: int) -> None:
-    leader = made_dancer(frames, 1)
-    music = np.random.default_rng(0).normal(size=(frames // 2 + 1, 54))
-    made = react(model, Request(leader, music, 1))
-    assert made.shape == leader.shape
-    assert np.isfinite(made).all()
-    assert not np.allclose(made, react(model, Request(leader, music, 2)))
-    assert np.array_equal(made, react(model, Request(leader, music, 1)))
-    assert not np.allclose(made, react(model, Request(leader, None, 1))), "silence is not music"
-    assert not np.allclose(made, react(model, Request(leader, music, 1, role=1.0))), "the role is heard"
+def test_guidance_at_every_step_without_weights_is_the_conditional_branch(model: Model) -> None:
+    memory, silent = memories(model)
+    initial, steps = noise_of(model), steps_of(model.sampling)
+    conditional, without_song = (sample_branch(model, m, 1.0, initial, steps) for m in (memory, silent))
+    assert torch.allclose(every_step(model, torch.zeros(3, 2)), conditional, atol=1e-4)
+    assert not torch.allclose(every_step(model, torch.zeros(3, 2), 1.0), conditional, atol=1e-2)
+    assert torch.allclose(every_step(model, torch.zeros(3, 2), -1.0), without_song, atol=1e-4)

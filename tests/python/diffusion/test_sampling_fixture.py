@@ -5,36 +5,66 @@ TypeScript tests read.
 """
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import torch
 
+from export.tiny import tiny_model
 from training.config import DiffusionConfig
 from training.diffusion.blocks import partition
+from training.diffusion.sampler import sample
 from training.diffusion.schedule import alphas_cumprod, ddim_steps
 
 GOLDEN = Path(__file__).parents[2] / "fixtures" / "sampling.json"
 BLOCK = 60
-# Full blocks from 1 to 10, and tails on both sides of every boundary of the two partitions.
-LENGTHS = sorted({n for b in range(1, 11) for n in (b * BLOCK + d for d in (-59, -31, -30, -29, -1, 0))})
-COUNTS = (1, 2, 3, 4, 7, 10, 25, 50)
+# Full blocks from 1 to 10, and tails on both sides of every boundary.
+LENGTHS = sorted({n for b in range(1, 11) for n in (b * BLOCK + d for d in (-59, -30, -1, 0))})
+# Numbers of steps and last times; the steps of 7 and 25 to 0.1 do not divide the timesteps evenly.
+SCHEDULES = [(count, last) for last in (0.1, 0.25) for count in (1, 2, 3, 4, 7, 10, 25, 50)]
+ALPHAS = alphas_cumprod(DiffusionConfig())
+
+
+def extrapolated(steps: int = 3, latents: int = 3, channels: int = 6) -> dict:
+    """A sampling in which x0 = x / 2 + time: its noise, which is cos 0, cos 1, ..., and the clean latents."""
+    sampling = replace(
+        tiny_model().sampling, block=BLOCK, layers=2, channels=channels, extrapolation=(0.8, 0.25, 0.0)
+    )
+    initial = torch.arange(latents * 2 * channels).cos().view(latents, 2, channels)
+    result = sample(
+        sampling,
+        lambda x, memory, valid, time: x / 2 + time,
+        torch.zeros(latents, 1),
+        initial,
+        ddim_steps(ALPHAS, steps, sampling.last_time),
+    )
+    return {
+        "steps": steps,
+        "last_time": sampling.last_time,
+        "extrapolation": list(sampling.extrapolation),
+        "layers": 2,
+        "channels": channels,
+        "noise": initial.flatten().tolist(),
+        "latents": result.flatten().tolist(),
+    }
 
 
 def golden() -> dict:
-    def starts_and_lengths(frames: int, shifted: bool) -> list[list[int]]:
-        return [[b.start, b.length] for b in partition(frames, BLOCK, shifted)]
-
-    alphas = alphas_cumprod(DiffusionConfig())
     return {
         "block": BLOCK,
         "partitions": [
-            {"latents": n, "plain": starts_and_lengths(n, False), "shifted": starts_and_lengths(n, True)}
-            for n in LENGTHS
+            {"latents": n, "blocks": [[b.start, b.length] for b in partition(n, BLOCK)]} for n in LENGTHS
         ],
         "schedules": [
-            {"steps": count, "plan": [[s.time, s.a, s.b] for s in ddim_steps(alphas, count)]}
-            for count in COUNTS
+            {
+                "steps": count,
+                "last_time": last,
+                "plan": [[s.time, s.a, s.b] for s in ddim_steps(ALPHAS, count, last)],
+            }
+            for count, last in SCHEDULES
         ],
+        "extrapolated": extrapolated(),
     }
 
 
@@ -42,8 +72,14 @@ def test_the_golden_file_is_up_to_date() -> None:
     stored, fresh = json.loads(GOLDEN.read_text()), golden()
     assert stored["partitions"] == fresh["partitions"]
     for old, new in zip(stored["schedules"], fresh["schedules"], strict=True):
-        assert old["steps"] == new["steps"]
+        assert (old["steps"], old["last_time"]) == (new["steps"], new["last_time"])
         np.testing.assert_allclose(old["plan"], new["plan"], atol=1e-12)
+    old, new = stored["extrapolated"], fresh["extrapolated"]
+    assert {k: v for k, v in old.items() if k not in ("noise", "latents")} == {
+        k: v for k, v in new.items() if k not in ("noise", "latents")
+    }
+    for name in ("noise", "latents"):
+        np.testing.assert_allclose(old[name], new[name], atol=1e-6)
 
 
 if __name__ == "__main__":

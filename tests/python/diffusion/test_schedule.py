@@ -21,15 +21,28 @@ def test_the_schedule_falls_from_signal_to_noise() -> None:
     assert ALPHA_BAR[499] == pytest.approx(middle, rel=1e-9)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 10, 50, 1000])
-def test_no_step_is_skipped(count: int) -> None:
-    steps = ddim_steps(ALPHA_BAR, count)
+@pytest.mark.parametrize("last_time", [0.001, 0.1, 0.25])
+@pytest.mark.parametrize("count", [2, 3, 7, 25, 50, 751])
+def test_steps_are_even_from_the_noisiest_timestep_to_the_last_time(count: int, last_time: float) -> None:
+    steps = ddim_steps(ALPHA_BAR, count, last_time)
     assert len(steps) == count
-    assert steps[0].time == 0.999, "the first step starts from the noisiest timestep"
-    assert steps[-1].a == 0
-    assert steps[-1].b == 1
-    times = [s.time for s in steps]
-    assert times == sorted(set(times), reverse=True)
+    assert steps[0].time == 0.999
+    assert steps[-1].time == pytest.approx(last_time - 0.001, abs=1e-12)
+    assert (steps[-1].a, steps[-1].b) == (0, 1), "the last one lands on the clean latents"
+    gaps = -np.diff([round(s.time * 1000) for s in steps])
+    assert gaps.min() >= 1
+    assert gaps.max() - gaps.min() <= 1
+
+
+def test_one_step_predicts_from_noise_alone() -> None:
+    (step,) = ddim_steps(ALPHA_BAR, 1, 0.1)
+    assert (step.time, step.a, step.b) == (0.999, 0, 1)
+
+
+@pytest.mark.parametrize(("count", "last_time"), [(0, 0.1), (902, 0.1), (1001, 0.001), (3, 0.0), (3, 1.1)])
+def test_steps_out_of_range_are_refused(count: int, last_time: float) -> None:
+    with pytest.raises(ValueError, match="between"):
+        ddim_steps(ALPHA_BAR, count, last_time)
 
 
 def test_ddim_reaches_the_closed_form_of_a_gaussian() -> None:
@@ -39,7 +52,7 @@ def test_ddim_reaches_the_closed_form_of_a_gaussian() -> None:
 
     def error(count: int) -> float:
         x = start.clone()
-        for step in ddim_steps(ALPHA_BAR, count):
+        for step in ddim_steps(ALPHA_BAR, count, last_time=0.001):
             ab = ALPHA_BAR[round(step.time * 1000)]
             variance = ab * std**2 + 1 - ab
             x0 = mean + np.sqrt(ab) * std**2 / variance * (x - np.sqrt(ab) * mean)

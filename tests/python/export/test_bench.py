@@ -25,5 +25,5 @@ def test_it_times_every_stage_and_leaves_the_scene(tmp_path: Path) -> None:
     rows = json.loads((out / "python.json").read_text())
     assert [row["backend"] for row in rows] == ["onnxruntime native", "PyTorch eager"]
     for row in rows:
-        assert set(row["seconds"]) == {"features", "condition", "steps", "decode"}
+        assert set(row["seconds"]) == {"features", "condition", "steps", "branches", "decode"}
         assert all(value > 0 for value in row["seconds"].values())

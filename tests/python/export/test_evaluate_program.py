@@ -11,8 +11,10 @@ import pytest
 
 from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
 from export.runtime import open_model
+from export.tiny import tiny_model
 from tests.python.support.duets import made_duet
 from tests.python.support.real_data import real_file
+from training.checkpoint import save_denoiser, save_hfsq, write_first_card
 from training.data.sources import read_split
 from training.evaluation.metrics.duet import duet_metrics
 from training.evaluation.metrics.errors import bone_variation
@@ -57,18 +59,28 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
         f"{d.name}/{role}": m for d in duets for role, m in (("leader", d.leader), ("follower", d.reactor))
     }
     np.savez(tmp_path / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
+    tiny, checkpoint = tiny_model(), tmp_path / "checkpoint"
+    save_hfsq(checkpoint, tiny.hfsq, tiny.frame, {})
+    save_denoiser(checkpoint, tiny.denoiser, tiny.diffusion, {})
+    write_first_card(checkpoint, tiny.reference_height)
     main(
         Options(
-            data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, val=("val",), test=("one", "two"),
-            pictures=False, videos=False, music=False,
-            settings=Settings(seeds=(0, 1), seam_starts=(0,), response_seeds=1, two_sample=False),
+            data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, checkpoint=checkpoint,
+            val=("val",), test=("one", "two"), pictures=False, videos=False, music=False,
+            settings=Settings(
+                seeds=(0, 1), seam_starts=(0,), response_seeds=1, two_sample=False, guidance_grid=(0.0, 1.2)
+            ),
         )
     )  # fmt: skip
     stored = json.loads((tmp_path / "out/metrics.json").read_text())
     assert stored["runtime"] == "onnxruntime"
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] > 0
-    # The tiny model alternates its block phase, so boundaries lie every 120 frames of 300.
-    assert stored["seams"]["seams"] == 2 * 2 * 2
+    weights = {"coarse": 0.0, "fine": 0.0, "music": 1.0, "variety": 1.0}
+    how = {"steps": 4, "last_time": 0.25, "extrapolation": [0.5, 0.25, 0.0]}
+    assert stored["sampling"] == how | weights
+    assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
+    # Guidance at every step, of the checkpoint: each cell is another dance.
+    assert len({cell["mpjpe_mm"] for cell in stored["guidance"]}) == 4
     with pytest.raises(SystemExit, match="--model"):
         main(Options(data=tmp_path / "duets.npz", out=tmp_path / "out"))
 
@@ -83,8 +95,14 @@ def test_the_shipped_numbers_are_those_of_the_shipped_graphs():
     options = Options(data=real_file("cmu_salsa/duets.npz"), out=Path(), val=val, test=test)
     held_out = paired_duets(options, read_split(options.data, options.val, options.test))[0]
     sampling = stored["sampling"]
-    generate = reactor_generator(model, sampling["steps"], tuple(sampling["guidance"]), sampling["music"])
-    made = generate(held_out.duet.leader, held_out.music, stored["seeds"][0])
+    made = reactor_generator(model, sampling["steps"])(
+        held_out.duet.leader,
+        held_out.music,
+        stored["seeds"][0],
+        guidance=(sampling["coarse"], sampling["fine"]),
+        music_guidance=sampling["music"],
+        variety=sampling["variety"],
+    )
     known = stored["rows"]["generated"]["trials"][held_out.duet.name]["seeds"][0]
     again = duet_metrics(held_out.duet.leader, held_out.duet.reactor, made, held_out.music)
     for key in ("mpjpe_mm", "root_error_mm", "speed_ratio", "skate_share", "hands_w1_m", "bone_variation"):
