@@ -61,7 +61,7 @@ describe('three variations', () => {
     model.calls[1]?.options.onProgress?.({ stage: 'condition', done: 0, total: 1, fraction: 0 });
     const begun = list()[0]!.fraction;
     expect(begun).toBeGreaterThan(half!);
-    model.calls[1]?.options.onProgress?.({ stage: 'decode', done: 1, total: 1, fraction: 0.94 });
+    model.calls[1]?.options.onProgress?.({ stage: 'step', done: 1, total: 1, fraction: 0.94 });
     expect(list()[0]?.fraction).toBe(0.94);
     await answer(1);
     await answer(2);

@@ -396,18 +396,18 @@ describe('undo and redo', () => {
   });
 
   it('restore a take that a later reaction of the drag has replaced', () => {
-    page.do(change.guidanceSet('fine', 1));
+    page.do(change.guidanceSet('fine', 0.5));
     const kept = page.arrive();
     // A step of its own, but within the time of folding.
     page.do((state) => ({ history: { ...state.history, open: false } }));
-    page.do(change.guidanceSet('fine', 2));
+    page.do(change.guidanceSet('fine', 1));
     page.arrive({ after: 2000 });
     expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
     page.do(undone());
     expect(page.state.reaction).toBe(kept);
     expect([page.onStage, page.state.takes.length]).toEqual(['Take 3', 3]);
     page.do(redone());
-    expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(2);
+    expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(1);
   });
 
   it('a new change removes what could be redone; an equal value is no change', () => {
