@@ -54,8 +54,8 @@ export function bindStage(stage: Stage, store: Store): () => void {
 }
 
 /**
- * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a split
- * view is shown at once.
+ * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a
+ * split view is shown at once, and so is a preview, which is to follow the hand.
  */
 function bindDancers(stage: Stage, store: Store): () => void {
   let before = '';
@@ -65,7 +65,7 @@ function bindDancers(stage: Stage, store: Store): () => void {
     (state) => {
       const half = besideStage(state) && state.letter;
       const now = `${generatedRole(state)} ${state.footLock} ${half}`;
-      const crossfade = now === before && !reducedMotion.matches;
+      const crossfade = now === before && state.preview === null && !reducedMotion.matches;
       stage.setDancers(dancers(state), { made: generatedRole(state), crossfade });
       before = now;
     },

@@ -8,8 +8,8 @@ import { AppError } from './error';
 export interface TaskContext<Report> {
   /** Aborted when the page cancels this call. */
   readonly signal: AbortSignal;
-  /** Sends something to the page before the task ends; its buffers are transferred. */
-  report(this: void, report: Report): void;
+  /** Sends something to the page before the task ends, its buffers transferred; resolves when the page has taken it. */
+  report(this: void, report: Report): Promise<void>;
 }
 
 /** What a worker does on a call. It gives its output away: all buffers in it are transferred to the page. */
@@ -63,6 +63,7 @@ export function serve(tasks: Tasks, port?: Endpoint): void {
         signal,
         report: (value) => {
           lastReport = Promise.resolve(report(handOver(value)));
+          return lastReport;
         },
       };
       let outcome: Outcome;

@@ -3,7 +3,14 @@ import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
 import type { ModelFolder } from './load/download';
-import type { CoarseRequest, GenerateRequest, SeedsRequest } from './sample/inputs';
+import {
+  type CoarseRequest,
+  type GenerateRequest,
+  sameSource,
+  type SeedsRequest,
+  type Source,
+} from './sample/inputs';
+import { type Playhead, secondsNow } from './sample/playhead';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
@@ -20,6 +27,7 @@ export type {
   GenerateResult,
   Manifest,
   ModelFolder,
+  Playhead,
   Preference,
   Preview,
   Progress,
@@ -67,9 +75,13 @@ export interface Generator {
   dispose(): void;
 }
 
+export { secondsNow };
+
 /** A worker with a loaded model. */
 interface LoadedWorker extends Loaded {
   readonly connection: WorkerConnection<ModelTasks>;
+  /** What it was told last is danced to. */
+  source: Source | null;
 }
 
 function crashed(message: string): AppError {
@@ -91,7 +103,7 @@ async function start(options: GeneratorOptions): Promise<LoadedWorker> {
       { manifestUrl, folder, backend, threads },
       { onReport: options.onStatus },
     );
-    return { connection, ...loaded };
+    return { connection, source: null, ...loaded };
   } catch (error) {
     connection.dispose();
     throw error;
@@ -121,38 +133,51 @@ class WorkerGenerator implements Generator {
   }
 
   async generate(
-    request: GenerateRequest,
-    { signal, at, onProgress, onPreview }: GenerateOptions = {},
+    { leader, music, role, ...settings }: GenerateRequest,
+    { signal, playhead, onProgress, onPreview }: GenerateOptions = {},
   ): Promise<GenerateResult> {
-    const connection = await this.#ready(signal);
-    return connection.call(
+    const worker = await this.#ready(signal);
+    return worker.connection.call(
       'generate',
-      { request, at: onPreview ? at : undefined },
+      {
+        source: newSource(worker, { leader, music, role }),
+        settings,
+        playhead: onPreview && playhead,
+      },
       {
         signal,
         onReport: (report) => {
           if (report.kind === 'progress') onProgress?.(report.progress);
-          else onPreview?.(report.preview);
+          else void onPreview?.(report.preview);
         },
       },
     );
   }
 
-  async differingSeeds(request: SeedsRequest, { signal, onProgress }: SeedsOptions = {}): Promise<number[]> {
-    const connection = await this.#ready(signal);
-    return connection.call('differingSeeds', request, { signal, onReport: onProgress });
+  async differingSeeds(
+    { request, ...seeds }: SeedsRequest,
+    { signal, onProgress }: SeedsOptions = {},
+  ): Promise<number[]> {
+    const { leader, music, role, ...settings } = request;
+    const worker = await this.#ready(signal);
+    const source = newSource(worker, { leader, music, role });
+    return worker.connection.call(
+      'differingSeeds',
+      { source, settings, seeds },
+      { signal, onReport: onProgress },
+    );
   }
 
   async coarse(
     request: CoarseRequest,
     { signal }: Pick<GenerateOptions, 'signal'> = {},
   ): Promise<SolvedMotion> {
-    const connection = await this.#ready(signal);
+    const { connection } = await this.#ready(signal);
     return connection.call('coarse', request, { signal });
   }
 
   /** The current worker, or a new one after a crash. */
-  async #ready(signal: AbortSignal | undefined): Promise<WorkerConnection<ModelTasks>> {
+  async #ready(signal: AbortSignal | undefined): Promise<LoadedWorker> {
     if (this.#disposed) throw disposal();
     signal?.throwIfAborted();
     if (this.#latest.connection.ended) {
@@ -161,13 +186,20 @@ class WorkerGenerator implements Generator {
       if (this.#disposed) this.dispose();
       signal?.throwIfAborted();
     }
-    return this.#latest.connection;
+    return this.#latest;
   }
 
   dispose(): void {
     this.#disposed = true;
     this.#latest.connection.dispose(disposal());
   }
+}
+
+/** What is danced to, or null where the worker has it: a megabyte a minute, copied at every step of a fader otherwise. */
+function newSource(worker: LoadedWorker, source: Source): Source | null {
+  const known = worker.source !== null && sameSource(worker.source, source);
+  worker.source = source;
+  return known ? null : source;
 }
 
 function disposal(): DOMException {

@@ -1,13 +1,16 @@
-/** How far a generation is, as one number that never goes back. */
+/**
+ * How far the sampling of a dance is, as one number that never goes back. Decoding and solving take a moment and report
+ * nothing.
+ */
 
-export type Stage = 'condition' | 'step' | 'decode' | 'solve';
+export type Stage = 'condition' | 'step';
 
 export interface Progress {
   readonly stage: Stage;
   /** Pieces of this stage that are done, of `total`. */
   readonly done: number;
   readonly total: number;
-  /** Of the whole generation, 0 to 1. */
+  /** Of the whole sampling, 0 to 1. */
   readonly fraction: number;
 }
 
@@ -17,12 +20,10 @@ type StageListener = (done: number, total: number) => void;
 /** Fractions of the whole, roughly as measured, so that the bar moves evenly. */
 const FRACTIONS: Record<Stage, readonly [from: number, to: number]> = {
   condition: [0, 0.04],
-  step: [0.04, 0.86],
-  decode: [0.86, 0.94],
-  solve: [0.94, 1],
+  step: [0.04, 1],
 };
 
-/** Turns the progress of one stage into progress of the whole generation. */
+/** Turns the progress of one stage into progress of the whole. */
 export function stageProgress(onProgress: ProgressListener, stage: Stage): StageListener {
   const [from, to] = FRACTIONS[stage];
   return (done, total) => onProgress?.({ stage, done, total, fraction: from + ((to - from) * done) / total });

@@ -5,8 +5,9 @@ import type { Backend } from './load/backend';
 import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { Progress } from './progress';
-import type { CoarseRequest, GenerateRequest, SeedsRequest } from './sample/inputs';
+import type { CoarseRequest, DanceSettings, SeedsRequest, Source } from './sample/inputs';
 import type { Pipeline } from './sample/pipeline';
+import type { Playhead } from './sample/playhead';
 import type { GenerateResult, Preview } from './sample/results';
 
 export interface Loaded {
@@ -19,34 +20,57 @@ type GenerateReport =
   | { readonly kind: 'progress'; readonly progress: Progress }
   | { readonly kind: 'preview'; readonly preview: Preview };
 
+/** What is danced to: sent once, and null in the calls after it that have the same. */
+type SourceCall = { readonly source: Source | null };
+
 let model: LoadedModel | undefined;
+let lastSource: Source | undefined;
 
 function pipeline(): Pipeline {
   if (model === undefined) throw new Error('the model was asked before it was loaded');
   return model.pipeline;
 }
 
+function sourceOf({ source }: SourceCall): Source {
+  lastSource = source ?? lastSource;
+  if (lastSource === undefined) throw new Error('the first call has to say what is danced to');
+  return lastSource;
+}
+
 const tasks = {
   async load(options: LoadOptions, { report }: TaskContext<Status>): Promise<Loaded> {
-    model = await loadModel(options, globalThis, report);
+    model = await loadModel(options, globalThis, (status) => void report(status));
     return { manifest: model.pipeline.manifest, backend: model.backend };
   },
 
-  /** `at`: motion frame on view, undefined for no previews. */
   generate(
-    { request, at }: { request: GenerateRequest; at: number | undefined },
+    { settings, playhead, ...call }: SourceCall & { settings: DanceSettings; playhead: Playhead | undefined },
     { signal, report }: TaskContext<GenerateReport>,
   ): Promise<GenerateResult> {
-    return pipeline().generate(request, {
-      signal,
-      at,
-      onProgress: (progress) => report({ kind: 'progress', progress }),
-      onPreview: (preview) => report({ kind: 'preview', preview }),
-    });
+    return pipeline().generate(
+      { ...sourceOf(call), ...settings },
+      {
+        signal,
+        playhead,
+        onProgress: (progress) => void report({ kind: 'progress', progress }),
+        onPreview: (preview) => report({ kind: 'preview', preview }),
+      },
+    );
   },
 
-  differingSeeds(request: SeedsRequest, { signal, report }: TaskContext<number>): Promise<number[]> {
-    return pipeline().differingSeeds(request, { signal, onProgress: report });
+  differingSeeds(
+    {
+      settings,
+      seeds,
+      ...call
+    }: SourceCall & { settings: DanceSettings; seeds: Omit<SeedsRequest, 'request'> },
+    { signal, report }: TaskContext<number>,
+  ): Promise<number[]> {
+    const request = { ...sourceOf(call), ...settings };
+    return pipeline().differingSeeds(
+      { request, ...seeds },
+      { signal, onProgress: (fraction) => void report(fraction) },
+    );
   },
 
   coarse(request: CoarseRequest, { signal }: TaskContext<never>): Promise<SolvedMotion> {

@@ -5,9 +5,11 @@ import { folderFetch, type ModelFolder } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { type DownloadPart, downloadParts } from './assets';
+import { unitGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
 import { decodeClip } from '../sample/decoder';
 import { Pipeline } from '../sample/pipeline';
+import { secondsNow } from '../sample/playhead';
 import { type ModelSession, openSession, type Provider } from './session';
 import { type ResponseCache, responseCache } from './cache';
 
@@ -80,7 +82,7 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   const one = { seed: 0, steps: 1 };
   const alone = { silent: false, unconditional: false, mean: false };
   const { conditional: latents } = await new BranchSampler(manifest, session).branches(condition, one, alone);
-  const gains = new Float32Array(latent.streams.length * latent.layers.length).fill(1);
+  const gains = unitGains(latent);
   const bones = new Float32Array(joints).fill(1);
   await decodeClip(session, manifest, { latents, leader, gains, bones });
 }
@@ -151,5 +153,5 @@ export async function loadModel(
     await warmUp(manifest, session);
   }
   onStatus({ kind: 'ready', backend });
-  return { pipeline: new Pipeline(manifest, session, () => performance.now() / 1000), backend };
+  return { pipeline: new Pipeline(manifest, session, secondsNow), backend };
 }

@@ -77,6 +77,11 @@ export function layerGains(guidance: Float32Array, { layers }: Latent): Float32A
   return guidance.map((weight, i) => (i % layers.length === 0 ? 1 : 1 + weight));
 }
 
+/** Factors that leave all layers as they were sampled. */
+export function unitGains({ streams, layers }: Latent): Float32Array {
+  return new Float32Array(streams.length * layers.length).fill(1);
+}
+
 /** Factors that leave the coarse layer alone. */
 export function coarseAlone({ streams, layers }: Latent): Float32Array {
   return Float32Array.from(streams.flatMap(() => layers.map((_, layer) => (layer === 0 ? 1 : 0))));

@@ -1,6 +1,7 @@
 import type { Manifest } from '../manifest';
 import type { ModelSession } from '../load/session';
 import type { Branches, NeededBranches } from './blend';
+import { BranchCache } from './branch-cache';
 import { conditionClip } from './condition';
 import type { ConditionInput } from './graphs';
 import { noise } from './noise';
@@ -11,8 +12,6 @@ import { ddim } from './schedule';
 const LATENTS_PER_CHUNK = 480;
 /** Bounds the memory of attention in the step graph. */
 const BLOCKS_PER_RUN = 16;
-/** Seeds whose latents are kept. */
-const KEPT_SEEDS = 8;
 
 type Branch = Exclude<keyof Branches, 'mean'>;
 
@@ -20,8 +19,8 @@ type Branch = Exclude<keyof Branches, 'mean'>;
 interface Known {
   readonly input: ConditionInput;
   readonly memories: Map<'song' | 'silence', Float32Array>;
-  /** By seed and steps, the one used last at the end. */
-  readonly latents: Map<string, Map<Branch, Float32Array>>;
+  /** Groups by seed and steps. */
+  readonly latents: BranchCache<Branch>;
   /** Mean coarse layers of several seeds, by steps. */
   readonly means: Map<number, Float32Array>;
 }
@@ -57,7 +56,9 @@ export class BranchSampler {
     const list: Branch[] = ['conditional'];
     if (wanted.silent && song) list.push('silent');
     if (wanted.unconditional) list.push('unconditional');
-    const latents = kept(known.latents, `${seed} ${steps}`);
+    const key = `${seed} ${steps}`;
+    // A copy: other seeds may be sampled meanwhile, and push this one out of the cache.
+    const latents = new Map(known.latents.group(key));
     const missing = list.filter((branch) => !latents.has(branch));
     const { seeds } = this.manifest.guidance.variety;
     const meanMissing = wanted.mean && !known.means.has(steps);
@@ -70,7 +71,11 @@ export class BranchSampler {
         onStep?.(before * total + done, runs * total),
       );
     };
-    for (const branch of missing) latents.set(branch, await sampleNext(branch, seed));
+    for (const branch of missing) {
+      const sampled = await sampleNext(branch, seed);
+      latents.set(branch, sampled);
+      known.latents.add(key, branch, sampled);
+    }
     if (meanMissing) {
       const coarse: Float32Array[] = [];
       for (let of = 0; of < seeds; of++)
@@ -87,7 +92,7 @@ export class BranchSampler {
 
   #knownFor(input: ConditionInput): Known {
     if (!this.#known || !sameInput(this.#known.input, input))
-      this.#known = { input, memories: new Map(), latents: new Map(), means: new Map() };
+      this.#known = { input, memories: new Map(), latents: new BranchCache(), means: new Map() };
     return this.#known;
   }
 
@@ -149,17 +154,8 @@ function mean(all: readonly Float32Array[]): Float32Array {
   return Float32Array.from(sum, (value) => value / all.length);
 }
 
-/** The latents under a key, which becomes the one used last; beyond `KEPT_SEEDS` the oldest key is dropped. */
-function kept(all: Map<string, Map<Branch, Float32Array>>, key: string): Map<Branch, Float32Array> {
-  const latents = all.get(key) ?? new Map<Branch, Float32Array>();
-  all.delete(key);
-  all.set(key, latents);
-  const oldest = all.keys().next();
-  if (all.size > KEPT_SEEDS && !oldest.done) all.delete(oldest.value);
-  return latents;
-}
-
 function sameInput(a: ConditionInput, b: ConditionInput): boolean {
+  if (a === b) return true;
   return (
     a.role === b.role &&
     equal(a.leader, b.leader) &&

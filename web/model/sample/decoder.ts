@@ -25,9 +25,16 @@ export interface LatentRange {
   readonly end: number;
 }
 
+export interface DecodeOptions {
+  /** Latent frames to decode; the whole clip when not given. */
+  readonly range?: LatentRange | undefined;
+  /** Latent frames on each side of what is decoded that are decoded with it and cut off: enough to be exact. */
+  readonly overlap?: number;
+  readonly signal?: AbortSignal | undefined;
+}
+
 /**
- * Decodes a dance or a part of it, chunk by chunk with the overlap that makes every chunk exact.
- * @param range latent frames to decode; the whole clip when not given
+ * Decodes a dance or a part of it, chunk by chunk.
  * @returns joints of those frames, T x 22 x 3 metres at the reference height, and bone lengths T x 22 as decoded
  * @throws {AppError} `not-finite`
  * @throws the signal's reason, between two chunks
@@ -36,8 +43,7 @@ export async function decodeClip(
   session: ModelSession,
   { latent, skeleton }: Manifest,
   { latents, leader, gains, bones }: DecodeRequest,
-  range?: LatentRange,
-  signal?: AbortSignal,
+  { range, overlap = latent.receptive_field.decode, signal }: DecodeOptions = {},
 ): Promise<{ joints: Float32Array; lengths: Float32Array }> {
   const width = latent.layers.length * latent.channels;
   const count = skeleton.joints.length;
@@ -45,11 +51,9 @@ export async function decodeClip(
   const { start, end } = range ?? { start: 0, end: latents.length / width };
   const joints = new Float32Array((end - start) * perLatent * 3);
   const lengths = new Float32Array((end - start) * perLatent);
-  for (const chunk of chunks(latents.length / width, LATENTS_PER_CHUNK, latent.receptive_field.decode, {
-    start,
-    end,
-  })) {
-    await yieldToEvents(signal);
+  const all = chunks(latents.length / width, LATENTS_PER_CHUNK, overlap, { start, end });
+  for (const [i, chunk] of all.entries()) {
+    if (i > 0) await yieldToEvents(signal);
     const output = await session.decode({
       latents: latents.subarray(chunk.inputStart * width, chunk.inputEnd * width),
       leader: leader.subarray(chunk.inputStart * perLatent * 3, chunk.inputEnd * perLatent * 3),

@@ -3,9 +3,10 @@ import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './graphs';
 import { AppError } from '../../common/error';
 import type { Manifest } from '../manifest';
+import type { Weights } from './blend';
 
-/** What to generate, and from what. */
-export interface GenerateRequest {
+/** What is danced to. */
+export interface Source {
   /** The dancer to react to, at the size of their file. */
   readonly leader: MotionClip;
   /**
@@ -17,18 +18,29 @@ export interface GenerateRequest {
     readonly frames: number;
     readonly start?: number | undefined;
   } | null;
-  /** streams x layers, s of the paper's Eq. 9 as blend.ts applies it. */
-  readonly guidance: Float32Array;
-  /** Guidance weight of the music. */
-  readonly musicGuidance: number;
-  /** How far the seed's coarse layer is from the mean of several seeds; 1 leaves it as sampled. */
-  readonly variety: number;
-  readonly steps: number;
-  /** Its lowest 32 bits count. */
-  readonly seed: number;
   /** Role to generate; the reactor when not given. */
   readonly role?: 'reactor' | 'leader' | undefined;
 }
+
+/** Whether two sources are the same arrays. */
+export function sameSource(a: Source, b: Source): boolean {
+  return (
+    a.leader === b.leader &&
+    a.role === b.role &&
+    a.music?.features === b.music?.features &&
+    a.music?.start === b.music?.start
+  );
+}
+
+/** How it is danced. */
+export interface DanceSettings extends Weights {
+  readonly steps: number;
+  /** Its lowest 32 bits count. */
+  readonly seed: number;
+}
+
+/** What to generate, and from what. */
+export interface GenerateRequest extends Source, DanceSettings {}
 
 /** Seeds of which those are wanted whose dances differ most. */
 export interface SeedsRequest {
@@ -61,11 +73,7 @@ function refuse(message: string, hint: string): never {
 }
 
 /** @throws {AppError} `bad-request`, a sentence about the first thing that the model cannot take */
-export function checkRequest(
-  { leader, music, guidance, musicGuidance, variety, steps, seed }: GenerateRequest,
-  manifest: Manifest,
-): void {
-  const { skeleton, fps, diffusion, latent, audio } = manifest;
+export function checkSource({ leader, music }: Source, { skeleton, fps, audio }: Manifest): void {
   if (leader.fps !== fps) {
     refuse(
       `The leader has ${leader.fps} frames per second; the model takes ${fps}.`,
@@ -78,15 +86,23 @@ export function checkRequest(
   if (!leader.positions.every(Number.isFinite)) {
     refuse('The leader clip holds a position that is not a number.', 'Choose another leader file.');
   }
-  if (music !== null && music.features.length !== music.frames * audio.features) {
+  if (music === null) return;
+  if (music.features.length !== music.frames * audio.features) {
     refuse(`The song does not have ${audio.features} features in every frame.`, 'Load the song again.');
   }
-  if (music !== null && !music.features.every(Number.isFinite)) {
+  if (!music.features.every(Number.isFinite)) {
     refuse('The song holds a feature that is not a number.', 'Choose another song.');
   }
-  if (music?.start !== undefined && !Number.isInteger(music.start)) {
+  if (music.start !== undefined && !Number.isInteger(music.start)) {
     refuse(`The song starts at frame ${music.start}.`, 'Shift the song by whole frames.');
   }
+}
+
+/** @throws {AppError} as `checkSource` */
+export function checkSettings(
+  { guidance, musicGuidance, variety, steps, seed }: DanceSettings,
+  { diffusion, latent }: Manifest,
+): void {
   if (!Number.isInteger(steps) || steps < diffusion.steps.min || steps > diffusion.steps.max) {
     refuse(
       `${steps} is not a number of steps between ${diffusion.steps.min} and ${diffusion.steps.max}.`,
@@ -114,10 +130,7 @@ export function checkCoarse({ leader, latents }: CoarseRequest, { latent }: Mani
 }
 
 /** Scale the leader to the reference height, and bring leader and music to a common, whole number of latent frames. */
-export function prepareInput(
-  { leader, music, role }: Pick<GenerateRequest, 'leader' | 'music' | 'role'>,
-  manifest: Manifest,
-): ModelInput {
+export function prepareInput({ leader, music, role }: Source, manifest: Manifest): ModelInput {
   const { latent, skeleton, audio } = manifest;
   const frame = skeleton.joints.length * 3;
   const frames = Math.ceil(leader.frames / latent.stride) * latent.stride;

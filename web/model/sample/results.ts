@@ -1,17 +1,18 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Progress } from '../progress';
+import type { Playhead } from './playhead';
 
-/** The generated dancer, at the leader's size and as long as the leader. */
-interface GeneratedMotion {
+/** The generated dancer at the leader's size. */
+export interface GeneratedMotion {
   readonly motion: SolvedMotion;
   /** The same with foot lock, made here because it would hold up the page. */
   readonly locked: SolvedMotion;
 }
 
-/** A part of a generated dancer, shown before the whole is there. */
+/** A part of a generated dancer, shown before the whole is there. It equals that part of the whole. */
 export interface Preview extends GeneratedMotion {
-  /** The frames of the whole dance that this part is, `to` excluded. */
-  readonly fresh: { readonly from: number; readonly to: number };
+  /** The frame of the whole dance at which this part begins. */
+  readonly from: number;
 }
 
 export interface GenerateResult extends GeneratedMotion {
@@ -32,7 +33,8 @@ export interface GenerateOptions {
   /** Stops the work before the next graph run; the promise is then rejected with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ((progress: Progress) => void) | undefined;
-  /** Motion frame on view: the part around it is handed to `onPreview` before the whole is decoded. */
-  readonly at?: number | undefined;
-  readonly onPreview?: ((preview: Preview) => void) | undefined;
+  /** Where the dance is on view: the part around it is handed to `onPreview` before the whole is decoded. */
+  readonly playhead?: Playhead | undefined;
+  /** The whole is begun when this has returned, so that the caller can abort it first. */
+  readonly onPreview?: ((preview: Preview) => void | Promise<void>) | undefined;
 }

@@ -64,6 +64,11 @@ function everyFrame(
   return gaussianFilter(linear, deviation);
 }
 
+/** Frames between two samples of the shift. */
+export function sampleStep(fps: number): number {
+  return Math.max(1, Math.round(SAMPLE_INTERVAL * fps));
+}
+
 /**
  * Collision avoidance between two dancers: where trunks, heads or legs would overlap, the whole dancer is shifted level
  * with the floor by at most 0.63 m, along the cheapest smooth path (viterbi-path.ts). Arms may overlap. Rotations,
@@ -81,7 +86,7 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
     capsules: rule.capsules.filter(({ from, to }) => !ARMS.has(from) && !ARMS.has(to)),
   };
   const [a, b] = [capsuleBody(other, withoutArms), capsuleBody(motion, withoutArms)];
-  const step = Math.max(1, Math.round(SAMPLE_INTERVAL * fps));
+  const step = sampleStep(fps);
   const overlaps = Array.from(
     { length: Math.ceil(frames / step) },
     (_, sample) => penetrationDepth(a, b, candidatePairs(a, b, sample * step)) > rule.deep,

@@ -1,6 +1,6 @@
-import type { MotionClip } from '../skeleton/clip';
-import { FEET, JOINT_COUNT } from '../skeleton/skeleton';
-import { median, percentile } from '../math/statistics';
+import type { MotionClip, SolvedMotion } from '../skeleton/clip';
+import { FEET, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
+import { percentile } from '../math/statistics';
 import { readVec, sub } from '../math/vec3';
 
 /** Heights of one joint and its speeds. */
@@ -64,10 +64,11 @@ export const RELEASE_SPEED = 0.9;
 /** A joint in contact rises or sinks slower than this, m/s. */
 const VERTICAL_SPEED = 0.2;
 /**
- * A joint in contact is at most this far above the median of its heights while it is slow, metres. Its lowest height
- * would be no measure: generated feet dip below the floor while they swing, and hover while they stand.
+ * Toes in contact are at most this high above the floor, metres, and ankles by as much more as they are above the toes
+ * at rest: generated feet hover while they stand. It is no measure of the clip, so that contacts of a part of a dance
+ * are those of the whole.
  */
-const MAX_HEIGHT = 0.04;
+const MAX_TOE_HEIGHT = 0.09;
 /** Shortest contact, seconds. */
 const MIN_DURATION = 0.13;
 
@@ -85,11 +86,12 @@ export interface ContactInterval {
  *
  * @param joint index in the skeleton
  */
-export function contactIntervals(clip: MotionClip, joint: number): ContactInterval[] {
-  const { frames, fps } = clip;
-  const { heights, vertical, horizontal } = jointTrack(clip, joint);
+export function contactIntervals(motion: SolvedMotion, joint: number): ContactInterval[] {
+  const { frames, fps, offsets } = motion;
+  const { heights, vertical, horizontal } = jointTrack(motion, joint);
   const speeds = horizontal.map((speed, frame) => (vertical[frame]! < VERTICAL_SPEED ? speed : Infinity));
-  const maxHeight = median(heights.filter((_, frame) => speeds[frame]! < CONTACT_SPEED)) + MAX_HEIGHT;
+  const toe = PARENTS.indexOf(joint);
+  const maxHeight = MAX_TOE_HEIGHT - (toe < 0 ? 0 : offsets[toe * 3 + 1]!);
 
   const intervals: ContactInterval[] = [];
   let first = 0;

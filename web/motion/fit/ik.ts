@@ -140,10 +140,10 @@ function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat
  * (wrists and head) are those of rest. Quaternions do not change sign from frame to frame. Pure.
  *
  * @param clip at least one frame
+ * @param offsets of the skeleton, 22 x 3 metres, where they are known already
  */
-export function solve(clip: MotionClip): SolvedMotion {
+export function solve(clip: MotionClip, offsets = restOffsets(clip)): SolvedMotion {
   const { frames, fps } = clip;
-  const offsets = restOffsets(clip);
   const bones = bonesOf(offsets);
   const poses = Array.from({ length: frames }, (_, frame) => fitPose(clip, frame, bones));
   const hinges = LIMBS.map((limb) => hingesOf(limb, poses, bones));

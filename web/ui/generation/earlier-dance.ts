@@ -38,10 +38,8 @@ export function createEarlierDance(store: Store): () => void {
 function newInputs(before: AppState, now: AppState): Inputs | null | undefined {
   if (now.preview !== null && now.preview !== before.preview) return readyInputs(now);
   if (now.reaction === before.reaction) return undefined;
-  const frame = now.playback.time * (now.reaction?.motion.fps ?? 0);
-  const previewed = before.preview && before.job?.previewed;
-  // The dance at the playhead came with its preview already.
-  if (previewed && now.reaction && frame >= previewed.from && frame < previewed.to) return undefined;
+  // The dance on view came with its preview already.
+  if (before.preview && now.reaction) return undefined;
   return now.reaction?.inputs ?? null;
 }
 

@@ -1,29 +1,37 @@
-import type {
-  GenerateRequest,
-  GenerateResult,
-  Generator,
-  Manifest,
-  Preview as ModelPreview,
+import {
+  type GenerateRequest,
+  type GenerateResult,
+  type Generator,
+  type Manifest,
+  type Playhead,
+  type Preview as ModelPreview,
+  secondsNow,
 } from '../../model/client';
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
-import { splice } from './splice';
+import { sameBody, withFrames } from './with-frames';
 import type { Inputs, Reaction } from '../store/reaction';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
+import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
-/** Time without a change of song, leader, seed or steps after which a new reaction is begun. */
-const DEBOUNCE_MS = 60;
+/** A request that the model is working on. */
+interface Running {
+  readonly controller: AbortController;
+  readonly inputs: Inputs;
+  /** Whether its part around the playhead has been shown, or the model has gone past it. */
+  previewed: boolean;
+}
 
 /**
  * Makes a new reaction whenever song, leader or settings change. The reaction on the stage stays there until the new
  * one is ready, except for the frames around the playhead, which are replaced by a preview before.
  *
- * A new song, leader or seed has to be sampled, so the request aborts the older one. Weights only blend what is
- * sampled: a request under way goes on until its preview is shown, then the newest weights follow, so that the dance
- * changes while a fader moves.
+ * A change aborts the request before it. Where both differ only in weights of guidance it is not aborted before its
+ * preview is shown: while a fader moves, each preview is of the newest weights and the next one follows, so that the
+ * dance goes with the hand, and the whole dance is made when the hand rests.
  */
 export class Generation {
   readonly #store: Store;
@@ -31,10 +39,9 @@ export class Generation {
   readonly #unsubscribe: () => void;
   /** The inputs requested last, whether answered, running, failed or cancelled: they are not requested again. */
   #requested: Inputs | null = null;
-  #running: { readonly controller: AbortController; readonly inputs: Inputs } | null = null;
-  /** Weights that came while a request was under way. */
+  #running: Running | null = null;
+  /** The newest weights, which came before the preview of older ones. */
   #waiting: Inputs | null = null;
-  #timer: ReturnType<typeof setTimeout> | undefined;
 
   /** @param model resolves with the model when it is loaded; rejects when it can't be, which is reported elsewhere */
   constructor(store: Store, model: () => Promise<Generator>) {
@@ -63,7 +70,6 @@ export class Generation {
   };
 
   #abort(): void {
-    clearTimeout(this.#timer);
     this.#waiting = null;
     this.#running?.controller.abort();
     this.#running = null;
@@ -78,21 +84,16 @@ export class Generation {
       return;
     }
     if (sameInputs(inputs, this.#requested)) return;
-    const before = this.#requested;
     this.#requested = inputs;
-    clearTimeout(this.#timer);
-    if (!before || !differOnlyInWeights(before, inputs)) {
-      this.#timer = setTimeout(() => {
-        void this.#run(inputs);
-      }, DEBOUNCE_MS);
-    } else if (this.#running) this.#waiting = inputs;
+    const running = this.#running;
+    if (running && !running.previewed && differOnlyInWeights(running.inputs, inputs)) this.#waiting = inputs;
     else void this.#run(inputs);
   }
 
   /** The reaction on the stage has these inputs: requests for others are aborted. */
   #keepOnStage(inputs: Inputs): void {
     this.#requested = inputs;
-    clearTimeout(this.#timer);
+    this.#waiting = null;
     if (this.#running && !sameInputs(this.#running.inputs, inputs)) this.cancel();
   }
 
@@ -100,11 +101,12 @@ export class Generation {
     this.#abort();
     this.#requested = inputs;
     const controller = new AbortController();
-    this.#running = { controller, inputs };
+    const running: Running = { controller, inputs, previewed: false };
+    this.#running = running;
     const { signal } = controller;
     try {
-      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0, previewed: null }));
-      const result = await this.#request(inputs, signal);
+      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0 }));
+      const result = await this.#request(running, signal);
       if (signal.aborted) return;
       this.#running = null;
       const waiting = this.#waiting;
@@ -119,25 +121,30 @@ export class Generation {
     }
   }
 
-  /** Runs the model, showing progress and previews meanwhile. */
-  async #request(inputs: Inputs, signal: AbortSignal): Promise<GenerateResult> {
+  /** Runs the model, showing progress and the preview meanwhile. */
+  async #request(running: Running, signal: AbortSignal): Promise<GenerateResult> {
     const generator = await this.#model();
     signal.throwIfAborted();
-    const { playback, leader } = this.#store.getState();
-    return generator.generate(requestFor(inputs, generator.manifest), {
+    return generator.generate(requestFor(running.inputs, generator.manifest), {
       signal,
       onProgress: (progress) => {
-        const previewed = this.#store.getState().job?.previewed ?? null;
-        if (!signal.aborted) apply(this.#store, jobChanged({ ...progress, previewed }));
+        if (!signal.aborted) apply(this.#store, jobChanged(progress));
       },
-      at: Math.floor(playback.time * (leader?.file.clip.fps ?? 0)),
+      playhead: playheadOf(this.#store.getState()),
       onPreview: (preview) => {
         if (signal.aborted) return;
+        running.previewed = true;
         showPreview(this.#store, preview);
         if (this.#waiting) void this.#run(this.#waiting);
       },
     });
   }
+}
+
+function playheadOf({ playback, leader }: AppState): Playhead {
+  const fps = leader?.file.clip.fps ?? 0;
+  const rate = playback.playing ? playback.speed * fps : 0;
+  return { frame: playback.time * fps, at: secondsNow(), rate };
 }
 
 /** The request to the model for these inputs. */
@@ -161,15 +168,19 @@ export function reactionOf({ motion, locked, latents, seconds }: GenerateResult,
   return { motion, latents, inputs, label: null, seconds: total };
 }
 
-/** Puts the new frames into the reaction on the stage, if it is one of this dance. */
-function showPreview(store: Store, { motion, locked, fresh }: ModelPreview): void {
-  const { reaction, preview: before, leader } = store.getState();
-  const shown =
-    before ?? (reaction && { motion: reaction.motion, locked: reactorMotion({ reaction, footLock: true }) });
-  if (!shown?.locked || shown.motion.frames !== leader?.file.clip.frames) return;
-  const preview = {
-    motion: splice(shown.motion, motion, fresh),
-    locked: splice(shown.locked, locked, fresh),
-  };
-  apply(store, previewShown(preview, fresh));
+/**
+ * Puts the new frames into the reaction on the stage, if that is the same body. They are not crossfaded with the old
+ * ones around them: those are out of view, and the whole replaces them before the playhead gets there.
+ */
+function showPreview(store: Store, { motion, locked, from }: ModelPreview): void {
+  const { reaction, preview } = store.getState();
+  if (!reaction || !sameBody(reaction.motion, motion)) return;
+  const shown = preview ?? { motion: reaction.motion, locked: reactorMotion({ reaction, footLock: true })! };
+  apply(
+    store,
+    previewShown({
+      motion: withFrames(shown.motion, motion, from),
+      locked: withFrames(shown.locked, locked, from),
+    }),
+  );
 }

@@ -5,7 +5,7 @@ import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
 import { measureRows } from './quality-rows';
 import { laneTexts, momentCard, momentLabel, type Part, PART_NAMES } from './quality-text';
 import { reactorMotion } from '../store/reactor-motion';
-import { danceDuration, danceFps, upToDate } from '../store/selectors';
+import { danceDuration, danceFps, isSampling } from '../store/selectors';
 import type { Manifest } from '../../model/client';
 import type { Services } from '../store/services';
 import type { AppState, Quality } from '../store/state';
@@ -85,9 +85,9 @@ export function mountQualityStrip(
 
 /** Whether the measures are of another motion than the one on the stage, or that one is being replaced. */
 function isStale(state: AppState): boolean {
-  const { quality, job } = state;
+  const { quality } = state;
   const ofAnother = quality !== null && quality.reactor !== reactorMotion(state);
-  return ofAnother || (job !== null && !upToDate(state));
+  return ofAnother || isSampling(state);
 }
 
 function drawLanes(

@@ -80,10 +80,16 @@ export function barAt(beats: readonly number[], time: number): { bar: number; co
   return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
 }
 
+/** Whether the reaction on the stage is being replaced by one that is sampled, which takes seconds. */
+export function isSampling(state: AppState): boolean {
+  return state.job !== null && state.job.fraction > 0 && !upToDate(state);
+}
+
 /** The stage of a job as a text for the visitor. */
 export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
   switch (job.stage) {
     case 'waiting':
+      if (model.phase === 'ready') return 'shaping the dance';
       return model.phase === 'loading' && model.total > 0
         ? `waiting for the model, ${bytesOf(model.received, model.total)}`
         : 'waiting for the model';
@@ -91,10 +97,6 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
       return 'listening and watching';
     case 'step':
       return stepText(job, settings?.steps ?? job.total);
-    case 'decode':
-      return 'shaping the dance';
-    case 'solve':
-      return 'setting the bones';
   }
 }
 

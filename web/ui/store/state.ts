@@ -48,19 +48,11 @@ export type ModelState =
   | { readonly phase: 'failed'; readonly problem: Problem };
 
 export interface Job {
-  readonly stage: 'waiting' | 'condition' | 'step' | 'decode' | 'solve';
+  readonly stage: 'waiting' | 'condition' | 'step';
   readonly done: number;
   readonly total: number;
-  /** 0 to 1 over the whole job. */
+  /** 0 to 1 over the whole sampling; 0 where only weights have changed, which needs none. */
   readonly fraction: number;
-  /** Frames of which the stage already shows a preview. */
-  readonly previewed: FrameRange | null;
-}
-
-/** Motion frames `from` to `to`, the latter excluded. */
-export interface FrameRange {
-  readonly from: number;
-  readonly to: number;
 }
 
 /** What is drawn while a reaction is being generated: the previous one, with new frames around the playhead. */

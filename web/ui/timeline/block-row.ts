@@ -22,9 +22,7 @@ export function createBlockRow(): BlockRow {
     cells.forEach((cell, index) => {
       const block = blocks[index];
       if (!block) return;
-      const { from, to } = donePart(block, blocks, job);
-      setVariable(cell, '--done-from', from);
-      setVariable(cell, '--done', to - from);
+      setVariable(cell, '--done', doneShare(block, blocks, job));
     });
   };
   return {
@@ -69,20 +67,10 @@ export function blocksOf(frames: number, length: number): Span[] {
   }));
 }
 
-/**
- * The part of a block that is made, as shares of the block from 0 to 1: the frames that are shown already where the
- * job tells them, else an estimate as if blocks were made one after the other.
- */
-export function donePart(block: Span, blocks: readonly Span[], job: Job | null): Span {
-  if (!job) return { from: 0, to: 0 };
-  const length = block.to - block.from;
-  if (job.previewed) {
-    const from = Math.max(block.from, job.previewed.from);
-    const to = Math.min(block.to, job.previewed.to);
-    if (to <= from) return { from: 0, to: 0 };
-    return { from: (from - block.from) / length, to: (to - block.from) / length };
-  }
+/** The share of a block that is made, 0 to 1, estimated as if blocks were made one after the other. */
+export function doneShare(block: Span, blocks: readonly Span[], job: Job | null): number {
+  if (!job) return 0;
   const frames = blocks.at(-1)?.to ?? 0;
-  const done = (job.fraction * frames - block.from) / length;
-  return { from: 0, to: Math.min(1, Math.max(0, done)) };
+  const done = (job.fraction * frames - block.from) / (block.to - block.from);
+  return Math.min(1, Math.max(0, done));
 }

@@ -3,7 +3,7 @@ import type { Manifest } from '../../model/client';
 import { createBlockRow } from './block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
 import { generatedRole, otherRole } from '../store/roles';
-import { danceFps, jobText, upToDate } from '../store/selectors';
+import { isSampling, jobText } from '../store/selectors';
 import type { Role } from '../store/reaction';
 import type { AppState } from '../store/state';
 import type { TimeScale } from '../store/time-scale';
@@ -50,8 +50,6 @@ export class DancerLanes {
 
   /** @param musicBeats seconds of the dance */
   draw(state: AppState, scale: TimeScale, musicBeats: readonly number[]): void {
-    const { job } = state;
-    const fps = danceFps(state);
     const made = generatedRole(state);
     const loadedView: MotionLaneView = {
       scale,
@@ -59,13 +57,8 @@ export class DancerLanes {
       tolerance: state.manifest?.quality.beats.tolerance ?? 0,
       top: this.#topSpeed,
       stale: false,
-      fresh: null,
     };
-    const madeView: MotionLaneView = {
-      ...loadedView,
-      stale: job !== null && !upToDate(state),
-      fresh: job?.previewed ? { from: job.previewed.from / fps, to: job.previewed.to / fps } : null,
-    };
+    const madeView: MotionLaneView = { ...loadedView, stale: isSampling(state) };
     for (const role of ['leader', 'reactor'] as const)
       this.#lanes[role].draw(this.#motions[role], role === made ? madeView : loadedView);
     const { root } = this.#lanes[made];

@@ -41,8 +41,6 @@ export interface MotionLaneView {
   readonly top: number;
   /** Whether a new motion is being made. */
   readonly stale: boolean;
-  /** The part of the new motion that is shown already, seconds. */
-  readonly fresh: { readonly from: number; readonly to: number } | null;
 }
 
 /** The lane of one dancer: speed as a curve, motion beats as dots. */
@@ -64,7 +62,7 @@ export function createMotionLane(role: Role, className: string, under: HTMLEleme
     showMessage: (text) => {
       setText(message, text);
     },
-    draw: (motion, { scale, musicBeats, tolerance, top, stale, fresh }) => {
+    draw: (motion, { scale, musicBeats, tolerance, top, stale }) => {
       const on = surface(canvas);
       if (!motion) {
         root.setAttribute('aria-label', role === 'leader' ? 'No leader' : 'No reactor yet');
@@ -84,21 +82,9 @@ export function createMotionLane(role: Role, className: string, under: HTMLEleme
       const line = token(root, `--${role}`);
       const colours = { line, fill: token(root, `--${role}-soft`), ground: token(root, '--raised') };
       const curve = { ...motion, top };
-      const paint = (opacity: number): void => {
-        on.context.globalAlpha = opacity;
-        drawCurve(on, curve, scale, colours);
-        drawDots(on, curve, beats, scale, colours);
-      };
-      paint(stale ? STALE_OPACITY : 1);
-      if (!stale || !fresh) return;
-      const [left, right] = [scale.x(fresh.from), scale.x(fresh.to)];
-      on.context.save();
-      on.context.beginPath();
-      on.context.rect(left, 0, right - left, on.height);
-      on.context.clip();
-      on.context.clearRect(left, 0, right - left, on.height);
-      paint(1);
-      on.context.restore();
+      on.context.globalAlpha = stale ? STALE_OPACITY : 1;
+      drawCurve(on, curve, scale, colours);
+      drawDots(on, curve, beats, scale, colours);
     },
   };
 }

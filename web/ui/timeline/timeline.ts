@@ -1,11 +1,14 @@
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { DancerLanes } from './dancer-lanes';
-import { dancers, generatedRole } from '../store/roles';
+import { reactorMotion } from '../store/reactor-motion';
+import type { Role } from '../store/reaction';
+import { generatedRole } from '../store/roles';
 import { el, combineDisposers } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { LoopRegion } from './loop-region';
 import { Playhead } from './playhead';
 import { createRulerLane } from './ruler';
-import { isReading, upToDate } from '../store/selectors';
+import { isReading, isSampling } from '../store/selectors';
 import type { Services } from '../store/services';
 import { createSongLabel } from './song-label';
 import { SongLane } from './song-lane';
@@ -108,20 +111,25 @@ function followMotions(store: Store, lanes: DancerLanes): (() => void)[] {
   return (['leader', 'reactor'] as const).map((role) =>
     watchAll(
       store,
-      (state) => [dancers(state)[role], state.manifest],
+      (state) => [laneMotion(state, role), state.manifest],
       (state) => {
-        lanes.setMotion(role, dancers(state)[role], state.manifest);
+        lanes.setMotion(role, laneMotion(state, role), state.manifest);
       },
     ),
   );
 }
 
+/** The motion that a lane shows: of the generated dancer the finished one, since a preview is there for a moment. */
+function laneMotion(state: AppState, role: Role): SolvedMotion | null {
+  return role === generatedRole(state) ? reactorMotion(state) : (state.leader?.motion ?? null);
+}
+
 /** The parts of the state that the drawn lanes depend on. */
 function drawnParts(state: AppState): readonly unknown[] {
   return [
-    ...[state.leader, state.song, state.shift, ...Object.values(dancers(state)), state.manifest],
+    ...[state.leader, state.song, state.shift, reactorMotion(state), state.manifest],
     ...[state.zoom, state.theme, generatedRole(state), ...isReading(state)],
-    ...[state.job !== null, state.job?.previewed?.from, state.job?.previewed?.to, upToDate(state)],
+    isSampling(state),
   ];
 }
 

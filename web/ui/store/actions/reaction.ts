@@ -1,6 +1,6 @@
 /** The reaction, its progress and its measures. */
 import type { Reaction } from '../reaction';
-import type { FrameRange, Job, Preview, Quality, Reference } from '../state';
+import type { Job, Preview, Quality, Reference } from '../state';
 import type { Change } from '../store';
 import { withReaction, newStamp, type TakeStamp } from '../add-take';
 
@@ -10,8 +10,8 @@ export function jobChanged(job: Job | null): Change {
 }
 
 /** Puts a part of the next reaction on the stage. */
-export function previewShown(preview: Preview, previewed: FrameRange): Change {
-  return ({ job }) => (job ? { preview, job: { ...job, previewed } } : {});
+export function previewShown(preview: Preview): Change {
+  return () => ({ preview });
 }
 
 /** Shows a finished reaction and makes it a take. */

@@ -1,0 +1,137 @@
+/** From blended latents to the solved dancer: a whole dance, or a part of it as it is in the whole. */
+import { yieldToEvents } from '../../common/yield-to-events';
+import { avoidCollisions, sampleStep } from '../../motion/contact/collision-avoidance';
+import { lockFeet } from '../../motion/contact/foot-lock';
+import { solve } from '../../motion/fit/ik';
+import { restOffsets } from '../../motion/fit/rest-pose';
+import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import type { ModelSession } from '../load/session';
+import type { Manifest } from '../manifest';
+import { decodeClip, type DecodeOptions, meanLengths } from './decoder';
+import type { ModelInput } from './inputs';
+import type { GeneratedMotion } from './results';
+
+/**
+ * What no weight of guidance changes: the body, measured on the dance without any. A part of a dance can only be as it
+ * is in the whole if nothing in it is measured on the whole.
+ */
+export interface Body {
+  /** 22 bone lengths, metres at the model's reference height. */
+  readonly bones: Float32Array;
+  /** 22 x 3 rest offsets, metres at the leader's size. */
+  readonly offsets: Float32Array;
+}
+
+/** What is decoded: latents and gains as in `DecodeRequest`, and the leader at their own size. */
+export interface Latents {
+  readonly latents: Float32Array;
+  readonly gains: Float32Array;
+  readonly input: ModelInput;
+  readonly leader: MotionClip;
+}
+
+/** Latents and whose body dances them. */
+export interface Dance extends Latents {
+  readonly body: Body;
+}
+
+/** Decodes and solves dances on a session. */
+export class Assembler {
+  constructor(
+    readonly manifest: Manifest,
+    readonly session: ModelSession,
+  ) {}
+
+  async measureBody(dance: Latents, signal?: AbortSignal): Promise<Body> {
+    const { skeleton } = this.manifest;
+    const { latents, gains, input } = dance;
+    const any = new Float32Array(skeleton.joints.length).fill(1); // lengths are measured before they are made constant
+    const request = { latents, gains, leader: input.condition.leader, bones: any };
+    const { lengths } = await decodeClip(this.session, this.manifest, request, { signal });
+    const bones = meanLengths(lengths, skeleton.joints.length);
+    const clip = await this.decode({ ...dance, body: { bones } }, { signal });
+    return { bones, offsets: restOffsets(clip) };
+  }
+
+  /** The whole dance. `onDecoded` is called between decoding and solving. */
+  async whole(dance: Dance, signal?: AbortSignal, onDecoded?: () => void): Promise<GeneratedMotion> {
+    const clip = await this.decode(dance, { signal });
+    onDecoded?.();
+    await yieldToEvents(signal);
+    const motion = this.#solve(clip, dance);
+    await yieldToEvents(signal);
+    return { motion, locked: lockFeet(motion) };
+  }
+
+  /**
+   * Some seconds of a dance, as they are in the whole to a tenth of a millimetre. On each side the decoder's receptive
+   * field is decoded and solved with them and cut off: within it the ends of a clip fade from decoded joints, from the
+   * shifts of locked feet and, but for one part in a hundred, from the choice of shifts against collisions.
+   * @param from first frame; rounded down to where a part can begin
+   * @param length frames; fewer at the end of the dance
+   */
+  async part(
+    dance: Dance,
+    from: number,
+    length: number,
+  ): Promise<GeneratedMotion & { readonly from: number }> {
+    const { leader, body } = dance;
+    const { stride, receptive_field } = this.manifest.latent;
+    const grid = stride * sampleStep(leader.fps);
+    const down = (frame: number): number => Math.max(0, Math.floor(frame / grid) * grid);
+    const margin = receptive_field.decode * stride;
+    const first = down(from);
+    const end = Math.min(leader.frames, first + length);
+    const begin = down(first - margin);
+    const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
+    const clip = await this.decode(dance, { range, overlap: 0 });
+    const motion = this.#solve(clip, { body, leader: partOfClip(leader, begin, clip.frames) });
+    const locked = lockFeet(motion);
+    const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
+    return { from: first, motion: inner(motion), locked: inner(locked) };
+  }
+
+  /** Joints at the leader's size. */
+  async decode(
+    { latents, gains, input, leader, body: { bones } }: Latents & { readonly body: Pick<Body, 'bones'> },
+    options: DecodeOptions,
+  ): Promise<MotionClip> {
+    const { skeleton, latent } = this.manifest;
+    const request = { latents, gains, leader: input.condition.leader, bones };
+    const { joints } = await decodeClip(this.session, this.manifest, request, options);
+    const { start, end } = options.range ?? { start: 0, end: Infinity };
+    // The last latent frame may reach beyond the dance.
+    const frames = Math.min(leader.frames, end * latent.stride) - start * latent.stride;
+    const positions = joints
+      .subarray(0, frames * skeleton.joints.length * 3)
+      .map((value) => value / input.scale);
+    return { fps: leader.fps, frames, positions };
+  }
+
+  /** Fits the body to decoded joints and moves it out of the other dancer's. */
+  #solve(clip: MotionClip, { body, leader }: Pick<Dance, 'body' | 'leader'>): SolvedMotion {
+    // A result's arrays are given away, the body is kept.
+    return avoidCollisions(solve(clip, body.offsets.slice()), leader, this.manifest.quality.penetration);
+  }
+}
+
+/** Frames of a clip without copying. */
+function partOfClip({ fps, positions, frames }: MotionClip, from: number, length: number): MotionClip {
+  const width = positions.length / frames;
+  return { fps, frames: length, positions: positions.subarray(from * width, (from + length) * width) };
+}
+
+function partOf(motion: SolvedMotion, from: number, to: number): SolvedMotion {
+  const cut = (values: Float32Array): Float32Array => {
+    const width = values.length / motion.frames;
+    return values.slice(from * width, to * width);
+  };
+  const { root, rotations, positions } = motion;
+  return {
+    ...motion,
+    frames: to - from,
+    root: cut(root),
+    rotations: cut(rotations),
+    positions: cut(positions),
+  };
+}
