@@ -90,19 +90,19 @@ describe('generation', () => {
     expect(model.calls).toHaveLength(2);
     const first = model.calls[1]!;
     expect(first.options.signal?.aborted).toBe(false);
-    first.options.onPreview?.(part(24, 24, 1));
+    void first.options.onPreview?.(part(24, 24, 1));
     await settled();
     // The older request is dropped after its preview, and the value between is never asked for.
     expect(first.options.signal?.aborted).toBe(true);
     expect(model.calls.slice(2).map(({ request }) => request.guidance[0])).toEqual([Math.fround(0.3)]);
     // Once the preview is shown, a newer value does not wait for the whole.
     const second = model.calls[2]!;
-    second.options.onPreview?.(part(24, 24, 2));
+    void second.options.onPreview?.(part(24, 24, 2));
     await settled();
     expect(second.options.signal?.aborted).toBe(false);
     await moved(0.4);
     expect(second.options.signal?.aborted).toBe(true);
-    model.calls[3]?.options.onPreview?.(part(24, 24, 3));
+    void model.calls[3]?.options.onPreview?.(part(24, 24, 3));
     model.calls[3]?.answer(result());
     await settled();
     expect(store.getState()).toMatchObject({ job: null, preview: null });
@@ -171,7 +171,7 @@ describe('generation', () => {
     await settled();
     const { options } = model.calls[1] ?? {};
     expect(options?.playhead).toMatchObject({ frame: 30, rate: 15 });
-    options?.onPreview?.(part(24, 24, 1));
+    void options?.onPreview?.(part(24, 24, 1));
     const rootOf = (frame: number) => store.getState().preview?.motion.root[frame * 3];
     expect([0, 23, 24, 47, 48, 59].map(rootOf)).toEqual([0, 0, 1, 1, 0, 0]);
     // What was made before is still what is taken home.
@@ -189,7 +189,7 @@ describe('generation', () => {
     await settled();
     const { motion, ...rest } = part(24, 24, 1);
     const taller = { ...motion, offsets: new Float32Array(66).fill(0.1) };
-    model.calls[1]?.options.onPreview?.({ ...rest, motion: taller });
+    void model.calls[1]?.options.onPreview?.({ ...rest, motion: taller });
     expect(store.getState().preview).toBeNull();
   });
 
@@ -201,9 +201,9 @@ describe('generation', () => {
     await settled();
     change.apply(store, change.seedSet(8));
     await settled();
-    model.calls[1]?.options.onPreview?.(part(0, 24, 1));
+    void model.calls[1]?.options.onPreview?.(part(0, 24, 1));
     expect(store.getState().preview).toBeNull();
-    model.calls[2]?.options.onPreview?.(part(0, 24, 1));
+    void model.calls[2]?.options.onPreview?.(part(0, 24, 1));
     expect(store.getState().preview).not.toBeNull();
     generation.cancel();
     expect(store.getState()).toMatchObject({ preview: null, job: null });
