@@ -16,27 +16,29 @@ test('guidance by body part, presets and reset', async ({ page }) => {
   await expect(upper).toBeHidden();
   await fold.click();
   await expect(fold).toContainText('Same for all');
-  await upper.fill('1.5');
+  await upper.fill('0.6');
   await expect(fold).toContainText('Mixed');
-  await expect(coarse).toHaveAttribute('aria-valuetext', /0\.50.*mixed/);
+  await expect(coarse).toHaveAttribute('aria-valuetext', /0\.20.*mixed/);
   await expect(preset.locator('option:checked')).toHaveText('Custom');
 
   // The big fader moves the parts together; the small ones have its keys.
-  await coarse.fill('1.5');
-  await expect(upper).toHaveValue('2.5');
-  await expect(lower).toHaveValue('1');
+  await coarse.fill('0.5');
+  await expect(upper).toHaveValue('0.9');
+  await expect(lower).toHaveValue('0.3');
   await lower.focus();
   await page.keyboard.press('ArrowRight');
-  await expect(lower).toHaveValue('1.05');
+  await expect(lower).toHaveValue('0.35');
   await upper.dblclick();
   await expect(upper).toHaveValue('0');
 
-  await preset.selectOption({ label: "Paper's choice  (1.2, 1.2)" });
-  await expect(upper).toHaveValue('1.2');
-  await expect(preset.locator('option:checked')).toHaveText(/^Paper's choice/);
+  await preset.selectOption({ label: 'Sharp' });
+  await expect(lower).toHaveValue('0');
+  await expect(page.getByRole('slider', { name: 'Lower body, fine' })).toHaveValue('0.8');
+  await expect(preset.locator('option:checked')).toHaveText('Sharp');
+  await expect(preset).toHaveAttribute('title', 'More quick movement, strong accents.');
   await expect(fold).toContainText('Same for all');
   await page.getByRole('button', { name: 'Reset guidance' }).click();
-  await expect(preset.locator('option:checked')).toHaveText(/^Balanced/);
+  await expect(preset.locator('option:checked')).toHaveText('Balanced');
 });
 
 test('the music has its own guidance, which is disabled without a song', async ({ page }) => {
@@ -61,19 +63,49 @@ test('the music has its own guidance, which is disabled without a song', async (
   await page.keyboard.press('m');
   await expect(music).toBeFocused();
   await page.keyboard.press('End');
-  await made(4);
+  await made(6);
   expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-3);
-  await expect(music).toHaveAttribute('aria-valuetext', '4.00, the song is heard strongly');
+  await expect(music).toHaveAttribute('aria-valuetext', '6.00, more song');
 
-  // Eq. 9 of the paper knows nothing of it; the model's own preset does.
   const preset = page.getByRole('combobox', { name: 'Guidance preset' });
-  await preset.selectOption({ label: "Paper's choice  (1.2, 1.2)" });
+  await preset.selectOption({ label: 'Less song' });
   await made(0);
   await preset.selectOption({ index: 0 });
   await made(1);
   expect(maxDistance(before, await app.reactor())).toBeLessThan(1e-6);
   await music.dblclick();
   await expect(music).toHaveValue('1');
+});
+
+test('the variety is how far a seed is from the mean of several', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.chooseLeader(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  const variety = page.getByRole('slider', { name: 'Variety' });
+  const seed = page.getByRole('spinbutton', { name: 'Seed' });
+  // Seeds also differ in the fine layer, and in what the song changes.
+  await page.getByRole('slider', { name: 'Fine guidance' }).press('Home');
+  await page.getByRole('slider', { name: 'Music guidance' }).press('Home');
+  const dances: Record<number, number[]> = {};
+  for (const one of [5, 6]) {
+    await seed.fill(String(one));
+    await seed.press('Enter');
+    for (const key of ['Home', 'End']) {
+      await variety.press(key);
+      await app.until(({ job, reaction, settings }) => !job && reaction?.inputs.settings === settings);
+      dances[one * 10 + Number(await variety.inputValue())] = await app.reactor();
+    }
+  }
+  await expect(variety).toHaveAttribute('aria-valuetext', '2.00, individual');
+  const [average, individual] = [
+    maxDistance(dances[50]!, dances[60]!),
+    maxDistance(dances[52]!, dances[62]!),
+  ];
+  expect(individual).toBeGreaterThan(3 * average);
+  await variety.dblclick();
+  await expect(variety).toHaveValue('1');
 });
 
 test('the seed is chosen at random, locked and kept, and swapped roles are named everywhere', async ({
@@ -124,7 +156,7 @@ test('the seed is chosen at random, locked and kept, and swapped roles are named
   await expect(menu).toContainText(/_leader\.bvh/);
 });
 
-test('three reactions are made one after the other, to pick from', async ({ page }) => {
+test('three reactions that differ most are made, to pick from', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -142,23 +174,46 @@ test('three reactions are made one after the other, to pick from', async ({ page
   await expect(cards.last()).toBeDisabled();
   await three.click();
   await app.until(({ variations }) => variations?.list.every(({ reaction }) => reaction));
+  await expect(page.getByRole('button', { name: 'Three others' })).toBeVisible();
   await expect(cards).toHaveCount(3);
+  const seeds = await app.read(({ variations }) => variations?.list.map((one) => one.seed ?? -1) ?? []);
+  expect(new Set(seeds).size).toBe(3);
+  for (const one of seeds) expect([0, 1, 2, 3, 4, 5]).toContain(one - seed);
+  // The stage keeps its dance until one is picked.
+  expect(await app.read(({ reaction }) => reaction?.inputs.settings.seed)).toBe(seed);
   const before = await app.reactor();
   await cards.nth(2).click();
   await expect(cards.nth(2)).toBeChecked();
-  expect(await app.read(({ settings, job }) => [settings?.seed, job])).toEqual([seed + 2, null]);
-  expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-3);
+  await app.until(({ job }) => !job);
+  expect(await app.read(({ settings }) => settings?.seed)).toBe(seeds[2]);
+  const third = await app.reactor();
+  expect(maxDistance(before, third)).toBeGreaterThan(1e-3);
   await page.keyboard.press('ArrowRight');
   await expect(cards.first()).toBeChecked();
-  expect(maxDistance(before, await app.reactor())).toBe(0);
-  // Each card holds a picture of its own.
-  const drawn = await cards
-    .locator('canvas')
-    .evaluateAll((list) => list.map((canvas) => (canvas as HTMLCanvasElement).toDataURL()));
+  expect(maxDistance(third, await app.reactor())).toBeGreaterThan(1e-3);
+
+  // The cards show one moment, whatever the playhead does.
+  const names = await cards.evaluateAll((list) => list.map((card) => card.getAttribute('aria-label') ?? ''));
+  const moments = names.map((name) => /shown at (\d:\d\d\.\d)$/.exec(name)?.[1]);
+  expect(moments[0]).toBeDefined();
+  expect(new Set(moments).size).toBe(1);
+  await expect(cards.first()).toContainText(moments[0]!);
+  const pictures = () =>
+    cards
+      .locator('canvas')
+      .evaluateAll((list) => list.map((canvas) => (canvas as HTMLCanvasElement).toDataURL()));
+  const drawn = await pictures();
   expect(new Set(drawn).size).toBe(3);
+  await page.keyboard.press('End');
+  await expect(cards.first()).toBeFocused();
+  await page.getByRole('slider', { name: 'Playhead' }).press('End');
+  await app.until(({ playback }) => playback.time > 20);
+  // Time in which they would be drawn again.
+  await page.evaluate('new Promise((resolve) => setTimeout(resolve, 300))');
+  expect(await pictures()).toEqual(drawn);
 
   // Other guidance asks for other reactions.
-  await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
+  await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.5');
   await expect(cards.last()).toBeDisabled();
   await app.until(({ job, variations }) => !job && !variations);
 });

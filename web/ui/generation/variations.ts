@@ -9,6 +9,7 @@ import {
   variationInputs,
   variationAdded,
   variationProgressed,
+  variationShown,
   variationsStarted,
   variationsDropped,
   variationsResumed,
@@ -18,8 +19,6 @@ import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, readyInputs } from '../store/selectors';
 import type { Inputs, Reaction } from '../store/reaction';
-import { reactionAdded } from '../store/actions/reaction';
-import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
@@ -59,8 +58,7 @@ export class VariationMaker {
     const { variations, reaction: shown } = this.#store.getState();
     const reaction = variations?.list.find((variation) => variation.seed === seed)?.reaction;
     if (!reaction || reaction === shown) return;
-    apply(this.#store, settingsSet(reaction.inputs.settings));
-    apply(this.#store, reactionAdded(reaction));
+    apply(this.#store, variationShown(reaction));
   };
 
   readonly cancel = (): void => {

@@ -1,19 +1,10 @@
 import { el, setText } from '../widgets/dom';
-import {
-  connectFaderInput,
-  type FaderEvents,
-  type FaderRange,
-  shareOf,
-  showValue,
-} from '../widgets/fader-input';
+import { connectFaderInput, type FaderEvents, type FaderRange, showValue } from '../widgets/fader-input';
 
 export interface MiniFader {
   readonly root: HTMLElement;
   readonly show: (range: FaderRange, value: number) => void;
 }
-
-/** Share of the range above which the number is on the other side of the handle. */
-const HIGH_SHARE = 0.7;
 
 /**
  * The fader of a cell of the matrix. Its hint is in the tooltip only.
@@ -37,7 +28,6 @@ export function createMiniFader(
       setText(value, current.toFixed(2));
       showValue(root, input, range, current);
       input.setAttribute('aria-valuetext', describe(current, range));
-      root.classList.toggle('high', shareOf(current, range) > HIGH_SHARE);
     },
   };
 }

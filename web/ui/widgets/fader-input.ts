@@ -22,6 +22,9 @@ export function shareOf(value: number, { min, max }: FaderRange): number {
   return (value - min) / (max - min);
 }
 
+/** Share of the range above which a number is on the other side of the handle. */
+const HIGH_SHARE = 0.7;
+
 /** Sets an input's range and value, and for the style sheets the shares of value (`--v`) and default (`--default`). */
 export function showValue(
   root: HTMLElement,
@@ -34,6 +37,7 @@ export function showValue(
   input.step = String(range.step);
   if (input.valueAsNumber !== value) input.value = String(value);
   setVariable(root, '--v', shareOf(value, range));
+  root.classList.toggle('high', shareOf(value, range) > HIGH_SHARE);
   setVariable(root, '--default', shareOf(range.default, range));
 }
 

@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { VariationMaker } from '../../../../web/ui/generation/variations';
 import { Generation } from '../../../../web/ui/generation/generation';
+import { undone } from '../../../../web/ui/store/history';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
@@ -61,8 +62,8 @@ describe('three variations', () => {
     model.calls[1]?.options.onProgress?.({ stage: 'condition', done: 0, total: 1, fraction: 0 });
     const begun = list()[0]!.fraction;
     expect(begun).toBeGreaterThan(half!);
-    model.calls[1]?.options.onProgress?.({ stage: 'decode', done: 1, total: 1, fraction: 0.94 });
-    expect(list()[0]?.fraction).toBe(0.94);
+    model.calls[1]?.options.onProgress?.({ stage: 'step', done: 9, total: 10, fraction: 0.9 });
+    expect(list()[0]?.fraction).toBe(0.9);
     await answer(1);
     await answer(2);
     expect(seeds()).toEqual([7, 8, 10, 11]);
@@ -108,6 +109,11 @@ describe('three variations', () => {
     // The second is still on its way.
     expect(seeds()).toEqual([7, 8, 10]);
     expect(model.calls[2]?.options.signal?.aborted).toBe(false);
+    change.apply(store, undone());
+    await pass();
+    expect(store.getState().reaction?.inputs.settings.seed).toBe(7);
+    expect(store.getState().settings).toMatchObject({ seed: 7, variety: 1 });
+    expect(seeds()).toEqual([7, 8, 10]);
   });
 
   it('take over a reaction that is there already', async () => {

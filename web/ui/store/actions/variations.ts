@@ -1,8 +1,11 @@
+import { newStamp, type TakeStamp } from '../add-take';
 import { clampedToStep } from '../guidance-matrix';
+import { withUndo } from '../history';
 import { sameInputs } from '../selectors';
 import type { Inputs, Reaction } from '../reaction';
 import type { AppState, Variations } from '../state';
 import type { Change } from '../store';
+import { reactionAdded } from './reaction';
 
 /** How many reactions there are to choose from. */
 export const VARIATION_COUNT = 3;
@@ -90,6 +93,15 @@ export function variationsStopped(): Change {
       variation.reaction ? variation : { ...variation, fraction: 0 },
     ),
   }));
+}
+
+/** Shows a variation at once with its settings, so that nothing is generated for them; one step of undo. */
+export function variationShown(reaction: Reaction, stamp: TakeStamp = newStamp()): Change {
+  return (state) => {
+    const { settings } = reaction.inputs;
+    const asked = { ...state, ...withUndo(state, { settings }, stamp.at) };
+    return { settings, ...reactionAdded(reaction, stamp)(asked) };
+  };
 }
 
 export function variationsDropped(): Change {
