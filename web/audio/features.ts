@@ -1,7 +1,7 @@
 import { trackBeats } from './dsp/beats';
 import { chromaFilters, normalizeRow } from './dsp/chroma';
 import { delta } from './dsp/delta';
-import { applyToPower } from './dsp/filters';
+import { applyFilters, powers } from './dsp/filters';
 import { separateHarmonicPercussive } from './dsp/hpss';
 import { melFilters } from './dsp/mel';
 import { cepstrum } from './dsp/mfcc';
@@ -48,13 +48,17 @@ export function musicFeatures(
   const mel = new Float64Array(frames * mels);
   const percussiveMel = new Float64Array(frames * mels);
   const pitches = new Float64Array(frames * chroma);
+  const power = new Float64Array(spectrogram.bins);
   separateHarmonicPercussive(
     spectrogram,
     recipe,
     (frame, harmonic, percussive) => {
-      applyToPower(melBank, spectrogram.values, frame * spectrogram.bins, mel, frame * mels);
-      applyToPower(melBank, percussive, 0, percussiveMel, frame * mels);
-      applyToPower(chromaBank, harmonic, 0, pitches, frame * chroma);
+      powers(spectrogram.values, frame * spectrogram.bins, power);
+      applyFilters(melBank, power, mel, frame * mels);
+      powers(percussive, 0, power);
+      applyFilters(melBank, power, percussiveMel, frame * mels);
+      powers(harmonic, 0, power);
+      applyFilters(chromaBank, power, pitches, frame * chroma);
       normalizeRow(pitches, frame * chroma, chroma);
     },
     report(SPECTRUM_SHARE, SEPARATION_SHARE),

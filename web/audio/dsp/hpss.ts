@@ -1,4 +1,4 @@
-import { medianOfRow, reflectedIndex, replaceSorted } from './median';
+import { medianOfRow, medianWindows, reflectedIndex, replaceValue } from './median';
 import type { AudioRecipe } from '../recipe';
 import type { Progress, Spectrogram } from './stft';
 
@@ -22,22 +22,28 @@ export function separateHarmonicPercussive(
   const { frames, bins, values } = spectrogram;
   const kernel = recipe.hpss_kernel;
   const half = (kernel - 1) / 2;
-  const windows = firstWindows(spectrogram, kernel);
+  const bits = new Int32Array(values.buffer, values.byteOffset, values.length);
+  const acrossTime = medianWindows(bins, kernel);
+  const acrossFrequency = medianWindows(1, kernel);
+  const harmonicMedian = new Float32Array(bins);
+  const harmonicBits = new Int32Array(harmonicMedian.buffer);
   const percussiveMedian = new Float32Array(bins);
+  const percussiveBits = new Int32Array(percussiveMedian.buffer);
   const harmonic = new Float32Array(bins);
   const percussive = new Float32Array(bins);
-  for (let frame = 0; frame < frames; frame++) {
-    if (frame > 0) {
-      const leaving = reflectedIndex(frame - 1 - half, frames) * bins;
-      const entering = reflectedIndex(frame + half, frames) * bins;
-      for (let bin = 0; bin < bins; bin++) {
-        replaceSorted(windows, bin * kernel, kernel, values[leaving + bin]!, values[entering + bin]!);
-      }
+  // The frame that enters the windows is half a window ahead; the first frame needs all windows filled.
+  for (let entering = -half; entering < frames + half; entering++) {
+    const row = reflectedIndex(entering, frames) * bins;
+    const slot = (entering + half) % kernel;
+    for (let bin = 0; bin < bins; bin++) {
+      harmonicBits[bin] = replaceValue(acrossTime, bin, slot, bits[row + bin]!);
     }
-    medianOfRow(values, frame * bins, bins, kernel, percussiveMedian);
+    const frame = entering - half;
+    if (frame < 0) continue;
+    medianOfRow(bits, frame * bins, bins, acrossFrequency, percussiveBits);
     for (let bin = 0; bin < bins; bin++) {
       const magnitude = values[frame * bins + bin]!;
-      const share = harmonicShare(windows[bin * kernel + half]!, percussiveMedian[bin]!, recipe.hpss_power);
+      const share = harmonicShare(harmonicMedian[bin]!, percussiveMedian[bin]!, recipe.hpss_power);
       harmonic[bin] = magnitude * share;
       percussive[bin] = magnitude * (1 - share);
     }
@@ -46,23 +52,16 @@ export function separateHarmonicPercussive(
   }
 }
 
-/** bins x kernel: for each bin, the sorted values of the frames around frame 0. */
-function firstWindows({ frames, bins, values }: Spectrogram, kernel: number): Float32Array {
-  const windows = new Float32Array(bins * kernel);
-  const half = (kernel - 1) / 2;
-  for (let bin = 0; bin < bins; bin++) {
-    const window = windows.subarray(bin * kernel, (bin + 1) * kernel);
-    for (let k = 0; k < kernel; k++) window[k] = values[reflectedIndex(k - half, frames) * bins + bin]!;
-    window.sort();
-  }
-  return windows;
-}
-
 /** h^power / (h^power + p^power), 0.5 where both are 0. */
 function harmonicShare(harmonic: number, percussive: number, power: number): number {
   if (Math.max(harmonic, percussive) < MIN_NORMAL_FLOAT32) return 0.5;
   // The ratio of the smaller to the larger can't overflow.
   return harmonic >= percussive
-    ? 1 / (1 + (percussive / harmonic) ** power)
-    : 1 - 1 / (1 + (harmonic / percussive) ** power);
+    ? 1 / (1 + raised(percussive / harmonic, power))
+    : 1 - 1 / (1 + raised(harmonic / percussive, power));
+}
+
+/** A square, the usual power of soft masks, takes a multiplication instead of a call. */
+function raised(base: number, power: number): number {
+  return power === 2 ? base * base : base ** power;
 }

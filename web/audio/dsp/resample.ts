@@ -15,8 +15,14 @@ interface Filter {
  */
 const SOXR: Filter = { cutoff: 0.9568586, beta: 14.6532, halfLength: 105.279 };
 
-/** The filter that halves the rate: it removes the frequencies that would alias into those that are kept. */
+/**
+ * The filter that halves the rate: it removes the frequencies that would alias into those that are kept. Its cutoff of
+ * 1 makes the weights zero at all even distances but 0 (a half-band filter).
+ */
 const HALVING: Filter = { cutoff: 1, beta: 12.27, halfLength: 12 };
+
+/** About so many outputs are computed in one go, so that what they need stays in the processor's cache. */
+const BLOCK = 2 ** 15;
 
 /**
  * Resamples to a lower rate like `librosa.resample` does (linear phase, no delay).
@@ -34,48 +40,102 @@ export function resample(
 ): Float32Array {
   if (from === to) return audio;
   const length = Math.ceil((audio.length * to) / from);
-  if (from < 3 * to || from % 2 === 1) return convert(audio, length, from, to, SOXR, onProgress);
+  if (from < 3 * to || from % 2 === 1) return convert(audio, 0, length, from, to, onProgress);
   // From a much higher rate, a short filter halves the rate first, which leaves half the work for the long filter. The
-  // zeros at both ends, a whole number of samples at either rate, hold what the short filter spreads over the ends.
-  const divisor = greatestCommonDivisor(from, to);
-  const blocks = Math.ceil((2 * HALVING.halfLength * divisor) / from);
-  const padding = (blocks * from) / divisor;
-  const padded = new Float32Array(audio.length + 2 * padding);
-  padded.set(audio, padding);
-  const halved = convert(padded, Math.ceil(padded.length / 2), from, from / 2, HALVING);
-  const start = (blocks * to) / divisor;
-  return convert(halved, start + length, from / 2, to, SOXR, onProgress).slice(start);
+  // margin holds what the short filter spreads over the ends.
+  const margin = HALVING.halfLength;
+  return convert(halve(audio, margin), margin, length, from / 2, to, onProgress);
 }
 
-/** Filters and resamples by a rational factor, one precomputed filter for each position between two samples. */
+/**
+ * Halves the rate.
+ *
+ * @returns samples at the lower rate, `margin` of them before the first and as many after the last of the signal
+ */
+function halve(signal: Float32Array, margin: number): Float32Array {
+  const reach = 2 * HALVING.halfLength;
+  const centre = kernel(0, 2, 1, HALVING);
+  const weights = Float64Array.from({ length: reach / 2 }, (_, i) => kernel(2 * i + 1, 2, 1, HALVING));
+  const out = new Float32Array(Math.ceil(signal.length / 2) + 2 * margin);
+  const samples = new Float64Array(2 * (BLOCK + reach));
+  const block = new Float32Array(BLOCK);
+  for (let first = 0; first < out.length; first += BLOCK) {
+    copyWithZeros(signal, 2 * (first - margin) - reach, samples);
+    for (let i = 0; i < BLOCK; i += 4) {
+      const middle = 2 * i + reach;
+      let a = centre * samples[middle]!;
+      let b = centre * samples[middle + 2]!;
+      let c = centre * samples[middle + 4]!;
+      let d = centre * samples[middle + 6]!;
+      for (let k = 0; k < weights.length; k++) {
+        const weight = weights[k]!;
+        const left = middle - 1 - 2 * k;
+        const right = middle + 1 + 2 * k;
+        a += weight * (samples[left]! + samples[right]!);
+        b += weight * (samples[left + 2]! + samples[right + 2]!);
+        c += weight * (samples[left + 4]! + samples[right + 4]!);
+        d += weight * (samples[left + 6]! + samples[right + 6]!);
+      }
+      block[i] = a;
+      block[i + 1] = b;
+      block[i + 2] = c;
+      block[i + 3] = d;
+    }
+    out.set(block.subarray(0, out.length - first), first);
+  }
+  return out;
+}
+
+/**
+ * Filters and resamples by a rational factor, one precomputed filter for each position between two samples. Filters of
+ * neighbouring outputs are in pairs, since they read the same samples.
+ *
+ * @param origin index of the sample at which the first output lies
+ */
 function convert(
   signal: Float32Array,
+  origin: number,
   length: number,
   from: number,
   to: number,
-  filter: Filter,
-  onProgress: (fraction: number) => void = () => undefined,
+  onProgress: (fraction: number) => void,
 ): Float32Array {
   const divisor = greatestCommonDivisor(from, to);
-  const [up, down] = [to / divisor, from / divisor];
-  const half = Math.ceil((filter.halfLength * from) / to);
-  const taps = 2 * half + 1;
-  const phases = Array.from({ length: up }, (_, phase) =>
-    Float64Array.from({ length: taps }, (_, tap) => kernel(tap - half - phase / up, from, to, filter)),
+  // Outputs repeat their positions between samples after `up` outputs, or `down` samples: an even number for the pairs.
+  const even = (to / divisor) % 2 === 0 ? 1 : 2;
+  const [up, down] = [(even * to) / divisor, (even * from) / divisor];
+  const half = Math.ceil((SOXR.halfLength * from) / to);
+  const taps = 2 * half + 1 + Math.ceil(down / up);
+  const pairs = Array.from({ length: up / 2 }, (_, pair) =>
+    Float64Array.from({ length: 2 * taps }, (_, index) => {
+      const position = (((2 * pair * down) % up) + (index % 2) * down) / up;
+      return kernel((index >> 1) - half - position, from, to, SOXR);
+    }),
   );
-  const padded = new Float64Array(signal.length + taps + 1);
-  padded.set(signal, half);
+  const repetitions = 4 * Math.ceil(Math.min(BLOCK, length) / (4 * up));
+  const samples = new Float64Array(repetitions * down + taps);
+  const block = new Float32Array(repetitions * up);
   const out = new Float32Array(length);
-  // Outputs beyond the end of the signal are zero.
-  const inside = Math.min(length, Math.ceil((signal.length * up) / down));
-  for (let first = 0; first < up; first++) {
-    onProgress(first / up);
-    const weights = phases[(first * down) % up]!;
-    let i = first;
-    for (; i + 3 * up < inside; i += 4 * up) dot4(weights, padded, i, up, down, out);
-    for (; i < inside; i += up) out[i] = dot(weights, padded, Math.floor((i * down) / up));
+  for (let first = 0; first < length; first += block.length) {
+    onProgress(first / length);
+    copyWithZeros(signal, origin + (first * down) / up - half, samples);
+    for (let repetition = 0; repetition < repetitions; repetition += 4) {
+      pairs.forEach((weights, pair) => {
+        const start = repetition * down + Math.floor((2 * pair * down) / up);
+        filterPairs(weights, samples, start, down, block, repetition * up + 2 * pair, up);
+      });
+    }
+    out.set(block.subarray(0, length - first), first);
   }
   return out;
+}
+
+/** Copies samples from index `start` on; those before and after the signal are zero. */
+function copyWithZeros(signal: Float32Array, start: number, out: Float64Array): void {
+  const begin = Math.max(0, -start);
+  const end = Math.max(begin, Math.min(out.length, signal.length - start));
+  out.fill(0);
+  out.set(signal.subarray(start + begin, start + end), begin);
 }
 
 /** Weight of a sample `distance` input samples away from the output sample. */
@@ -98,37 +158,49 @@ function bessel(x: number): number {
   return sum;
 }
 
-/** Scalar product of all weights with as many values from index `start` on. */
-function dot(weights: Float64Array, values: Float64Array, start: number): number {
-  let sum = 0;
-  for (let i = 0; i < weights.length; i++) sum += weights[i]! * values[start + i]!;
-  return sum;
-}
-
-/** Computes four outputs, `first`, `first + up` and so on, with the same weights, which halves what is read. */
-function dot4(
+/**
+ * Computes a pair of outputs in four places, which reads each weight and each sample once for several products.
+ *
+ * @param weights those of the first and of the second output, in turn
+ * @param start index of the first sample under the weights; `step` samples further in each next place
+ * @param first index of the first output; `stride` outputs further in each next place
+ */
+function filterPairs(
   weights: Float64Array,
-  values: Float64Array,
-  first: number,
-  up: number,
-  down: number,
+  samples: Float64Array,
+  start: number,
+  step: number,
   out: Float32Array,
+  first: number,
+  stride: number,
 ): void {
-  const start = Math.floor((first * down) / up);
-  const taps = weights.length;
-  const [second, third, fourth] = [start + down, start + 2 * down, start + 3 * down];
-  let [a, b, c, d] = [0, 0, 0, 0];
+  const taps = weights.length >> 1;
+  const [second, third, fourth] = [start + step, start + 2 * step, start + 3 * step];
+  let [a1, a2, a3, a4, b1, b2, b3, b4] = [0, 0, 0, 0, 0, 0, 0, 0];
   for (let i = 0; i < taps; i++) {
-    const weight = weights[i]!;
-    a += weight * values[start + i]!;
-    b += weight * values[second + i]!;
-    c += weight * values[third + i]!;
-    d += weight * values[fourth + i]!;
+    const a = weights[2 * i]!;
+    const b = weights[2 * i + 1]!;
+    const s1 = samples[start + i]!;
+    const s2 = samples[second + i]!;
+    const s3 = samples[third + i]!;
+    const s4 = samples[fourth + i]!;
+    a1 += a * s1;
+    b1 += b * s1;
+    a2 += a * s2;
+    b2 += b * s2;
+    a3 += a * s3;
+    b3 += b * s3;
+    a4 += a * s4;
+    b4 += b * s4;
   }
-  out[first] = a;
-  out[first + up] = b;
-  out[first + 2 * up] = c;
-  out[first + 3 * up] = d;
+  out[first] = a1;
+  out[first + 1] = b1;
+  out[first + stride] = a2;
+  out[first + stride + 1] = b2;
+  out[first + 2 * stride] = a3;
+  out[first + 2 * stride + 1] = b3;
+  out[first + 3 * stride] = a4;
+  out[first + 3 * stride + 1] = b4;
 }
 
 function greatestCommonDivisor(a: number, b: number): number {
