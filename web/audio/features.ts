@@ -55,10 +55,8 @@ export function musicFeatures(
     (frame, harmonic, percussive) => {
       powers(spectrogram.values, frame * spectrogram.bins, power);
       applyFilters(melBank, power, mel, frame * mels);
-      powers(percussive, 0, power);
-      applyFilters(melBank, power, percussiveMel, frame * mels);
-      powers(harmonic, 0, power);
-      applyFilters(chromaBank, power, pitches, frame * chroma);
+      applyFilters(melBank, percussive, percussiveMel, frame * mels);
+      applyFilters(chromaBank, harmonic, pitches, frame * chroma);
       normalizeRow(pitches, frame * chroma, chroma);
     },
     report(SPECTRUM_SHARE, SEPARATION_SHARE),

@@ -37,8 +37,19 @@ export function powers(magnitude: Float32Array, offset: number, out: Float64Arra
  */
 export function applyFilters(bank: FilterBank, power: Float64Array, out: Float64Array, offset: number): void {
   bank.filters.forEach(({ first, weights }, index) => {
-    let sum = 0;
-    for (let i = 0; i < weights.length; i++) sum += weights[i]! * power[first + i]!;
-    out[offset + index] = sum;
+    // Four sums, because each addition to one has to wait for the one before.
+    let a = 0;
+    let b = 0;
+    let c = 0;
+    let d = 0;
+    let i = 0;
+    for (; i + 3 < weights.length; i += 4) {
+      a += weights[i]! * power[first + i]!;
+      b += weights[i + 1]! * power[first + i + 1]!;
+      c += weights[i + 2]! * power[first + i + 2]!;
+      d += weights[i + 3]! * power[first + i + 3]!;
+    }
+    for (; i < weights.length; i++) a += weights[i]! * power[first + i]!;
+    out[offset + index] = a + b + c + d;
   });
 }

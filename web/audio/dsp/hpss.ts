@@ -1,12 +1,12 @@
-import { medianOfRow, medianWindows, reflectedIndex, replaceValue } from './median';
+import { medianOfRow, medianWindows, reflectedIndex, replaceRow } from './median';
 import type { AudioRecipe } from '../recipe';
 import type { Progress, Spectrogram } from './stft';
 
 /** Smallest normal float32. librosa treats smaller magnitudes as 0 and gives half of them to each part. */
 const MIN_NORMAL_FLOAT32 = 2 ** -126;
 
-/** Receives the magnitudes of one frame; both arrays are reused for the next one. */
-type SeparatedFrame = (frame: number, harmonic: Float32Array, percussive: Float32Array) => void;
+/** Receives the powers (squared magnitudes) of one frame; both arrays are reused for the next one. */
+type SeparatedFrame = (frame: number, harmonic: Float64Array, percussive: Float64Array) => void;
 
 /**
  * Harmonic-percussive source separation: median filters along time (harmonic) and along frequency (percussive), and
@@ -29,39 +29,47 @@ export function separateHarmonicPercussive(
   const harmonicBits = new Int32Array(harmonicMedian.buffer);
   const percussiveMedian = new Float32Array(bins);
   const percussiveBits = new Int32Array(percussiveMedian.buffer);
-  const harmonic = new Float32Array(bins);
-  const percussive = new Float32Array(bins);
+  const harmonic = new Float64Array(bins);
+  const percussive = new Float64Array(bins);
   // The frame that enters the windows is half a window ahead; the first frame needs all windows filled.
   for (let entering = -half; entering < frames + half; entering++) {
     const row = reflectedIndex(entering, frames) * bins;
     const slot = (entering + half) % kernel;
-    for (let bin = 0; bin < bins; bin++) {
-      harmonicBits[bin] = replaceValue(acrossTime, bin, slot, bits[row + bin]!);
-    }
+    replaceRow(acrossTime, slot, bits, row, harmonicBits);
     const frame = entering - half;
     if (frame < 0) continue;
     medianOfRow(bits, frame * bins, bins, acrossFrequency, percussiveBits);
-    for (let bin = 0; bin < bins; bin++) {
-      const magnitude = values[frame * bins + bin]!;
-      const share = harmonicShare(harmonicMedian[bin]!, percussiveMedian[bin]!, recipe.hpss_power);
-      harmonic[bin] = magnitude * share;
-      percussive[bin] = magnitude * (1 - share);
-    }
+    const magnitudes = values.subarray(frame * bins, (frame + 1) * bins);
+    maskFrame(magnitudes, harmonicMedian, percussiveMedian, recipe.hpss_power, harmonic, percussive);
     visit(frame, harmonic, percussive);
     progress?.(frame + 1, frames);
   }
 }
 
-/** h^power / (h^power + p^power), 0.5 where both are 0. */
-function harmonicShare(harmonic: number, percussive: number, power: number): number {
-  if (Math.max(harmonic, percussive) < MIN_NORMAL_FLOAT32) return 0.5;
-  // The ratio of the smaller to the larger can't overflow.
-  return harmonic >= percussive
-    ? 1 / (1 + raised(percussive / harmonic, power))
-    : 1 - 1 / (1 + raised(harmonic / percussive, power));
+/** Divides the power of one frame among its harmonic and its percussive part. */
+function maskFrame(
+  magnitudes: Float32Array,
+  harmonicMedian: Float32Array,
+  percussiveMedian: Float32Array,
+  exponent: number,
+  harmonic: Float64Array,
+  percussive: Float64Array,
+): void {
+  for (let bin = 0; bin < magnitudes.length; bin++) {
+    const magnitude = magnitudes[bin]!;
+    const share = harmonicShare(harmonicMedian[bin]!, percussiveMedian[bin]!, exponent);
+    harmonic[bin] = (magnitude * share) ** 2;
+    percussive[bin] = (magnitude * (1 - share)) ** 2;
+  }
 }
 
-/** A square, the usual power of soft masks, takes a multiplication instead of a call. */
-function raised(base: number, power: number): number {
-  return power === 2 ? base * base : base ** power;
+/** h^power / (h^power + p^power), 0.5 where both are 0. */
+function harmonicShare(harmonic: number, percussive: number, power: number): number {
+  if (harmonic < MIN_NORMAL_FLOAT32 && percussive < MIN_NORMAL_FLOAT32) return 0.5;
+  // The usual power: doubles hold the squares of all float32 values.
+  if (power === 2) return harmonic ** 2 / (harmonic ** 2 + percussive ** 2);
+  // The ratio of the smaller to the larger can't overflow.
+  return harmonic >= percussive
+    ? 1 / (1 + (percussive / harmonic) ** power)
+    : 1 - 1 / (1 + (harmonic / percussive) ** power);
 }

@@ -120,3 +120,21 @@ export function medianOfRow(
     slot = slot + 1 === kernel ? 0 : slot + 1;
   }
 }
+
+/**
+ * Replaces one slot of as many windows as there are medians.
+ *
+ * @param values holds the new values from index `offset` on
+ * @param out receives the medians
+ */
+export function replaceRow(
+  windows: MedianWindows,
+  slot: number,
+  values: Int32Array,
+  offset: number,
+  out: Int32Array,
+): void {
+  for (let window = 0; window < out.length; window++) {
+    out[window] = replaceValue(windows, window, slot, values[offset + window]!);
+  }
+}

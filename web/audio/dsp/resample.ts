@@ -22,7 +22,7 @@ const SOXR: Filter = { cutoff: 0.9568586, beta: 14.6532, halfLength: 105.279 };
 const HALVING: Filter = { cutoff: 1, beta: 12.27, halfLength: 12 };
 
 /** About so many outputs are computed in one go, so that what they need stays in the processor's cache. */
-const BLOCK = 2 ** 15;
+const BLOCK = 2 ** 13;
 
 /**
  * Resamples to a lower rate like `librosa.resample` does (linear phase, no delay).
@@ -54,41 +54,55 @@ export function resample(
  */
 function halve(signal: Float32Array, margin: number): Float32Array {
   const reach = 2 * HALVING.halfLength;
-  const centre = kernel(0, 2, 1, HALVING);
   const weights = Float64Array.from({ length: reach / 2 }, (_, i) => kernel(2 * i + 1, 2, 1, HALVING));
   const out = new Float32Array(Math.ceil(signal.length / 2) + 2 * margin);
   const samples = new Float64Array(2 * (BLOCK + reach));
   const block = new Float32Array(BLOCK);
   for (let first = 0; first < out.length; first += BLOCK) {
     copyWithZeros(signal, 2 * (first - margin) - reach, samples);
-    for (let i = 0; i < BLOCK; i += 4) {
-      const middle = 2 * i + reach;
-      let a = centre * samples[middle]!;
-      let b = centre * samples[middle + 2]!;
-      let c = centre * samples[middle + 4]!;
-      let d = centre * samples[middle + 6]!;
-      for (let k = 0; k < weights.length; k++) {
-        const weight = weights[k]!;
-        const left = middle - 1 - 2 * k;
-        const right = middle + 1 + 2 * k;
-        a += weight * (samples[left]! + samples[right]!);
-        b += weight * (samples[left + 2]! + samples[right + 2]!);
-        c += weight * (samples[left + 4]! + samples[right + 4]!);
-        d += weight * (samples[left + 6]! + samples[right + 6]!);
-      }
-      block[i] = a;
-      block[i + 1] = b;
-      block[i + 2] = c;
-      block[i + 3] = d;
-    }
+    filterHalfBand(weights, samples, reach, block);
     out.set(block.subarray(0, out.length - first), first);
   }
   return out;
 }
 
 /**
- * Filters and resamples by a rational factor, one precomputed filter for each position between two samples. Filters of
- * neighbouring outputs are in pairs, since they read the same samples.
+ * Computes outputs at every other sample, four at once, which reads each weight once for all of them.
+ *
+ * @param weights those of samples at distance 1, 3, 5 ..; the output's own sample has half, the others none
+ * @param middle index of the first output's sample
+ * @param out its length is a multiple of four
+ */
+function filterHalfBand(
+  weights: Float64Array,
+  samples: Float64Array,
+  middle: number,
+  out: Float32Array,
+): void {
+  for (let i = 0; i < out.length; i += 4) {
+    const first = middle + 2 * i;
+    let a = 0.5 * samples[first]!;
+    let b = 0.5 * samples[first + 2]!;
+    let c = 0.5 * samples[first + 4]!;
+    let d = 0.5 * samples[first + 6]!;
+    for (let k = 0; k < weights.length; k++) {
+      const weight = weights[k]!;
+      const left = first - 1 - 2 * k;
+      const right = first + 1 + 2 * k;
+      a += weight * (samples[left]! + samples[right]!);
+      b += weight * (samples[left + 2]! + samples[right + 2]!);
+      c += weight * (samples[left + 4]! + samples[right + 4]!);
+      d += weight * (samples[left + 6]! + samples[right + 6]!);
+    }
+    out[i] = a;
+    out[i + 1] = b;
+    out[i + 2] = c;
+    out[i + 3] = d;
+  }
+}
+
+/**
+ * Filters and resamples by a rational factor, one precomputed filter for each position between two samples.
  *
  * @param origin index of the sample at which the first output lies
  */
@@ -101,33 +115,45 @@ function convert(
   onProgress: (fraction: number) => void,
 ): Float32Array {
   const divisor = greatestCommonDivisor(from, to);
-  // Outputs repeat their positions between samples after `up` outputs, or `down` samples: an even number for the pairs.
-  const even = (to / divisor) % 2 === 0 ? 1 : 2;
-  const [up, down] = [(even * to) / divisor, (even * from) / divisor];
-  const half = Math.ceil((SOXR.halfLength * from) / to);
-  const taps = 2 * half + 1 + Math.ceil(down / up);
-  const pairs = Array.from({ length: up / 2 }, (_, pair) =>
-    Float64Array.from({ length: 2 * taps }, (_, index) => {
-      const position = (((2 * pair * down) % up) + (index % 2) * down) / up;
-      return kernel((index >> 1) - half - position, from, to, SOXR);
-    }),
+  // Every `up` outputs one lies on a sample, `down` samples further. The outputs around it are computed with it.
+  const [up, down] = [to / divisor, from / divisor];
+  const radius = Math.floor(up / 2);
+  const half = (SOXR.halfLength * from) / to;
+  const reach = Math.ceil(half + (radius * down) / up);
+  const filters = Array.from({ length: radius + 1 }, (_, outputs) =>
+    mirroredWeights((outputs * down) / up, half, from, to),
   );
   const repetitions = 4 * Math.ceil(Math.min(BLOCK, length) / (4 * up));
-  const samples = new Float64Array(repetitions * down + taps);
-  const block = new Float32Array(repetitions * up);
-  const out = new Float32Array(length);
-  for (let first = 0; first < length; first += block.length) {
-    onProgress(first / length);
-    copyWithZeros(signal, origin + (first * down) / up - half, samples);
+  const samples = new Float64Array(repetitions * down + 2 * reach);
+  const out = new Float32Array(length + repetitions * up + 2 * radius);
+  for (let first = 0; first < length + radius; first += repetitions * up) {
+    onProgress(Math.min(1, first / length));
+    copyWithZeros(signal, origin + (first * down) / up - reach, samples);
     for (let repetition = 0; repetition < repetitions; repetition += 4) {
-      pairs.forEach((weights, pair) => {
-        const start = repetition * down + Math.floor((2 * pair * down) / up);
-        filterPairs(weights, samples, start, down, block, repetition * up + 2 * pair, up);
+      const output = radius + first + repetition * up;
+      filters.forEach((weights, outputs) => {
+        filterMirrored(weights, samples, reach + repetition * down, down, out, output, outputs, up);
       });
     }
-    out.set(block.subarray(0, length - first), first);
   }
-  return out;
+  return out.slice(radius, radius + length);
+}
+
+/**
+ * Weights for two outputs, `distance` input samples before and after a sample. One's weights are the other's in reverse,
+ * so the sum of the outputs needs the sums of samples at equal distances alone, and their difference the differences.
+ *
+ * @param half half the length of the filter's window, in input samples
+ * @returns the weights of the sums and of the differences in turn, from distance 0 to the ends of the windows
+ */
+function mirroredWeights(distance: number, half: number, from: number, to: number): Float64Array {
+  return Float64Array.from({ length: 2 * Math.ceil(half + distance) }, (_, index) => {
+    const away = index >> 1;
+    const near = kernel(away - distance, from, to, SOXR);
+    const far = kernel(away + distance, from, to, SOXR);
+    if (index % 2 === 1) return (near - far) / 2;
+    return away === 0 ? near / 2 : (near + far) / 2;
+  });
 }
 
 /** Copies samples from index `start` on; those before and after the signal are zero. */
@@ -159,48 +185,63 @@ function bessel(x: number): number {
 }
 
 /**
- * Computes a pair of outputs in four places, which reads each weight and each sample once for several products.
+ * Computes two mirrored outputs in four places at once, which reads each weight once for all of them.
  *
- * @param weights those of the first and of the second output, in turn
- * @param start index of the first sample under the weights; `step` samples further in each next place
- * @param first index of the first output; `stride` outputs further in each next place
+ * @param centre index of the sample between the outputs; `step` samples further in each next place
+ * @param output index of the output there, `distance` from the two; `stride` outputs further in each next place
  */
-function filterPairs(
+function filterMirrored(
   weights: Float64Array,
   samples: Float64Array,
-  start: number,
+  centre: number,
   step: number,
   out: Float32Array,
-  first: number,
+  output: number,
+  distance: number,
   stride: number,
 ): void {
-  const taps = weights.length >> 1;
-  const [second, third, fourth] = [start + step, start + 2 * step, start + 3 * step];
-  let [a1, a2, a3, a4, b1, b2, b3, b4] = [0, 0, 0, 0, 0, 0, 0, 0];
-  for (let i = 0; i < taps; i++) {
-    const a = weights[2 * i]!;
-    const b = weights[2 * i + 1]!;
-    const s1 = samples[start + i]!;
-    const s2 = samples[second + i]!;
-    const s3 = samples[third + i]!;
-    const s4 = samples[fourth + i]!;
-    a1 += a * s1;
-    b1 += b * s1;
-    a2 += a * s2;
-    b2 += b * s2;
-    a3 += a * s3;
-    b3 += b * s3;
-    a4 += a * s4;
-    b4 += b * s4;
+  const reach = weights.length >> 1;
+  const centre2 = centre + step;
+  const centre3 = centre2 + step;
+  const centre4 = centre3 + step;
+  let sum1 = 0;
+  let difference1 = 0;
+  let sum2 = 0;
+  let difference2 = 0;
+  let sum3 = 0;
+  let difference3 = 0;
+  let sum4 = 0;
+  let difference4 = 0;
+  for (let i = 0; i < reach; i++) {
+    const even = weights[2 * i]!;
+    const odd = weights[2 * i + 1]!;
+    let after = samples[centre + i]!;
+    let before = samples[centre - i]!;
+    sum1 += even * (after + before);
+    difference1 += odd * (after - before);
+    after = samples[centre2 + i]!;
+    before = samples[centre2 - i]!;
+    sum2 += even * (after + before);
+    difference2 += odd * (after - before);
+    after = samples[centre3 + i]!;
+    before = samples[centre3 - i]!;
+    sum3 += even * (after + before);
+    difference3 += odd * (after - before);
+    after = samples[centre4 + i]!;
+    before = samples[centre4 - i]!;
+    sum4 += even * (after + before);
+    difference4 += odd * (after - before);
   }
-  out[first] = a1;
-  out[first + 1] = b1;
-  out[first + stride] = a2;
-  out[first + stride + 1] = b2;
-  out[first + 2 * stride] = a3;
-  out[first + 2 * stride + 1] = b3;
-  out[first + 3 * stride] = a4;
-  out[first + 3 * stride + 1] = b4;
+  const later = output + distance;
+  const earlier = output - distance;
+  out[later] = sum1 + difference1;
+  out[earlier] = sum1 - difference1;
+  out[later + stride] = sum2 + difference2;
+  out[earlier + stride] = sum2 - difference2;
+  out[later + 2 * stride] = sum3 + difference3;
+  out[earlier + 2 * stride] = sum3 - difference3;
+  out[later + 3 * stride] = sum4 + difference4;
+  out[earlier + 3 * stride] = sum4 - difference4;
 }
 
 function greatestCommonDivisor(a: number, b: number): number {

@@ -34,16 +34,26 @@ export function magnitudes(audio: Float32Array, recipe: AudioRecipe, progress?: 
   const even = new Float64Array(half);
   const odd = new Float64Array(half);
   for (let frame = 0; frame < frames; frame++) {
-    const start = frame * recipe.hop;
-    for (let i = 0; i < half; i++) {
-      even[i] = padded[start + 2 * i]! * window[2 * i]!;
-      odd[i] = padded[start + 2 * i + 1]! * window[2 * i + 1]!;
-    }
+    applyWindow(padded, frame * recipe.hop, window, even, odd);
     const { real, imag } = fft(even, odd);
     writeMagnitudes(real, imag, cosines, sines, values, frame * bins);
     progress?.(frame + 1, frames);
   }
   return { frames, bins, values };
+}
+
+/** Windows the samples from index `start` on, and separates those at even from those at odd distances from it. */
+function applyWindow(
+  samples: Float32Array,
+  start: number,
+  window: Float64Array,
+  even: Float64Array,
+  odd: Float64Array,
+): void {
+  for (let i = 0; i < even.length; i++) {
+    even[i] = samples[start + 2 * i]! * window[2 * i]!;
+    odd[i] = samples[start + 2 * i + 1]! * window[2 * i + 1]!;
+  }
 }
 
 /**
