@@ -22,8 +22,8 @@ export interface MusicFeatures {
 }
 
 /** Shares of the running time, as measured on a three-minute song; used for the progress only. */
-const SPECTRUM_SHARE = 0.25;
-const SEPARATION_SHARE = 0.7;
+const SPECTRUM_SHARE = 0.35;
+const SEPARATION_SHARE = 0.45;
 
 /**
  * The music features of a whole song, as training/music/features.py computes them with librosa 0.11.

@@ -22,7 +22,7 @@ const SOXR: Filter = { cutoff: 0.9568586, beta: 14.6532, halfLength: 105.279 };
 const HALVING: Filter = { cutoff: 1, beta: 12.27, halfLength: 12 };
 
 /** About so many outputs are computed in one go, so that what they need stays in the processor's cache. */
-const BLOCK = 2 ** 13;
+const BLOCK = 2 ** 15;
 
 /**
  * Resamples to a lower rate like `librosa.resample` does (linear phase, no delay).
