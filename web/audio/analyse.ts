@@ -48,8 +48,10 @@ export function analyse(
 /** Mean of the channels. */
 export function mixDown(channels: readonly Float32Array[]): Float32Array {
   const mono = new Float32Array(channels[0]?.length ?? 0);
-  for (const channel of channels) {
-    for (let i = 0; i < mono.length; i++) mono[i]! += channel[i]! / channels.length;
+  for (let i = 0; i < mono.length; i++) {
+    let sum = 0;
+    for (const channel of channels) sum += channel[i]!;
+    mono[i] = sum / channels.length;
   }
   return mono;
 }

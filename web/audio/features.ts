@@ -1,7 +1,7 @@
 import { trackBeats } from './dsp/beats';
 import { chromaFilters, normalizeRow } from './dsp/chroma';
 import { delta } from './dsp/delta';
-import { applyToPower } from './dsp/filters';
+import { applyFilters, powers } from './dsp/filters';
 import { separateHarmonicPercussive } from './dsp/hpss';
 import { melFilters } from './dsp/mel';
 import { cepstrum } from './dsp/mfcc';
@@ -22,8 +22,8 @@ export interface MusicFeatures {
 }
 
 /** Shares of the running time, as measured on a three-minute song; used for the progress only. */
-const SPECTRUM_SHARE = 0.25;
-const SEPARATION_SHARE = 0.7;
+const SPECTRUM_SHARE = 0.35;
+const SEPARATION_SHARE = 0.45;
 
 /**
  * The music features of a whole song, as training/music/features.py computes them with librosa 0.11.
@@ -48,13 +48,15 @@ export function musicFeatures(
   const mel = new Float64Array(frames * mels);
   const percussiveMel = new Float64Array(frames * mels);
   const pitches = new Float64Array(frames * chroma);
+  const power = new Float64Array(spectrogram.bins);
   separateHarmonicPercussive(
     spectrogram,
     recipe,
     (frame, harmonic, percussive) => {
-      applyToPower(melBank, spectrogram.values, frame * spectrogram.bins, mel, frame * mels);
-      applyToPower(melBank, percussive, 0, percussiveMel, frame * mels);
-      applyToPower(chromaBank, harmonic, 0, pitches, frame * chroma);
+      powers(spectrogram.values, frame * spectrogram.bins, power);
+      applyFilters(melBank, power, mel, frame * mels);
+      applyFilters(melBank, percussive, percussiveMel, frame * mels);
+      applyFilters(chromaBank, harmonic, pitches, frame * chroma);
       normalizeRow(pitches, frame * chroma, chroma);
     },
     report(SPECTRUM_SHARE, SEPARATION_SHARE),

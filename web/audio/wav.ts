@@ -12,7 +12,9 @@ export function encodeWav(channels: readonly Float32Array[], sampleRate: number)
   const samples = new Int16Array(frames * channels.length);
   channels.forEach((channel, index) => {
     for (let i = 0; i < frames; i++) {
-      samples[i * channels.length + index] = Math.round(32767 * Math.min(1, Math.max(-1, channel[i]!)));
+      const sample = 32767 * channel[i]!;
+      const clipped = sample > 32767 ? 32767 : sample < -32767 ? -32767 : sample;
+      samples[i * channels.length + index] = Math.floor(clipped + 0.5);
     }
   });
   const header = new DataView(new ArrayBuffer(HEADER_BYTES));

@@ -10,9 +10,12 @@ export function powerToDecibels(
   topDb: number,
 ): Float64Array {
   const zero = 10 * Math.log10(Math.max(amin, reference));
-  const decibels = power.map((value) => 10 * Math.log10(Math.max(amin, value)) - zero);
-  const floor = maximum(decibels) - topDb;
-  return decibels.map((value) => Math.max(value, floor));
+  const floor = 10 * Math.log10(Math.max(amin, maximum(power))) - zero - topDb;
+  const decibels = new Float64Array(power.length);
+  for (let i = 0; i < power.length; i++) {
+    decibels[i] = Math.max(10 * Math.log10(Math.max(amin, power[i]!)) - zero, floor);
+  }
+  return decibels;
 }
 
 /** The largest of the values; -Infinity when there is none. */

@@ -18,24 +18,38 @@ export function filterBank(rows: readonly Float64Array[]): FilterBank {
 }
 
 /**
- * Weighted sums of the powers (squared magnitudes) of one spectrum, one for each filter.
+ * Squares of the magnitudes of one spectrum.
  *
  * @param magnitude holds the spectrum from index `offset` on
- * @param out receives the sums from index `outOffset` on
+ * @param out receives as many powers as it is long
  */
-export function applyToPower(
-  bank: FilterBank,
-  magnitude: Float32Array,
-  offset: number,
-  out: Float64Array,
-  outOffset: number,
-): void {
+export function powers(magnitude: Float32Array, offset: number, out: Float64Array): void {
+  for (let bin = 0; bin < out.length; bin++) {
+    const value = magnitude[offset + bin]!;
+    out[bin] = value * value;
+  }
+}
+
+/**
+ * Weighted sums of the powers of one spectrum, one for each filter.
+ *
+ * @param out receives the sums from index `offset` on
+ */
+export function applyFilters(bank: FilterBank, power: Float64Array, out: Float64Array, offset: number): void {
   bank.filters.forEach(({ first, weights }, index) => {
-    let sum = 0;
-    for (let i = 0; i < weights.length; i++) {
-      const value = magnitude[offset + first + i]!;
-      sum += weights[i]! * value * value;
+    // Four sums, because each addition to one has to wait for the one before.
+    let a = 0;
+    let b = 0;
+    let c = 0;
+    let d = 0;
+    let i = 0;
+    for (; i + 3 < weights.length; i += 4) {
+      a += weights[i]! * power[first + i]!;
+      b += weights[i + 1]! * power[first + i + 1]!;
+      c += weights[i + 2]! * power[first + i + 2]!;
+      d += weights[i + 3]! * power[first + i + 3]!;
     }
-    out[outOffset + index] = sum;
+    for (; i < weights.length; i++) a += weights[i]! * power[first + i]!;
+    out[offset + index] = a + b + c + d;
   });
 }

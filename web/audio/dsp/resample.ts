@@ -15,8 +15,14 @@ interface Filter {
  */
 const SOXR: Filter = { cutoff: 0.9568586, beta: 14.6532, halfLength: 105.279 };
 
-/** The filter that halves the rate: it removes the frequencies that would alias into those that are kept. */
+/**
+ * The filter that halves the rate: it removes the frequencies that would alias into those that are kept. Its cutoff of
+ * 1 makes the weights zero at all even distances but 0 (a half-band filter).
+ */
 const HALVING: Filter = { cutoff: 1, beta: 12.27, halfLength: 12 };
+
+/** About so many outputs are computed in one go, so that what they need stays in the processor's cache. */
+const BLOCK = 2 ** 15;
 
 /**
  * Resamples to a lower rate like `librosa.resample` does (linear phase, no delay).
@@ -34,48 +40,128 @@ export function resample(
 ): Float32Array {
   if (from === to) return audio;
   const length = Math.ceil((audio.length * to) / from);
-  if (from < 3 * to || from % 2 === 1) return convert(audio, length, from, to, SOXR, onProgress);
+  if (from < 3 * to || from % 2 === 1) return convert(audio, 0, length, from, to, onProgress);
   // From a much higher rate, a short filter halves the rate first, which leaves half the work for the long filter. The
-  // zeros at both ends, a whole number of samples at either rate, hold what the short filter spreads over the ends.
-  const divisor = greatestCommonDivisor(from, to);
-  const blocks = Math.ceil((2 * HALVING.halfLength * divisor) / from);
-  const padding = (blocks * from) / divisor;
-  const padded = new Float32Array(audio.length + 2 * padding);
-  padded.set(audio, padding);
-  const halved = convert(padded, Math.ceil(padded.length / 2), from, from / 2, HALVING);
-  const start = (blocks * to) / divisor;
-  return convert(halved, start + length, from / 2, to, SOXR, onProgress).slice(start);
+  // margin holds what the short filter spreads over the ends.
+  const margin = HALVING.halfLength;
+  return convert(halve(audio, margin), margin, length, from / 2, to, onProgress);
 }
 
-/** Filters and resamples by a rational factor, one precomputed filter for each position between two samples. */
+/**
+ * Halves the rate.
+ *
+ * @returns samples at the lower rate, `margin` of them before the first and as many after the last of the signal
+ */
+function halve(signal: Float32Array, margin: number): Float32Array {
+  const reach = 2 * HALVING.halfLength;
+  const weights = Float64Array.from({ length: reach / 2 }, (_, i) => kernel(2 * i + 1, 2, 1, HALVING));
+  const out = new Float32Array(Math.ceil(signal.length / 2) + 2 * margin);
+  const samples = new Float64Array(2 * (BLOCK + reach));
+  const block = new Float32Array(BLOCK);
+  for (let first = 0; first < out.length; first += BLOCK) {
+    copyWithZeros(signal, 2 * (first - margin) - reach, samples);
+    filterHalfBand(weights, samples, reach, block);
+    out.set(block.subarray(0, out.length - first), first);
+  }
+  return out;
+}
+
+/**
+ * Computes outputs at every other sample, four at once, which reads each weight once for all of them.
+ *
+ * @param weights those of samples at distance 1, 3, 5 ..; the output's own sample has half, the others none
+ * @param middle index of the first output's sample
+ * @param out its length is a multiple of four
+ */
+function filterHalfBand(
+  weights: Float64Array,
+  samples: Float64Array,
+  middle: number,
+  out: Float32Array,
+): void {
+  for (let i = 0; i < out.length; i += 4) {
+    const first = middle + 2 * i;
+    let a = 0.5 * samples[first]!;
+    let b = 0.5 * samples[first + 2]!;
+    let c = 0.5 * samples[first + 4]!;
+    let d = 0.5 * samples[first + 6]!;
+    for (let k = 0; k < weights.length; k++) {
+      const weight = weights[k]!;
+      const left = first - 1 - 2 * k;
+      const right = first + 1 + 2 * k;
+      a += weight * (samples[left]! + samples[right]!);
+      b += weight * (samples[left + 2]! + samples[right + 2]!);
+      c += weight * (samples[left + 4]! + samples[right + 4]!);
+      d += weight * (samples[left + 6]! + samples[right + 6]!);
+    }
+    out[i] = a;
+    out[i + 1] = b;
+    out[i + 2] = c;
+    out[i + 3] = d;
+  }
+}
+
+/**
+ * Filters and resamples by a rational factor, one precomputed filter for each position between two samples.
+ *
+ * @param origin index of the sample at which the first output lies
+ */
 function convert(
   signal: Float32Array,
+  origin: number,
   length: number,
   from: number,
   to: number,
-  filter: Filter,
-  onProgress: (fraction: number) => void = () => undefined,
+  onProgress: (fraction: number) => void,
 ): Float32Array {
   const divisor = greatestCommonDivisor(from, to);
+  // Every `up` outputs one lies on a sample, `down` samples further. The outputs around it are computed with it.
   const [up, down] = [to / divisor, from / divisor];
-  const half = Math.ceil((filter.halfLength * from) / to);
-  const taps = 2 * half + 1;
-  const phases = Array.from({ length: up }, (_, phase) =>
-    Float64Array.from({ length: taps }, (_, tap) => kernel(tap - half - phase / up, from, to, filter)),
+  const radius = Math.floor(up / 2);
+  const half = (SOXR.halfLength * from) / to;
+  const reach = Math.ceil(half + (radius * down) / up);
+  const filters = Array.from({ length: radius + 1 }, (_, outputs) =>
+    mirroredWeights((outputs * down) / up, half, from, to),
   );
-  const padded = new Float64Array(signal.length + taps + 1);
-  padded.set(signal, half);
-  const out = new Float32Array(length);
-  // Outputs beyond the end of the signal are zero.
-  const inside = Math.min(length, Math.ceil((signal.length * up) / down));
-  for (let first = 0; first < up; first++) {
-    onProgress(first / up);
-    const weights = phases[(first * down) % up]!;
-    let i = first;
-    for (; i + 3 * up < inside; i += 4 * up) dot4(weights, padded, i, up, down, out);
-    for (; i < inside; i += up) out[i] = dot(weights, padded, Math.floor((i * down) / up));
+  const repetitions = 4 * Math.ceil(Math.min(BLOCK, length) / (4 * up));
+  const samples = new Float64Array(repetitions * down + 2 * reach);
+  const out = new Float32Array(length + repetitions * up + 2 * radius);
+  for (let first = 0; first < length + radius; first += repetitions * up) {
+    onProgress(Math.min(1, first / length));
+    copyWithZeros(signal, origin + (first * down) / up - reach, samples);
+    for (let repetition = 0; repetition < repetitions; repetition += 4) {
+      const output = radius + first + repetition * up;
+      filters.forEach((weights, outputs) => {
+        filterMirrored(weights, samples, reach + repetition * down, down, out, output, outputs, up);
+      });
+    }
   }
-  return out;
+  return out.slice(radius, radius + length);
+}
+
+/**
+ * Weights for two outputs, `distance` input samples before and after a sample. One's weights are the other's in reverse,
+ * so the sum of the outputs needs the sums of samples at equal distances alone, and their difference the differences.
+ *
+ * @param half half the length of the filter's window, in input samples
+ * @returns the weights of the sums and of the differences in turn, from distance 0 to the ends of the windows
+ */
+function mirroredWeights(distance: number, half: number, from: number, to: number): Float64Array {
+  return Float64Array.from({ length: 2 * Math.ceil(half + distance) }, (_, index) => {
+    const away = index >> 1;
+    const near = kernel(away - distance, from, to, SOXR);
+    const far = kernel(away + distance, from, to, SOXR);
+    if (index % 2 === 1) return (near - far) / 2;
+    return away === 0 ? near / 2 : (near + far) / 2;
+  });
+}
+
+/** Copies samples from index `start` on; those before and after the signal are zero. */
+function copyWithZeros(signal: Float32Array, start: number, out: Float64Array): void {
+  const begin = Math.max(0, -start);
+  const end = Math.max(begin, Math.min(out.length, signal.length - start));
+  out.fill(0);
+  out.set(signal.subarray(start + begin, start + end), begin);
 }
 
 /** Weight of a sample `distance` input samples away from the output sample. */
@@ -98,37 +184,64 @@ function bessel(x: number): number {
   return sum;
 }
 
-/** Scalar product of all weights with as many values from index `start` on. */
-function dot(weights: Float64Array, values: Float64Array, start: number): number {
-  let sum = 0;
-  for (let i = 0; i < weights.length; i++) sum += weights[i]! * values[start + i]!;
-  return sum;
-}
-
-/** Computes four outputs, `first`, `first + up` and so on, with the same weights, which halves what is read. */
-function dot4(
+/**
+ * Computes two mirrored outputs in four places at once, which reads each weight once for all of them.
+ *
+ * @param centre index of the sample between the outputs; `step` samples further in each next place
+ * @param output index of the output there, `distance` from the two; `stride` outputs further in each next place
+ */
+function filterMirrored(
   weights: Float64Array,
-  values: Float64Array,
-  first: number,
-  up: number,
-  down: number,
+  samples: Float64Array,
+  centre: number,
+  step: number,
   out: Float32Array,
+  output: number,
+  distance: number,
+  stride: number,
 ): void {
-  const start = Math.floor((first * down) / up);
-  const taps = weights.length;
-  const [second, third, fourth] = [start + down, start + 2 * down, start + 3 * down];
-  let [a, b, c, d] = [0, 0, 0, 0];
-  for (let i = 0; i < taps; i++) {
-    const weight = weights[i]!;
-    a += weight * values[start + i]!;
-    b += weight * values[second + i]!;
-    c += weight * values[third + i]!;
-    d += weight * values[fourth + i]!;
+  const reach = weights.length >> 1;
+  const centre2 = centre + step;
+  const centre3 = centre2 + step;
+  const centre4 = centre3 + step;
+  let sum1 = 0;
+  let difference1 = 0;
+  let sum2 = 0;
+  let difference2 = 0;
+  let sum3 = 0;
+  let difference3 = 0;
+  let sum4 = 0;
+  let difference4 = 0;
+  for (let i = 0; i < reach; i++) {
+    const even = weights[2 * i]!;
+    const odd = weights[2 * i + 1]!;
+    let after = samples[centre + i]!;
+    let before = samples[centre - i]!;
+    sum1 += even * (after + before);
+    difference1 += odd * (after - before);
+    after = samples[centre2 + i]!;
+    before = samples[centre2 - i]!;
+    sum2 += even * (after + before);
+    difference2 += odd * (after - before);
+    after = samples[centre3 + i]!;
+    before = samples[centre3 - i]!;
+    sum3 += even * (after + before);
+    difference3 += odd * (after - before);
+    after = samples[centre4 + i]!;
+    before = samples[centre4 - i]!;
+    sum4 += even * (after + before);
+    difference4 += odd * (after - before);
   }
-  out[first] = a;
-  out[first + up] = b;
-  out[first + 2 * up] = c;
-  out[first + 3 * up] = d;
+  const later = output + distance;
+  const earlier = output - distance;
+  out[later] = sum1 + difference1;
+  out[earlier] = sum1 - difference1;
+  out[later + stride] = sum2 + difference2;
+  out[earlier + stride] = sum2 - difference2;
+  out[later + 2 * stride] = sum3 + difference3;
+  out[earlier + 2 * stride] = sum3 - difference3;
+  out[later + 3 * stride] = sum4 + difference4;
+  out[earlier + 3 * stride] = sum4 - difference4;
 }
 
 function greatestCommonDivisor(a: number, b: number): number {

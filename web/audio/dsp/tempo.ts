@@ -40,17 +40,41 @@ function tempogram(onset: Float64Array, size: number): Float64Array {
   const correlation = new Float64Array(size);
   for (let frame = 0; frame < onset.length; frame++) {
     for (let i = 0; i < size; i++) local[i] = window[i]! * padded[frame + i]!;
+    autocorrelate(local, correlation);
     let largest = 0;
-    for (let lag = 0; lag < size; lag++) {
-      let sum = 0;
-      for (let i = lag; i < size; i++) sum += local[i]! * local[i - lag]!;
-      correlation[lag] = sum;
-      largest = Math.max(largest, Math.abs(sum));
-    }
+    for (let lag = 0; lag < size; lag++) largest = Math.max(largest, Math.abs(correlation[lag]!));
     if (largest === 0) continue;
     for (let lag = 0; lag < size; lag++) mean[lag]! += correlation[lag]! / largest / onset.length;
   }
   return mean;
+}
+
+/** Autocorrelation, lag 0 first. Four lags at a time, because they read the same values. */
+function autocorrelate(values: Float64Array, out: Float64Array): void {
+  for (let lag = 0; lag < values.length; lag += 4) {
+    let sum0 = 0;
+    let sum1 = 0;
+    let sum2 = 0;
+    let sum3 = 0;
+    let before1 = 0;
+    let before2 = 0;
+    let before3 = 0;
+    for (let i = lag; i < values.length; i++) {
+      const value = values[i]!;
+      const before0 = values[i - lag]!;
+      sum0 += value * before0;
+      sum1 += value * before1;
+      sum2 += value * before2;
+      sum3 += value * before3;
+      before3 = before2;
+      before2 = before1;
+      before1 = before0;
+    }
+    out[lag] = sum0;
+    if (lag + 1 < out.length) out[lag + 1] = sum1;
+    if (lag + 2 < out.length) out[lag + 2] = sum2;
+    if (lag + 3 < out.length) out[lag + 3] = sum3;
+  }
 }
 
 /** The signal with `margin` values at each end that lead linearly from zero to it (numpy's linear_ramp padding). */

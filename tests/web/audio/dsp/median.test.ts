@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { medianOfRow, reflectedIndex, replaceSorted } from '../../../../web/audio/dsp/median';
+import { medianOfRow, medianWindows, reflectedIndex, replaceValue } from '../../../../web/audio/dsp/median';
 
 /** Reproducible values with many ties, as spectra of silence have. */
 function values(length: number): Float32Array {
@@ -8,6 +8,11 @@ function values(length: number): Float32Array {
     state = (state * 48271) % 2147483647;
     return (state % 17) / 4;
   });
+}
+
+/** The values as the bits of float32. */
+function bitsOf(row: Float32Array): Int32Array {
+  return new Int32Array(row.buffer, row.byteOffset, row.length);
 }
 
 function sortedMedian(row: Float32Array, centre: number, kernel: number): number {
@@ -23,9 +28,24 @@ describe('the running median', () => {
   it.each([1, 2, 3, 15, 16, 31, 40, 200])('equals a sort of every window in a row of %i', (length) => {
     const row = values(length + 7);
     const out = new Float32Array(length);
-    medianOfRow(row, 7, length, 31, out);
+    medianOfRow(bitsOf(row), 7, length, medianWindows(1, 31), bitsOf(out));
     const expected = Array.from({ length }, (_, i) => sortedMedian(row.subarray(7), i, 31));
     expect(Array.from(out)).toEqual(expected);
+  });
+
+  it('does not depend on what its window held before', () => {
+    const row = values(50);
+    const windows = medianWindows(1, 31);
+    medianOfRow(
+      bitsOf(Float32Array.from({ length: 60 }, (_, i) => 100 - i)),
+      0,
+      60,
+      windows,
+      new Int32Array(60),
+    );
+    const out = new Float32Array(50);
+    medianOfRow(bitsOf(row), 0, 50, windows, bitsOf(out));
+    expect(Array.from(out)).toEqual(Array.from(row, (_, i) => sortedMedian(row, i, 31)));
   });
 
   it('extends a row by reflection at both ends, repeatedly where needed', () => {
@@ -33,11 +53,10 @@ describe('the running median', () => {
     expect(shown).toEqual([1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
   });
 
-  it('keeps the neighbours of a replaced run', () => {
-    const run = Float32Array.of(9, 1, 2, 3, 0);
-    replaceSorted(run, 1, 3, 1, 5);
-    expect(Array.from(run)).toEqual([9, 2, 3, 5, 0]);
-    replaceSorted(run, 1, 3, 5, 1);
-    expect(Array.from(run)).toEqual([9, 1, 2, 3, 0]);
+  it('keeps windows side by side apart', () => {
+    const windows = medianWindows(3, 3);
+    const medians = [5, 5, 7, 2, 9, 1].map((value, step) => replaceValue(windows, 1, step % 3, value));
+    expect(medians).toEqual([0, 5, 5, 5, 7, 2]);
+    expect([replaceValue(windows, 0, 0, 3), replaceValue(windows, 2, 0, 3)]).toEqual([0, 0]);
   });
 });
