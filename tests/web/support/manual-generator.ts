@@ -49,5 +49,6 @@ export const result = (frames = 60): GenerateResult => ({
   motion: still(frames),
   locked: still(frames),
   latents: new Float32Array(frames),
+  unfamiliarity: 1,
   seconds: { steps: 2.5, decode: 0.25, solve: 0.25 },
 });

@@ -32,7 +32,7 @@ function sampling(changes: Partial<Sampling> = {}): Sampling {
   const { manifest, golden, session } = model;
   return {
     latent: manifest.latent,
-    alternatingPhase: manifest.diffusion.alternating_phase,
+    extrapolation: manifest.diffusion.extrapolation,
     schedule: ddim(manifest.diffusion, golden.steps),
     memory: array('memory'),
     keep: 1,
@@ -62,27 +62,33 @@ describe('the tiny model on wasm', () => {
     const { session, golden, manifest } = model;
     const silent = { ...golden, musicValid: new Float32Array(golden.musicValid.length) };
     for (const size of [latents, 40, 7]) {
-      const memory = await conditionClip(session.condition, golden, manifest, size);
+      const { memory, unfamiliarity } = await conditionClip(session.condition, golden, manifest, size);
       expect(maxDifference(memory, array('memory'))).toBeLessThan(1e-4);
+      const each = array('unfamiliarity');
+      expect(unfamiliarity).toBeCloseTo(each.reduce((sum, value) => sum + value, 0) / latents, 3);
     }
-    const memory = await conditionClip(session.condition, silent, manifest, latents);
+    const { memory } = await conditionClip(session.condition, silent, manifest, latents);
     expect(maxDifference(memory, array('silent'))).toBeLessThan(1e-4);
     expect(maxDifference(array('silent'), array('memory'))).toBeGreaterThan(1e-2);
   });
 
-  it('samples the same three branches as PyTorch, and blends them alike', async () => {
+  it('samples the same branches and mean as PyTorch, and blends them alike', async () => {
     const { manifest, session, golden } = model;
     const size = latents * width;
     const branches = await new BranchSampler(manifest, session).branches(golden, golden, {
       silent: true,
       unconditional: true,
-      mean: false,
+      mean: true,
     });
     const sampled = [branches.conditional, branches.silent, branches.unconditional];
     for (const [i, branch] of sampled.entries()) {
       const expected = array('branches').subarray(i * size, (i + 1) * size);
       expect(maxDifference(branch ?? [], expected)).toBeLessThan(1e-4);
     }
+    const { channels, layers } = manifest.latent;
+    const mean = array('branches').subarray(3 * size);
+    const coarse = mean.filter((_, i) => Math.floor(i / channels) % layers.length === 0);
+    expect(maxDifference(branches.mean ?? [], coarse)).toBeLessThan(1e-4);
     const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent);
     expect(maxDifference(blended, array('latents'))).toBeLessThan(1e-3);
   });
@@ -109,10 +115,9 @@ describe('the tiny model on wasm', () => {
 
   it('computes one block alone as inside the whole clip', async () => {
     const { block, memory_width: memoryWidth } = model.manifest.latent;
-    const whole = await sample(sampling({ alternatingPhase: false }));
+    const whole = await sample(sampling());
     const alone = await sample(
       sampling({
-        alternatingPhase: false,
         memory: array('memory').subarray(block * memoryWidth, 2 * block * memoryWidth),
         noise: noise(model.golden.seed, block, width, block),
       }),
@@ -146,7 +151,7 @@ describe('the tiny model on wasm', () => {
     const { session, golden } = model;
     const results = await Promise.all([session.condition(golden), session.condition(golden)]);
     expect(results[0]).toEqual(results[1]);
-    expect(maxDifference(results[0], array('memory'))).toBeLessThan(1e-4);
+    expect(maxDifference(results[0].memory, array('memory'))).toBeLessThan(1e-4);
   });
 
   it('refuses graphs that have other inputs than this page feeds', async () => {

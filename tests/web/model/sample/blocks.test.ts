@@ -4,26 +4,16 @@ import { gather, partition, scatter, validity } from '../../../../web/model/samp
 
 describe('partition', () => {
   it('cuts full blocks and a short last one', () => {
-    expect(partition(130, 60, false)).toEqual([
+    expect(partition(130, 60)).toEqual([
       { start: 0, length: 60 },
       { start: 60, length: 60 },
       { start: 120, length: 10 },
     ]);
   });
 
-  it('begins a shifted partition with half a block', () => {
-    expect(partition(130, 60, true)).toEqual([
-      { start: 0, length: 30 },
-      { start: 30, length: 60 },
-      { start: 90, length: 40 },
-    ]);
-    expect(partition(30, 60, true)).toEqual([{ start: 0, length: 30 }]);
-    expect(partition(7, 60, true)).toEqual([{ start: 0, length: 7 }]);
-  });
-
-  it.each([false, true])('covers every length once and in order (shifted: %s)', (shifted) => {
+  it('covers every length once and in order', () => {
     for (let latents = 1; latents <= 600; latents++) {
-      const blocks = partition(latents, 60, shifted);
+      const blocks = partition(latents, 60);
       let next = 0;
       for (const { start, length } of blocks) {
         expect(start).toBe(next);
@@ -35,36 +25,21 @@ describe('partition', () => {
     }
   });
 
-  it('never puts two boundaries of the two partitions on the same frame', () => {
-    const ends = (shifted: boolean): number[] =>
-      partition(1000, 60, shifted)
-        .slice(1)
-        .map(({ start }) => start);
-    expect(ends(false).filter((start) => ends(true).includes(start))).toEqual([]);
-  });
-});
-
-describe('partition, as in Python', () => {
-  const golden = JSON.parse(
-    readFileSync(new URL('../../../fixtures/sampling.json', import.meta.url), 'utf8'),
-  ) as { block: number; partitions: { latents: number; plain: number[][]; shifted: number[][] }[] };
-
-  it('cuts one to ten blocks and all odd tails alike', () => {
-    expect(golden.partitions.length).toBeGreaterThan(50);
-    for (const { latents, plain, shifted } of golden.partitions) {
-      const pairs = (odd: boolean): number[][] =>
-        partition(latents, golden.block, odd).map(({ start, length }) => [start, length]);
-      expect(pairs(false)).toEqual(plain);
-      expect(pairs(true)).toEqual(shifted);
-    }
+  it('cuts one to ten blocks and all odd tails as Python does', () => {
+    const golden = JSON.parse(
+      readFileSync(new URL('../../../fixtures/sampling.json', import.meta.url), 'utf8'),
+    ) as { block: number; partitions: { latents: number; blocks: number[][] }[] };
+    expect(golden.partitions.length).toBeGreaterThan(30);
+    for (const { latents, blocks } of golden.partitions)
+      expect(partition(latents, golden.block).map(({ start, length }) => [start, length])).toEqual(blocks);
   });
 });
 
 describe('gather and scatter', () => {
-  it.each([false, true])('bring every frame there and back, padded with zeros (shifted: %s)', (shifted) => {
+  it('bring every frame there and back, padded with zeros', () => {
     for (const latents of [1, 3, 5, 6, 7, 9, 15, 31]) {
       const source = Float32Array.from({ length: latents * 2 }, (_, i) => i + 1);
-      const blocks = partition(latents, 6, shifted);
+      const blocks = partition(latents, 6);
       const packed = gather(source, 2, blocks, 6);
       expect(packed).toHaveLength(blocks.length * 12);
       const valid = validity(blocks, 6);

@@ -16,12 +16,13 @@ const condition: ConditionRunner = ({ leader, music, musicValid, role }) => {
     (_, i) =>
       (leader[i * 264] ?? NaN) + (music[i * 4 * audio.features] ?? NaN) * (musicValid[i * 4] ?? NaN) + role,
   );
-  return Promise.resolve(
-    Float32Array.from({ length: latents * 2 }, (_, k) => {
+  return Promise.resolve({
+    memory: Float32Array.from({ length: latents * 2 }, (_, k) => {
       const i = Math.floor(k / 2);
       return at(signal, i - 2) + 2 * at(signal, i) + 3 * at(signal, i + 2) + (k % 2);
     }),
-  );
+    unfamiliarity: Float32Array.from({ length: latents }, (_, i) => Math.abs(leader[i * 264] ?? NaN)),
+  });
 };
 
 describe('chunks', () => {
@@ -45,7 +46,7 @@ describe('a clip in chunks', () => {
     role: 0,
   });
 
-  it('has the same memory as in one piece', async () => {
+  it('has the same memory and mean unfamiliarity as in one piece', async () => {
     for (const latents of [1, 5, 13, 40]) {
       const musicValid = new Float32Array(latents * 4).fill(1, 0, latents * 2);
       const input = {
@@ -56,7 +57,10 @@ describe('a clip in chunks', () => {
       };
       const whole = await condition(input);
       for (const size of [1, 4, 7, 100]) {
-        expect(await conditionClip(condition, input, small, size)).toEqual(whole);
+        const { memory, unfamiliarity } = await conditionClip(condition, input, small, size);
+        expect(memory).toEqual(whole.memory);
+        const mean = whole.unfamiliarity.reduce((sum, value) => sum + value, 0) / latents;
+        expect(unfamiliarity).toBeCloseTo(mean, 5);
       }
     }
   });

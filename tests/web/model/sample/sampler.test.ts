@@ -1,4 +1,6 @@
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
+import { parseManifest } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';
 import type { StepRunner } from '../../../../web/model/sample/graphs';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';
@@ -6,6 +8,21 @@ import { ddim } from '../../../../web/model/sample/schedule';
 import { small } from '../../support/small-manifest';
 
 const { latent } = small;
+const tiny = parseManifest(
+  JSON.parse(
+    readFileSync(new URL('../../../fixtures/tiny-model/manifest.json', import.meta.url), 'utf8'),
+  ) as unknown,
+);
+
+/** A sampling in Python in which x0 = x / 2 + time; noise and latents are latents x 2 layers x channels. */
+interface Extrapolated {
+  readonly steps: number;
+  readonly last_time: number;
+  readonly extrapolation: readonly number[];
+  readonly channels: number;
+  readonly noise: readonly number[];
+  readonly latents: readonly number[];
+}
 const width = latent.layers.length * latent.channels;
 
 /** Stands in for the graph: mixes each valid token with its left neighbour inside the block, the memory and the time. */
@@ -61,6 +78,23 @@ describe('sample', () => {
       const expected = reference(latents);
       expect(result.every((value, i) => Math.abs(value - (expected[i] ?? NaN)) < 1e-5)).toBe(true);
     }
+  });
+
+  it('extrapolates the last prediction of each stream as Python does', async () => {
+    const golden = JSON.parse(
+      readFileSync(new URL('../../../fixtures/sampling.json', import.meta.url), 'utf8'),
+    ) as { extrapolated: Extrapolated };
+    const { steps, last_time, extrapolation, channels, noise, latents } = golden.extrapolated;
+    const length = noise.length / (2 * channels);
+    const result = await sample({
+      ...sampling(length),
+      latent: { ...latent, channels, block: 60 },
+      schedule: ddim({ ...tiny.diffusion, last_time }, steps),
+      extrapolation,
+      noise: Float32Array.from(noise),
+      runStep: ({ x, time }) => Promise.resolve(x.map((value) => value / 2 + time)),
+    });
+    latents.forEach((value, i) => expect(result[i]).toBeCloseTo(value, 5));
   });
 
   it('takes the only prediction of a single step as it is', async () => {

@@ -115,6 +115,23 @@ describe('notes', () => {
     expect(texts({ notices: ['The storage is full.'] })).toEqual(['The storage is full.']);
   });
 
+  it('on a leader unlike those of training, beside the reaction to it', () => {
+    const to = (unfamiliarity: number): string[] => {
+      const reaction = {
+        motion: still(30),
+        latents: null,
+        unfamiliarity,
+        inputs: { leader: leader(30), song: null, shift: 0, settings },
+        label: null,
+        seconds: 1,
+      };
+      return select.notes(state({ leader: leader(30), song: song(1), reaction })).map(({ text }) => text);
+    };
+    const limit = small.leader.unfamiliar_from;
+    expect(to(limit)).toEqual([]);
+    expect(to(limit + 0.1)).toEqual([expect.stringContaining('unlike all that the model has learned from')]);
+  });
+
   it('one of them where there is no room for more: what may affect the dance comes first', () => {
     const silent = song(3, { silent: true, beats: [] });
     expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
