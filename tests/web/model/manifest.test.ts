@@ -45,7 +45,8 @@ describe('parseManifest', () => {
     ['a short schedule', (json) => void json.diffusion.alphas_cumprod.pop(), 'manifest-invalid'],
     ['channels that do not divide', (json) => void (json.latent.channels = 4), 'manifest-invalid'],
     ['default steps out of range', (json) => void (json.diffusion.steps.default = 60), 'manifest-invalid'],
-    ['no guidance for a layer', (json) => void (json.guidance.default = { coarse: 0 }), 'manifest-invalid'],
+    ['weights out of range', (json) => void (json.guidance.variety.default = 3), 'manifest-invalid'],
+    ['no seeds for the mean', (json) => void (json.guidance.variety.seeds = 0), 'manifest-invalid'],
     [
       'a capsule between no joints',
       (json) => void (json.quality.penetration.capsules[0]!.to = 'tail'),

@@ -68,7 +68,7 @@ export class Assembler {
    * field is decoded and solved with them and cut off: within it the ends of a clip fade from decoded joints, from the
    * shifts of locked feet and, but for one part in a hundred, from the choice of shifts against collisions.
    * @param from first frame; rounded down to where a part can begin
-   * @param length frames; fewer at the end of the dance
+   * @param length frames from there on; fewer at the end of the dance
    */
   async part(
     dance: Dance,
@@ -81,7 +81,7 @@ export class Assembler {
     const down = (frame: number): number => Math.max(0, Math.floor(frame / grid) * grid);
     const margin = receptive_field.decode * stride;
     const first = down(from);
-    const end = Math.min(leader.frames, first + length);
+    const end = Math.min(leader.frames, Math.ceil(from + length));
     const begin = down(first - margin);
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
     const clip = await this.decode(dance, { range, overlap: 0 });

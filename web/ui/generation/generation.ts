@@ -42,13 +42,22 @@ export class Generation {
   #running: Running | null = null;
   /** The newest weights, which came before the preview of older ones. */
   #waiting: Inputs | null = null;
+  /** The inputs are looked at when the present task's changes have been made. */
+  #queued = false;
+  #disposed = false;
 
   /** @param model resolves with the model when it is loaded; rejects when it can't be, which is reported elsewhere */
   constructor(store: Store, model: () => Promise<Generator>) {
     this.#store = store;
     this.#model = model;
     this.#unsubscribe = store.subscribe(() => {
-      this.#followInputs();
+      if (this.#queued) return;
+      this.#queued = true;
+      // Changes that are made together are one request: of a leader and a ready-made reaction, of seed and take.
+      queueMicrotask(() => {
+        this.#queued = false;
+        if (!this.#disposed) this.#followInputs();
+      });
     });
   }
 
@@ -65,6 +74,7 @@ export class Generation {
   };
 
   readonly dispose = (): void => {
+    this.#disposed = true;
     this.#unsubscribe();
     this.#abort();
   };

@@ -4,8 +4,8 @@ import { createFaders } from './faders';
 import { mountMatrix } from './matrix';
 import { mountPresetMenu } from './preset-menu';
 import type { Mount } from '../store/services';
-import { guidanceReset } from '../store/actions/settings';
-import { apply, watchAll } from '../store/store';
+import { dragBegun, dragEnded, guidanceReset } from '../store/actions/settings';
+import { apply, type Store, watchAll } from '../store/store';
 
 /** The section of what shapes the dance: presets, faders for the layers, the music and the variety, and body parts. */
 export const mountGuidance: Mount = (root, store, services) => {
@@ -45,8 +45,26 @@ export const mountGuidance: Mount = (root, store, services) => {
     ),
     menu,
     matrix,
+    followDrags(section, store),
     () => {
       section.remove();
     },
   );
 };
+
+/** Says when a fader in the section is grabbed and released; wherever the pointer is by then, the page hears of it. */
+function followDrags(section: HTMLElement, store: Store): () => void {
+  const begin = ({ target }: Event): void => {
+    if (target instanceof HTMLInputElement && target.type === 'range') apply(store, dragBegun());
+  };
+  const end = (): void => {
+    if (store.getState().drag?.held) apply(store, dragEnded());
+  };
+  section.addEventListener('pointerdown', begin);
+  addEventListener('pointerup', end);
+  addEventListener('pointercancel', end);
+  return () => {
+    removeEventListener('pointerup', end);
+    removeEventListener('pointercancel', end);
+  };
+}

@@ -11,10 +11,10 @@ export interface TakeStamp {
 }
 
 /**
- * Most time between two reactions of one drag of a guidance fader. After a longer rest the visitor has looked at the
- * earlier one, which therefore stays.
+ * Most time between two reactions that belong together although no drag says so, as when a fader is moved by keys. After
+ * a longer rest the visitor has looked at the earlier one, which therefore stays.
  */
-const SAME_DRAG_MS = 4000;
+const SAME_CHANGE_MS = 4000;
 
 /** Most takes in the list; beyond it the oldest that are neither starred nor named are removed. */
 export const MAX_TAKES = 40;
@@ -29,16 +29,18 @@ export function withReaction(
   state: AppState,
   reaction: Reaction,
   stamp: TakeStamp,
-): Pick<AppState, 'takes' | 'takesMade' | 'history'> {
-  const { takes, takesMade } = state;
+): Pick<AppState, 'takes' | 'takesMade' | 'history' | 'drag'> {
+  const { takes, takesMade, drag } = state;
   const before = takeOnStage(state);
   // A drag stays one step of undo however many reactions come while it lasts.
-  const sameDrag = before !== null && differOnlyInWeights(before.reaction.inputs, reaction.inputs);
-  const history = sameDrag ? state.history : sealed(state.history);
-  const keep = (take: Take): Pick<AppState, 'takes' | 'takesMade' | 'history'> => ({
+  const sameDance = before !== null && differOnlyInWeights(before.reaction.inputs, reaction.inputs);
+  const history = sameDance ? state.history : sealed(state.history);
+  const dragged = (take: string): AppState['drag'] => (drag?.held ? { ...drag, take } : null);
+  const keep = (take: Take): ReturnType<typeof withReaction> => ({
     takes: withTake(takes, take),
     takesMade,
     history,
+    drag: dragged(take.id),
   });
 
   // 1. The motion of a take with other inputs, as when the demo's song is read after its dancers.
@@ -51,8 +53,8 @@ export function withReaction(
   );
   if (sameInput) return keep({ ...sameInput, reaction });
 
-  // 3. The next reaction of a drag replaces the one before.
-  if (before && sameDrag && isReplaceable(before, state, stamp.at))
+  // 3. The next reaction of a drag or of keys replaces the one before.
+  if (before && sameDance && isReplaceable(before, state, stamp.at))
     return keep({ ...before, createdAt: stamp.at, reaction });
 
   // 4. A new take. The page's own reactions have a label and need no number.
@@ -62,16 +64,17 @@ export function withReaction(
     takes: withoutOldest(withTake(takes, take), [take.id, state.other]),
     takesMade: Math.max(takesMade, number),
     history,
+    drag: dragged(take.id),
   };
 }
 
 /**
- * Whether a take may be replaced by one that differs from it only in guidance: it is not starred, named or in a
- * comparison, it was generated here, and not longer ago than `SAME_DRAG_MS`.
+ * Whether a take may be replaced by one that differs from it only in weights: it is not starred, named or in a
+ * comparison, it was generated here, and by the same drag or, without one, not longer ago than `SAME_CHANGE_MS`.
  */
-function isReplaceable(take: Take, { other }: AppState, now: number): boolean {
+function isReplaceable(take: Take, { other, drag }: AppState, now: number): boolean {
   const unmarked = !take.starred && take.name === null && take.id !== other && take.reaction.label === null;
-  return unmarked && now - take.createdAt < SAME_DRAG_MS;
+  return unmarked && (drag ? take.id === drag.take : now - take.createdAt < SAME_CHANGE_MS);
 }
 
 /** At most `MAX_TAKES`, unless more are starred, named or in use. */

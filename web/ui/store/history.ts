@@ -59,7 +59,8 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
   const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
-  const continues = open && kind !== null && last?.kind === kind && at - last.at < SAME_GESTURE_MS;
+  const sameGesture = before.drag?.held === true || (last !== undefined && at - last.at < SAME_GESTURE_MS);
+  const continues = open && kind !== null && last?.kind === kind && sameGesture;
   const step: Step = continues
     ? { ...last, at }
     : {

@@ -145,6 +145,14 @@ export interface Saved {
   readonly shareable: boolean;
 }
 
+/** A drag of a fader, until the reaction to where it ended is there. */
+export interface Drag {
+  /** The pointer has not released it yet. */
+  readonly held: boolean;
+  /** Id of the take that its reactions have made. */
+  readonly take: string | null;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
@@ -167,6 +175,7 @@ export interface AppState {
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
+  readonly drag: Drag | null;
   /** The reaction before the last change of a setting, for as long as the stage shows it as a ghost. */
   readonly earlier: Reaction | null;
   readonly variations: Variations | null;

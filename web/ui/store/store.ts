@@ -27,6 +27,7 @@ export function initialState(theme: Theme): AppState {
     reading: { song: null, leader: null },
     reaction: null,
     preview: null,
+    drag: null,
     earlier: null,
     variations: null,
     seedLocked: false,

@@ -120,8 +120,9 @@ export const page = {
     return {
       leader: { fps: 30, frames, positions: array('leader').slice(0, frames * 66) },
       music: { features: array('music').slice(0, columns), frames },
-      guidance: array('guidance'),
+      guidance: Float32Array.from([...array('coarse')].flatMap((weight, i) => [weight, array('fine')[i]!])),
       musicGuidance: array('music_guidance')[0] ?? NaN,
+      variety: 1,
       steps,
       seed: 1,
     };

@@ -6,9 +6,11 @@ import { conditionClip } from '../../../../web/model/sample/condition';
 import { goldenError } from '../../../../web/model/load/golden';
 import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';
+import { blend, coarseAlone, layerGains } from '../../../../web/model/sample/blend';
+import { BranchSampler } from '../../../../web/model/sample/branch-sampler';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
-import { openSession } from '../../../../web/model/load/session';
+import { type ModelSession, openSession } from '../../../../web/model/load/session';
 import { maxDifference, type OpenedModel, openModel, TINY } from '../../support/open-model';
 
 let model: OpenedModel;
@@ -25,16 +27,15 @@ afterAll(() => model.session.release());
 
 const array = (name: string): Float32Array => Float32Array.from(model.arrays.get(name)?.data ?? []);
 
+/** The sampling of the golden scene's conditional branch. */
 function sampling(changes: Partial<Sampling> = {}): Sampling {
   const { manifest, golden, session } = model;
   return {
     latent: manifest.latent,
     alternatingPhase: manifest.diffusion.alternating_phase,
     schedule: ddim(manifest.diffusion, golden.steps),
-    latents,
     memory: array('memory'),
-    guidance: golden.guidance,
-    musicGuidance: golden.musicGuidance,
+    keep: 1,
     noise: noise(golden.seed, latents, width),
     runStep: session.step,
     blocksPerRun: 100,
@@ -57,57 +58,46 @@ describe('the tiny model on wasm', () => {
     expect(maxDifference(noise(model.golden.seed, latents, width, 0), array('initial'))).toBeLessThan(1e-6);
   });
 
-  it('computes the same memory, in one piece and in chunks', async () => {
+  it('computes the same memory with and without the song, in one piece and in chunks', async () => {
     const { session, golden, manifest } = model;
+    const silent = { ...golden, musicValid: new Float32Array(golden.musicValid.length) };
     for (const size of [latents, 40, 7]) {
       const memory = await conditionClip(session.condition, golden, manifest, size);
       expect(maxDifference(memory, array('memory'))).toBeLessThan(1e-4);
     }
+    const memory = await conditionClip(session.condition, silent, manifest, latents);
+    expect(maxDifference(memory, array('silent'))).toBeLessThan(1e-4);
+    expect(maxDifference(array('silent'), array('memory'))).toBeGreaterThan(1e-2);
   });
 
-  it('agrees with PyTorch after every step of a whole sampling', async () => {
-    const [xs, x0s] = [array('x'), array('x0')];
+  it('samples the same three branches as PyTorch, and blends them alike', async () => {
+    const { manifest, session, golden } = model;
     const size = latents * width;
-    const seen: number[] = [];
-    await sample(
-      sampling({
-        onStep: (k, x, x0) => {
-          seen.push(
-            maxDifference(x, xs.subarray(k * size, (k + 1) * size)),
-            maxDifference(x0, x0s.subarray(k * size, (k + 1) * size)),
-          );
-        },
-      }),
-    );
-    expect(seen).toHaveLength(2 * model.golden.steps);
-    expect(Math.max(...seen)).toBeLessThan(1e-4);
-  });
-
-  it('decodes the same joints from all layers and from the coarse one alone', async () => {
-    const { session, golden } = model;
-    const last = array('x').subarray(-latents * width);
-    for (const [name, layers] of [
-      ['reactor', [1, 1]],
-      ['coarse', [1, 0]],
-    ] as const) {
-      const input = { latents: last, leader: golden.leader, layers: new Float32Array(layers) };
-      const joints = await session.decode(input);
-      expect(maxDifference(joints, array(name))).toBeLessThan(1e-4);
+    const branches = await new BranchSampler(manifest, session).branches(golden, golden, {
+      silent: true,
+      unconditional: true,
+      mean: false,
+    });
+    const sampled = [branches.conditional, branches.silent, branches.unconditional];
+    for (const [i, branch] of sampled.entries()) {
+      const expected = array('branches').subarray(i * size, (i + 1) * size);
+      expect(maxDifference(branch ?? [], expected)).toBeLessThan(1e-4);
     }
-    expect(maxDifference(array('reactor'), array('coarse'))).toBeGreaterThan(0.001);
+    const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent);
+    expect(maxDifference(blended, array('latents'))).toBeLessThan(1e-3);
   });
 
-  it('keeps the coarse latents bit by bit when only the fine guidance changes', async () => {
-    const { channels, layers } = model.manifest.latent;
-    const guided = (fine: number): Promise<Float32Array> =>
-      sample(
-        sampling({ guidance: model.golden.guidance.map((s, i) => (i % layers.length === 1 ? fine : s)) }),
-      );
-    const layer = (x: Float32Array, r: number): Float32Array =>
-      x.filter((_, i) => Math.floor(i / channels) % layers.length === r);
-    const [low, high] = [await guided(-1), await guided(3)];
-    expect(layer(low, 0)).toEqual(layer(high, 0));
-    expect(maxDifference(layer(low, 1), layer(high, 1))).toBeGreaterThan(0.1);
+  it('decodes the same joints with the gains of both layers and from the coarse one alone', async () => {
+    const { session, golden, manifest } = model;
+    for (const [name, gains] of [
+      ['reactor', layerGains(golden.guidance, manifest.latent)],
+      ['coarse_alone', coarseAlone(manifest.latent)],
+    ] as const) {
+      const { leader, bones } = golden;
+      const { reactor } = await session.decode({ latents: array('latents'), leader, gains, bones });
+      expect(maxDifference(reactor, array(name))).toBeLessThan(1e-4);
+    }
+    expect(maxDifference(array('reactor'), array('coarse_alone'))).toBeGreaterThan(0.001);
   });
 
   it('gives the same latents however many blocks go through the graph at once', async () => {
@@ -123,7 +113,6 @@ describe('the tiny model on wasm', () => {
     const alone = await sample(
       sampling({
         alternatingPhase: false,
-        latents: block,
         memory: array('memory').subarray(block * memoryWidth, 2 * block * memoryWidth),
         noise: noise(model.golden.seed, block, width, block),
       }),
@@ -138,12 +127,18 @@ describe('the tiny model on wasm', () => {
       ...session,
       step: async (input: Parameters<typeof session.step>[0]) => {
         const output = await session.step(input);
-        output.x[3 * width] = (output.x[3 * width] ?? 0) + 0.5;
+        output[3 * width]! += 0.5;
         return output;
       },
     };
     expect(await goldenError(manifest, spoiled, golden)).toBeGreaterThan(1e-3);
-    const silent = { ...session, decode: () => Promise.resolve(golden.reactor.map(() => NaN)) };
+    const silent: ModelSession = {
+      ...session,
+      decode: async (input) => ({
+        ...(await session.decode(input)),
+        reactor: golden.reactor.map(() => NaN),
+      }),
+    };
     expect(await goldenError(manifest, silent, golden)).toBeNaN();
   });
 

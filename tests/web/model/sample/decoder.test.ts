@@ -23,7 +23,7 @@ it('decodes a part as the whole does, and gives every bone its length', async ()
   };
   const whole = await decodeClip(session, manifest, request);
   const range = { start: 60, end: 75 };
-  const part = await decodeClip(session, manifest, request, range);
+  const part = await decodeClip(session, manifest, request, { range });
   const perLatent = latent.stride * 66;
   const expected = whole.joints.subarray(range.start * perLatent, range.end * perLatent);
   expect(part.joints).toHaveLength(expected.length);

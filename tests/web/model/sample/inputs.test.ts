@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { checkRequest, type GenerateRequest, prepareInput } from '../../../../web/model/sample/inputs';
+import { checkSource, type GenerateRequest, prepareInput } from '../../../../web/model/sample/inputs';
 import { small } from '../../support/small-manifest';
 
 const WIDTH = small.audio.features;
@@ -16,6 +16,7 @@ function request(frames: number, song: { frames: number; start?: number } | null
     },
     guidance: new Float32Array(small.latent.streams.length * small.latent.layers.length),
     musicGuidance: 0,
+    variety: 1,
     steps: small.diffusion.steps.min,
     seed: 1,
   };
@@ -53,7 +54,7 @@ describe('the song in the model', () => {
 
   it('moves by whole frames only', () => {
     expect(() => {
-      checkRequest(request(8, { frames: 6, start: 0.5 }), small);
+      checkSource(request(8, { frames: 6, start: 0.5 }), small);
     }).toThrow(/starts at frame 0.5/);
   });
 });

@@ -21,6 +21,7 @@ class ManualGenerator {
     manifest: small,
     backend: { name: 'wasm', reason: '', threads: 1 },
     generate: () => Promise.reject(new Error('Nothing is generated here.')),
+    differingSeeds: () => Promise.reject(new Error('Nothing is generated here.')),
     coarse: (request: CoarseRequest, { signal }: Pick<GenerateOptions, 'signal'> = {}) =>
       new Promise<SolvedMotion>((answer, fail) => {
         this.calls.push({ request, signal, answer, fail });
@@ -43,6 +44,7 @@ describe('the coarse layer', () => {
     const settings = {
       guidance: uniformGuidance(0, 0),
       music: 2,
+      variety: 1,
       steps: 10,
       seed: 1,
       role: 'reactor' as const,

@@ -78,14 +78,17 @@ describe('the dance before a change', () => {
     expect(shown()).toBeNull();
   });
 
-  it('appears with the preview and not once more with the whole', () => {
-    const { motion } = made();
+  it('appears with the preview, and not once more with the whole', () => {
+    made();
     apply(change.guidanceSet('fine', 0.5));
     previewed();
-    expect(shown()).toBe(motion);
     after(3);
     made();
     expect(shown()).toBeNull();
+    const second = store.getState().reaction!;
+    apply(change.guidanceSet('fine', 0.7));
+    previewed();
+    expect(shown()).toBe(second.motion);
   });
 
   it('stays when the new dance is made again', () => {

@@ -1,10 +1,17 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { Preview } from '../../../../web/model/client';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
 import { leader, song, still } from '../../support/made-state';
+
+/** Frames of a preview, with the root at x = `at`. */
+function part(from: number, frames: number, at: number): Preview {
+  const motion = { ...still(frames), root: new Float32Array(frames * 3).fill(at) };
+  return { motion, locked: motion, from };
+}
 
 describe('generation', () => {
   let store: change.Store;
@@ -24,10 +31,11 @@ describe('generation', () => {
     stop();
     vi.useRealTimers();
   });
-  const debounced = (): Promise<void> => vi.advanceTimersByTimeAsync(60).then(() => undefined);
+  /** Promises that have their answers go on. */
+  const settled = (): Promise<void> => vi.advanceTimersByTimeAsync(0).then(() => undefined);
   const begin = async (): Promise<void> => {
     change.apply(store, change.leaderLoaded(leader(60)));
-    await debounced();
+    await settled();
   };
 
   it('begins by itself once a leader is there, without a song', async () => {
@@ -35,7 +43,7 @@ describe('generation', () => {
     expect(model.calls).toHaveLength(1);
     expect(model.calls[0]?.request).toMatchObject({ music: null, steps: 10, seed: 7 });
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     expect(store.getState().reaction).toMatchObject({ seconds: 3, label: null });
     expect(store.getState().job).toBeNull();
   });
@@ -45,7 +53,7 @@ describe('generation', () => {
     await begin();
     expect(model.calls).toHaveLength(0);
     change.apply(store, change.songLoaded(song(2)));
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(1);
     expect(model.calls[0]?.request.music?.frames).toBe(60);
   });
@@ -54,36 +62,62 @@ describe('generation', () => {
     change.apply(store, change.songLoaded(song(2)));
     await begin();
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     change.apply(store, shiftSet(7));
-    await debounced();
+    await settled();
     expect(model.calls[1]?.request.music).toMatchObject({ frames: 60, start: 7 });
   });
 
-  it('is debounced while a fader moves, and a newer request aborts the older one', async () => {
+  it('asks at once after a change of the seed, and aborts the request before', async () => {
     await begin();
-    for (const value of [0.2, 0.4, 0.6]) {
-      change.apply(store, change.guidanceSet('coarse', value));
-      await vi.advanceTimersByTimeAsync(30);
-    }
-    expect(model.calls).toHaveLength(1);
-    expect(model.calls[0]?.options.signal?.aborted).toBe(false);
-    await debounced();
-    expect(model.calls).toHaveLength(2);
+    change.apply(store, change.seedSet(8));
+    change.apply(store, change.seedSet(9));
+    await settled();
+    expect(model.calls.map(({ request }) => request.seed)).toEqual([7, 9]);
     expect(model.calls[0]?.options.signal?.aborted).toBe(true);
-    expect(model.calls[1]?.request.guidance[0]).toBeCloseTo(0.6);
     expect(store.getState().problem).toBeNull();
+  });
+
+  it('shows a preview of each request while a fader moves, and goes on with the newest weights', async () => {
+    await begin();
+    model.calls[0]?.answer(result());
+    await settled();
+    const moved = async (value: number): Promise<void> => {
+      change.apply(store, change.guidanceSet('coarse', value));
+      await settled();
+    };
+    for (const value of [0.1, 0.2, 0.3]) await moved(value);
+    expect(model.calls).toHaveLength(2);
+    const first = model.calls[1]!;
+    expect(first.options.signal?.aborted).toBe(false);
+    void first.options.onPreview?.(part(24, 24, 1));
+    await settled();
+    // The older request is dropped after its preview, and the value between is never asked for.
+    expect(first.options.signal?.aborted).toBe(true);
+    expect(model.calls.slice(2).map(({ request }) => request.guidance[0])).toEqual([Math.fround(0.3)]);
+    // Once the preview is shown, a newer value does not wait for the whole.
+    const second = model.calls[2]!;
+    void second.options.onPreview?.(part(24, 24, 2));
+    await settled();
+    expect(second.options.signal?.aborted).toBe(false);
+    await moved(0.4);
+    expect(second.options.signal?.aborted).toBe(true);
+    void model.calls[3]?.options.onPreview?.(part(24, 24, 3));
+    model.calls[3]?.answer(result());
+    await settled();
+    expect(store.getState()).toMatchObject({ job: null, preview: null });
+    expect(store.getState().reaction?.inputs.settings.guidance['upper']?.['coarse']).toBe(0.4);
   });
 
   it('makes nothing when the inputs return to those of the reaction on the stage', async () => {
     await begin();
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     change.apply(store, change.guidanceSet('fine', 1));
-    await debounced();
+    await settled();
     expect(store.getState().job).not.toBeNull();
     change.apply(store, change.guidanceSet('fine', 0));
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(2);
     expect(model.calls[1]?.options.signal?.aborted).toBe(true);
     expect(store.getState().job).toBeNull();
@@ -93,22 +127,22 @@ describe('generation', () => {
     await begin();
     generation.cancel();
     change.apply(store, change.themeSet('light'));
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(1);
     expect(store.getState()).toMatchObject({ job: null, problem: null, reaction: null });
     generation.generate();
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(2);
   });
 
   it('runs a request for the reaction that is on the stage already', async () => {
     await begin();
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     generation.generate();
-    await debounced();
+    await settled();
     change.apply(store, change.themeSet('light'));
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(2);
     expect(model.calls[1]?.options.signal?.aborted).toBe(false);
   });
@@ -116,50 +150,60 @@ describe('generation', () => {
   it('shows a failure once and keeps the reaction on the stage', async () => {
     await begin();
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     const { reaction } = store.getState();
     change.apply(store, change.seedSet(8));
-    await debounced();
+    await settled();
     model.calls[1]?.fail(new Error('boom'));
-    await debounced();
+    await settled();
     expect(store.getState().problem).toMatchObject({ code: 'generation-failed', remedy: 'generate' });
     expect(store.getState().reaction).toBe(reaction);
     expect(model.calls).toHaveLength(2);
   });
 
-  it('shows the part around the playhead early, within the old reaction, until all is ready', async () => {
+  it('shows the part in view early, within the old reaction, until all is ready', async () => {
     await begin();
     model.calls[0]?.answer(result());
-    await debounced();
+    await settled();
     const { reaction } = store.getState();
-    change.apply(store, change.playbackSet({ time: 1 }));
-    change.apply(store, change.seedSet(8));
-    await debounced();
+    change.apply(store, change.playbackSet({ time: 1, playing: true, speed: 0.5 }));
+    change.apply(store, change.guidanceSet('coarse', 0.5));
+    await settled();
     const { options } = model.calls[1] ?? {};
-    expect(options?.at).toBe(30);
-    const other = { ...still(60), root: new Float32Array(180).fill(1) };
-    options?.onPreview?.({ motion: other, locked: other, fresh: { from: 24, to: 48 } });
-    const { preview, job } = store.getState();
-    expect(job?.previewed).toEqual({ from: 24, to: 48 });
-    expect([0, 36, 59].map((frame) => preview?.motion.root[frame * 3])).toEqual([0, 1, 0]);
-    options?.onProgress?.({ stage: 'step', done: 1, total: 2, fraction: 0.5 });
-    expect(store.getState().job?.previewed).toEqual({ from: 24, to: 48 });
+    expect(options?.playhead).toMatchObject({ frame: 30, rate: 15 });
+    void options?.onPreview?.(part(24, 24, 1));
+    const rootOf = (frame: number) => store.getState().preview?.motion.root[frame * 3];
+    expect([0, 23, 24, 47, 48, 59].map(rootOf)).toEqual([0, 0, 1, 1, 0, 0]);
     // What was made before is still what is taken home.
     expect(store.getState().reaction).toBe(reaction);
     model.calls[1]?.answer(result());
-    await debounced();
+    await settled();
     expect(store.getState()).toMatchObject({ preview: null, job: null });
+  });
+
+  it('shows no part of another body within the reaction', async () => {
+    await begin();
+    model.calls[0]?.answer(result());
+    await settled();
+    change.apply(store, change.seedSet(8));
+    await settled();
+    const { motion, ...rest } = part(24, 24, 1);
+    const taller = { ...motion, offsets: new Float32Array(66).fill(0.1) };
+    void model.calls[1]?.options.onPreview?.({ ...rest, motion: taller });
+    expect(store.getState().preview).toBeNull();
   });
 
   it('ignores previews of an aborted request, and removes the preview when cancelled', async () => {
     await begin();
-    const preview = { motion: still(60), locked: still(60), fresh: { from: 0, to: 24 } };
-    const [older] = model.calls;
+    model.calls[0]?.answer(result());
+    await settled();
+    change.apply(store, change.guidanceSet('fine', 0.5));
+    await settled();
     change.apply(store, change.seedSet(8));
-    await debounced();
-    older?.options.onPreview?.(preview);
+    await settled();
+    void model.calls[1]?.options.onPreview?.(part(0, 24, 1));
     expect(store.getState().preview).toBeNull();
-    model.calls[1]?.options.onPreview?.(preview);
+    void model.calls[2]?.options.onPreview?.(part(0, 24, 1));
     expect(store.getState().preview).not.toBeNull();
     generation.cancel();
     expect(store.getState()).toMatchObject({ preview: null, job: null });
@@ -169,12 +213,12 @@ describe('generation', () => {
     await begin();
     const late = model.calls[0];
     change.apply(store, change.leaderLoaded(leader(90, 'other.bvh')));
-    await debounced();
+    await settled();
     late?.answer(result());
-    await debounced();
+    await settled();
     expect(store.getState().reaction).toBeNull();
     model.calls[1]?.answer(result(90));
-    await debounced();
+    await settled();
     expect(store.getState().reaction?.motion.frames).toBe(90);
   });
 
@@ -194,7 +238,7 @@ describe('generation', () => {
         seconds: null,
       }),
     );
-    await debounced();
+    await settled();
     expect(model.calls).toHaveLength(0);
   });
 });

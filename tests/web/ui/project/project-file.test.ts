@@ -229,6 +229,7 @@ describe('a part that cannot be read any more', () => {
     expect(content.takes?.[0]?.reaction.inputs.settings).toEqual({
       guidance: { ...uniformGuidance(0, 0), upper: { coarse: 0, fine: 0.6 } },
       music: 2,
+      variety: 1,
       steps: 10,
       seed: 5,
       role: 'reactor',

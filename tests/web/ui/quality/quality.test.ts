@@ -9,7 +9,14 @@ import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song } from '../../support/made-state';
 
-const settings = { guidance: uniformGuidance(0, 0), music: 2, steps: 10, seed: 1, role: 'reactor' as const };
+const settings = {
+  guidance: uniformGuidance(0, 0),
+  music: 2,
+  variety: 1,
+  steps: 10,
+  seed: 1,
+  role: 'reactor' as const,
+};
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });
 

@@ -16,6 +16,7 @@ test('the foot lock is on at first, and switching it changes the motion that is 
   const settings = {
     guidance: uniformGuidance(0, 0),
     music: 2,
+    variety: 1,
     steps: 10,
     seed: 1,
     role: 'reactor' as const,

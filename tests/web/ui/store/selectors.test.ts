@@ -9,6 +9,7 @@ import { uniformGuidance, leader, song, still } from '../../support/made-state';
 const settings: Settings = {
   guidance: uniformGuidance(1.2, 0.6),
   music: 2,
+  variety: 1,
   steps: 10,
   seed: 1204,
   role: 'reactor',
@@ -53,6 +54,7 @@ describe('the inputs of the next reaction', () => {
       { ...settings, seed: 1 },
       { ...settings, steps: 4 },
       { ...settings, music: 0 },
+      { ...settings, variety: 0 },
       { ...settings, guidance: uniformGuidance(1.2, 0.65) },
       { ...settings, guidance: { ...settings.guidance, lower: { coarse: 1.2, fine: 0.65 } } },
       { ...settings, role: 'leader' as const },
@@ -127,9 +129,11 @@ describe('notes', () => {
 
   it('on the job', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
-    const job = { done: 2, total: 10, fraction: 0.3, previewed: null };
+    const ready = { phase: 'ready', backend: 'wasm', reason: '', threads: 1 } as const;
+    const job = { done: 2, total: 10, fraction: 0.3 };
     const from = { model: loading, settings };
     expect(select.jobText({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
+    expect(select.jobText({ ...job, stage: 'waiting' }, { ...from, model: ready })).toBe('shaping the dance');
     expect(select.jobText({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');
     expect(select.jobText({ ...job, stage: 'step', done: 10 }, from)).toBe('step 10 of 10');
     expect(select.jobText({ ...job, stage: 'step', done: 24, total: 50 }, from)).toBe('step 5 of 10');

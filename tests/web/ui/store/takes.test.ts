@@ -177,6 +177,39 @@ describe('a drag of guidance', () => {
   });
 });
 
+describe('a drag with the pointer', () => {
+  const move = (value: number, after: number): void => {
+    page.do(change.guidanceSet('coarse', value));
+    page.arrive({ after });
+  };
+  const steps = (): number => page.state.history.past.length;
+
+  it('makes one take and one step of undo, however long the hand rests', () => {
+    page.arrive();
+    page.now += 60_000;
+    page.do(change.dragBegun());
+    for (const value of [0.1, 0.2, 0.3]) move(value, 10_000);
+    page.do(change.guidanceSet('coarse', 0.4), change.dragEnded());
+    // The last reaction comes after the release.
+    page.arrive({ after: 10_000 });
+    expect([page.titles, page.coarse, steps()]).toEqual([['Take 2', 'Take 1'], 0.4, 1]);
+    page.do(undone());
+    expect([page.onStage, page.coarse]).toEqual(['Take 1', 0]);
+  });
+
+  it('leaves the take of the drag before, however soon it follows', () => {
+    page.arrive();
+    page.now += 60_000;
+    for (const value of [0.1, 0.2]) {
+      page.do(change.dragBegun());
+      move(value, 100);
+      page.do(change.dragEnded());
+    }
+    expect([page.titles, steps()]).toEqual([['Take 3', 'Take 2', 'Take 1'], 2]);
+    expect(page.state.drag).toBeNull();
+  });
+});
+
 describe('the limit of takes', () => {
   it('removes the oldest, unless they are starred, named or in use', () => {
     page.arrive();
@@ -396,18 +429,18 @@ describe('undo and redo', () => {
   });
 
   it('restore a take that a later reaction of the drag has replaced', () => {
-    page.do(change.guidanceSet('fine', 1));
+    page.do(change.guidanceSet('fine', 0.5));
     const kept = page.arrive();
     // A step of its own, but within the time of folding.
     page.do((state) => ({ history: { ...state.history, open: false } }));
-    page.do(change.guidanceSet('fine', 2));
+    page.do(change.guidanceSet('fine', 1));
     page.arrive({ after: 2000 });
     expect(page.titles).toEqual(['Take 3', 'Take 2', 'Take 1']);
     page.do(undone());
     expect(page.state.reaction).toBe(kept);
     expect([page.onStage, page.state.takes.length]).toEqual(['Take 3', 3]);
     page.do(redone());
-    expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(2);
+    expect(takeOnStage(page.state)?.reaction.inputs.settings.guidance.lower?.fine).toBe(1);
   });
 
   it('a new change removes what could be redone; an equal value is no change', () => {

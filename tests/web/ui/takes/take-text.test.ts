@@ -10,6 +10,7 @@ const music = small.guidance.music.default;
 const settings = {
   guidance: uniformGuidance(2, 1.5),
   music,
+  variety: small.guidance.variety.default,
   steps: small.diffusion.steps.default,
   seed: 1204,
   role: 'reactor' as const,
@@ -40,6 +41,7 @@ test.each<[string, Partial<Inputs>]>([
   [`to other, ${guided}`, { leader: leader(90, 'other.bvh') }],
   [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
   [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
+  [`${guided}, 1.5 variety`, { settings: { ...settings, variety: 1.5 } }],
 ])('what sets a take apart comes first: %s', (words, more) => {
   expect(takeText(take(more), page)).toBe(words);
 });
@@ -47,6 +49,6 @@ test.each<[string, Partial<Inputs>]>([
 test('the tooltip of a take names all inputs', () => {
   expect(fullTakeText(take({ shift: 51 }))).toBe(
     `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
-      `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, seed 1204`,
+      `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, 1.00 variety, seed 1204`,
   );
 });

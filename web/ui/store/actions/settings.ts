@@ -10,7 +10,8 @@ import {
   withCell,
   withColumn,
 } from '../guidance-matrix';
-import { sameSettings } from '../selectors';
+import { sealed } from '../history';
+import { sameSettings, upToDate } from '../selectors';
 import type { Guidance, Layer, Settings } from '../reaction';
 import type { Change } from '../store';
 
@@ -79,6 +80,16 @@ export function musicReset(): Change {
 /** Back to the manifest's variety. */
 export function varietyReset(): Change {
   return guided((_, { guidance }) => ({ variety: guidance.variety.default }));
+}
+
+/** The pointer has grabbed a fader: until it is released, all changes and reactions are one step of undo and one take. */
+export function dragBegun(): Change {
+  return ({ history }) => ({ drag: { held: true, take: null }, history: sealed(history) });
+}
+
+/** The pointer has released the fader; the reaction to where it was released may still be on its way. */
+export function dragEnded(): Change {
+  return (state) => ({ drag: state.drag && !upToDate(state) ? { ...state.drag, held: false } : null });
 }
 
 type Guided = Pick<Settings, 'guidance' | 'music' | 'variety'>;
