@@ -166,7 +166,10 @@ describe('the dance before a change', () => {
     made();
     expect(shown()).toBeNull();
     apply(change.rolesSwapped());
-    made();
+    const swapped = made();
+    expect(shown()).toBeNull();
+    apply(undone());
+    expect(store.getState().reaction).not.toBe(swapped);
     expect(shown()).toBeNull();
   });
 
