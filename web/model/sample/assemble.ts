@@ -3,7 +3,7 @@ import { yieldToEvents } from '../../common/yield-to-events';
 import { avoidCollisions, sampleStep } from '../../motion/contact/collision-avoidance';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
-import { restOffsets } from '../../motion/fit/rest-pose';
+import { restOffsets, trunkRotations } from '../../motion/fit/rest-pose';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
@@ -50,7 +50,8 @@ export class Assembler {
     const { lengths } = await decodeClip(this.session, this.manifest, request, { signal });
     const bones = meanLengths(lengths, skeleton.joints.length);
     const clip = await this.decode({ ...dance, body: { bones } }, { signal });
-    return { bones, offsets: restOffsets(clip) };
+    const observed = new Float64Array(clip.positions);
+    return { bones, offsets: restOffsets(observed, trunkRotations(observed)) };
   }
 
   /** The whole dance. `onDecoded` is called between decoding and solving. */

@@ -22,7 +22,7 @@ export interface BodyRule {
   readonly deep: number;
 }
 
-/** The capsules of one dancer in every frame. */
+/** The capsules of one dancer in every frame, or in one frame of several. */
 export interface CapsuleBody {
   /** frames x capsules x 6: start and end of each axis. */
   readonly axes: Float64Array;
@@ -32,31 +32,37 @@ export interface CapsuleBody {
   readonly radii: readonly number[];
 }
 
-/** The capsules around the bones of a clip of at least one frame. */
-export function capsuleBody(clip: MotionClip, { capsules, reference_height }: BodyRule): CapsuleBody {
-  const { frames, positions } = clip;
+/**
+ * The capsules around the bones of a clip of at least one frame.
+ * @param step frames from each of those that are wanted to the next
+ */
+export function capsuleBody(clip: MotionClip, rule: BodyRule, step = 1): CapsuleBody {
+  const { capsules, reference_height } = rule;
+  const { positions } = clip;
+  const frames = Math.ceil(clip.frames / step);
   const size = bodyHeight(clip) / reference_height;
   const radii = capsules.map(({ radius }) => radius * size);
   const axes = new Float64Array(frames * capsules.length * 6);
   const spheres = new Float64Array(frames * capsules.length * 4);
-  for (let frame = 0; frame < frames; frame++) {
-    capsules.forEach(({ from, to, beyond }, index) => {
-      const a = (frame * JOINT_COUNT + J[from]) * 3;
-      const b = (frame * JOINT_COUNT + J[to]) * 3;
+  capsules.forEach(({ from, to, beyond }, index) => {
+    const [first, last] = [3 * J[from], 3 * J[to]];
+    for (let frame = 0; frame < frames; frame++) {
+      const row = frame * step * JOINT_COUNT * 3;
       const capsule = frame * capsules.length + index;
       let square = 0;
       for (let axis = 0; axis < 3; axis++) {
-        const [first, last] = [positions[a + axis]!, positions[b + axis]!];
-        const start = beyond > 0 ? last : first;
-        const end = last + (last - first) * beyond;
+        const a = positions[row + first + axis]!;
+        const b = positions[row + last + axis]!;
+        const start = beyond > 0 ? b : a;
+        const end = b + (b - a) * beyond;
         axes[capsule * 6 + axis] = start;
         axes[capsule * 6 + 3 + axis] = end;
         spheres[capsule * 4 + axis] = (start + end) / 2;
         square += (end - start) ** 2;
       }
       spheres[capsule * 4 + 3] = Math.sqrt(square) / 2 + radii[index]!;
-    });
-  }
+    }
+  });
   return { axes, spheres, radii };
 }
 
@@ -67,54 +73,102 @@ interface CapsulePair {
   readonly radii: number;
 }
 
-/** Whether the bounding spheres of two capsules come within `margin` metres, the second one shifted level by x, z. */
-function spheresOverlap(
-  { spheres: a }: CapsuleBody,
-  p: number,
-  { spheres: b }: CapsuleBody,
-  q: number,
-  x: number,
-  z: number,
-  margin: number,
-): boolean {
-  const gapX = a[p * 4]! - b[q * 4]! - x;
-  const gapY = a[p * 4 + 1]! - b[q * 4 + 1]!;
-  const gapZ = a[p * 4 + 2]! - b[q * 4 + 2]! - z;
-  const limit = a[p * 4 + 3]! + b[q * 4 + 3]! + margin;
-  return gapX * gapX + gapY * gapY + gapZ * gapZ < limit * limit;
-}
-
 /**
- * Broad phase of the collision test: the pairs of capsules that may overlap in a frame if one dancer is shifted by up to
- * `margin` metres, those whose bounding spheres come that near. A few in a hundred remain.
+ * Broad phase of the collision test: the pairs of capsules that may overlap in a frame, those whose bounding spheres
+ * overlap. A few in a hundred remain.
  */
-export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number, margin = 0): CapsulePair[] {
+export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number): CapsulePair[] {
   const pairs: CapsulePair[] = [];
   a.radii.forEach((first, i) => {
     const p = frame * a.radii.length + i;
     b.radii.forEach((second, j) => {
       const q = frame * b.radii.length + j;
-      if (spheresOverlap(a, p, b, q, 0, 0, margin)) pairs.push({ a: p, b: q, radii: first + second });
+      const gapX = a.spheres[p * 4]! - b.spheres[q * 4]!;
+      const gapY = a.spheres[p * 4 + 1]! - b.spheres[q * 4 + 1]!;
+      const gapZ = a.spheres[p * 4 + 2]! - b.spheres[q * 4 + 2]!;
+      const limit = a.spheres[p * 4 + 3]! + b.spheres[q * 4 + 3]!;
+      if (gapX * gapX + gapY * gapY + gapZ * gapZ < limit * limit)
+        pairs.push({ a: p, b: q, radii: first + second });
     });
   });
   return pairs;
 }
 
-/**
- * Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none.
- * @param x with `z`: level shift of the second dancer, metres
- */
-export function penetrationDepth(
-  a: CapsuleBody,
-  b: CapsuleBody,
-  pairs: readonly CapsulePair[],
-  x = 0,
-  z = 0,
-): number {
+/** Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none. */
+export function penetrationDepth(a: CapsuleBody, b: CapsuleBody, pairs: readonly CapsulePair[]): number {
   let depth = 0;
   for (const pair of pairs) {
-    if (!spheresOverlap(a, pair.a, b, pair.b, x, z, 0)) continue;
-    depth = Math.max(depth, pair.radii - segmentDistance(a.axes, pair.a * 6, b.axes, pair.b * 6, x, z));
+    depth = Math.max(depth, pair.radii - segmentDistance(a.axes, pair.a * 6, b.axes, pair.b * 6));
   }
   return depth;
+}
+
+/** Level shifts of equal x, by ascending z, metres. */
+export interface ShiftColumn {
+  readonly x: number;
+  readonly z: Float64Array;
+}
+
+/**
+ * Deepest overlap of two dancers in a frame for each of many level shifts of the second one.
+ *
+ * @param columns the shifts, n in all
+ * @returns n depths, metres, 0 where there is no overlap
+ */
+export function shiftedDepths(
+  a: CapsuleBody,
+  b: CapsuleBody,
+  frame: number,
+  columns: readonly ShiftColumn[],
+): Float64Array {
+  const depths = new Float64Array(columns.reduce((count, { z }) => count + z.length, 0));
+  a.radii.forEach((first, i) => {
+    const p = (frame * a.radii.length + i) * 6;
+    b.radii.forEach((second, j) => {
+      deepen(depths, first + second, a.axes, p, b.axes, (frame * b.radii.length + j) * 6, columns);
+    });
+  });
+  return depths;
+}
+
+/**
+ * Raises the depths to those of one pair of capsules. The boxes around two axes are at most as far apart as the axes:
+ * where even the boxes leave no room for a deeper overlap, the distance of the axes is not computed.
+ */
+function deepen(
+  depths: Float64Array,
+  radii: number,
+  a: Float64Array,
+  p: number,
+  b: Float64Array,
+  q: number,
+  columns: readonly ShiftColumn[],
+): void {
+  const gapY = Math.max(0, gapAfter(a, p + 1, b, q + 1), gapAfter(b, q + 1, a, p + 1));
+  if (gapY >= radii) return;
+  const [afterX, beforeX] = [gapAfter(a, p, b, q), gapAfter(b, q, a, p)];
+  const [afterZ, beforeZ] = [gapAfter(a, p + 2, b, q + 2), gapAfter(b, q + 2, a, p + 2)];
+  let first = 0;
+  for (const { x, z: column } of columns) {
+    const gapX = Math.max(0, afterX + x, beforeX - x);
+    const square = gapX * gapX + gapY * gapY;
+    if (square < radii * radii) {
+      const reachZ = Math.sqrt(radii * radii - square);
+      for (let k = 0; k < column.length; k++) {
+        const z = column[k]!;
+        if (z <= beforeZ - reachZ) continue;
+        if (z >= reachZ - afterZ) break;
+        const gapZ = Math.max(0, afterZ + z, beforeZ - z);
+        const reach = radii - depths[first + k]!;
+        if (square + gapZ * gapZ >= reach * reach) continue;
+        depths[first + k] = Math.max(depths[first + k]!, radii - segmentDistance(a, p, b, q, x, z));
+      }
+    }
+    first += column.length;
+  }
+}
+
+/** How far the box around the segment b begins after the end of the one around a along an axis; below 0 where it does not. */
+function gapAfter(a: Float64Array, p: number, b: Float64Array, q: number): number {
+  return Math.min(b[q]!, b[q + 3]!) - Math.max(a[p]!, a[p + 3]!);
 }

@@ -1,8 +1,8 @@
-import { type BodyRule, type CapsuleBody, capsuleBody, candidatePairs, penetrationDepth } from './capsules';
+import { type BodyRule, capsuleBody, candidatePairs, penetrationDepth, shiftedDepths } from './capsules';
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
-import { type LevelShift, MAX_SHIFT, SHIFTS, viterbiPath } from './viterbi-path';
+import { type LevelShift, SHIFT_COLUMNS, SHIFTS, viterbiPath } from './viterbi-path';
 import { gaussianFilter } from '../math/statistics';
-import { JOINT_COUNT, type JointName } from '../skeleton/skeleton';
+import type { JointName } from '../skeleton/skeleton';
 
 /** Joints that end the bones of the arms. Partners hold each other, so arms may overlap. */
 const ARMS: ReadonlySet<JointName> = new Set(['left_elbow', 'left_wrist', 'right_elbow', 'right_wrist']);
@@ -28,20 +28,18 @@ function runsAround(overlaps: readonly boolean[], margin: number): { from: numbe
   return runs;
 }
 
-/** Penetration depth in a frame with the second dancer shifted by every one of `SHIFTS`, metres. */
-function depthsOf(a: CapsuleBody, b: CapsuleBody, frame: number): Float64Array {
-  const pairs = candidatePairs(a, b, frame, MAX_SHIFT);
-  return Float64Array.from(SHIFTS, ({ x, z }) => penetrationDepth(a, b, pairs, x, z));
-}
-
 /**
  * Cost of every one of `SHIFTS` at a sample. The deepest penetration within one standard deviation of the filter
  * counts, since the path is smoothed afterwards.
  */
 function costsOf(depths: readonly Float64Array[], sample: number): Float64Array {
   const window = depths.slice(Math.max(0, sample - SMOOTHING_SAMPLES), sample + SMOOTHING_SAMPLES + 1);
-  return Float64Array.from(SHIFTS, ({ x, z }, shift) => {
-    const depth = Math.max(...window.map((row) => row[shift]!));
+  const deepest = new Float64Array(SHIFTS.length);
+  for (const row of window) {
+    for (let shift = 0; shift < row.length; shift++) deepest[shift] = Math.max(deepest[shift]!, row[shift]!);
+  }
+  return deepest.map((depth, shift) => {
+    const { x, z } = SHIFTS[shift]!;
     return PENETRATION_COST * depth * depth + x * x + z * z;
   });
 }
@@ -85,16 +83,16 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
     ...rule,
     capsules: rule.capsules.filter(({ from, to }) => !ARMS.has(from) && !ARMS.has(to)),
   };
-  const [a, b] = [capsuleBody(other, withoutArms), capsuleBody(motion, withoutArms)];
   const step = sampleStep(fps);
+  const [a, b] = [capsuleBody(other, withoutArms, step), capsuleBody(motion, withoutArms, step)];
   const overlaps = Array.from(
     { length: Math.ceil(frames / step) },
-    (_, sample) => penetrationDepth(a, b, candidatePairs(a, b, sample * step)) > rule.deep,
+    (_, sample) => penetrationDepth(a, b, candidatePairs(a, b, sample)) > rule.deep,
   );
   if (!overlaps.includes(true)) return motion;
   const path: LevelShift[] = overlaps.map(() => ({ x: 0, z: 0 }));
   for (const { from, to } of runsAround(overlaps, Math.round(MARGIN / SAMPLE_INTERVAL))) {
-    const depths = Array.from({ length: to - from }, (_, i) => depthsOf(a, b, (from + i) * step));
+    const depths = Array.from({ length: to - from }, (_, i) => shiftedDepths(a, b, from + i, SHIFT_COLUMNS));
     const costs = depths.map((_, sample) => costsOf(depths, sample));
     path.splice(from, to - from, ...viterbiPath(costs, { start: from > 0, end: to < overlaps.length }));
   }
@@ -106,10 +104,17 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
       SMOOTHING * fps,
     );
   const [x, z] = [along('x'), along('z')];
-  const shifted = (values: Float32Array, joints: number): Float32Array =>
-    values.map((value, i) => {
-      const frame = Math.floor(i / (3 * joints));
-      return i % 3 === 0 ? value + x[frame]! : i % 3 === 2 ? value + z[frame]! : value;
-    });
-  return { ...motion, root: shifted(motion.root, 1), positions: shifted(motion.positions, JOINT_COUNT) };
+  return { ...motion, root: shifted(motion.root, x, z), positions: shifted(motion.positions, x, z) };
+}
+
+/** Points, frames x n x 3, shifted level with the floor by one x and z a frame. */
+function shifted(points: Float32Array, x: Float64Array, z: Float64Array): Float32Array {
+  const moved = points.slice();
+  const row = points.length / x.length;
+  for (let i = 0; i < moved.length; i += 3) {
+    const frame = Math.floor(i / row);
+    moved[i]! += x[frame]!;
+    moved[i + 2]! += z[frame]!;
+  }
+  return moved;
 }

@@ -1,7 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { FEET, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 import { percentile } from '../math/statistics';
-import { readVec, sub } from '../math/vec3';
 
 /** Heights of one joint and its speeds. */
 interface JointTrack {
@@ -13,13 +12,20 @@ interface JointTrack {
 }
 
 function jointTrack({ positions, frames, fps }: MotionClip, joint: number): JointTrack {
-  const at = (frame: number) => readVec(positions, frame * JOINT_COUNT + joint);
-  const steps = Array.from({ length: Math.max(0, frames - 1) }, (_, frame) => sub(at(frame + 1), at(frame)));
-  return {
-    heights: Float64Array.from({ length: frames }, (_, frame) => at(frame)[1]),
-    vertical: Float64Array.from(steps, ([, y]) => Math.abs(y) * fps),
-    horizontal: Float64Array.from(steps, ([x, , z]) => Math.hypot(x, z) * fps),
-  };
+  const heights = new Float64Array(frames);
+  const vertical = new Float64Array(Math.max(0, frames - 1));
+  const horizontal = new Float64Array(Math.max(0, frames - 1));
+  for (let frame = 0; frame < frames; frame++) {
+    const at = (frame * JOINT_COUNT + joint) * 3;
+    const next = at + JOINT_COUNT * 3;
+    heights[frame] = positions[at + 1]!;
+    if (frame === frames - 1) break;
+    vertical[frame] = Math.abs(positions[next + 1]! - positions[at + 1]!) * fps;
+    const x = positions[next]! - positions[at]!;
+    const z = positions[next + 2]! - positions[at + 2]!;
+    horizontal[frame] = Math.hypot(x, z) * fps;
+  }
+  return { heights, vertical, horizontal };
 }
 
 /** When a joint of the foot counts as standing on the floor: the model's manifest has these numbers. */

@@ -1,10 +1,10 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
-import { type Leg, twoBoneIk, maxLegLength } from './two-bone-ik';
+import { maxLegLength, twoBoneIk } from './two-bone-ik';
 import { contactIntervals } from './foot-contacts';
 import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
+import { add, length, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
 
 /** Joint indices of a leg. */
 interface LegJoints {
@@ -26,50 +26,52 @@ const PASSES = 6;
 /** By how much a leg may be too short for a shift before the weight of a shift of zero doubles, metres. */
 const SHORTFALL = 0.002;
 
-/** The leg of one frame, and the rotations of its bones, both in world axes. */
-function legAt(
-  motion: SolvedMotion,
-  joints: LegJoints,
+/** The vectors from hip to knee and from knee to ankle, metres. */
+function bonesAt(
+  positions: Float32Array,
+  { hip, knee, ankle }: LegJoints,
   frame: number,
-): { leg: Leg; thigh: Quat; shin: Quat; foot: Quat } {
-  const at = (joint: number): Vec3 => readVec(motion.positions, frame * JOINT_COUNT + joint);
-  const turn = (joint: number): Quat => readQuat(motion.rotations, frame * JOINT_COUNT + joint);
-  const thigh = multiply(turn(J.pelvis), turn(joints.hip));
-  const shin = multiply(thigh, turn(joints.knee));
-  const foot = multiply(shin, turn(joints.ankle));
-  const [hip, knee, ankle] = [at(joints.hip), at(joints.knee), at(joints.ankle)];
-  // In the rest pose knees bend about x.
-  const leg = { hip, thigh: sub(knee, hip), shin: sub(ankle, knee), hinge: rotate(thigh, X_AXIS) };
-  return { leg, thigh, shin, foot };
+): { thigh: Vec3; shin: Vec3 } {
+  const row = frame * JOINT_COUNT;
+  const middle = readVec(positions, row + knee);
+  return {
+    thigh: sub(middle, readVec(positions, row + hip)),
+    shin: sub(readVec(positions, row + ankle), middle),
+  };
 }
 
 /**
- * The shift that keeps a foot in place while it is in contact: one vector level with the floor a frame, metres. Each pass
- * raises the weight of a shift of zero where the pass before asked for too much.
+ * The shift that keeps a foot in place while it is in contact, along both axes of the floor, one number a frame, metres.
+ * Each pass raises the weight of a shift of zero where the pass before asked for too much.
  */
-function shiftsOf(motion: SolvedMotion, joints: LegJoints, legs: readonly Leg[]): Vec3[] {
+function shiftOf(motion: SolvedMotion, joints: LegJoints): { x: Float64Array; z: Float64Array } {
+  const { frames, positions } = motion;
+  const feet = [joints.ankle, joints.toe].map((joint) => ({
+    joint,
+    contacts: contactIntervals(motion, joint),
+  }));
   const tracks = (axis: 0 | 2): Track[] =>
-    [joints.ankle, joints.toe].map((joint) => ({
-      contacts: intervals.get(joint)!,
-      positions: Float64Array.from(legs, (_, t) => motion.positions[(t * JOINT_COUNT + joint) * 3 + axis]!),
+    feet.map(({ joint, contacts }) => ({
+      contacts,
+      positions: Float64Array.from(
+        { length: frames },
+        (_, t) => positions[(t * JOINT_COUNT + joint) * 3 + axis]!,
+      ),
     }));
-  const intervals = new Map(
-    [joints.ankle, joints.toe].map((joint) => [joint, contactIntervals(motion, joint)]),
-  );
   const [along, across] = [tracks(0), tracks(2)];
-  const zeroWeights = new Float64Array(legs.length).fill(1);
-  let shifts: Vec3[] = [];
-  for (let pass = 0; pass < PASSES; pass++) {
-    const [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
-    shifts = legs.map((_, t) => [x[t]!, 0, z[t]!]);
-    legs.forEach((leg, t) => {
-      const excess = Math.max(1, Math.hypot(x[t]!, z[t]!) / MAX_SHIFT);
-      const ankle = add(leg.thigh, add(leg.shin, shifts[t]!));
-      const shortfall = Math.max(0, Math.hypot(...ankle) - maxLegLength(leg));
+  const zeroWeights = new Float64Array(frames).fill(1);
+  let [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
+  for (let pass = 1; pass < PASSES; pass++) {
+    for (let t = 0; t < frames; t++) {
+      const { thigh, shin } = bonesAt(positions, joints, t);
+      const excess = Math.max(1, Math.sqrt(x[t]! * x[t]! + z[t]! * z[t]!) / MAX_SHIFT);
+      const ankle = add(add(thigh, shin), [x[t]!, 0, z[t]!]);
+      const shortfall = Math.max(0, length(ankle) - maxLegLength(thigh, shin));
       zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
-    });
+    }
+    [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
   }
-  return shifts;
+  return { x, z };
 }
 
 /**
@@ -84,34 +86,43 @@ export function lockFeet(motion: SolvedMotion): SolvedMotion {
   const rotations = motion.rotations.slice();
   const positions = motion.positions.slice();
   for (const joints of LEGS) {
-    const { hip, knee, ankle, toe } = joints;
-    const frames = Array.from({ length: motion.frames }, (_, frame) => legAt(motion, joints, frame));
-    const shifts = shiftsOf(
-      motion,
-      joints,
-      frames.map(({ leg }) => leg),
-    );
-    frames.forEach(({ leg, thigh, shin, foot }, frame) => {
-      const row = frame * JOINT_COUNT;
-      const put = (joint: number, parent: Quat, turn: Quat): void => {
-        writeQuat(rotations, row + joint, multiply(conjugate(parent), turn));
-      };
-      const target = add(add(leg.hip, add(leg.thigh, leg.shin)), shifts[frame]!);
-      const turns = twoBoneIk(leg, target);
-      const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
-      put(hip, readQuat(rotations, row), upper);
-      put(knee, upper, lower);
-      put(ankle, lower, foot);
-      let place = leg.hip;
-      for (const [joint, turn] of [
-        [knee, upper],
-        [ankle, lower],
-        [toe, foot],
-      ] as const) {
-        place = add(place, rotate(turn, readVec(motion.offsets, joint)));
-        writeVec(positions, row + joint, place);
-      }
-    });
+    const { x, z } = shiftOf(motion, joints);
+    for (let frame = 0; frame < motion.frames; frame++) {
+      shiftFoot(motion, joints, frame, [x[frame]!, 0, z[frame]!], { rotations, positions });
+    }
   }
   return { ...motion, rotations, positions };
+}
+
+/** Writes one leg of one frame with its foot shifted. */
+function shiftFoot(
+  motion: SolvedMotion,
+  joints: LegJoints,
+  frame: number,
+  shift: Vec3,
+  shifted: Pick<SolvedMotion, 'rotations' | 'positions'>,
+): void {
+  const { hip, knee, ankle, toe } = joints;
+  const row = frame * JOINT_COUNT;
+  const turnOf = (joint: number): Quat => readQuat(motion.rotations, row + joint);
+  const pelvis = turnOf(J.pelvis);
+  const thigh = multiply(pelvis, turnOf(hip));
+  const shin = multiply(thigh, turnOf(knee));
+  const foot = multiply(shin, turnOf(ankle));
+  const start = readVec(motion.positions, row + hip);
+  // In the rest pose knees bend about x.
+  const leg = { hip: start, ...bonesAt(motion.positions, joints, frame), hinge: rotate(thigh, X_AXIS) };
+  const turns = twoBoneIk(leg, add(add(start, add(leg.thigh, leg.shin)), shift));
+  const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
+  const put = (joint: number, parent: Quat, turn: Quat): void =>
+    writeQuat(shifted.rotations, row + joint, multiply(conjugate(parent), turn));
+  put(hip, pelvis, upper);
+  put(knee, upper, lower);
+  put(ankle, lower, foot);
+  const place = (joint: number, from: Vec3, turn: Quat): Vec3 => {
+    const to = add(from, rotate(turn, readVec(motion.offsets, joint)));
+    writeVec(shifted.positions, row + joint, to);
+    return to;
+  };
+  place(toe, place(ankle, place(knee, start, upper), lower), foot);
 }

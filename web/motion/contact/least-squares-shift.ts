@@ -54,7 +54,9 @@ export function leastSquaresShift(tracks: readonly Track[], zeroWeights: Float64
     second[t - 1]! += SMOOTHNESS_WEIGHT;
   }
   for (let t = 0; t < frames; t++) {
-    const [pivot, one, two] = [diagonal[t]!, next[t]! / diagonal[t]!, second[t]! / diagonal[t]!];
+    const pivot = diagonal[t]!;
+    const one = next[t]! / pivot;
+    const two = second[t]! / pivot;
     if (t + 1 < frames) {
       diagonal[t + 1]! -= one * one * pivot;
       next[t + 1]! -= one * two * pivot;

@@ -34,7 +34,7 @@ export function twoBoneIk(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
   const c = dot(thigh, shin) - along * dot(hinge, thigh);
   const s = dot(thigh, cross(hinge, shin));
   const product = (dot(toTarget, toTarget) - dot(thigh, thigh) - dot(shin, shin)) / 2;
-  const angle = Math.acos(Math.max(-1, Math.min(1, product / Math.hypot(c, s))));
+  const angle = Math.acos(Math.max(-1, Math.min(1, product / Math.sqrt(c * c + s * s))));
   // The difference to the present bend, without its sign: a knee that noise has bent forwards passes through the
   // straight leg without a jump.
   const bend = aboutAxis(hinge, angle - Math.abs(Math.atan2(s, c)));
@@ -44,6 +44,6 @@ export function twoBoneIk(leg: Leg, target: Vec3): { thigh: Quat; shin: Quat } {
 }
 
 /** The largest distance from hip to ankle that a leg may have, metres: nearly straight, or its present length if longer. */
-export function maxLegLength({ thigh, shin }: Leg): number {
+export function maxLegLength(thigh: Vec3, shin: Vec3): number {
   return Math.max(length(add(thigh, shin)), MAX_EXTENSION * (length(thigh) + length(shin)));
 }

@@ -1,7 +1,9 @@
+import type { ShiftColumn } from './capsules';
+
 /** Spacing of the grid of shifts, metres. */
 const GRID_STEP = 0.07;
 /** Longest shift, metres. */
-export const MAX_SHIFT = 0.63;
+const MAX_SHIFT = 0.63;
 /** Largest change of the shift from one sample to the next, metres. */
 const MAX_CHANGE = 0.21;
 /** Cost of a squared change of the shift, where a squared shift costs 1. */
@@ -19,19 +21,27 @@ const CELLS = Math.floor(MAX_SHIFT / GRID_STEP + EPSILON);
 const AXIS = Array.from({ length: 2 * CELLS + 1 }, (_, i) => (i - CELLS) * GRID_STEP);
 
 /** The states of the path: all shifts on a square grid within a circle, zero among them. */
-export const SHIFTS: readonly LevelShift[] = AXIS.flatMap((x) => AXIS.map((z) => ({ x, z }))).filter(
-  ({ x, z }) => Math.hypot(x, z) <= MAX_SHIFT + EPSILON,
+export const SHIFT_COLUMNS: readonly ShiftColumn[] = AXIS.map((x) => ({
+  x,
+  z: Float64Array.from(AXIS.filter((z) => Math.hypot(x, z) <= MAX_SHIFT + EPSILON)),
+}));
+export const SHIFTS: readonly LevelShift[] = SHIFT_COLUMNS.flatMap(({ x, z: column }) =>
+  Array.from(column, (z) => ({ x, z })),
 );
 
 const ZERO_SHIFT = SHIFTS.findIndex(({ x, z }) => x === 0 && z === 0);
 
-/** The states from which each state can follow, and the cost of that transition. */
-const TRANSITIONS = SHIFTS.map(({ x, z }) =>
-  SHIFTS.flatMap((from, state) => {
-    const change = Math.hypot(from.x - x, from.z - z);
-    return change <= MAX_CHANGE + EPSILON ? [{ state, cost: CHANGE_COST * change * change }] : [];
-  }),
-);
+/** The states from which a state can follow, and the cost of each of these transitions. */
+interface Transitions {
+  readonly from: Int16Array;
+  readonly costs: Float64Array;
+}
+
+const TRANSITIONS: readonly Transitions[] = SHIFTS.map(({ x, z }) => {
+  const changes = SHIFTS.map((from) => Math.hypot(from.x - x, from.z - z));
+  const from = Int16Array.from(changes.keys()).filter((state) => changes[state]! <= MAX_CHANGE + EPSILON);
+  return { from, costs: Float64Array.from(from, (state) => CHANGE_COST * changes[state]! * changes[state]!) };
+});
 
 /**
  * The path of least total cost through the grid of shifts, by dynamic programming (Viterbi, Error bounds for
@@ -47,16 +57,20 @@ export function viterbiPath(
 ): LevelShift[] {
   let totals = costs[0]!.map((cost, state) => (zeroAt.start && state !== ZERO_SHIFT ? Infinity : cost));
   const backpointers = costs.slice(1).map((cost) => {
-    const previous = new Int16Array(SHIFTS.length);
-    totals = cost.map((own, state) => {
+    const [before, after] = [new Int16Array(totals.length), new Float64Array(totals.length)];
+    for (let state = 0; state < totals.length; state++) {
+      const { from, costs: changes } = TRANSITIONS[state]!;
       let least = Infinity;
-      for (const transition of TRANSITIONS[state]!) {
-        const total = totals[transition.state]! + transition.cost;
-        if (total < least) [least, previous[state]] = [total, transition.state];
+      for (let i = 0; i < from.length; i++) {
+        const total = totals[from[i]!]! + changes[i]!;
+        if (total >= least) continue;
+        least = total;
+        before[state] = from[i]!;
       }
-      return least + own;
-    });
-    return previous;
+      after[state] = least + cost[state]!;
+    }
+    totals = after;
+    return before;
   });
   let state = zeroAt.end ? ZERO_SHIFT : totals.indexOf(Math.min(...totals));
   const path = [state];

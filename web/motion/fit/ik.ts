@@ -1,6 +1,6 @@
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { forwardKinematics } from '../skeleton/kinematics';
-import { type Bones, bonesOf, fitPose, type Pose } from './pose-fit';
+import { type Bones, bonesOf, fitPoses, type Poses } from './pose-fit';
 import {
   between,
   conjugate,
@@ -9,25 +9,16 @@ import {
   negate,
   type Quat,
   quatDot,
+  readQuat,
   rotate,
   slerp,
   writeQuat,
 } from '../math/quat';
-import { restOffsets } from './rest-pose';
+import { rotateRow, rowDistance } from '../math/rows';
+import { restOffsets, trunkRotations } from './rest-pose';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 import { smoothHinges } from './twist';
-import {
-  add,
-  cross,
-  direction,
-  distance,
-  readVec,
-  scale,
-  sub,
-  type Vec3,
-  writeVec,
-  Y_AXIS,
-} from '../math/vec3';
+import { add, cross, direction, readVec, scale, sub, type Vec3, writeVec } from '../math/vec3';
 
 /** A limb whose upper bone gets its twist from the hinge at its middle joint. */
 interface Limb {
@@ -78,49 +69,55 @@ const LIMBS: readonly Limb[] = [
 /** Weight of the foot's direction in the leg's twist, where a knee bent at a right angle has 1. */
 const FOOT_WEIGHT = 0.3;
 
-/** Hinge axis of a limb in world axes, one a frame. */
-function hingesOf(limb: Limb, poses: readonly Pose[], bones: Bones): Vec3[] {
-  const rest = direction(bones.offsets[limb.middle]!, Y_AXIS);
-  const directions: Vec3[] = [];
-  const observed: Vec3[] = [];
-  const priors: Vec3[] = [];
-  for (const pose of poses) {
-    const inverse = conjugate(pose[limb.part]);
-    const bone = (from: number, to: number): Vec3 =>
-      direction(rotate(inverse, sub(pose.joints[to]!, pose.joints[from]!)), rest);
+/** Hinge axis of a limb in world axes, frames x 3. */
+function hingesOf(limb: Limb, poses: Poses, bones: Bones): Float64Array {
+  const rest = readVec(bones.directions, limb.middle);
+  const part = poses[limb.part];
+  const frames = part.length / 4;
+  const directions = new Float64Array(3 * frames);
+  const observed = new Float64Array(3 * frames);
+  const priors = new Float64Array(3 * frames);
+  for (let frame = 0; frame < frames; frame++) {
+    const inverse = conjugate(readQuat(part, frame));
+    const at = (joint: number): Vec3 => readVec(poses.joints, frame * JOINT_COUNT + joint);
+    const bone = (from: number, to: number): Vec3 => direction(rotate(inverse, sub(at(to), at(from))), rest);
     const upper = bone(limb.start, limb.middle);
     const lower = bone(limb.middle, limb.end);
     let hinge = cross(upper, lower);
     if (limb.toe !== null) {
       hinge = add(hinge, scale(cross(bone(limb.end, limb.toe), lower), FOOT_WEIGHT));
     }
-    directions.push(upper);
-    observed.push(hinge);
-    priors.push(rotate(between(rest, upper), limb.hinge));
+    writeVec(directions, frame, upper);
+    writeVec(observed, frame, hinge);
+    writeVec(priors, frame, rotate(between(rest, upper), limb.hinge));
   }
-  return smoothHinges(directions, observed, priors).map((axis, t) => rotate(poses[t]![limb.part], axis));
+  const hinges = smoothHinges(directions, observed, priors);
+  for (let frame = 0; frame < frames; frame++) rotateRow(hinges, frame, part, frame, hinges, frame);
+  return hinges;
 }
 
-/** World rotation of every joint of one pose, given the hinge axes of the four limbs. */
-function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat[] {
+/** World rotation of every joint in one frame, given the hinge axes of the four limbs. */
+function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   const turns: Quat[] = [];
+  const at = (joint: number): Vec3 => readVec(poses.joints, frame * JOINT_COUNT + joint);
+  const [pelvis, chest] = [readQuat(poses.pelvis, frame), readQuat(poses.chest, frame)];
   const aimed = (base: Quat, from: number, to: number): Quat => {
-    const rest = rotate(base, direction(bones.offsets[to]!, Y_AXIS));
-    return multiply(between(rest, direction(sub(pose.joints[to]!, pose.joints[from]!), rest)), base);
+    const rest = rotate(base, readVec(bones.directions, to));
+    return multiply(between(rest, direction(sub(at(to), at(from)), rest)), base);
   };
-  turns[J.pelvis] = pose.pelvis;
-  turns[J.spine1] = aimed(slerp(pose.pelvis, pose.chest, 1 / 3), J.spine1, J.spine2);
-  turns[J.spine2] = aimed(slerp(pose.pelvis, pose.chest, 2 / 3), J.spine2, J.spine3);
-  turns[J.spine3] = pose.chest;
-  const neck = aimed(pose.chest, J.neck, J.head);
+  turns[J.pelvis] = pelvis;
+  turns[J.spine1] = aimed(slerp(pelvis, chest, 1 / 3), J.spine1, J.spine2);
+  turns[J.spine2] = aimed(slerp(pelvis, chest, 2 / 3), J.spine2, J.spine3);
+  turns[J.spine3] = chest;
+  const neck = aimed(chest, J.neck, J.head);
   turns[J.neck] = neck;
   // No joint position shows the head's own rotation: it is that of the neck.
   turns[J.head] = neck;
-  turns[J.left_collar] = aimed(pose.chest, J.left_collar, J.left_shoulder);
-  turns[J.right_collar] = aimed(pose.chest, J.right_collar, J.right_shoulder);
+  turns[J.left_collar] = aimed(chest, J.left_collar, J.left_shoulder);
+  turns[J.right_collar] = aimed(chest, J.right_collar, J.right_shoulder);
   LIMBS.forEach(({ start, middle, end, toe, hinge }, i) => {
-    const rest = direction(bones.offsets[middle]!, Y_AXIS);
-    const bone = direction(sub(pose.joints[middle]!, pose.joints[start]!), rest);
+    const rest = readVec(bones.directions, middle);
+    const bone = direction(sub(at(middle), at(start)), rest);
     const upper = multiply(fromAxes(hinges[i]!, bone), conjugate(fromAxes(hinge, rest)));
     turns[start] = upper;
     const lower = aimed(upper, middle, end);
@@ -140,23 +137,27 @@ function worldRotations(pose: Pose, bones: Bones, hinges: readonly Vec3[]): Quat
  * (wrists and head) are those of rest. Quaternions do not change sign from frame to frame. Pure.
  *
  * @param clip at least one frame
- * @param offsets of the skeleton, 22 x 3 metres, where they are known already
+ * @param known offsets of the skeleton, 22 x 3 metres, where they are known already
  */
-export function solve(clip: MotionClip, offsets = restOffsets(clip)): SolvedMotion {
+export function solve(clip: MotionClip, known?: Float32Array): SolvedMotion {
   const { frames, fps } = clip;
+  const observed = new Float64Array(clip.positions);
+  const trunk = trunkRotations(observed);
+  const offsets = known ?? restOffsets(observed, trunk);
   const bones = bonesOf(offsets);
-  const poses = Array.from({ length: frames }, (_, frame) => fitPose(clip, frame, bones));
+  const poses = fitPoses(observed, bones, trunk);
   const hinges = LIMBS.map((limb) => hingesOf(limb, poses, bones));
 
   const root = new Float32Array(frames * 3);
   const rotations = new Float32Array(frames * JOINT_COUNT * 4);
   const previous: Quat[] = [];
-  poses.forEach((pose, frame) => {
-    writeVec(root, frame, pose.joints[J.pelvis]!);
+  for (let frame = 0; frame < frames; frame++) {
+    writeVec(root, frame, readVec(poses.joints, frame * JOINT_COUNT + J.pelvis));
     const turns = worldRotations(
-      pose,
+      poses,
+      frame,
       bones,
-      hinges.map((axes) => axes[frame]!),
+      hinges.map((axes) => readVec(axes, frame)),
     );
     for (let joint = 0; joint < JOINT_COUNT; joint++) {
       const parent = PARENTS[joint]!;
@@ -166,11 +167,10 @@ export function solve(clip: MotionClip, offsets = restOffsets(clip)): SolvedMoti
       previous[joint] = local;
       writeQuat(rotations, frame * JOINT_COUNT + joint, local);
     }
-  });
-  const positions = forwardKinematics(offsets, root, rotations);
-  let error = 0;
-  for (let i = 0; i < frames * JOINT_COUNT; i++) {
-    error += distance(readVec(positions, i), readVec(clip.positions, i));
   }
+  const positions = forwardKinematics(offsets, root, rotations);
+  const placed = new Float64Array(positions);
+  let error = 0;
+  for (let i = 0; i < frames * JOINT_COUNT; i++) error += rowDistance(placed, i, observed, i);
   return { fps, frames, offsets, root, rotations, positions, fitError: error / (frames * JOINT_COUNT) };
 }

@@ -1,112 +1,183 @@
-import type { MotionClip } from '../skeleton/clip';
-import type { Quat } from '../math/quat';
-import { rotate } from '../math/quat';
-import { chestFrame, jointAt, pelvisFrame } from './rest-pose';
-import { fitRotation } from '../math/rigid';
-import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, direction, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
+import { fitRotation, type RigidPart, rigidPart } from '../math/rigid';
+import { addScaled, directionTo, rotateRow } from '../math/rows';
+import { direction, length, readVec, writeVec, Y_AXIS } from '../math/vec3';
+import { type Quat, readQuat } from '../math/quat';
+import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 
-/** One frame on the skeleton of constant bone lengths: joint positions, and rotations of the trunk's two rigid parts. */
-export interface Pose {
-  readonly joints: readonly Vec3[];
-  readonly pelvis: Quat;
-  readonly chest: Quat;
+/** World rotations of the trunk's two rigid parts, one row a frame. */
+export interface TrunkRotations {
+  readonly pelvis: Float64Array;
+  readonly chest: Float64Array;
 }
 
-/** Rest skeleton: offsets from the parent as vectors, and their lengths, metres. */
+/** A motion on the skeleton of constant bone lengths. */
+export interface Poses extends TrunkRotations {
+  /** frames x 22 x 3, metres. */
+  readonly joints: Float64Array;
+}
+
+/** Rest skeleton, one row a joint: the offset from its parent, and that offset's direction and length, metres. */
 export interface Bones {
-  readonly offsets: readonly Vec3[];
+  readonly offsets: Float64Array;
+  readonly directions: Float64Array;
   readonly lengths: readonly number[];
 }
 
-export function bonesOf(offsets: Float32Array): Bones {
-  const vectors = Array.from({ length: JOINT_COUNT }, (_, joint) => readVec(offsets, joint));
-  return { offsets: vectors, lengths: vectors.map((v) => Math.hypot(...v)) };
+export function bonesOf(restOffsets: Float32Array): Bones {
+  const offsets = new Float64Array(restOffsets);
+  const directions = new Float64Array(offsets.length);
+  PARENTS.forEach((_, joint) => writeVec(directions, joint, direction(readVec(offsets, joint), Y_AXIS)));
+  return { offsets, directions, lengths: PARENTS.map((_, joint) => length(readVec(offsets, joint))) };
 }
 
-const LIMBS = [
+/** A rigid part of the trunk: the rotation that turns it, the joint at its origin, and its other joints. */
+interface TrunkPart {
+  readonly part: keyof TrunkRotations;
+  readonly origin: number;
+  readonly joints: readonly number[];
+}
+
+const PELVIS: TrunkPart = { part: 'pelvis', origin: J.pelvis, joints: [J.left_hip, J.right_hip, J.spine1] };
+const CHEST: TrunkPart = { part: 'chest', origin: J.spine3, joints: [J.neck, J.left_collar, J.right_collar] };
+
+const SPINE = [J.spine2, J.spine3];
+const LEGS = [
   [J.left_hip, J.left_knee, J.left_ankle, J.left_foot],
   [J.right_hip, J.right_knee, J.right_ankle, J.right_foot],
+] as const;
+const ARMS = [
   [J.left_shoulder, J.left_elbow, J.left_wrist],
   [J.right_shoulder, J.right_elbow, J.right_wrist],
 ] as const;
-
-const PELVIS_PART = [J.left_hip, J.right_hip, J.spine1];
-const CHEST_PART = [J.neck, J.left_collar, J.right_collar];
+/** Joints whose bones point as those of the pelvis where they are not seen; the others follow the chest. */
+const CARRIED_BY_PELVIS: ReadonlySet<number> = new Set([...SPINE, ...LEGS.flat()]);
 
 /** Sweeps of `fitLimb`; each halves what the bone lengths leave of the error at the end of the limb. */
 const LIMB_SWEEPS = 3;
 /** Passes that move the root by the mean error of the joints. */
 const ROOT_PASSES = 2;
 
-/** The point at `length` metres from `origin` in the direction of `target`. */
-function aim(origin: Vec3, target: Vec3, length: number, fallback: Vec3): Vec3 {
-  return add(origin, scale(direction(sub(target, origin), fallback), length));
+/** One frame of a fit, and working memory that is the same for all frames. */
+interface Frame {
+  /** 22 x 3: where the joints are seen, and where they are placed, metres. */
+  readonly observed: Float64Array;
+  readonly joints: Float64Array;
+  /** One row each. */
+  readonly pelvis: Float64Array;
+  readonly chest: Float64Array;
+  /** 22 x 3: directions of bones whose ends are seen at one place, those of rest turned with the trunk. */
+  readonly fallbacks: Float64Array;
+  readonly bones: Bones;
+  readonly start: Readonly<Record<keyof TrunkRotations, Quat>>;
+  readonly parts: Readonly<Record<keyof TrunkRotations, RigidPart>>;
+  readonly vectors: Float64Array;
+}
+
+/** Places a joint at its bone's length from its parent, in the direction of a row of `target`. */
+function aim({ joints, fallbacks, bones }: Frame, joint: number, target: Float64Array, j: number): void {
+  const parent = PARENTS[joint]!;
+  directionTo(joints, joint, joints, parent, target, j, fallbacks, joint);
+  addScaled(joints, joint, joints, parent, joints, joint, bones.lengths[joint]);
+}
+
+function follow(frame: Frame, joint: number): void {
+  aim(frame, joint, frame.observed, joint);
 }
 
 /**
- * Middle joint of a two-bone limb (knee, elbow), so that both it and the end are near the observed ones.
+ * Places the two-bone limb that ends in `end`, so that both its middle joint (knee, elbow) and the end are near the observed ones.
  *
  * Sweeps as in FABRIK (Aristidou and Lasenby 2011): place the middle from the end, take the mean with the observed one,
  * restore the upper bone's length. An exact solution for the end would be worse: near a straight limb a millimetre at
  * the end moves the knee by centimetres.
  */
-function fitLimb(origin: Vec3, middle: Vec3, end: Vec3, upper: number, lower: number, fallback: Vec3): Vec3 {
-  let fitted = aim(origin, middle, upper, fallback);
+function fitLimb(frame: Frame, middle: number, end: number): void {
+  const { observed, joints, fallbacks, bones, vectors } = frame;
+  follow(frame, middle);
   for (let sweep = 0; sweep < LIMB_SWEEPS; sweep++) {
-    const fromEnd = aim(end, fitted, lower, scale(fallback, -1));
-    fitted = aim(origin, lerp(middle, fromEnd, 0.5), upper, fallback);
+    directionTo(vectors, 0, joints, middle, observed, end, fallbacks, end);
+    addScaled(vectors, 0, observed, end, vectors, 0, -bones.lengths[end]!);
+    for (let axis = 0; axis < 3; axis++) vectors[axis] = (vectors[axis]! + observed[3 * middle + axis]!) / 2;
+    aim(frame, middle, vectors, 0);
   }
-  return fitted;
+  follow(frame, end);
 }
 
-function fitFrom(clip: MotionClip, frame: number, bones: Bones, root: Vec3): Pose {
-  const observed = (joint: number): Vec3 => jointAt(clip, frame, joint);
-  const { offsets, lengths } = bones;
-  const joints: Vec3[] = new Array<Vec3>(JOINT_COUNT).fill(root);
-  const place = (joint: number, at: Vec3): void => void (joints[joint] = at);
-  const rigid = (origin: Vec3, part: readonly number[], start: Quat): Quat => {
-    const rest = part.map((joint) => offsets[joint]!);
-    const turn = fitRotation(
-      rest,
-      part.map((joint) => sub(observed(joint), origin)),
-      start,
-    );
-    part.forEach((joint, i) => place(joint, add(origin, rotate(turn, rest[i]!))));
-    return turn;
-  };
-  const follow = (parent: number, joint: number, fallback: Vec3): void =>
-    place(joint, aim(joints[parent]!, observed(joint), lengths[joint]!, fallback));
-
-  const pelvis = rigid(root, PELVIS_PART, pelvisFrame(clip, frame));
-  const up = rotate(pelvis, [0, 1, 0]);
-  follow(J.spine1, J.spine2, up);
-  follow(J.spine2, J.spine3, up);
-  const chest = rigid(joints[J.spine3]!, CHEST_PART, chestFrame(clip, frame));
-  follow(J.neck, J.head, rotate(chest, [0, 1, 0]));
-  follow(J.left_collar, J.left_shoulder, rotate(chest, [1, 0, 0]));
-  follow(J.right_collar, J.right_shoulder, rotate(chest, [-1, 0, 0]));
-  for (const [start, middle, end, toe] of LIMBS) {
-    const fallback = rotate(toe === undefined ? chest : pelvis, direction(offsets[middle]!, [0, -1, 0]));
-    place(
-      middle,
-      fitLimb(joints[start]!, observed(middle), observed(end), lengths[middle]!, lengths[end]!, fallback),
-    );
-    follow(middle, end, fallback);
-    if (toe !== undefined) follow(end, toe, rotate(pelvis, [0, 0, 1]));
+/** Turns a rigid part of the trunk onto the observed joints and places its joints. */
+function fitPart(frame: Frame, { part, origin, joints: members }: TrunkPart): void {
+  const { observed, joints, bones, parts, vectors } = frame;
+  const rotation = frame[part];
+  members.forEach((joint, i) => addScaled(vectors, i, observed, joint, joints, origin, -1));
+  rotation.set(frame.start[part]);
+  fitRotation(rotation, parts[part], vectors);
+  for (const joint of members) {
+    rotateRow(joints, joint, rotation, 0, bones.offsets, joint);
+    addScaled(joints, joint, joints, origin, joints, joint);
   }
-  return { joints, pelvis, chest };
 }
 
-/** The pose on constant bones that is nearest to a frame of the clip. */
-export function fitPose(clip: MotionClip, frame: number, bones: Bones): Pose {
-  let root = jointAt(clip, frame, J.pelvis);
-  let pose = fitFrom(clip, frame, bones, root);
-  for (let pass = 0; pass < ROOT_PASSES; pass++) {
-    let error = ZERO;
-    pose.joints.forEach((at, joint) => (error = add(error, sub(jointAt(clip, frame, joint), at))));
-    root = add(root, scale(error, 1 / JOINT_COUNT));
-    pose = fitFrom(clip, frame, bones, root);
+/** Fits all joints, given where the root is. */
+function fitFromRoot(frame: Frame): void {
+  fitPart(frame, PELVIS);
+  for (const joint of SPINE) follow(frame, joint);
+  fitPart(frame, CHEST);
+  follow(frame, J.head);
+  for (const [, knee, ankle, toe] of LEGS) {
+    fitLimb(frame, knee, ankle);
+    follow(frame, toe);
   }
-  return pose;
+  for (const [shoulder, elbow, wrist] of ARMS) {
+    follow(frame, shoulder);
+    fitLimb(frame, elbow, wrist);
+  }
+}
+
+/** Moves the root by the mean error of the joints. */
+function moveRoot({ observed, joints, vectors }: Frame): void {
+  vectors.fill(0);
+  for (let joint = 0; joint < JOINT_COUNT; joint++) {
+    addScaled(vectors, 0, vectors, 0, observed, joint);
+    addScaled(vectors, 0, vectors, 0, joints, joint, -1);
+  }
+  addScaled(joints, J.pelvis, joints, J.pelvis, vectors, 0, 1 / JOINT_COUNT);
+}
+
+/**
+ * The poses on constant bones that are nearest to the observed joints, frame by frame.
+ *
+ * @param observed frames x 22 x 3, metres
+ * @param start rotations of the trunk to start from
+ */
+export function fitPoses(observed: Float64Array, bones: Bones, start: TrunkRotations): Poses {
+  const poses = { joints: observed.slice(), pelvis: start.pelvis.slice(), chest: start.chest.slice() };
+  const rigid = ({ joints }: TrunkPart): RigidPart =>
+    rigidPart(joints.map((joint) => readVec(bones.offsets, joint)));
+  const parts = { pelvis: rigid(PELVIS), chest: rigid(CHEST) };
+  const fallbacks = new Float64Array(3 * JOINT_COUNT);
+  const vectors = new Float64Array(9);
+  const row = (rows: Float64Array, t: number, size: number): Float64Array =>
+    rows.subarray(t * size, (t + 1) * size);
+  for (let t = 0; t < start.pelvis.length / 4; t++) {
+    const frame = {
+      observed: row(observed, t, fallbacks.length),
+      joints: row(poses.joints, t, fallbacks.length),
+      pelvis: row(poses.pelvis, t, 4),
+      chest: row(poses.chest, t, 4),
+      fallbacks,
+      bones,
+      start: { pelvis: readQuat(start.pelvis, t), chest: readQuat(start.chest, t) },
+      parts,
+      vectors,
+    };
+    for (let joint = 1; joint < JOINT_COUNT; joint++) {
+      const carrier = CARRIED_BY_PELVIS.has(joint) ? frame.pelvis : frame.chest;
+      rotateRow(fallbacks, joint, carrier, 0, bones.directions, joint);
+    }
+    fitFromRoot(frame);
+    for (let pass = 0; pass < ROOT_PASSES; pass++) {
+      moveRoot(frame);
+      fitFromRoot(frame);
+    }
+  }
+  return poses;
 }

@@ -1,59 +1,64 @@
-import type { MotionClip } from '../skeleton/clip';
-import { conjugate, type Quat, rotate } from '../math/quat';
+import { conjugate, rotate, readQuat, writeQuat } from '../math/quat';
 import { bodyFrame } from '../math/rigid';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../skeleton/skeleton';
 import { median, percentile } from '../math/statistics';
-import {
-  direction,
-  distance,
-  length,
-  lerp,
-  readVec,
-  scale,
-  sub,
-  type Vec3,
-  writeVec,
-  Y_AXIS,
-} from '../math/vec3';
+import { rowDistance } from '../math/rows';
+import type { TrunkRotations } from './pose-fit';
+import { direction, length, lerp, readVec, scale, sub, type Vec3, writeVec, Y_AXIS } from '../math/vec3';
+
+const framesOf = (observed: Float64Array): number => observed.length / (3 * JOINT_COUNT);
 
 /** Reads one joint of one frame. */
-export function jointAt(clip: MotionClip, frame: number, joint: number): Vec3 {
-  return readVec(clip.positions, frame * JOINT_COUNT + joint);
+function jointAt(observed: Float64Array, frame: number, joint: number): Vec3 {
+  return readVec(observed, frame * JOINT_COUNT + joint);
 }
 
-/** Pelvis orientation of a frame: x from hip to hip, y from the hips to the spine. */
-export function pelvisFrame(clip: MotionClip, frame: number): Quat {
-  const left = jointAt(clip, frame, J.left_hip);
-  const right = jointAt(clip, frame, J.right_hip);
-  return bodyFrame(sub(left, right), sub(jointAt(clip, frame, J.spine1), lerp(left, right, 0.5)));
-}
-
-/** Chest orientation of a frame: x from collar to collar, y from the upper spine to the neck. */
-export function chestFrame(clip: MotionClip, frame: number): Quat {
-  const across = sub(jointAt(clip, frame, J.left_collar), jointAt(clip, frame, J.right_collar));
-  return bodyFrame(across, sub(jointAt(clip, frame, J.neck), jointAt(clip, frame, J.spine3)));
+/**
+ * Rotations of the trunk as the joints show them: of the pelvis with x from hip to hip and y from the hips to the spine,
+ * of the chest with x from collar to collar and y from the upper spine to the neck.
+ *
+ * @param observed frames x 22 x 3, metres
+ */
+export function trunkRotations(observed: Float64Array): TrunkRotations {
+  const frames = framesOf(observed);
+  const pelvis = new Float64Array(4 * frames);
+  const chest = new Float64Array(4 * frames);
+  for (let frame = 0; frame < frames; frame++) {
+    const at = (joint: number): Vec3 => jointAt(observed, frame, joint);
+    const [left, right] = [at(J.left_hip), at(J.right_hip)];
+    writeQuat(pelvis, frame, bodyFrame(sub(left, right), sub(at(J.spine1), lerp(left, right, 0.5))));
+    const across = sub(at(J.left_collar), at(J.right_collar));
+    writeQuat(chest, frame, bodyFrame(across, sub(at(J.neck), at(J.spine3))));
+  }
+  return { pelvis, chest };
 }
 
 /** Length of every joint's bone to its parent: median over time, the same left and right. */
-function boneLengths(clip: MotionClip): number[] {
+function boneLengths(observed: Float64Array): number[] {
   const lengths = PARENTS.map((parent, joint) => {
     if (parent < 0) return 0;
-    const overTime = new Float64Array(clip.frames);
-    for (let frame = 0; frame < clip.frames; frame++) {
-      overTime[frame] = distance(jointAt(clip, frame, joint), jointAt(clip, frame, parent));
+    const overTime = new Float64Array(framesOf(observed));
+    for (let frame = 0; frame < overTime.length; frame++) {
+      overTime[frame] = rowDistance(
+        observed,
+        frame * JOINT_COUNT + joint,
+        observed,
+        frame * JOINT_COUNT + parent,
+      );
     }
     return median(overTime);
   });
   return lengths.map((own, joint) => (own + lengths[MIRROR[joint]!]!) / 2);
 }
 
-/** Median over time of a joint's bone in the axes of a body part, whose inverse rotations are given frame by frame. */
-function localBone(clip: MotionClip, joint: number, inverses: readonly Quat[]): Vec3 {
-  const axes = [0, 1, 2].map(() => new Float64Array(clip.frames));
-  inverses.forEach((inverse, frame) => {
-    const bone = sub(jointAt(clip, frame, joint), jointAt(clip, frame, PARENTS[joint]!));
-    rotate(inverse, bone).forEach((value, i) => (axes[i]![frame] = value));
-  });
+/** Median over time of a joint's bone in the axes of a body part, whose rotations are given frame by frame. */
+function localBone(observed: Float64Array, joint: number, part: Float64Array): Vec3 {
+  const axes = [0, 1, 2].map(() => new Float64Array(framesOf(observed)));
+  for (let frame = 0; frame < framesOf(observed); frame++) {
+    const bone = sub(jointAt(observed, frame, joint), jointAt(observed, frame, PARENTS[joint]!));
+    const local = rotate(conjugate(readQuat(part, frame)), bone);
+    for (let i = 0; i < 3; i++) axes[i]![frame] = local[i]!;
+  }
   return [median(axes[0]!), median(axes[1]!), median(axes[2]!)];
 }
 
@@ -61,13 +66,16 @@ function localBone(clip: MotionClip, joint: number, inverses: readonly Quat[]): 
 const STANDING_PERCENTILE = 25;
 
 /** Slope of standing feet from ankle to toe, as the sine of the angle, -0.9 to 0. */
-function toeDrop(clip: MotionClip): number {
+function toeDrop(observed: Float64Array): number {
   const sines = [J.left_foot, J.right_foot].flatMap((toe) => {
-    const heights = Float64Array.from({ length: clip.frames }, (_, frame) => jointAt(clip, frame, toe)[1]);
+    const heights = Float64Array.from(
+      { length: framesOf(observed) },
+      (_, frame) => jointAt(observed, frame, toe)[1],
+    );
     const standing = percentile(heights, STANDING_PERCENTILE);
     return [...heights.keys()].flatMap((frame) => {
       if (heights[frame]! > standing) return [];
-      const foot = sub(jointAt(clip, frame, toe), jointAt(clip, frame, PARENTS[toe]!));
+      const foot = sub(jointAt(observed, frame, toe), jointAt(observed, frame, PARENTS[toe]!));
       return direction(foot, [0, 0, 1])[1];
     });
   });
@@ -80,27 +88,24 @@ function toeDrop(clip: MotionClip): number {
  * Bones of pelvis and chest, and the shoulders, keep the shape that the clip shows; all others point where a T-pose
  * has them. Left and right mirror each other.
  *
+ * @param observed frames x 22 x 3, metres
  * @returns 22 x 3 offsets from the parent in metres
  */
-export function restOffsets(clip: MotionClip): Float32Array {
-  const lengths = boneLengths(clip);
-  const drop = toeDrop(clip);
+export function restOffsets(observed: Float64Array, { pelvis, chest }: TrunkRotations): Float32Array {
+  const lengths = boneLengths(observed);
+  const drop = toeDrop(observed);
   const forward = Math.sqrt(1 - drop * drop);
-  const inversesOf = (frameOf: typeof pelvisFrame): Quat[] =>
-    Array.from({ length: clip.frames }, (_, frame) => conjugate(frameOf(clip, frame)));
-  const shape = (joint: number, inverses: readonly Quat[]): Vec3 => {
-    const own = localBone(clip, joint, inverses);
-    const other = localBone(clip, MIRROR[joint]!, inverses);
-    return direction([(own[0] - other[0]) / 2, (own[1] + other[1]) / 2, (own[2] + other[2]) / 2], Y_AXIS);
-  };
-  const side = (joint: number): number => (joint < MIRROR[joint]! ? 1 : -1);
   const directions = new Map<number, Vec3>();
-  const pelvis = inversesOf(pelvisFrame);
-  for (const joint of [J.left_hip, J.right_hip, J.spine1]) directions.set(joint, shape(joint, pelvis));
-  const chest = inversesOf(chestFrame);
-  for (const joint of [J.left_collar, J.right_collar, J.left_shoulder, J.right_shoulder]) {
-    directions.set(joint, shape(joint, chest));
-  }
+  const side = (joint: number): number => (joint < MIRROR[joint]! ? 1 : -1);
+  const keepShape = (joint: number, part: Float64Array): void => {
+    const [own, other] = [localBone(observed, joint, part), localBone(observed, MIRROR[joint]!, part)];
+    const across = (own[0] - other[0]) / 2;
+    const [up, forwards] = [(own[1] + other[1]) / 2, (own[2] + other[2]) / 2];
+    directions.set(MIRROR[joint]!, direction([-across, up, forwards], Y_AXIS));
+    directions.set(joint, direction([across, up, forwards], Y_AXIS));
+  };
+  for (const joint of [J.left_hip, J.spine1]) keepShape(joint, pelvis);
+  for (const joint of [J.left_collar, J.left_shoulder]) keepShape(joint, chest);
   for (const joint of [J.left_knee, J.right_knee, J.left_ankle, J.right_ankle])
     directions.set(joint, [0, -1, 0]);
   for (const joint of [J.left_elbow, J.right_elbow, J.left_wrist, J.right_wrist]) {

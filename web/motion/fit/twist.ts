@@ -1,5 +1,15 @@
 import { between, rotate } from '../math/quat';
-import { cross, dot, perpendicular, scale, type Vec3, add, anyPerpendicular } from '../math/vec3';
+import {
+  add,
+  anyPerpendicular,
+  cross,
+  dot,
+  perpendicular,
+  readVec,
+  scale,
+  type Vec3,
+  writeVec,
+} from '../math/vec3';
 
 /** Weight of the squared change of the twist per frame, where the squared error of a fully bent limb has 1. */
 const SMOOTHNESS_WEIGHT = 0.1;
@@ -22,43 +32,44 @@ function wrap(angle: number): number {
  *
  * All vectors are in the axes of the body part that carries the limb, so that a spin of the dancer is no twist.
  *
- * @param bones unit vectors along the upper bone, one a frame
- * @param hinges observed hinge axes; the squared length is their weight
- * @param priors hinge axes of the anatomical prior
- * @returns unit vectors perpendicular to the bones
+ * @param bones frames x 3, unit vectors along the upper bone
+ * @param hinges frames x 3, observed hinge axes; the squared length is their weight
+ * @param priors frames x 3, hinge axes of the anatomical prior
+ * @returns frames x 3, unit vectors perpendicular to the bones
  */
-export function smoothHinges(
-  bones: readonly Vec3[],
-  hinges: readonly Vec3[],
-  priors: readonly Vec3[],
-): Vec3[] {
-  const frames = bones.length;
-  const references: Vec3[] = [];
+export function smoothHinges(bones: Float64Array, hinges: Float64Array, priors: Float64Array): Float64Array {
+  const frames = bones.length / 3;
+  const references = new Float64Array(bones.length);
   const weights = new Float64Array(frames);
   const targets = new Float64Array(frames);
   let estimate = 0;
   for (let t = 0; t < frames; t++) {
-    const bone = bones[t]!;
-    const carried = t === 0 ? priors[0]! : rotate(between(bones[t - 1]!, bone), references[t - 1]!);
+    const bone = readVec(bones, t);
+    const prior = readVec(priors, t);
+    const carried =
+      t === 0 ? prior : rotate(between(readVec(bones, t - 1), bone), readVec(references, t - 1));
     const reference = perpendicular(carried, bone, anyPerpendicular(bone));
-    references.push(reference);
+    writeVec(references, t, reference);
     const side = cross(bone, reference);
     const angleOf = (axis: Vec3): number => Math.atan2(dot(axis, side), dot(axis, reference));
 
-    const hinge = hinges[t]!;
+    const hinge = readVec(hinges, t);
     const flat = add(hinge, scale(bone, -dot(hinge, bone)));
     const weight = dot(flat, flat);
     const observed = weight > 0 ? estimate + wrap(angleOf(flat) - estimate) : estimate;
     estimate += ((observed - estimate) * weight) / (weight + UNWRAP_WEIGHT);
-    const prior = estimate + wrap(angleOf(priors[t]!) - estimate);
+    const expected = estimate + wrap(angleOf(prior) - estimate);
     weights[t] = weight + PRIOR_WEIGHT;
-    targets[t] = (weight * observed + PRIOR_WEIGHT * prior) / weights[t]!;
+    targets[t] = (weight * observed + PRIOR_WEIGHT * expected) / weights[t]!;
   }
   const angles = smooth(targets, weights);
-  return references.map((reference, t) => {
-    const side = cross(bones[t]!, reference);
-    return add(scale(reference, Math.cos(angles[t]!)), scale(side, Math.sin(angles[t]!)));
+  const axes = new Float64Array(bones.length);
+  angles.forEach((angle, t) => {
+    const reference = readVec(references, t);
+    const side = cross(readVec(bones, t), reference);
+    writeVec(axes, t, add(scale(reference, Math.cos(angle)), scale(side, Math.sin(angle))));
   });
+  return axes;
 }
 
 /** Minimises sum w (x - target)^2 + SMOOTHNESS_WEIGHT sum (x_t - x_(t-1))^2: one tridiagonal system, solved in place. */

@@ -1,4 +1,4 @@
-import { add, anyPerpendicular, cross, dot, scale, type Vec3 } from './vec3';
+import { anyPerpendicular, cross, dot, type Vec3 } from './vec3';
 
 /** Unit quaternion xyzw; `multiply(a, b)` rotates first by b, then by a. */
 export type Quat = readonly [number, number, number, number];
@@ -14,7 +14,11 @@ export function readQuat(array: Numbers, index: number): Quat {
 }
 
 export function writeQuat(array: Numbers, index: number, q: Quat): void {
-  array.set(q, 4 * index);
+  const at = 4 * index;
+  array[at] = q[0];
+  array[at + 1] = q[1];
+  array[at + 2] = q[2];
+  array[at + 3] = q[3];
 }
 
 export function multiply(a: Quat, b: Quat): Quat {
@@ -47,9 +51,14 @@ export function normaliseQuat(q: Quat): Quat {
 
 /** The vector v rotated by the unit quaternion q. */
 export function rotate(q: Quat, v: Vec3): Vec3 {
-  const axis: Vec3 = [q[0], q[1], q[2]];
-  const twice = scale(cross(axis, v), 2);
-  return add(add(v, scale(twice, q[3])), cross(axis, twice));
+  const x = 2 * (q[1] * v[2] - q[2] * v[1]);
+  const y = 2 * (q[2] * v[0] - q[0] * v[2]);
+  const z = 2 * (q[0] * v[1] - q[1] * v[0]);
+  return [
+    v[0] + q[3] * x + (q[1] * z - q[2] * y),
+    v[1] + q[3] * y + (q[2] * x - q[0] * z),
+    v[2] + q[3] * z + (q[0] * y - q[1] * x),
+  ];
 }
 
 /** The rotation by `angle` radians about the unit vector `axis`. */

@@ -1,5 +1,6 @@
-import { aboutAxis, fromAxes, multiply, normaliseQuat, type Quat, rotate } from './quat';
-import { add, cross, direction, dot, length, perpendicular, type Vec3, X_AXIS, Y_AXIS, ZERO } from './vec3';
+import { fromAxes, type Quat } from './quat';
+import { conjugateRow, multiplyRows, rotateRow } from './rows';
+import { cross, direction, dot, perpendicular, scale, type Vec3, X_AXIS, Y_AXIS } from './vec3';
 
 /** Orientation of a body part from the direction to its left and (roughly) upwards. */
 export function bodyFrame(left: Vec3, up: Vec3): Quat {
@@ -7,44 +8,74 @@ export function bodyFrame(left: Vec3, up: Vec3): Quat {
   return fromAxes(x, perpendicular(up, x, Y_AXIS));
 }
 
+/** Vectors of a rigid body part in its own axes. */
+export interface RigidPart {
+  /** n x 3, metres. */
+  readonly rest: Float64Array;
+  /** 3 x 3, the inverse of sum |v|^2 I - v v^T over these vectors v; zero where they are on one line. */
+  readonly inverse: Float64Array;
+}
+
+export function rigidPart(vectors: readonly Vec3[]): RigidPart {
+  let [xx, xy, xz, yy, yz, zz] = [0, 0, 0, 0, 0, 0];
+  for (const [x, y, z] of vectors) {
+    xx += y * y + z * z;
+    yy += x * x + z * z;
+    zz += x * x + y * y;
+    xy -= x * y;
+    xz -= x * z;
+    yz -= y * z;
+  }
+  const [a, b, c]: [Vec3, Vec3, Vec3] = [
+    [xx, xy, xz],
+    [xy, yy, yz],
+    [xz, yz, zz],
+  ];
+  const determinant = dot(a, cross(b, c));
+  // Vectors on one line leave the rotation about it undetermined.
+  const factor = Math.abs(determinant) < 1e-18 ? 0 : 1 / determinant;
+  const rows = [cross(b, c), cross(c, a), cross(a, b)].map((row) => scale(row, factor));
+  return { rest: Float64Array.from(vectors.flat()), inverse: Float64Array.from(rows.flat()) };
+}
+
+/** Working memory of `fitRotation`: the inverse of the rotation, a vector in the part's own axes, and a step. */
+const back = new Float64Array(4);
+const vector = new Float64Array(3);
+const turn = new Float64Array(4);
+
 /**
- * The rotation that brings the vectors `rest` nearest to the vectors `observed` by least squares (Wahba's problem, 1965).
- * Gauss-Newton on the rotation vector from `start`: it converges quadratically, so iteration ends with a step below
- * 1e-5 rad.
+ * The rotation that brings the vectors of a rigid part nearest to the vectors `observed` (n x 3) by least squares
+ * (Wahba's problem, 1965). Gauss-Newton on the rotation vector, in the part's own axes, where the matrix of the normal
+ * equations is constant: it converges quadratically, so iteration ends with a step below 1e-5 rad.
+ *
+ * @param rotation one row, the rotation to start from; becomes the result
  */
-export function fitRotation(rest: readonly Vec3[], observed: readonly Vec3[], start: Quat): Quat {
-  let rotation = start;
+export function fitRotation(
+  rotation: Float64Array,
+  { rest, inverse }: RigidPart,
+  observed: Float64Array,
+): void {
   for (let step = 0; step < 4; step++) {
-    // Normal equations: sum (|v|^2 I - v v^T) omega = sum v x observed, with v the rotated rest vectors.
-    let [xx, xy, xz, yy, yz, zz] = [0, 0, 0, 0, 0, 0];
-    let torque: Vec3 = ZERO;
-    for (let i = 0; i < rest.length; i++) {
-      const v = rotate(rotation, rest[i]!);
-      torque = add(torque, cross(v, observed[i]!));
-      xx += v[1] * v[1] + v[2] * v[2];
-      yy += v[0] * v[0] + v[2] * v[2];
-      zz += v[0] * v[0] + v[1] * v[1];
-      xy -= v[0] * v[1];
-      xz -= v[0] * v[2];
-      yz -= v[1] * v[2];
+    conjugateRow(back, 0, rotation, 0);
+    let tx = 0;
+    let ty = 0;
+    let tz = 0;
+    for (let i = 0; i < rest.length; i += 3) {
+      rotateRow(vector, 0, back, 0, observed, i / 3);
+      tx += rest[i + 1]! * vector[2]! - rest[i + 2]! * vector[1]!;
+      ty += rest[i + 2]! * vector[0]! - rest[i]! * vector[2]!;
+      tz += rest[i]! * vector[1]! - rest[i + 1]! * vector[0]!;
     }
-    const columns: [Vec3, Vec3, Vec3] = [
-      [xx, xy, xz],
-      [xy, yy, yz],
-      [xz, yz, zz],
-    ];
-    const [a, b, c] = columns;
-    const determinant = dot(a, cross(b, c));
-    // Vectors on one line leave the rotation about it undetermined.
-    if (Math.abs(determinant) < 1e-18) return rotation;
-    const omega: Vec3 = [
-      dot(torque, cross(b, c)) / determinant,
-      dot(torque, cross(c, a)) / determinant,
-      dot(torque, cross(a, b)) / determinant,
-    ];
-    const angle = length(omega);
-    rotation = normaliseQuat(multiply(aboutAxis(direction(omega, X_AXIS), angle), rotation));
+    const x = inverse[0]! * tx + inverse[1]! * ty + inverse[2]! * tz;
+    const y = inverse[3]! * tx + inverse[4]! * ty + inverse[5]! * tz;
+    const z = inverse[6]! * tx + inverse[7]! * ty + inverse[8]! * tz;
+    const angle = Math.sqrt(x * x + y * y + z * z);
+    const share = angle > 0 ? Math.sin(angle / 2) / angle : 0;
+    turn[0] = x * share;
+    turn[1] = y * share;
+    turn[2] = z * share;
+    turn[3] = Math.cos(angle / 2);
+    multiplyRows(rotation, 0, rotation, 0, turn, 0);
     if (angle < 1e-5) break;
   }
-  return rotation;
 }

@@ -12,9 +12,15 @@ export function segmentDistance(
   x = 0,
   z = 0,
 ): number {
-  const [px, py, pz] = [a[i + 3]! - a[i]!, a[i + 4]! - a[i + 1]!, a[i + 5]! - a[i + 2]!];
-  const [qx, qy, qz] = [b[j + 3]! - b[j]!, b[j + 4]! - b[j + 1]!, b[j + 5]! - b[j + 2]!];
-  const [gx, gy, gz] = [a[i]! - b[j]! - x, a[i + 1]! - b[j + 1]!, a[i + 2]! - b[j + 2]! - z];
+  const px = a[i + 3]! - a[i]!;
+  const py = a[i + 4]! - a[i + 1]!;
+  const pz = a[i + 5]! - a[i + 2]!;
+  const qx = b[j + 3]! - b[j]!;
+  const qy = b[j + 4]! - b[j + 1]!;
+  const qz = b[j + 5]! - b[j + 2]!;
+  const gx = a[i]! - b[j]! - x;
+  const gy = a[i + 1]! - b[j + 1]!;
+  const gz = a[i + 2]! - b[j + 2]! - z;
   const pp = px * px + py * py + pz * pz;
   const qq = qx * qx + qy * qy + qz * qz;
   const pq = px * qx + py * qy + pz * qz;
@@ -24,7 +30,10 @@ export function segmentDistance(
   let s = determinant > EPSILON ? clamp((pq * qg - pg * qq) / determinant) : 0;
   const t = clamp((pq * s + qg) / Math.max(qq, EPSILON));
   s = pp > EPSILON ? clamp((pq * t - pg) / pp) : 0;
-  return Math.sqrt((gx + s * px - t * qx) ** 2 + (gy + s * py - t * qy) ** 2 + (gz + s * pz - t * qz) ** 2);
+  const dx = gx + s * px - t * qx;
+  const dy = gy + s * py - t * qy;
+  const dz = gz + s * pz - t * qz;
+  return Math.sqrt(dx * dx + dy * dy + dz * dz);
 }
 
 const EPSILON = 1e-12;

@@ -1,13 +1,38 @@
 /**
+ * The value of a rank in ascending order, 0 for the least, in linear time (quickselect; Hoare 1961). Reorders the values
+ * so that none after it is smaller.
+ */
+function select(values: Float64Array, rank: number): number | undefined {
+  let [low, high] = [0, values.length - 1];
+  while (low < high) {
+    const pivot = values[(low + high) >> 1]!;
+    let [i, j] = [low, high];
+    while (i <= j) {
+      while (values[i]! < pivot) i++;
+      while (values[j]! > pivot) j--;
+      if (i > j) break;
+      const larger = values[i]!;
+      values[i++] = values[j]!;
+      values[j--] = larger;
+    }
+    if (rank <= j) high = j;
+    else if (rank >= i) low = i;
+    else break;
+  }
+  return values[rank];
+}
+
+/**
  * Percentile of numbers, with linear interpolation between ranks, as numpy's default.
  * `share` is 0 to 100; an empty list gives NaN.
  */
 export function percentile(values: ArrayLike<number>, share: number): number {
-  const sorted = Float64Array.from(values).sort();
-  const rank = ((sorted.length - 1) * share) / 100;
+  const reordered = new Float64Array(values);
+  const rank = ((reordered.length - 1) * share) / 100;
   const low = Math.floor(rank);
-  const a = sorted[low] ?? Number.NaN;
-  const b = sorted[Math.min(low + 1, sorted.length - 1)] ?? Number.NaN;
+  const a = select(reordered, low) ?? Number.NaN;
+  if (low === rank) return a;
+  const b = reordered.subarray(low + 1).reduce((least, value) => Math.min(least, value), Infinity);
   return a + (b - a) * (rank - low);
 }
 
@@ -29,14 +54,14 @@ export function gaussianFilter(values: Float64Array, deviation: number): Float64
   const total = raw.reduce((sum, weight, lag) => sum + (lag === 0 ? weight : 2 * weight), 0);
   const weights = raw.map((weight) => weight / total);
   const count = values.length;
-  const reflected = (index: number): number => {
-    const wrapped = ((index % (2 * count)) + 2 * count) % (2 * count);
+  const reflected = Float64Array.from({ length: count + 2 * radius }, (_, index) => {
+    const wrapped = (((index - radius) % (2 * count)) + 2 * count) % (2 * count);
     return values[wrapped < count ? wrapped : 2 * count - 1 - wrapped]!;
-  };
+  });
   return values.map((value, index) => {
     let sum = value * weights[0]!;
     for (let lag = radius; lag > 0; lag--)
-      sum += (reflected(index - lag) + reflected(index + lag)) * weights[lag]!;
+      sum += (reflected[index + radius - lag]! + reflected[index + radius + lag]!) * weights[lag]!;
     return sum;
   });
 }

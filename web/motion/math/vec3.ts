@@ -15,7 +15,10 @@ export function readVec(array: Numbers, index: number): Vec3 {
 }
 
 export function writeVec(array: Numbers, index: number, v: Vec3): void {
-  array.set(v, 3 * index);
+  const at = 3 * index;
+  array[at] = v[0];
+  array[at + 1] = v[1];
+  array[at + 2] = v[2];
 }
 
 export function add(a: Vec3, b: Vec3): Vec3 {

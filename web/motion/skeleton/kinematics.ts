@@ -1,6 +1,5 @@
-import { multiply, type Quat, readQuat, rotate } from '../math/quat';
+import { addScaled, multiplyRows, rotateRow } from '../math/rows';
 import { JOINT_COUNT, PARENTS } from './skeleton';
-import { add, readVec, type Vec3, writeVec } from '../math/vec3';
 
 /**
  * Forward kinematics: joint positions of a skeleton in motion.
@@ -17,19 +16,20 @@ export function forwardKinematics(
 ): Float32Array {
   const frames = root.length / 3;
   const positions = new Float32Array(frames * JOINT_COUNT * 3);
-  const bones = PARENTS.map((_, joint) => readVec(offsets, joint));
-  const world: Quat[] = [];
-  const placed: Vec3[] = [];
+  const bones = new Float64Array(offsets);
+  // One frame: rotations, local at first, and positions, both in world axes.
+  const world = new Float64Array(JOINT_COUNT * 4);
+  const placed = new Float64Array(JOINT_COUNT * 3);
   for (let frame = 0; frame < frames; frame++) {
-    for (let joint = 0; joint < JOINT_COUNT; joint++) {
+    world.set(rotations.subarray(frame * world.length, (frame + 1) * world.length));
+    placed.set(root.subarray(3 * frame, 3 * frame + 3));
+    for (let joint = 1; joint < JOINT_COUNT; joint++) {
       const parent = PARENTS[joint]!;
-      const local = readQuat(rotations, frame * JOINT_COUNT + joint);
-      world[joint] = parent < 0 ? local : multiply(world[parent]!, local);
-      const place =
-        parent < 0 ? readVec(root, frame) : add(placed[parent]!, rotate(world[parent]!, bones[joint]!));
-      placed[joint] = place;
-      writeVec(positions, frame * JOINT_COUNT + joint, place);
+      rotateRow(placed, joint, world, parent, bones, joint);
+      addScaled(placed, joint, placed, parent, placed, joint);
+      multiplyRows(world, joint, world, parent, world, joint);
     }
+    positions.set(placed, frame * placed.length);
   }
   return positions;
 }

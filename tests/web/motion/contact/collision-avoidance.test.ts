@@ -6,6 +6,7 @@ import {
   capsuleBody,
   candidatePairs,
   penetrationDepth,
+  shiftedDepths,
 } from '../../../../web/motion/contact/capsules';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { SHIFTS, viterbiPath } from '../../../../web/motion/contact/viterbi-path';
@@ -102,19 +103,24 @@ describe('avoidCollisions', () => {
 });
 
 test('the depth at a shift is that of the shifted body', () => {
-  const reactor = stander(() => [0.05, 0.06]);
-  for (const [x, z] of [
-    [0, 0],
-    [0.12, 0],
-    [0, 0.09],
-    [-0.1, 0.05],
-  ] as const) {
-    const [a, b, moved] = [leader, reactor, stander(() => [0.05 + x, 0.06 + z])].map((m) =>
-      capsuleBody(m, rule),
-    ) as [CapsuleBody, CapsuleBody, CapsuleBody];
-    const there = penetrationDepth(a, moved, candidatePairs(a, moved, 0));
-    expect(there).toBeGreaterThan(0.02);
-    expect(penetrationDepth(a, b, candidatePairs(a, b, 0, 0.2), x, z)).toBeCloseTo(there, 6);
+  const bodyOf = (motion: SolvedMotion): CapsuleBody => capsuleBody(motion, rule, 40);
+  const path = (frame: number): readonly [number, number] => [0.05 + frame / 1000, 0.06];
+  const [a, b] = [bodyOf(leader), bodyOf(stander(path))];
+  const columns = [-0.3, -0.1, 0, 0.12, 0.6].map((x) => ({
+    x,
+    z: Float64Array.of(-0.6, -0.05, 0, 0.09, 0.2),
+  }));
+  const shifts = columns.flatMap(({ x, z: column }) => Array.from(column, (z) => [x, z] as const));
+  for (const sample of [0, 5]) {
+    const depths = shiftedDepths(a, b, sample, columns);
+    expect(depths).toHaveLength(shifts.length);
+    shifts.forEach(([x, z], shift) => {
+      const moved = bodyOf(stander((frame) => [path(frame)[0] + x, path(frame)[1] + z]));
+      const there = penetrationDepth(a, moved, candidatePairs(a, moved, sample));
+      expect(depths[shift]).toBeCloseTo(there, 6);
+    });
+    expect(depths.filter((depth) => depth > 0.02).length).toBeGreaterThan(5);
+    expect(depths).toContain(0);
   }
 });
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { smoothHinges } from '../../../../web/motion/fit/twist';
-import { dot, scale, type Vec3 } from '../../../../web/motion/math/vec3';
+import { dot, readVec, scale, type Vec3 } from '../../../../web/motion/math/vec3';
 
 const down: Vec3 = [0, -1, 0];
 /** Hinge axis of a limb that hangs down, turned by an angle. */
@@ -8,10 +8,16 @@ const axis = (angle: number): Vec3 => [Math.cos(angle), 0, Math.sin(angle)];
 const angleOf = (hinge: Vec3): number => Math.atan2(hinge[2], hinge[0]);
 const frames = (count: number): number[] => Array.from({ length: count }, (_, t) => t);
 
+function smoothed(bones: readonly Vec3[], hinges: readonly Vec3[], priors: readonly Vec3[]): Vec3[] {
+  const rows = (vectors: readonly Vec3[]): Float64Array => Float64Array.from(vectors.flat());
+  const axes = smoothHinges(rows(bones), rows(hinges), rows(priors));
+  return bones.map((_, t) => readVec(axes, t));
+}
+
 describe('hinges over time', () => {
   test('are those of a bent limb', () => {
     const angles = frames(50).map((t) => Math.sin(t / 8));
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       angles.map(() => down),
       angles.map((angle) => scale(axis(angle), 0.8)),
       angles.map(() => axis(0)),
@@ -21,7 +27,7 @@ describe('hinges over time', () => {
 
   test('are interpolated linearly while the limb is straight', () => {
     const bent = (t: number): boolean => t < 20 || t >= 60;
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       frames(80).map(() => down),
       frames(80).map((t) => scale(axis(t < 20 ? 0.2 : 2.2), bent(t) ? 1 : 1e-9)),
       frames(80).map(() => axis(0)),
@@ -36,7 +42,7 @@ describe('hinges over time', () => {
   });
 
   test('take the shorter way round', () => {
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       frames(40).map(() => down),
       frames(40).map((t) => axis(t < 20 ? 3 : -3)),
       frames(40).map(() => axis(0)),
@@ -46,7 +52,7 @@ describe('hinges over time', () => {
   });
 
   test('are those of the prior for a limb that is never bent', () => {
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       frames(30).map(() => down),
       frames(30).map(() => [0, 0, 0]),
       frames(30).map(() => axis(1)),
@@ -57,7 +63,7 @@ describe('hinges over time', () => {
   test('do not flip where the bone passes through the axis of the prior', () => {
     // The bone turns about z, the hinge is z; it shows at the beginning and at the end only.
     const angles = frames(60).map((t) => 0.4 + (t / 60) * 2.2);
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       angles.map((angle): Vec3 => [Math.sin(angle), -Math.cos(angle), 0]),
       angles.map((_, t) => (t < 8 || t >= 52 ? [0, 0, 1] : [0, 0, 0])),
       angles.map((): Vec3 => [1, 0, 0]),
@@ -70,7 +76,7 @@ describe('hinges over time', () => {
       const [a, b] = [t / 9, t / 7];
       return [Math.cos(a) * Math.sin(b), Math.cos(b), Math.sin(a) * Math.sin(b)];
     });
-    const hinges = smoothHinges(
+    const hinges = smoothed(
       bones,
       bones.map((): Vec3 => [0, 0, 0]),
       bones.map(() => axis(0)),
