@@ -5,22 +5,26 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-import numpy as np
 import onnx
 import torch
-from onnx import numpy_helper
 from torch import Tensor, nn
 from torch.export import Dim
 
 from export.graphs import Condition, Decode, Step
+from export.int8 import layer_products, quantise
+from export.weights import store_compactly
 from training.config import STREAMS, STRIDE
 from training.diffusion.model import Model
 from training.motion.skeleton import JOINTS
 from training.music.recipe import MUSIC_FEATURES
 
 OPSET = 20
+
+Backend = Literal["wasm", "webgpu"]
+Files = dict[Backend, Path]
+"""The file of a graph that each backend of the page loads."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,8 @@ class Graph:
     module: nn.Module
     inputs: dict[str, tuple[int | str, ...]]
     outputs: dict[str, tuple[int | str, ...]]
+    int8: bool = False
+    """Whether wasm computes it in 8 bits."""
 
 
 def graphs(model: Model) -> list[Graph]:
@@ -57,6 +63,7 @@ def graphs(model: Model) -> list[Graph]:
                 "time": (1,),
             },
             {"x0": state},
+            int8=True,
         ),
         Graph(
             "decode",
@@ -78,8 +85,32 @@ def example(shape: tuple[int | str, ...], latents: int, blocks: int) -> Tensor:
     return torch.randn([sizes[s] if isinstance(s, str) else s for s in shape])
 
 
-def write_onnx(graph: Graph, folder: Path) -> Path:
-    """Export one graph: computed in single precision, weights inside the file."""
+def write_onnx(graph: Graph, folder: Path) -> Files:
+    """Export one graph, weights inside the file: in single precision, and where that pays in 8 bits for wasm.
+
+    8 bits are for wasm alone: on WebGPU they are not faster, and some drivers compute them wrongly.
+    """
+    proto = to_proto(graph)
+    products = layer_products(proto) if graph.int8 else []
+    for node in proto.graph.node:
+        # Stack traces and module paths of the exporting machine do not belong into the file.
+        node.ClearField("metadata_props")
+        node.ClearField("doc_string")
+    path = folder / f"{graph.name}.onnx"
+    if not products:
+        return {"wasm": save(proto, path), "webgpu": path}
+    int8 = save(quantise(proto, products), folder / f"{graph.name}-int8.onnx")
+    return {"wasm": int8, "webgpu": save(proto, path)}
+
+
+def save(proto: onnx.ModelProto, path: Path) -> Path:
+    store_compactly(proto)
+    onnx.save(proto, path)
+    return path
+
+
+def to_proto(graph: Graph) -> onnx.ModelProto:
+    """The graph in single precision, its nodes still with the exporter's metadata."""
     latents = Dim("latents", min=2, max=1 << 20)
     symbols: dict[str, Any] = {
         "latents": latents,
@@ -106,44 +137,18 @@ def write_onnx(graph: Graph, folder: Path) -> Path:
     proto = program.model_proto
     del proto.graph.value_info[:]
     proto.metadata_props.clear()
-    for node in proto.graph.node:
-        # Stack traces and module paths of the exporting machine do not belong into the file.
-        node.ClearField("metadata_props")
-        node.ClearField("doc_string")
-    halve_weights(proto)
-    path = folder / f"{graph.name}.onnx"
-    onnx.save(proto, path)
-    return path
+    return proto
 
 
-def halve_weights(proto: onnx.ModelProto, smallest: int = 1024) -> None:
-    """Store large weights in half precision where that loses nothing, each behind a cast back to single.
-
-    Trained weights come from a half-precision checkpoint, so this is exact; runtimes fold the casts when they load.
-    """
-    casts: list[onnx.NodeProto] = []
-    for weight in proto.graph.initializer:
-        values = numpy_helper.to_array(weight)
-        if values.dtype != np.float32 or values.size < smallest:
-            continue
-        half = values.astype(np.float16)
-        if not np.array_equal(half.astype(np.float32), values):
-            continue
-        name = weight.name
-        weight.CopyFrom(numpy_helper.from_array(half, f"{name}_half"))
-        casts.append(
-            onnx.helper.make_node("Cast", [f"{name}_half"], [name], f"{name}_cast", to=onnx.TensorProto.FLOAT)
-        )
-    for cast in reversed(casts):
-        proto.graph.node.insert(0, cast)
-
-
-def describe(graph: Graph, path: Path) -> dict[str, Any]:
+def describe(graph: Graph, files: Files) -> dict[str, Any]:
     """The manifest's entry: shapes, and one file per backend with bytes and sha256."""
-    data = path.read_bytes()
-    file = {"path": path.name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
     return {
         "inputs": {name: list(shape) for name, shape in graph.inputs.items()},
         "outputs": {name: list(shape) for name, shape in graph.outputs.items()},
-        "files": {"wasm": file, "webgpu": dict(file)},
+        "files": {backend: describe_file(path) for backend, path in files.items()},
     }
+
+
+def describe_file(path: Path) -> dict[str, Any]:
+    data = path.read_bytes()
+    return {"path": path.name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}

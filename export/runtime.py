@@ -12,6 +12,7 @@ import onnxruntime as ort
 import torch
 from torch import Tensor
 
+from export.onnx_files import Backend
 from training.diffusion.model import Sampling
 from training.music.recipe import MUSIC_FEATURES
 
@@ -66,14 +67,14 @@ class Exported:
         return [torch.from_numpy(np.asarray(out)) for out in self.sessions[graph].run(None, feed)]
 
 
-def open_model(folder: Path, threads: int = 0) -> Exported:
-    """Load manifest.json and its graphs (the wasm files) from a folder; threads 0 is onnxruntime's default."""
+def open_model(folder: Path, threads: int = 0, backend: Backend = "wasm") -> Exported:
+    """Load manifest.json and the graphs that the page loads for a backend; threads 0 is onnxruntime's default."""
     manifest = json.loads((folder / "manifest.json").read_text())
     options = ort.SessionOptions()
     options.intra_op_num_threads = threads
     sessions = {
         name: ort.InferenceSession(
-            str(folder / graph["files"]["wasm"]["path"]), options, providers=["CPUExecutionProvider"]
+            str(folder / graph["files"][backend]["path"]), options, providers=["CPUExecutionProvider"]
         )
         for name, graph in manifest["graphs"].items()
     }

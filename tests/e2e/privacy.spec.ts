@@ -49,5 +49,5 @@ test('the page is cross-origin isolated, so that the model can use several threa
 
 test('requests of workers are watched too', async ({ page, requests, site }) => {
   await page.goto('/?model=/models/tiny/manifest.json&backend=wasm');
-  await expect.poll(() => requests, { timeout: 60_000 }).toContain(`${site}models/tiny/step.onnx`);
+  await expect.poll(() => requests, { timeout: 60_000 }).toContain(`${site}models/tiny/step-int8.onnx`);
 });

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { type Golden, readGolden } from '../../../web/model/load/golden';
 import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
 import { type NpzArray, readNpz } from '../../../web/model/load/npz';
-import { type ModelSession, openSession } from '../../../web/model/load/session';
+import { type ModelSession, openSession, type Provider } from '../../../web/model/load/session';
 
 /** A model folder, opened in Node on the wasm runtime with one thread. */
 export interface OpenedModel {
@@ -12,11 +12,15 @@ export interface OpenedModel {
   readonly arrays: Map<string, NpzArray>;
 }
 
-export async function openModel(folder: URL): Promise<OpenedModel> {
+/**
+ * @param provider whose files to take: WebGPU's are in single precision, so they agree with PyTorch to rounding; wasm's
+ *   compute products in 8 bits
+ */
+export async function openModel(folder: URL, provider: Provider = 'webgpu'): Promise<OpenedModel> {
   const read = (path: string): Uint8Array => new Uint8Array(readFileSync(new URL(path, folder)));
   const manifest = parseManifest(JSON.parse(new TextDecoder().decode(read('manifest.json'))));
   const graphs = Object.fromEntries(
-    GRAPHS.map((name) => [name, read(manifest.graphs[name].files.wasm.path)]),
+    GRAPHS.map((name) => [name, read(manifest.graphs[name].files[provider].path)]),
   ) as Record<GraphName, Uint8Array>;
   const session = await openSession(manifest, graphs, 'wasm', 1);
   const bytes = read(manifest.golden?.path ?? 'golden.npz');

@@ -88,8 +88,13 @@ export const page = {
   /**
    * The golden sampling of a model folder on one execution provider, in the page itself: metres from Python's joints
    * where they differ most, and how much work the page gave to the GPU.
+   * @param filesOf the provider whose files to take: wasm's compute products in 8 bits, WebGPU's in single precision
    */
-  async golden(folder: string, provider: Provider): Promise<{ error: number; submissions: number }> {
+  async golden(
+    folder: string,
+    provider: Provider,
+    filesOf: Provider = provider,
+  ): Promise<{ error: number; submissions: number }> {
     let submissions = 0;
     const gpu = globalThis.GPUQueue?.prototype as GPUQueue | undefined;
     if (gpu !== undefined) {
@@ -103,7 +108,7 @@ export const page = {
     const manifest = parseManifest(await (await fetch(`${folder}manifest.json`)).json());
     const files = await Promise.all(
       GRAPHS.map(
-        async (name) => [name, await bytes(folder + manifest.graphs[name].files[provider].path)] as const,
+        async (name) => [name, await bytes(folder + manifest.graphs[name].files[filesOf].path)] as const,
       ),
     );
     const graphs = Object.fromEntries(files) as Record<GraphName, Uint8Array>;
