@@ -9,6 +9,7 @@ export const demoSettings = {
     placement: { coarse: 0.5, fine: 0.25 },
   },
   music: 1.5,
+  variety: 1,
   steps: 3,
   seed: 77,
   role: 'reactor',
