@@ -27,6 +27,7 @@ const WATCH = `
     const { store } = window.reactdance;
     const { watched } = window;
     let input = 0;
+    let part = null;
     let last = store.getState();
     addEventListener('input', ({ timeStamp }) => { input = timeStamp; }, true);
     new PerformanceObserver((list) => {
@@ -41,17 +42,19 @@ const WATCH = `
       const before = last;
       const now = (last = store.getState());
       if (!now.playback.playing) watched.stopped += 1;
-      const [old, part, whole] = [before.reaction, before.preview, now.reaction].map((of) => (of?.motion ?? of)?.positions);
+      const shown = ({ preview, reaction }) => (preview ?? reaction).motion.positions;
       if (now.preview && now.preview !== before.preview) {
         watched.previews.push(performance.now() - input);
         const frame = Math.round(now.playback.time * 30);
-        if (difference(now.preview.motion.positions, old, frame) === 0) watched.missed += 1;
+        part = { before: shown(before), after: shown(now) };
+        if (difference(part.before, part.after, frame) === 0) watched.missed += 1;
       }
       if (now.reaction !== before.reaction) {
         watched.wholes.push(performance.now() - input);
         if (part) {
           const frames = Array.from({ length: ${FRAMES} }, (_, frame) => frame);
-          watched.apart = frames.filter((frame) => difference(part, old, frame) > 0).map((frame) => difference(part, whole, frame));
+          const fresh = frames.filter((frame) => difference(part.before, part.after, frame) > 0);
+          watched.apart = fresh.map((frame) => difference(part.after, shown(now), frame));
         }
       }
       setTimeout(look, 2);
