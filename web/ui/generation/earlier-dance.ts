@@ -9,12 +9,14 @@ const SHOWN_MS = 2000;
 
 /**
  * Keeps the dance before a change of the settings beside the new one for a while, so that one sees what the change did.
- * While guidance is moved again and again it stays the dance from before the first move.
+ * During a drag of a fader it is the dance from before the drag, and while keys move a fader the one from before the
+ * first of them.
  * @returns a function that stops it
  */
 export function createEarlierDance(store: Store): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let seen = store.getState();
+  let beforeDrag: Reaction | null = null;
   const show = (earlier: Reaction | null): void => {
     clearTimeout(timer);
     if (earlier) timer = setTimeout(() => show(null), SHOWN_MS);
@@ -24,9 +26,10 @@ export function createEarlierDance(store: Store): () => void {
     // Not the listener's arguments: another listener may have changed the state once more.
     const [before, now] = [seen, store.getState()];
     seen = now;
+    if (now.drag?.held && !before.drag?.held) beforeDrag = now.reaction;
     const inputs = newInputs(before, now);
     const isNew = inputs !== undefined && !sameInputs(before.reaction?.inputs ?? null, inputs);
-    if (isNew) show(earlierAfter(before, now, inputs));
+    if (isNew) show(earlierAfter(before, now, inputs, before.drag && beforeDrag));
   });
   return () => {
     stop();
@@ -44,12 +47,17 @@ function newInputs(before: AppState, now: AppState): Inputs | null | undefined {
 }
 
 /** The earlier dance beside a dance from these inputs; null where files or roles have changed too. */
-function earlierAfter(before: AppState, now: AppState, inputs: Inputs | null): Reaction | null {
+function earlierAfter(
+  before: AppState,
+  now: AppState,
+  inputs: Inputs | null,
+  beforeDrag: Reaction | null,
+): Reaction | null {
   const { reaction: replaced, job } = before;
   if (!replaced || !inputs || now.compare !== 'off' || !sameFiles(replaced.inputs, inputs)) return null;
-  // Without a job it was there before, as a take is that is shown again: no further move of a drag.
-  const moves = job !== null && now.earlier !== null && differOnlyInWeights(now.earlier.inputs, inputs);
-  return moves ? now.earlier : replaced;
+  // Without a job it was there before, as a take is that is shown again: no further move of a fader.
+  const moved = beforeDrag ?? (job && now.earlier);
+  return moved && differOnlyInWeights(moved.inputs, inputs) ? moved : replaced;
 }
 
 /** Whether all but the settings is the same, and the role too. */

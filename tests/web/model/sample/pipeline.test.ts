@@ -7,6 +7,7 @@ import { Pipeline } from '../../../../web/model/sample/pipeline';
 import type { Progress } from '../../../../web/model/progress';
 import type { ModelSession } from '../../../../web/model/load/session';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { scaled } from '../../support/made-dancer';
@@ -347,5 +348,65 @@ describe('Pipeline', () => {
     };
     const result = new Pipeline(manifest, broken, () => 0).generate(request(120));
     await expect(result).rejects.toMatchObject({ code: 'not-finite' });
+  });
+});
+
+describe('the seeds that differ most', () => {
+  const seeds = [1, 2, 3, 4, 5];
+  /** A pipeline on the tiny model whose clock goes on by a second with every step. */
+  const timed = (): Pipeline => {
+    let steps = 0;
+    const { session, manifest } = model;
+    const ticking: ModelSession = {
+      ...session,
+      step: (input) => {
+        steps += 1;
+        stepRuns += 1;
+        return session.step(input);
+      },
+    };
+    return new Pipeline(manifest, ticking, () => steps);
+  };
+
+  it('are apart as their dances are, whose sampling is kept', async () => {
+    const alone = request(120);
+    const chosen = await pipeline.differingSeeds({ request: alone, seeds, count: 3, seconds: 1000 });
+    const sampled = stepRuns;
+    const dances: Float32Array[] = [];
+    for (const seed of seeds) dances.push((await pipeline.generate({ ...alone, seed })).motion.positions);
+    expect(stepRuns).toBe(sampled);
+    const nearest = (list: readonly number[]): number => {
+      const [a, b, c] = list.map((seed) => dances[seed - 1]!) as [Float32Array, Float32Array, Float32Array];
+      return Math.min(danceDistance(a, b), danceDistance(a, c), danceDistance(b, c));
+    };
+    const all = seeds.flatMap((a) =>
+      seeds.flatMap((b) => seeds.filter((c) => a < b && b < c).map((c) => [a, b, c])),
+    );
+    expect(all).toHaveLength(10);
+    // Solving moves joints by a few millimetres.
+    expect(nearest(chosen)).toBeGreaterThan(Math.max(...all.map(nearest)) - 0.004);
+    expect(nearest(chosen)).toBeGreaterThan(Math.min(...all.map(nearest)));
+  });
+
+  it('are of fewer seeds where there is no time for more, but never of too few', async () => {
+    const shares: number[] = [];
+    const onProgress = (share: number): void => void shares.push(share);
+    const wanted = { request: request(120), seeds, count: 3 };
+    const steps = wanted.request.steps;
+    expect(await timed().differingSeeds({ ...wanted, seconds: 0 }, { onProgress })).toEqual([1, 2, 3]);
+    expect(shares).toEqual([0.2, 0.4, 0.6]);
+    shares.length = 0;
+    await timed().differingSeeds({ ...wanted, seconds: 4 * steps }, { onProgress });
+    expect(shares).toEqual([0.2, 0.4, 0.6, 0.8]);
+  });
+
+  it('are given up when cancelled', async () => {
+    const controller = new AbortController();
+    const result = pipeline.differingSeeds(
+      { request: request(120), seeds, count: 3, seconds: 1000 },
+      { signal: controller.signal, onProgress: () => controller.abort() },
+    );
+    await expect(result).rejects.toThrow(/abort/i);
+    expect(stepRuns).toBe(2);
   });
 });

@@ -19,7 +19,7 @@ function raised(by: (frame: number) => number): Float32Array {
 
 describe('the distance of two dances', () => {
   it('is the mean over joints and frames, and nothing where only the place differs', () => {
-    const elsewhere = positions.map((value, i) => value + (i % 3) * 0.7);
+    const elsewhere = positions.map((value, i) => value + ((i % 3) + 1) * 0.7);
     expect(danceDistance(positions, elsewhere)).toBeLessThan(1e-6);
     const wave = raised((frame) => (frame < 5 ? 0.44 : 0));
     expect(poseDistance(positions, wave, 3)).toBeCloseTo(0.02, 6);

@@ -64,14 +64,36 @@ describe('the dance before a change', () => {
     expect(store.getState().reaction).not.toBe(first);
   });
 
-  it('stays the one from before a drag until two seconds after the last move', () => {
+  it.each([1.5, 5])('stays the one from before a drag, also after a rest of %f seconds', (rest) => {
     const { motion } = made();
+    apply(change.dragBegun());
     for (const value of [0.1, 0.3, 0.6]) {
       apply(change.guidanceSet('coarse', value));
       previewed();
       expect(shown()).toBe(motion);
-      after(1.5);
+      after(rest);
       made();
+      expect(shown()).toBe(rest < 2 ? motion : null);
+    }
+    apply(change.guidanceSet('coarse', 0.9), change.dragEnded());
+    previewed();
+    made();
+    expect(shown()).toBe(motion);
+    after(2.1);
+    expect(shown()).toBeNull();
+    const dragged = store.getState().reaction!;
+    apply(change.seedSet(8));
+    made();
+    expect(shown()).toBe(dragged.motion);
+  });
+
+  it('stays the one from before the first of several keys', () => {
+    const { motion } = made();
+    for (const value of [0.05, 0.1, 0.15]) {
+      apply(change.guidanceSet('coarse', value));
+      previewed();
+      made();
+      after(1.5);
       expect(shown()).toBe(motion);
     }
     after(0.6);
@@ -144,7 +166,10 @@ describe('the dance before a change', () => {
     made();
     expect(shown()).toBeNull();
     apply(change.rolesSwapped());
-    made();
+    const swapped = made();
+    expect(shown()).toBeNull();
+    apply(undone());
+    expect(store.getState().reaction).not.toBe(swapped);
     expect(shown()).toBeNull();
   });
 
