@@ -6,7 +6,15 @@
 type Rows = Float64Array;
 
 /** a + factor b. */
-export function addScaled(out: Rows, o: number, a: Rows, i: number, b: Rows, j: number, factor = 1): void {
+export function addScaled(
+  out: Rows,
+  o: number,
+  a: Rows,
+  i: number,
+  b: Rows,
+  j: number,
+  factor: number,
+): void {
   out[3 * o] = a[3 * i]! + factor * b[3 * j]!;
   out[3 * o + 1] = a[3 * i + 1]! + factor * b[3 * j + 1]!;
   out[3 * o + 2] = a[3 * i + 2]! + factor * b[3 * j + 2]!;
