@@ -106,6 +106,9 @@ test('the variety is how far a seed is from the mean of several', async ({ page 
   expect(individual).toBeGreaterThan(3 * average);
   await variety.dblclick();
   await expect(variety).toHaveValue('1');
+  await page.keyboard.press('c');
+  await page.keyboard.press('y');
+  await expect(variety).toBeFocused();
 });
 
 test('the seed is chosen at random, locked and kept, and swapped roles are named everywhere', async ({

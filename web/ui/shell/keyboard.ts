@@ -85,6 +85,7 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   c: () => focusFader('Coarse guidance'),
   v: () => focusFader('Fine guidance'),
   m: () => focusFader('Music guidance'),
+  y: () => focusFader('Variety'),
   r: ({ store }) => apply(store, guidanceReset()),
   d: ({ store }) => apply(store, seedRandomized(randomSeed())),
   f: ({ store }) => toggleCamera(store, 'follow'),

@@ -15,7 +15,7 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['L'], 'Loop on or off'],
   [['I', 'O'], 'Loop from here, to here'],
   [['+', '−', '0'], 'Zoom in, out, the whole dance'],
-  [['C', 'V', 'M'], 'Coarse, fine, music; then the arrows'],
+  [['C', 'V', 'M', 'Y'], 'Coarse, fine, music, variety; then the arrows'],
   [['R'], 'Guidance back to its default'],
   [['D'], 'Another seed'],
   [['S'], 'Star the take on the stage'],
