@@ -1,5 +1,5 @@
 import { type BodyRule, capsuleBody, candidatePairs, penetrationDepth, shiftedDepths } from './capsules';
-import type { MotionClip, SolvedMotion } from '../skeleton/clip';
+import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { type LevelShift, SHIFT_COLUMNS, SHIFTS, viterbiPath } from './viterbi-path';
 import { gaussianFilter } from '../math/statistics';
 import type { JointName } from '../skeleton/skeleton';
@@ -106,17 +106,5 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
       SMOOTHING * fps,
     );
   const [x, z] = [along('x'), along('z')];
-  return { ...motion, root: shifted(motion.root, x, z), positions: shifted(motion.positions, x, z) };
-}
-
-/** Points, frames x n x 3, shifted level with the floor by one x and z a frame. */
-function shifted(points: Float32Array, x: Float64Array, z: Float64Array): Float32Array {
-  const moved = points.slice();
-  const row = points.length / x.length;
-  for (let i = 0; i < moved.length; i += 3) {
-    const frame = Math.floor(i / row);
-    moved[i]! += x[frame]!;
-    moved[i + 2]! += z[frame]!;
-  }
-  return moved;
+  return shiftedLevel(motion, x, z);
 }

@@ -1,4 +1,4 @@
-import type { MotionClip, SolvedMotion } from '../skeleton/clip';
+import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 
 /** A dancer's root may be this much faster than the partner's. */
@@ -24,27 +24,10 @@ export function limitRootSpeed(motion: SolvedMotion, partner: MotionClip): Solve
   const path = levelPath(motion);
   const there = followed(path, limits);
   const back = followed(path.toReversed(), limits.toReversed()).toReversed();
-  const shifts = path.map(([x, z], t): Level => [
-    (there[t]![0] + back[t]![0]) / 2 - x,
-    (there[t]![1] + back[t]![1]) / 2 - z,
-  ]);
-  if (shifts.every(([x, z]) => x === 0 && z === 0)) return motion;
-  return {
-    ...motion,
-    root: shifted(motion.root, 1, shifts),
-    positions: shifted(motion.positions, JOINT_COUNT, shifts),
-  };
-}
-
-/** Points, `perFrame` a frame, x y z each, moved level with the floor by one shift a frame. */
-function shifted(points: Float32Array, perFrame: number, shifts: readonly Level[]): Float32Array {
-  const out = points.slice();
-  for (let i = 0; i < out.length / 3; i++) {
-    const [x, z] = shifts[Math.floor(i / perFrame)]!;
-    out[i * 3]! += x;
-    out[i * 3 + 2]! += z;
-  }
-  return out;
+  const along = (axis: 0 | 1): Float64Array =>
+    Float64Array.from(path, (place, t) => (there[t]![axis] + back[t]![axis]) / 2 - place[axis]);
+  const [x, z] = [along(0), along(1)];
+  return x.some(Boolean) || z.some(Boolean) ? shiftedLevel(motion, x, z) : motion;
 }
 
 type Level = readonly [x: number, z: number];

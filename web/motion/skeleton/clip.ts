@@ -22,3 +22,18 @@ export interface SolvedMotion {
   /** Mean distance between solved and given joints, metres. */
   readonly fitError: number;
 }
+
+/** The motion shifted level with the floor: by x and z metres in each frame. */
+export function shiftedLevel(motion: SolvedMotion, x: Float64Array, z: Float64Array): SolvedMotion {
+  const shifted = (points: Float32Array): Float32Array => {
+    const moved = points.slice();
+    const row = points.length / motion.frames;
+    for (let i = 0; i < moved.length; i += 3) {
+      const frame = Math.floor(i / row);
+      moved[i]! += x[frame]!;
+      moved[i + 2]! += z[frame]!;
+    }
+    return moved;
+  };
+  return { ...motion, root: shifted(motion.root), positions: shifted(motion.positions) };
+}
