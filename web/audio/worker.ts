@@ -9,7 +9,7 @@ const tasks = {
     { song, recipe }: { song: DecodedSong; recipe: AudioRecipe },
     { report }: TaskContext<number>,
   ): Analysis {
-    return analyse(song.channels, song.sampleRate, recipe, report);
+    return analyse(song.channels, song.sampleRate, recipe, (fraction) => void report(fraction));
   },
 };
 export type AudioTasks = typeof tasks;

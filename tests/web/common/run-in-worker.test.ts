@@ -1,22 +1,31 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { AppError } from '../../../web/common/error';
+import { yieldToEvents } from '../../../web/common/yield-to-events';
 import { runInWorker, serve, type TaskContext, WorkerConnection } from '../../../web/common/run-in-worker';
 
-const seen: { signal?: AbortSignal; buffers: ArrayBuffer[] } = { buffers: [] };
+const seen: { signal?: AbortSignal; buffers: ArrayBuffer[]; counted: number } = { buffers: [], counted: 0 };
 
 const tasks = {
   double(
     { values }: { values: Float32Array },
     { report }: TaskContext<{ half: Float32Array }>,
   ): Float32Array {
-    report({ half: values.map((value) => value / 2) });
+    void report({ half: values.map((value) => value / 2) });
     const doubled = values.map((value) => 2 * value);
     seen.buffers.push(doubled.buffer);
     return doubled;
   },
   count({ to }: { to: number }, { report }: TaskContext<number>): number {
-    for (let at = 1; at <= to; at++) report(at);
+    for (let at = 1; at <= to; at++) void report(at);
     return to;
+  },
+  /** Counts until the page has had enough, which it says when it takes a number. */
+  async countUntilAborted(_: object, { signal, report }: TaskContext<number>): Promise<number> {
+    for (let at = 1; ; at++) {
+      seen.counted = at;
+      await report(at);
+      await yieldToEvents(signal);
+    }
   },
   refuse: (_: object): never => {
     throw new AppError('bad-request', 'It has no frames.', 'Give it some.');
@@ -79,6 +88,25 @@ describe('a connection to a worker', () => {
     );
     expect(output).toBe(20);
     expect(reports).toEqual(Array.from({ length: 20 }, (_, i) => i + 1));
+  });
+
+  it('lets the page cancel a task before it goes on after a report', async () => {
+    const connection = new WorkerConnection<Tested>(open());
+    const controller = new AbortController();
+    const counting = connection.call(
+      'countUntilAborted',
+      {},
+      {
+        signal: controller.signal,
+        onReport: (at) => {
+          if (at === 3) controller.abort();
+        },
+      },
+    );
+    await expect(counting).rejects.toThrow(/abort/i);
+    // A later call is answered after whatever the task might still have done.
+    await connection.call('count', { to: 9 });
+    expect(seen.counted).toBe(3);
   });
 
   it('answers several calls at once, with reports, and transfers the buffers of the output', async () => {
