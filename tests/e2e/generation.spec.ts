@@ -1,5 +1,6 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
+import type { Manifest } from '../../web/model/manifest';
 import { readBvh } from '../../web/motion/bvh/read';
 import { bvh, wav } from './support/files';
 import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
@@ -73,8 +74,8 @@ test('from a song and a leader to a partner that can be steered and downloaded',
   });
 
   await test.step('a moved fader changes the reactor by itself', async () => {
-    await page.getByRole('slider', { name: 'Coarse guidance' }).fill('2');
-    await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 2);
+    await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.8');
+    await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 0.8);
     const second = await app.reactor();
     expect(maxDistance(first, second)).toBeGreaterThan(0.01);
   });
@@ -99,7 +100,7 @@ test('from a song and a leader to a partner that can be steered and downloaded',
     const { seed, music } = (await app.read(({ settings }) => settings))!;
     expect(download.suggestedFilename()).toMatch(
       new RegExp(
-        `^my-song_my-leader_take-\\d+_s${seed}_c2.00-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
+        `^my-song_my-leader_take-\\d+_s${seed}_c0.80-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
       ),
     );
     const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
@@ -125,7 +126,7 @@ test('playing never stops while a new reaction is made', async ({ page }) => {
   await app.reaction('long.bvh');
   await page.keyboard.press('Space');
   await app.until(({ playback }) => playback.playing && playback.time > 0.2);
-  await page.getByRole('slider', { name: 'Fine guidance' }).fill('1.5');
+  await page.getByRole('slider', { name: 'Fine guidance' }).fill('0.75');
   const times: number[] = [];
   await expect
     .poll(
@@ -140,7 +141,7 @@ test('playing never stops while a new reaction is made', async ({ page }) => {
       },
       { timeout: 60_000 },
     )
-    .toBe(1.5);
+    .toBe(0.75);
   for (const [i, time] of times.entries()) expect(time).toBeGreaterThanOrEqual(times[i - 1] ?? 0);
 });
 
@@ -230,9 +231,14 @@ test('the visitor’s own model is dropped as a folder and generates at once', a
   const before = await app.reactor();
 
   const [manifest, ...graphs] = modelFiles();
-  const renamed = JSON.parse(manifest!.buffer.toString()) as { name: string; guidance: { default: object } };
-  renamed.name = 'My own duets';
-  renamed.guidance.default = { coarse: 2, fine: 2 };
+  const shipped = JSON.parse(manifest!.buffer.toString()) as Manifest;
+  const { coarse, fine } = shipped.guidance;
+  const guidance = {
+    ...shipped.guidance,
+    coarse: { ...coarse, default: 0.5 },
+    fine: { ...fine, default: 0.5 },
+  };
+  const renamed = { ...shipped, name: 'My own duets', guidance };
   const own = { ...manifest!, buffer: Buffer.from(JSON.stringify(renamed)) };
 
   await app.drop(own, ...graphs.slice(1));
@@ -244,9 +250,9 @@ test('the visitor’s own model is dropped as a folder and generates at once', a
   await app.until(({ manifest }) => manifest?.name === 'My own duets');
   await app.until(({ settings, reaction, job }) => !job && settings?.seed === reaction?.inputs.settings.seed);
   expect(await app.read(({ reaction }) => reaction?.inputs.settings.guidance)).toEqual({
-    upper: { coarse: 2, fine: 2 },
-    lower: { coarse: 2, fine: 2 },
-    placement: { coarse: 2, fine: 2 },
+    upper: { coarse: 0.5, fine: 0.5 },
+    lower: { coarse: 0.5, fine: 0.5 },
+    placement: { coarse: 0.5, fine: 0.5 },
   });
   expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-4);
   await expect(page.getByRole('list', { name: 'Notes' })).toContainText('My own duets');

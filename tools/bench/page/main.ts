@@ -1,10 +1,21 @@
 /** The browser half of the bench: the app's own modules, timed on the scene that the Python half made. */
 import { musicFeatures } from '../../../web/audio/features';
 import { readRecipe } from '../../../web/audio/recipe';
-import { createGenerator } from '../../../web/model/client';
+import {
+  createGenerator,
+  type Generator,
+  type GenerateRequest,
+  type Manifest,
+  secondsNow,
+} from '../../../web/model/client';
 import { readNpz } from '../../../web/model/load/npz';
+import { unitGains } from '../../../web/model/sample/blend';
 
-export type Seconds = Record<'features' | 'condition' | 'steps' | 'decode' | 'solve', number>;
+/**
+ * Stages of a new dance without guidance: features, steps (condition and body included), decode and solve. Then a weight
+ * is changed: seconds until the part in view is there, and until the whole dance is.
+ */
+export type Seconds = Record<'features' | 'steps' | 'decode' | 'solve' | 'preview' | 'renewed', number>;
 
 /** One configuration's times: the first run after loading, and the fastest run of each stage. */
 export interface Measured {
@@ -20,6 +31,28 @@ async function timed<T>(work: () => T | Promise<T>): Promise<[T, number]> {
   const start = performance.now();
   const result = await work();
   return [result, (performance.now() - start) / 1000];
+}
+
+/** A weight of the fine layer, which needs nothing sampled. */
+function fineGuidance({ latent: { streams, layers } }: Manifest): Float32Array {
+  return Float32Array.from(streams.flatMap(() => layers.map((_, layer) => (layer === 0 ? 0 : 0.5))));
+}
+
+/** Seconds until the part in view is there and until the whole is, and of which decoding and solving the whole. */
+async function followed(
+  generator: Generator,
+  request: GenerateRequest,
+): Promise<Pick<Seconds, 'preview' | 'renewed' | 'decode' | 'solve'>> {
+  const start = performance.now();
+  const since = (): number => (performance.now() - start) / 1000;
+  let preview = NaN;
+  const { seconds } = await generator.generate(request, {
+    playhead: { frame: request.leader.frames / 2, at: secondsNow(), rate: 0 },
+    onPreview: () => {
+      preview = since();
+    },
+  });
+  return { preview, renewed: since(), decode: seconds.decode, solve: seconds.solve };
 }
 
 export async function measure(threads: number, steps: number, repeats: number): Promise<Measured> {
@@ -38,18 +71,17 @@ export async function measure(threads: number, steps: number, repeats: number): 
     const [music, features] = await timed(() => musicFeatures(song, recipe));
     // Another leader each time: the memory of the last one would be used again.
     const positions = leader.map((value) => value * (1 + run / 1000));
-    const { layers, streams } = manifest.latent;
-    const guidance = new Float32Array(streams.length * layers.length).map(
-      (_, i) => manifest.guidance.default[layers[i % layers.length] ?? ''] ?? 0,
-    );
-    const { seconds } = await generator.generate({
+    const weights = { guidance: unitGains(manifest.latent).fill(0), musicGuidance: 0, variety: 1 };
+    const request: GenerateRequest = {
       leader: { fps: manifest.fps, frames, positions },
       music,
-      guidance,
-      musicGuidance: manifest.guidance.music.default,
+      ...weights,
       steps,
       seed: 1,
-    });
+    };
+    const { seconds: sampled } = await generator.generate(request);
+    const change = await followed(generator, { ...request, guidance: fineGuidance(manifest) });
+    const seconds = { ...sampled, ...change };
     runs.push({ features, ...seconds });
   }
   generator.dispose();

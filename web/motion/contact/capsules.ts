@@ -103,8 +103,10 @@ export function penetrationDepth(a: CapsuleBody, b: CapsuleBody, pairs: readonly
   return depth;
 }
 
-/** Level shifts of equal x, by ascending z, metres. */
+/** Level shifts of equal x, metres, by ascending z. */
 export interface ShiftColumn {
+  /** Number of shifts with a smaller x. */
+  readonly first: number;
   readonly x: number;
   readonly z: Float64Array;
 }
@@ -112,7 +114,7 @@ export interface ShiftColumn {
 /**
  * Deepest overlap of two dancers in a frame for each of many level shifts of the second one.
  *
- * @param columns the shifts, n in all
+ * @param columns the shifts by ascending x, n in all
  * @returns n depths, metres, 0 where there is no overlap
  */
 export function shiftedDepths(
@@ -121,7 +123,8 @@ export function shiftedDepths(
   frame: number,
   columns: readonly ShiftColumn[],
 ): Float64Array {
-  const depths = new Float64Array(columns.reduce((count, { z }) => count + z.length, 0));
+  const last = columns.at(-1)!;
+  const depths = new Float64Array(last.first + last.z.length);
   a.radii.forEach((first, i) => {
     const p = (frame * a.radii.length + i) * 6;
     b.radii.forEach((second, j) => {
@@ -148,23 +151,22 @@ function deepen(
   if (gapY >= radii) return;
   const [afterX, beforeX] = [gapAfter(a, p, b, q), gapAfter(b, q, a, p)];
   const [afterZ, beforeZ] = [gapAfter(a, p + 2, b, q + 2), gapAfter(b, q + 2, a, p + 2)];
-  let first = 0;
-  for (const { x, z: column } of columns) {
+  const reachX = Math.sqrt(radii * radii - gapY * gapY);
+  for (const { first, x, z: column } of columns) {
+    if (x <= beforeX - reachX) continue;
+    if (x >= reachX - afterX) break;
     const gapX = Math.max(0, afterX + x, beforeX - x);
     const square = gapX * gapX + gapY * gapY;
-    if (square < radii * radii) {
-      const reachZ = Math.sqrt(radii * radii - square);
-      for (let k = 0; k < column.length; k++) {
-        const z = column[k]!;
-        if (z <= beforeZ - reachZ) continue;
-        if (z >= reachZ - afterZ) break;
-        const gapZ = Math.max(0, afterZ + z, beforeZ - z);
-        const reach = radii - depths[first + k]!;
-        if (square + gapZ * gapZ >= reach * reach) continue;
-        depths[first + k] = Math.max(depths[first + k]!, radii - segmentDistance(a, p, b, q, x, z));
-      }
+    const reachZ = Math.sqrt(radii * radii - square);
+    for (let k = 0; k < column.length; k++) {
+      const z = column[k]!;
+      if (z <= beforeZ - reachZ) continue;
+      if (z >= reachZ - afterZ) break;
+      const gapZ = Math.max(0, afterZ + z, beforeZ - z);
+      const reach = radii - depths[first + k]!;
+      if (square + gapZ * gapZ >= reach * reach) continue;
+      depths[first + k] = Math.max(depths[first + k]!, radii - segmentDistance(a, p, b, q, x, z));
     }
-    first += column.length;
   }
 }
 

@@ -38,10 +38,12 @@ function costsOf(depths: readonly Float64Array[], sample: number): Float64Array 
   for (const row of window) {
     for (let shift = 0; shift < row.length; shift++) deepest[shift] = Math.max(deepest[shift]!, row[shift]!);
   }
-  return deepest.map((depth, shift) => {
+  for (let shift = 0; shift < deepest.length; shift++) {
     const { x, z } = SHIFTS[shift]!;
-    return PENETRATION_COST * depth * depth + x * x + z * z;
-  });
+    const depth = deepest[shift]!;
+    deepest[shift] = PENETRATION_COST * depth * depth + x * x + z * z;
+  }
+  return deepest;
 }
 
 /**

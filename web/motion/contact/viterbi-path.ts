@@ -21,27 +21,48 @@ const CELLS = Math.floor(MAX_SHIFT / GRID_STEP + EPSILON);
 const AXIS = Array.from({ length: 2 * CELLS + 1 }, (_, i) => (i - CELLS) * GRID_STEP);
 
 /** The states of the path: all shifts on a square grid within a circle, zero among them. */
-export const SHIFT_COLUMNS: readonly ShiftColumn[] = AXIS.map((x) => ({
-  x,
-  z: Float64Array.from(AXIS.filter((z) => Math.hypot(x, z) <= MAX_SHIFT + EPSILON)),
-}));
-export const SHIFTS: readonly LevelShift[] = SHIFT_COLUMNS.flatMap(({ x, z: column }) =>
-  Array.from(column, (z) => ({ x, z })),
+export const SHIFTS: readonly LevelShift[] = AXIS.flatMap((x) => AXIS.map((z) => ({ x, z }))).filter(
+  ({ x, z }) => Math.hypot(x, z) <= MAX_SHIFT + EPSILON,
 );
+export const SHIFT_COLUMNS: readonly ShiftColumn[] = AXIS.map((x) => ({
+  first: SHIFTS.findIndex((shift) => shift.x === x),
+  x,
+  z: Float64Array.from(SHIFTS.filter((shift) => shift.x === x).map(({ z }) => z)),
+}));
 
 const ZERO_SHIFT = SHIFTS.findIndex(({ x, z }) => x === 0 && z === 0);
 
-/** The states from which a state can follow, and the cost of each of these transitions. */
-interface Transitions {
+/** Steps of the path: the state that each comes from, and its cost. */
+interface Steps {
   readonly from: Int16Array;
   readonly costs: Float64Array;
 }
 
-const TRANSITIONS: readonly Transitions[] = SHIFTS.map(({ x, z }) => {
+/** The steps into each state that are short enough, with the cost of the change alone. */
+const TRANSITIONS: readonly Steps[] = SHIFTS.map(({ x, z }) => {
   const changes = SHIFTS.map((from) => Math.hypot(from.x - x, from.z - z));
   const from = Int16Array.from(changes.keys()).filter((state) => changes[state]! <= MAX_CHANGE + EPSILON);
   return { from, costs: Float64Array.from(from, (state) => CHANGE_COST * changes[state]! * changes[state]!) };
 });
+
+/** The cheapest way into each state: the state before it, and the total of the costs. */
+function advance(totals: Float64Array, own: Float64Array): Steps {
+  const cheapest = { from: new Int16Array(totals.length), costs: new Float64Array(totals.length) };
+  for (let state = 0; state < totals.length; state++) {
+    const { from, costs } = TRANSITIONS[state]!;
+    let least = Infinity;
+    let best = 0;
+    for (let i = 0; i < from.length; i++) {
+      const total = totals[from[i]!]! + costs[i]!;
+      if (total >= least) continue;
+      least = total;
+      best = from[i]!;
+    }
+    cheapest.from[state] = best;
+    cheapest.costs[state] = least + own[state]!;
+  }
+  return cheapest;
+}
 
 /**
  * The path of least total cost through the grid of shifts, by dynamic programming (Viterbi, Error bounds for
@@ -55,22 +76,13 @@ export function viterbiPath(
   costs: readonly Float64Array[],
   zeroAt: { readonly start: boolean; readonly end: boolean },
 ): LevelShift[] {
-  let totals = costs[0]!.map((cost, state) => (zeroAt.start && state !== ZERO_SHIFT ? Infinity : cost));
-  const backpointers = costs.slice(1).map((cost) => {
-    const [before, after] = [new Int16Array(totals.length), new Float64Array(totals.length)];
-    for (let state = 0; state < totals.length; state++) {
-      const { from, costs: changes } = TRANSITIONS[state]!;
-      let least = Infinity;
-      for (let i = 0; i < from.length; i++) {
-        const total = totals[from[i]!]! + changes[i]!;
-        if (total >= least) continue;
-        least = total;
-        before[state] = from[i]!;
-      }
-      after[state] = least + cost[state]!;
-    }
-    totals = after;
-    return before;
+  let totals: Float64Array = costs[0]!.map((cost, state) =>
+    zeroAt.start && state !== ZERO_SHIFT ? Infinity : cost,
+  );
+  const backpointers = costs.slice(1).map((own) => {
+    const steps = advance(totals, own);
+    totals = steps.costs;
+    return steps.from;
   });
   let state = zeroAt.end ? ZERO_SHIFT : totals.indexOf(Math.min(...totals));
   const path = [state];

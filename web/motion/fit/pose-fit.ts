@@ -1,10 +1,9 @@
 import { fitRotation, type RigidPart, rigidPart } from '../math/rigid';
 import { addScaled, directionTo, rotateRow } from '../math/rows';
 import { direction, length, readVec, writeVec, Y_AXIS } from '../math/vec3';
-import { type Quat, readQuat } from '../math/quat';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 
-/** World rotations of the trunk's two rigid parts, one row a frame. */
+/** World rotations of the trunk's two rigid parts, frames x 4. */
 export interface TrunkRotations {
   readonly pelvis: Float64Array;
   readonly chest: Float64Array;
@@ -49,7 +48,7 @@ const ARMS = [
   [J.left_shoulder, J.left_elbow, J.left_wrist],
   [J.right_shoulder, J.right_elbow, J.right_wrist],
 ] as const;
-/** Joints whose bones point as those of the pelvis where they are not seen; the others follow the chest. */
+/** Joints whose bones turn with the pelvis where they show no direction; the others turn with the chest. */
 const CARRIED_BY_PELVIS: ReadonlySet<number> = new Set([...SPINE, ...LEGS.flat()]);
 
 /** Sweeps of `fitLimb`; each halves what the bone lengths leave of the error at the end of the limb. */
@@ -62,13 +61,13 @@ interface Frame {
   /** 22 x 3: where the joints are seen, and where they are placed, metres. */
   readonly observed: Float64Array;
   readonly joints: Float64Array;
-  /** One row each. */
+  /** Rotations of the trunk, one row each: to start from, and as fitted. */
+  readonly start: TrunkRotations;
   readonly pelvis: Float64Array;
   readonly chest: Float64Array;
-  /** 22 x 3: directions of bones whose ends are seen at one place, those of rest turned with the trunk. */
+  /** 22 x 3: directions of bones whose ends are seen at one place, those of the rest pose turned with the trunk. */
   readonly fallbacks: Float64Array;
   readonly bones: Bones;
-  readonly start: Readonly<Record<keyof TrunkRotations, Quat>>;
   readonly parts: Readonly<Record<keyof TrunkRotations, RigidPart>>;
   readonly vectors: Float64Array;
 }
@@ -77,7 +76,7 @@ interface Frame {
 function aim({ joints, fallbacks, bones }: Frame, joint: number, target: Float64Array, j: number): void {
   const parent = PARENTS[joint]!;
   directionTo(joints, joint, joints, parent, target, j, fallbacks, joint);
-  addScaled(joints, joint, joints, parent, joints, joint, bones.lengths[joint]);
+  addScaled(joints, joint, joints, parent, joints, joint, bones.lengths[joint]!);
 }
 
 function follow(frame: Frame, joint: number): void {
@@ -85,7 +84,7 @@ function follow(frame: Frame, joint: number): void {
 }
 
 /**
- * Places the two-bone limb that ends in `end`, so that both its middle joint (knee, elbow) and the end are near the observed ones.
+ * Places the two bones of a limb, so that both its middle joint (knee, elbow) and its end are near the observed ones.
  *
  * Sweeps as in FABRIK (Aristidou and Lasenby 2011): place the middle from the end, take the mean with the observed one,
  * restore the upper bone's length. An exact solution for the end would be worse: near a straight limb a millimetre at
@@ -107,12 +106,12 @@ function fitLimb(frame: Frame, middle: number, end: number): void {
 function fitPart(frame: Frame, { part, origin, joints: members }: TrunkPart): void {
   const { observed, joints, bones, parts, vectors } = frame;
   const rotation = frame[part];
-  members.forEach((joint, i) => addScaled(vectors, i, observed, joint, joints, origin, -1));
+  for (let i = 0; i < members.length; i++) addScaled(vectors, i, observed, members[i]!, joints, origin, -1);
   rotation.set(frame.start[part]);
   fitRotation(rotation, parts[part], vectors);
   for (const joint of members) {
     rotateRow(joints, joint, rotation, 0, bones.offsets, joint);
-    addScaled(joints, joint, joints, origin, joints, joint);
+    addScaled(joints, joint, joints, origin, joints, joint, 1);
   }
 }
 
@@ -136,7 +135,7 @@ function fitFromRoot(frame: Frame): void {
 function moveRoot({ observed, joints, vectors }: Frame): void {
   vectors.fill(0);
   for (let joint = 0; joint < JOINT_COUNT; joint++) {
-    addScaled(vectors, 0, vectors, 0, observed, joint);
+    addScaled(vectors, 0, vectors, 0, observed, joint, 1);
     addScaled(vectors, 0, vectors, 0, joints, joint, -1);
   }
   addScaled(joints, J.pelvis, joints, J.pelvis, vectors, 0, 1 / JOINT_COUNT);
@@ -165,7 +164,7 @@ export function fitPoses(observed: Float64Array, bones: Bones, start: TrunkRotat
       chest: row(poses.chest, t, 4),
       fallbacks,
       bones,
-      start: { pelvis: readQuat(start.pelvis, t), chest: readQuat(start.chest, t) },
+      start: { pelvis: row(start.pelvis, t, 4), chest: row(start.chest, t, 4) },
       parts,
       vectors,
     };

@@ -1,10 +1,10 @@
-import { conjugate, rotate, readQuat, writeQuat } from '../math/quat';
+import { conjugate, readQuat, rotate, writeQuat } from '../math/quat';
 import { bodyFrame } from '../math/rigid';
-import { J, JOINT_COUNT, MIRROR, PARENTS } from '../skeleton/skeleton';
-import { median, percentile } from '../math/statistics';
 import { rowDistance } from '../math/rows';
-import type { TrunkRotations } from './pose-fit';
+import { median, percentile } from '../math/statistics';
 import { direction, length, lerp, readVec, scale, sub, type Vec3, writeVec, Y_AXIS } from '../math/vec3';
+import { J, JOINT_COUNT, MIRROR, PARENTS } from '../skeleton/skeleton';
+import type { TrunkRotations } from './pose-fit';
 
 const framesOf = (observed: Float64Array): number => observed.length / (3 * JOINT_COUNT);
 
@@ -39,12 +39,8 @@ function boneLengths(observed: Float64Array): number[] {
     if (parent < 0) return 0;
     const overTime = new Float64Array(framesOf(observed));
     for (let frame = 0; frame < overTime.length; frame++) {
-      overTime[frame] = rowDistance(
-        observed,
-        frame * JOINT_COUNT + joint,
-        observed,
-        frame * JOINT_COUNT + parent,
-      );
+      const row = frame * JOINT_COUNT;
+      overTime[frame] = rowDistance(observed, row + joint, observed, row + parent);
     }
     return median(overTime);
   });

@@ -6,7 +6,15 @@
 type Rows = Float64Array;
 
 /** a + factor b. */
-export function addScaled(out: Rows, o: number, a: Rows, i: number, b: Rows, j: number, factor = 1): void {
+export function addScaled(
+  out: Rows,
+  o: number,
+  a: Rows,
+  i: number,
+  b: Rows,
+  j: number,
+  factor: number,
+): void {
   out[3 * o] = a[3 * i]! + factor * b[3 * j]!;
   out[3 * o + 1] = a[3 * i + 1]! + factor * b[3 * j + 1]!;
   out[3 * o + 2] = a[3 * i + 2]! + factor * b[3 * j + 2]!;
@@ -27,10 +35,16 @@ export function directionTo(
   const y = b[3 * j + 1]! - a[3 * i + 1]!;
   const z = b[3 * j + 2]! - a[3 * i + 2]!;
   const size = Math.sqrt(x * x + y * y + z * z);
-  const known = size > 1e-9;
-  out[3 * o] = known ? x / size : fallback[3 * k]!;
-  out[3 * o + 1] = known ? y / size : fallback[3 * k + 1]!;
-  out[3 * o + 2] = known ? z / size : fallback[3 * k + 2]!;
+  if (size > 1e-9) {
+    const factor = 1 / size;
+    out[3 * o] = x * factor;
+    out[3 * o + 1] = y * factor;
+    out[3 * o + 2] = z * factor;
+  } else {
+    out[3 * o] = fallback[3 * k]!;
+    out[3 * o + 1] = fallback[3 * k + 1]!;
+    out[3 * o + 2] = fallback[3 * k + 2]!;
+  }
 }
 
 /** The vector v rotated by q. */

@@ -58,10 +58,12 @@ export function gaussianFilter(values: Float64Array, deviation: number): Float64
     const wrapped = (((index - radius) % (2 * count)) + 2 * count) % (2 * count);
     return values[wrapped < count ? wrapped : 2 * count - 1 - wrapped]!;
   });
-  return values.map((value, index) => {
-    let sum = value * weights[0]!;
+  const filtered = new Float64Array(count);
+  for (let index = 0; index < count; index++) {
+    let sum = values[index]! * weights[0]!;
     for (let lag = radius; lag > 0; lag--)
       sum += (reflected[index + radius - lag]! + reflected[index + radius + lag]!) * weights[lag]!;
-    return sum;
-  });
+    filtered[index] = sum;
+  }
+  return filtered;
 }

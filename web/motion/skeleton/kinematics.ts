@@ -26,7 +26,7 @@ export function forwardKinematics(
     for (let joint = 1; joint < JOINT_COUNT; joint++) {
       const parent = PARENTS[joint]!;
       rotateRow(placed, joint, world, parent, bones, joint);
-      addScaled(placed, joint, placed, parent, placed, joint);
+      addScaled(placed, joint, placed, parent, placed, joint, 1);
       multiplyRows(world, joint, world, parent, world, joint);
     }
     positions.set(placed, frame * placed.length);

@@ -2,7 +2,6 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import {
   type BodyRule,
-  type CapsuleBody,
   capsuleBody,
   candidatePairs,
   penetrationDepth,
@@ -103,24 +102,25 @@ describe('avoidCollisions', () => {
 });
 
 test('the depth at a shift is that of the shifted body', () => {
-  const bodyOf = (motion: SolvedMotion): CapsuleBody => capsuleBody(motion, rule, 40);
-  const path = (frame: number): readonly [number, number] => [0.05 + frame / 1000, 0.06];
-  const [a, b] = [bodyOf(leader), bodyOf(stander(path))];
-  const columns = [-0.3, -0.1, 0, 0.12, 0.6].map((x) => ({
-    x,
-    z: Float64Array.of(-0.6, -0.05, 0, 0.09, 0.2),
-  }));
-  const shifts = columns.flatMap(({ x, z: column }) => Array.from(column, (z) => [x, z] as const));
-  for (const sample of [0, 5]) {
-    const depths = shiftedDepths(a, b, sample, columns);
-    expect(depths).toHaveLength(shifts.length);
-    shifts.forEach(([x, z], shift) => {
-      const moved = bodyOf(stander((frame) => [path(frame)[0] + x, path(frame)[1] + z]));
-      const there = penetrationDepth(a, moved, candidatePairs(a, moved, sample));
-      expect(depths[shift]).toBeCloseTo(there, 6);
-    });
-    expect(depths.filter((depth) => depth > 0.02).length).toBeGreaterThan(5);
-    expect(depths).toContain(0);
+  const axis = Array.from({ length: 25 }, (_, i) => (i - 12) / 20);
+  const columns = axis.map((x, i) => ({ first: i * axis.length, x, z: Float64Array.from(axis) }));
+  // Every second of three frames is sampled.
+  const standing = (x: number, z: number): SolvedMotion =>
+    madeStander({ frames: 3, path: (frame) => [x + frame / 40, z] });
+  const [a, b] = [standing(0, 0), standing(0.05, 0.06)];
+  const bodies = [capsuleBody(a, rule, 2), capsuleBody(b, rule, 2)] as const;
+  for (const sample of [0, 1]) {
+    const depths = shiftedDepths(...bodies, sample, columns);
+    const expected = axis.flatMap((x) =>
+      axis.map((z) => {
+        const [still, moved] = [capsuleBody(a, rule), capsuleBody(standing(0.05 + x, 0.06 + z), rule)];
+        return penetrationDepth(still, moved, candidatePairs(still, moved, 2 * sample));
+      }),
+    );
+    expect(depths).toHaveLength(expected.length);
+    depths.forEach((depth, shift) => expect(depth).toBeCloseTo(expected[shift]!, 6));
+    expect(expected.filter((depth) => depth > 0.02).length).toBeGreaterThan(50);
+    expect(expected).toContain(0);
   }
 });
 

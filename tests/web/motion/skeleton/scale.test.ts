@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, MIRROR, PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
 import { median, percentile } from '../../../../web/motion/math/statistics';
-import { BODY, madeDancer, scaled } from '../../support/made-dancer';
+import { BODY, madeDancer, random, scaled } from '../../support/made-dancer';
 
 const bone = (joint: number): number => Math.hypot(...BODY[joint]!);
 const HEIGHT =
@@ -36,6 +36,19 @@ describe('percentiles', () => {
     expect(percentile([5], 90)).toBe(5);
     expect(median([3, 1, 2])).toBe(2);
     expect(median([])).toBeNaN();
+  });
+
+  test('are those of the sorted list, with equal values in it', () => {
+    const draw = random(3);
+    for (let count = 1; count < 60; count++) {
+      const values = Array.from({ length: count }, () => Math.floor(20 * draw()));
+      const sorted = values.slice().sort((a, b) => a - b);
+      for (const share of [0, 10, 25, 50, 95, 100]) {
+        const rank = ((count - 1) * share) / 100;
+        const [low, high] = [sorted[Math.floor(rank)]!, sorted[Math.ceil(rank)]!];
+        expect(percentile(values, share)).toBeCloseTo(low + (high - low) * (rank % 1), 9);
+      }
+    }
   });
 });
 

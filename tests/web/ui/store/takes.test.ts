@@ -1,4 +1,4 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/reaction';
 import type { AppState } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
@@ -178,9 +178,16 @@ describe('a drag of guidance', () => {
 });
 
 describe('a drag with the pointer', () => {
+  beforeEach(() => {
+    vi.useFakeTimers();
+  });
+  afterEach(() => {
+    vi.useRealTimers();
+  });
   const move = (value: number, after: number): void => {
     page.do(change.guidanceSet('coarse', value));
     page.arrive({ after });
+    vi.advanceTimersByTime(after);
   };
   const steps = (): number => page.state.history.past.length;
 
