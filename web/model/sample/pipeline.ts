@@ -100,7 +100,10 @@ export class Pipeline {
     for (const seed of seeds) {
       const expected = ((this.now() - start) * (dances.length + 1)) / dances.length;
       if (dances.length >= count && expected > seconds) break;
-      const dance = await this.#blend({ ...request, seed }, { signal });
+      const dance = await this.#blend(
+        { ...request, seed },
+        { signal, onProgress: ({ fraction }) => onProgress?.((dances.length + fraction) / seeds.length) },
+      );
       const { positions } = await this.#assembler.decode(dance, { signal });
       dances.push(positions);
       onProgress?.(dances.length / seeds.length);

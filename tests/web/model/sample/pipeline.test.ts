@@ -394,17 +394,18 @@ describe('the seeds that differ most', () => {
     const wanted = { request: request(120), seeds, count: 3 };
     const steps = wanted.request.steps;
     expect(await timed().differingSeeds({ ...wanted, seconds: 0 }, { onProgress })).toEqual([1, 2, 3]);
-    expect(shares).toEqual([0.2, 0.4, 0.6]);
-    shares.length = 0;
+    expect(shares.at(-1)).toBe(0.6);
+    expect(shares).toEqual(shares.toSorted((a, b) => a - b));
+    expect(shares.length).toBeGreaterThan(6);
     await timed().differingSeeds({ ...wanted, seconds: 4 * steps }, { onProgress });
-    expect(shares).toEqual([0.2, 0.4, 0.6, 0.8]);
+    expect(shares.at(-1)).toBe(0.8);
   });
 
   it('are given up when cancelled', async () => {
     const controller = new AbortController();
     const result = pipeline.differingSeeds(
       { request: request(120), seeds, count: 3, seconds: 1000 },
-      { signal: controller.signal, onProgress: () => controller.abort() },
+      { signal: controller.signal, onProgress: (share) => share >= 0.2 && controller.abort() },
     );
     await expect(result).rejects.toThrow(/abort/i);
     expect(stepRuns).toBe(2);
