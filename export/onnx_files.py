@@ -88,7 +88,7 @@ def example(shape: tuple[int | str, ...], latents: int, blocks: int) -> Tensor:
 def write_onnx(graph: Graph, folder: Path) -> Files:
     """Export one graph, weights inside the file: in single precision, and where that pays in 8 bits for wasm.
 
-    8 bits are for wasm alone: on WebGPU they are not faster, and some drivers compute them wrongly.
+    8 bits are for wasm alone: there they pay, and several projects report wrong results of them on WebGPU.
     """
     proto = to_proto(graph)
     products = layer_products(proto) if graph.int8 else []
