@@ -22,11 +22,13 @@ SMALLEST = 1024  # values; smaller tensors are stored as they are
 def to_codes(values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
     """int8 codes of float32 values and their scale, one along `axis`, of shape (1, .., n, .., 1).
 
-    The largest value of each slice has the largest code, so that codes and scale are found again from their product.
+    The scale has eleven significant bits, so that the product with a code is exact in single precision, and the
+    largest value has the largest code, so that codes and scale are found again from the product.
     """
     others = tuple(i for i in range(values.ndim) if i != axis)
     largest = np.abs(values).max(axis=others, keepdims=True)
     scale = np.where(largest == 0, 1, largest / LARGEST_CODE).astype(np.float32)
+    scale = (scale.view(np.int32) & ~0x1FFF).view(np.float32)
     codes = np.rint(values / scale).clip(-LARGEST_CODE, LARGEST_CODE)
     return codes.astype(np.int8), scale
 

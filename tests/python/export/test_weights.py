@@ -27,7 +27,8 @@ def run(proto: onnx.ModelProto, x: np.ndarray) -> list[np.ndarray]:
 def test_rounding_moves_no_weight_by_more_than_half_a_code() -> None:
     values = weights(24, 16, 3)
     error = np.abs(rounded(values) - values).max(axis=(1, 2))
-    assert (error <= 0.501 * np.abs(values).max(axis=(1, 2)) / 127).all()
+    # Eleven bits of scale leave the largest weight up to 127 / 2048 of a code further off.
+    assert (error <= 0.57 * np.abs(values).max(axis=(1, 2)) / 127).all()
     assert np.array_equal(rounded(rounded(values)), rounded(values))
 
 
