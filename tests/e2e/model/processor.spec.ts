@@ -57,7 +57,7 @@ test('a cross-origin isolated page computes on several threads in its worker', a
   expect(page.workers()).toHaveLength(threads);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const { stages, positions } = await page.evaluate(() => model.generate({ frames: 250, steps: 2 }));
-  expect([...new Set(stages)]).toEqual(['condition', 'step', 'decode', 'solve']);
+  expect([...new Set(stages)]).toEqual(['condition', 'step']);
   expect(positions).toHaveLength(250 * 66);
   expect(positions?.every(Number.isFinite)).toBe(true);
 });
@@ -93,7 +93,6 @@ test('cancelling stops between steps, and the next call works', async ({ page })
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const cancelled = await page.evaluate(() => model.generate({ frames: 600, steps: 50 }, 9));
   expect(cancelled.error?.name).toBe('AbortError');
-  expect(cancelled.stages).not.toContain('decode');
   // The running step and one more may still be reported; without cancelling there would be twenty.
   expect(await page.evaluate(() => model.progressInASecond())).toBeLessThanOrEqual(2);
   const next = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));

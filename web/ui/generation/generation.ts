@@ -21,6 +21,8 @@ import { problemShown } from '../store/actions/notices';
 interface Running {
   readonly controller: AbortController;
   readonly inputs: Inputs;
+  /** Asked for by the visitor, even if there is such a reaction already. */
+  readonly asked: boolean;
   /** Whether its part around the playhead has been shown, or the model has gone past it. */
   previewed: boolean;
 }
@@ -64,7 +66,7 @@ export class Generation {
   /** Makes the reaction now, whether or not anything has changed. */
   readonly generate = (): void => {
     const inputs = readyInputs(this.#store.getState());
-    if (inputs) void this.#run(inputs);
+    if (inputs) void this.#run(inputs, true);
   };
 
   /** Aborts the running request; nothing begins again until something changes or `generate` is called. */
@@ -100,18 +102,22 @@ export class Generation {
     else void this.#run(inputs);
   }
 
-  /** The reaction on the stage has these inputs: requests for others are aborted. */
+  /**
+   * The reaction on the stage has these inputs: requests for others are aborted, and one for the same where the reaction
+   * came ready-made a moment after its song.
+   */
   #keepOnStage(inputs: Inputs): void {
     this.#requested = inputs;
     this.#waiting = null;
-    if (this.#running && !sameInputs(this.#running.inputs, inputs)) this.cancel();
+    const running = this.#running;
+    if (running && !(running.asked && sameInputs(running.inputs, inputs))) this.cancel();
   }
 
-  async #run(inputs: Inputs): Promise<void> {
+  async #run(inputs: Inputs, asked = false): Promise<void> {
     this.#abort();
     this.#requested = inputs;
     const controller = new AbortController();
-    const running: Running = { controller, inputs, previewed: false };
+    const running: Running = { controller, inputs, asked, previewed: false };
     this.#running = running;
     const { signal } = controller;
     try {

@@ -2,6 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Preview } from '../../../../web/model/client';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
+import { readyInputs } from '../../../../web/ui/store/selectors';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
@@ -240,5 +241,23 @@ describe('generation', () => {
     );
     await settled();
     expect(model.calls).toHaveLength(0);
+  });
+
+  it('aborts what it has begun when a ready-made reaction comes a moment later', async () => {
+    await begin();
+    const inputs = readyInputs(store.getState())!;
+    change.apply(
+      store,
+      change.reactionAdded({
+        motion: still(60),
+        latents: null,
+        inputs,
+        label: 'demo reaction',
+        seconds: null,
+      }),
+    );
+    await settled();
+    expect(model.calls[0]?.options.signal?.aborted).toBe(true);
+    expect(store.getState()).toMatchObject({ job: null, reaction: { label: 'demo reaction' } });
   });
 });
