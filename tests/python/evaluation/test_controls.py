@@ -140,21 +140,6 @@ def test_measures_against_the_truth_are_of_the_dances_that_have_one(dances: list
     assert near["overlap_points"] == far["overlap_points"] == -100
 
 
-def test_what_is_drawn_is_measured_where_a_solver_is_given(dances: list[ControlledDance]):
-    raw, drawn = (
-        measure_controls(generate, dances[:1], DEFAULTS, (0, 1), solve)
-        for solve in (None, lambda motion, leader: leader[:, :1] + 2 * (motion - leader[:, :1]))
-    )
-    for control, key in (
-        ("coarse", "root_moved_mm"),
-        ("fine", "pose_moved_mm"),
-        ("music", "songs_apart_mm"),
-        ("variety", "seeds_apart_mm"),
-        ("coarse", "distance_m"),
-    ):
-        assert drawn[control][-1][key] == pytest.approx(2 * raw[control][-1][key])
-
-
 def test_the_echo_of_the_leaders_beats_is_that_of_the_delay():
     """A leader whose beats are 30 frames apart, echoed as many frames late as the weight of the song."""
     leader = standing(600)
