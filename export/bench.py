@@ -11,6 +11,7 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
 from time import perf_counter
 from typing import TypeVar
 
@@ -41,9 +42,9 @@ class Options:
     model: Path
     out: Path
     frames: int = 2066
-    steps: int = 10
+    steps: int = 3
     threads: int = 2
-    repeats: int = 3
+    repeats: int = 5
 
 
 def made_song(frames: int, recipe: AudioRecipe) -> np.ndarray:
@@ -57,16 +58,19 @@ def made_song(frames: int, recipe: AudioRecipe) -> np.ndarray:
 
 
 class Stopwatch:
-    """Seconds of named stages; of several repeats the fastest."""
+    """Seconds of named stages, the median of several repeats without the first, which warms up."""
 
     def __init__(self) -> None:
-        self.seconds: Seconds = {}
+        self.repeats: dict[str, list[float]] = {}
+
+    @property
+    def seconds(self) -> Seconds:
+        return {stage: median(times[1:] or times) for stage, times in self.repeats.items()}
 
     def __call__(self, stage: str, work: Callable[[], T]) -> T:
         start = perf_counter()
         result = work()
-        taken = perf_counter() - start
-        self.seconds[stage] = min(taken, self.seconds.get(stage, taken))
+        self.repeats.setdefault(stage, []).append(perf_counter() - start)
         return result
 
 

@@ -2,7 +2,7 @@
  * `npm run bench`: how long a dance takes, stage by stage, in this machine's browser, against onnxruntime native and
  * PyTorch eager in the same run. Prints a table and writes bench.json.
  *
- *     npm run bench -- --frames 2066 --steps 10 --threads 1,2 --repeats 3
+ *     npm run bench -- --frames 2066 --steps 3 --threads 1,2 --repeats 5
  */
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -22,9 +22,9 @@ import { STAGES, table, withRatios } from './table.mjs';
 const { values: options } = parseArgs({
   options: {
     frames: { type: 'string', default: '2066' },
-    steps: { type: 'string', default: '10' },
+    steps: { type: 'string', default: '3' },
     threads: { type: 'string', default: '1,2' },
-    repeats: { type: 'string', default: '3' },
+    repeats: { type: 'string', default: '5' },
     model: { type: 'string', default: 'web/public/models/salsa' },
     checkpoint: { type: 'string', default: 'training/checkpoints/salsa' },
     out: { type: 'string', default: 'bench.json' },

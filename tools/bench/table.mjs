@@ -1,8 +1,11 @@
 /** The stages of a dance from song and leader to the solved partner. */
 export const STAGES = /** @type {const} */ (['features', 'condition', 'steps', 'decode', 'solve']);
 
-/** After a change of a weight: until the part in view is there, and until the whole dance is. */
-const FOLLOWING = /** @type {const} */ (['preview', 'renewed']);
+/**
+ * Steps of all three branches, of which `steps` has the conditional one; and after a change of a weight, until the part
+ * in view is there and until the whole dance is.
+ */
+const BESIDE = /** @type {const} */ (['branches', 'preview', 'renewed']);
 
 /** The stages that every backend has: the graphs. */
 const GRAPH_STAGES = /** @type {const} */ (['condition', 'steps', 'decode']);
@@ -11,7 +14,7 @@ const GRAPH_STAGES = /** @type {const} */ (['condition', 'steps', 'decode']);
  * @typedef {object} Row
  * @property {string} backend
  * @property {number} threads
- * @property {Partial<Record<typeof STAGES[number] | typeof FOLLOWING[number], number>>} seconds of the fastest run; the
+ * @property {Partial<Record<typeof STAGES[number] | typeof BESIDE[number], number>>} seconds, median over runs; the
  *   browser's steps include the condition graph, Python has no solver
  * @property {Partial<Record<typeof STAGES[number], number>>} [first] seconds of the first run after loading
  * @property {number} [load] seconds of fetching, opening and warming up
@@ -49,7 +52,7 @@ export function withRatios(rows) {
  * @returns {string} a table in Markdown
  */
 export function table(rows) {
-  const head = ['backend', 'threads', ...STAGES, 'total', 'first run', '/ PyTorch', '/ native', ...FOLLOWING];
+  const head = ['backend', 'threads', ...STAGES, 'total', 'first run', '/ PyTorch', '/ native', ...BESIDE];
   /** @param {number | undefined} value */
   const number = (value) => (value === undefined ? '-' : value.toFixed(2));
   const body = rows.map((row) => [
@@ -60,7 +63,7 @@ export function table(rows) {
     number(row.first === undefined ? undefined : total(row.first)),
     number(row.toEager),
     number(row.toNative),
-    ...FOLLOWING.map((name) => number(row.seconds[name])),
+    ...BESIDE.map((name) => number(row.seconds[name])),
   ]);
   const lines = [head, head.map(() => '---'), ...body];
   const widths = head.map((_, column) => Math.max(...lines.map((line) => line[column]?.length ?? 0)));

@@ -12,12 +12,16 @@ import { readNpz } from '../../../web/model/load/npz';
 import { unitGains } from '../../../web/model/sample/blend';
 
 /**
- * Stages of a new dance without guidance: features, steps (condition and body included), decode and solve. Then a weight
- * is changed: seconds until the part in view is there, and until the whole dance is.
+ * Stages of a new dance without guidance: features, steps (condition and body included), decode and solve; `branches`
+ * are the steps of all three branches. Then a weight is changed: seconds until the part in view is there, and until the
+ * whole dance is.
  */
-export type Seconds = Record<'features' | 'steps' | 'decode' | 'solve' | 'preview' | 'renewed', number>;
+export type Seconds = Record<
+  'features' | 'steps' | 'branches' | 'decode' | 'solve' | 'preview' | 'renewed',
+  number
+>;
 
-/** One configuration's times: the first run after loading, and the fastest run of each stage. */
+/** One configuration's times: the first run after loading, and the median of the others for each stage. */
 export interface Measured {
   readonly backend: string;
   readonly threads: number;
@@ -33,9 +37,13 @@ async function timed<T>(work: () => T | Promise<T>): Promise<[T, number]> {
   return [result, (performance.now() - start) / 1000];
 }
 
-/** A weight of the fine layer, which needs nothing sampled. */
-function fineGuidance({ latent: { streams, layers } }: Manifest): Float32Array {
-  return Float32Array.from(streams.flatMap(() => layers.map((_, layer) => (layer === 0 ? 0 : 0.5))));
+/** Weights of both layers; fine alone needs nothing sampled. */
+function guidanceOf({ latent: { streams, layers } }: Manifest, coarse: number, fine: number): Float32Array {
+  return Float32Array.from(streams.flatMap(() => layers.map((_, layer) => (layer === 0 ? coarse : fine))));
+}
+
+function median(values: readonly number[]): number {
+  return [...values].sort((a, b) => a - b)[values.length >> 1] ?? NaN;
 }
 
 /** Seconds until the part in view is there and until the whole is, and of which decoding and solving the whole. */
@@ -80,19 +88,17 @@ export async function measure(threads: number, steps: number, repeats: number): 
       seed: 1,
     };
     const { seconds: sampled } = await generator.generate(request);
-    const change = await followed(generator, { ...request, guidance: fineGuidance(manifest) });
-    const seconds = { ...sampled, ...change };
-    runs.push({ features, ...seconds });
+    const change = await followed(generator, { ...request, guidance: guidanceOf(manifest, 0, 0.5) });
+    const all = { ...request, guidance: guidanceOf(manifest, 0.25, 0), musicGuidance: 1 };
+    const { seconds: others } = await generator.generate(all);
+    runs.push({ features, ...sampled, branches: sampled.steps + others.steps, ...change });
   }
   generator.dispose();
   const [first, ...rest] = runs;
   if (first === undefined) throw new Error('nothing was measured');
   const seconds = { ...first };
-  for (const run of rest) {
-    for (const stage of Object.keys(run) as (keyof Seconds)[]) {
-      seconds[stage] = Math.min(seconds[stage], run[stage]);
-    }
-  }
+  for (const stage of Object.keys(first) as (keyof Seconds)[])
+    seconds[stage] = median(rest.map((run) => run[stage]));
   return { backend: backend.name, threads: backend.threads, load, first, seconds };
 }
 
