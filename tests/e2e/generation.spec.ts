@@ -74,8 +74,8 @@ test('from a song and a leader to a partner that can be steered and downloaded',
   });
 
   await test.step('a moved fader changes the reactor by itself', async () => {
-    await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.8');
-    await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 0.8);
+    await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.5');
+    await app.until(({ reaction }) => reaction?.inputs.settings.guidance['upper']?.['coarse'] === 0.5);
     const second = await app.reactor();
     expect(maxDistance(first, second)).toBeGreaterThan(0.01);
   });
@@ -100,7 +100,7 @@ test('from a song and a leader to a partner that can be steered and downloaded',
     const { seed, music } = (await app.read(({ settings }) => settings))!;
     expect(download.suggestedFilename()).toMatch(
       new RegExp(
-        `^my-song_my-leader_take-\\d+_s${seed}_c0.80-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
+        `^my-song_my-leader_take-\\d+_s${seed}_c0.50-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
       ),
     );
     const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
@@ -156,7 +156,7 @@ test('a generation can be cancelled and repeated', async ({ page }) => {
   await app.until(({ job }) => job === null);
   await expect(app.progress).toBeHidden();
   expect(await app.read(({ reaction, problem }) => [reaction, problem])).toEqual([null, null]);
-  await page.getByRole('slider', { name: 'Coarse guidance' }).fill('1');
+  await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.6');
   await app.until(({ job }) => job?.stage === 'step');
   // Straight to the button: a click that waits for the page to be still may come after the work is done.
   const cancel = page.getByRole('button', { name: 'Cancel' });

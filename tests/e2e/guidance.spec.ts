@@ -16,14 +16,14 @@ test('guidance by body part, presets and reset', async ({ page }) => {
   await expect(upper).toBeHidden();
   await fold.click();
   await expect(fold).toContainText('Same for all');
-  await upper.fill('0.6');
+  await upper.fill('0.3');
   await expect(fold).toContainText('Mixed');
-  await expect(coarse).toHaveAttribute('aria-valuetext', /0\.20.*mixed/);
+  await expect(coarse).toHaveAttribute('aria-valuetext', /0\.10.*mixed/);
   await expect(preset.locator('option:checked')).toHaveText('Custom');
 
   // The big fader moves the parts together; the small ones have its keys.
-  await coarse.fill('0.5');
-  await expect(upper).toHaveValue('0.9');
+  await coarse.fill('0.4');
+  await expect(upper).toHaveValue('0.6');
   await expect(lower).toHaveValue('0.3');
   await lower.focus();
   await page.keyboard.press('ArrowRight');
@@ -63,9 +63,9 @@ test('the music has its own guidance, which is disabled without a song', async (
   await page.keyboard.press('m');
   await expect(music).toBeFocused();
   await page.keyboard.press('End');
-  await made(6);
+  await made(10);
   expect(maxDistance(before, await app.reactor())).toBeGreaterThan(1e-3);
-  await expect(music).toHaveAttribute('aria-valuetext', '6.00, more song');
+  await expect(music).toHaveAttribute('aria-valuetext', '10.00, more song');
 
   const preset = page.getByRole('combobox', { name: 'Guidance preset' });
   await preset.selectOption({ label: 'Less song' });

@@ -11,8 +11,9 @@ from training.motion.leader_frame import smoothed_heading
 from training.motion.rigid_body import bone_lengths, rigid_body
 from training.motion.streams import from_streams
 
-# Latent frames on each side of a part of a clip that its decoded joints depend on, to 2e-5 m: the iterations of the
-# foot-contact correction reach farthest, and fade.
+# Latent frames on each side of a part of a clip that its decoded joints depend on: the iterations of the foot-contact
+# correction reach farthest, and fade. Beyond it 2e-5 m is left beside made leaders, up to 1e-3 m where a foot is held
+# at the very end of a part.
 RECEPTIVE_FIELD = 48
 
 

@@ -60,7 +60,7 @@ for (const [width, height] of [
     await page.keyboard.press('Space');
     await expectStable('playing', NOTHING);
 
-    await measured(() => page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.8'));
+    await measured(() => page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.7'));
     await expectStable('another reaction and its quality', OWN_LIST);
 
     await measured(() => page.getByRole('button', { name: 'Roll a new seed' }).click());

@@ -133,3 +133,18 @@ def test_an_exported_model_refuses_guidance_at_every_step() -> None:
     exported = open_model(EXPORTED, threads=1)
     with pytest.raises(ValueError, match="checkpoint"):
         react(exported, request(at_every_step=True))
+
+
+def test_guidance_at_every_step_is_in_the_latents_and_not_in_the_gains_of_the_decoder(model: Model) -> None:
+    decoded_with: list[torch.Tensor] = []
+
+    class Recorded(Model):
+        def decode(self, latents, leader, gains, bones):
+            decoded_with.append(gains)
+            return super().decode(latents, leader, gains, bones)
+
+    recorded = Recorded(model.hfsq, model.frame, model.denoiser, model.diffusion, model.reference_height)
+    react(recorded, request(guidance=(0.4, 0.7), at_every_step=True))
+    assert all((gains == 1).all() for gains in decoded_with)
+    react(recorded, request(guidance=(0.4, 0.7)))
+    assert decoded_with[-1][:, 1].tolist() == pytest.approx([1.7] * 3)

@@ -23,7 +23,7 @@ const KINDS: readonly {
 }[] = [
   { name: 'Balanced', description: 'What suits this model best.', towards: {} },
   { name: 'Loose', description: 'Smaller moves, a path more of its own.', towards: { coarse: -0.7 } },
-  { name: 'Large', description: 'Larger moves, farther around the leader.', towards: { coarse: 0.6 } },
+  { name: 'Large', description: 'Larger moves, more on the leader’s beats.', towards: { coarse: 0.6 } },
   { name: 'Soft', description: 'Less quick movement, few accents.', towards: { fine: -0.8 } },
   { name: 'Sharp', description: 'More quick movement, strong accents.', towards: { fine: 0.8 } },
   { name: 'More song', description: 'The song changes the dance most.', towards: { music: 1 } },
