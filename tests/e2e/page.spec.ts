@@ -136,7 +136,7 @@ test('a song of three minutes is read while the page stays responsive', async ({
   });
   // Five seconds are the aim on an idle machine; a shared one may take three times as long.
   expect(seconds).toBeLessThan(15);
-  expect(parts.length).toBeGreaterThan(5);
+  expect(parts.length).toBeGreaterThan(3);
   expect(parts).toEqual(parts.toSorted((a, b) => a - b));
   // Reading itself asks little of the page's own thread: to begin, and to show the song.
   expect(tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(4);
