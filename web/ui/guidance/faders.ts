@@ -32,7 +32,7 @@ interface Moved extends FaderTexts {
 }
 
 const FADERS: readonly Moved[] = [
-  layerFader('coarse', 'Coarse', 'Path and poses: to the right larger, and more on the leader’s beats.'),
+  layerFader('coarse', 'Coarse', 'Path and poses: larger, more on the leader’s beats.'),
   layerFader('fine', 'Fine', 'Quick movements: how sharp the accents are.'),
   {
     control: 'music',
