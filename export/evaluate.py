@@ -16,6 +16,7 @@ from __future__ import annotations
 import json
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -121,27 +122,35 @@ def commit() -> str | None:
     return out.stdout.strip()
 
 
-def solve_with_node(motion: np.ndarray, leader: np.ndarray, *flags: str) -> np.ndarray:
-    """The motion (T, 22, 3) on the skeleton that the page draws and exports, kept out of the leader's body
-    (T, 22, 3): web/motion under Node, files in between. flags: of tools/solve.mjs.
+def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: str) -> list[np.ndarray]:
+    """Motions (T, 22, 3) on the skeleton that the page draws and exports, kept out of the leader's body (T, 22, 3):
+    web/motion under Node, files in between. flags: of tools/solve.mjs.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        raw, beside, body, solved = (Path(folder) / name for name in ("raw", "beside", "body.json", "solved"))
-        for path, joints in ((raw, motion), (beside, leader)):
-            path.write_bytes(np.ascontiguousarray(joints, dtype="<f4").tobytes())
+
+    def write(path: Path, joints: np.ndarray) -> Path:
+        path.write_bytes(np.ascontiguousarray(joints, dtype="<f4").tobytes())
+        return path
+
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        beside, body = write(folder / "beside", leader), folder / "body.json"
         body.write_text(json.dumps(quality_rules()["penetration"]))
+        files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
         subprocess.run(
-            ["node", "tools/solve.mjs", "--beside", beside, "--body", body, *flags, raw, solved],
+            ["node", "tools/solve.mjs", "--beside", beside, "--body", body, *flags, *files],
             cwd=ROOT,
             check=True,
             capture_output=True,
         )
-        return np.frombuffer(solved.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
+        return [
+            np.frombuffer(file.read_bytes(), dtype="<f4").reshape(motion.shape).astype(np.float32)
+            for file, motion in zip(files, motions, strict=True)
+        ]
 
 
 SOLVERS: dict[str, Solver] = {
     "solved": solve_with_node,
-    "solved, foot lock": lambda motion, leader: solve_with_node(motion, leader, "--foot-lock"),
+    "solved, foot lock": lambda motions, leader: solve_with_node(motions, leader, "--foot-lock"),
 }
 
 

@@ -1,11 +1,12 @@
 /**
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
- *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32
+ *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] motion.f32 [motion.f32 ...]
  *
- * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps. Prints the fit error in millimetres.
- * With --beside collisions with the leader are avoided and the root's speed is limited; body.json has the capsules of both bodies (quality.penetration
- * of a manifest). With --foot-lock feet in contact do not slide, as with the page's setting of that name.
+ * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
+ * form, and its fit error printed in millimetres. With --beside collisions with the leader are avoided and the root's
+ * speed is limited; body.json has the capsules of both bodies (quality.penetration of a manifest). With --foot-lock
+ * feet in contact do not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -19,10 +20,9 @@ const { values, positionals } = parseArgs({
   },
   allowPositionals: true,
 });
-const [from, to] = positionals;
-if (from === undefined || to === undefined || (values.beside === undefined) !== (values.body === undefined)) {
+if (positionals.length === 0 || (values.beside === undefined) !== (values.body === undefined)) {
   console.error(
-    'Usage: node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] positions.f32 solved.f32',
+    'Usage: node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] motion.f32 [motion.f32 ...]',
   );
   process.exit(2);
 }
@@ -46,18 +46,19 @@ const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts
 const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
-const clip = read(from);
 const leader = values.beside === undefined ? null : read(values.beside);
-if (leader !== null && leader.frames !== clip.frames) {
-  console.error(`${values.beside} has ${leader.frames} frames, ${from} has ${clip.frames}.`);
-  process.exit(2);
+const body = values.body === undefined ? null : JSON.parse(readFileSync(values.body, 'utf8'));
+for (const file of positionals) {
+  const clip = read(file);
+  let motion = solve(clip);
+  if (leader !== null) {
+    if (leader.frames !== clip.frames) {
+      console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
+      process.exit(2);
+    }
+    motion = limitRootSpeed(avoidCollisions(motion, leader, body), leader);
+  }
+  if (values['foot-lock']) motion = lockFeet(motion);
+  writeFileSync(file, new Uint8Array(motion.positions.buffer));
+  console.log(`${file}: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);
 }
-let motion = solve(clip);
-if (leader !== null && values.body !== undefined)
-  motion = limitRootSpeed(
-    avoidCollisions(motion, leader, JSON.parse(readFileSync(values.body, 'utf8'))),
-    leader,
-  );
-if (values['foot-lock']) motion = lockFeet(motion);
-writeFileSync(to, new Uint8Array(motion.positions.buffer));
-console.log(`${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);

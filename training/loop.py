@@ -18,6 +18,9 @@ from lightning_fabric import Fabric
 from torch import Tensor, nn
 from torch.utils.tensorboard import SummaryWriter
 
+from training.data.sources import read_split
+from training.data.splits import Split
+
 Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
 M = TypeVar("M", bound=nn.Module)
 
@@ -34,6 +37,8 @@ class LoopOptions:
     """Names of duets that choose a model; never trained on."""
     test: tuple[str, ...] = ()
     """Names of duets that are never trained on, nor used to choose anything; DD100 has its own."""
+    learn_all: bool = False
+    """Train on the duets of --val and --test too: for weights that ship once all is chosen and measured without."""
     init: Path | None = None
     """Start from the weights of this checkpoint."""
     solo: Path | None = None
@@ -61,6 +66,12 @@ class LoopOptions:
     def __post_init__(self) -> None:
         if not self.val:
             raise ValueError("no duets to validate on: name one or more with --val")
+
+
+def read_duets_to_train(options: LoopOptions) -> Split:
+    """The options' duets, split by name; with `learn_all` all of them are to train on and none is left to measure."""
+    duets = read_split(options.data, options.val, options.test)
+    return Split(duets.train + duets.val + duets.test, (), ()) if options.learn_all else duets
 
 
 def launch(options: LoopOptions) -> Fabric:

@@ -19,7 +19,6 @@ from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, Diffusio
 from training.data.duet import Duet
 from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
-from training.data.sources import read_split
 from training.data.splits import Split
 from training.denoiser.clips import Augmentation, Clip, augmented_clips, solo_pair_clips
 from training.denoiser.condition import condition_dropout
@@ -31,7 +30,7 @@ from training.diffusion.react import Request, at_height, react
 from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import LoopOptions, Run, launch
+from training.loop import LoopOptions, Run, launch, read_duets_to_train
 from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import body_height
 from training.motion.streams import from_streams
@@ -72,7 +71,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     hfsq, frame = load_hfsq(options.out)
-    duets = read_split(options.data, options.val, options.test)
+    duets = read_duets_to_train(options)
     bank = music_of(options, duets)
     clips = duet_clips(options, duets, bank, hfsq, frame)
 

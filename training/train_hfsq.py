@@ -15,7 +15,6 @@ from training.checkpoint import save_hfsq, start_from
 from training.config import STRIDE, FrameConfig, HfsqConfig
 from training.data.duet import Duet
 from training.data.npz import read_solo
-from training.data.sources import read_split
 from training.data.splits import Split
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
@@ -23,7 +22,7 @@ from training.hfsq.losses import stage1_loss
 from training.hfsq.reconstruct import reconstruct
 from training.hfsq.statistics import bins_used, set_input_statistics, set_latent_statistics
 from training.hfsq.windows import Clip, Streams, Windows, training_clips
-from training.loop import LoopOptions, Run, launch
+from training.loop import LoopOptions, Run, launch, read_duets_to_train
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +46,7 @@ class Options(LoopOptions):
 def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed, verbose=False)
-    duets = read_split(options.data, options.val, options.test)
+    duets = read_duets_to_train(options)
     clips = read_clips(options, duets)
     windows = Windows(clips, options.window, options.seed * 1000 + fabric.global_rank)
     autoencoder = initial_autoencoder(options, clips)

@@ -235,6 +235,29 @@ def test_statistics_and_weights_come_from_training_duets_alone(
         ).read_bytes()
 
 
+def test_all_duets_are_learnt_where_asked(data: Path, tmp_path: Path) -> None:
+    """The same weights as of a training in which no duet but the held-out ones' copies is held out."""
+    with np.load(data) as archive:
+        arrays = {name: archive[name] for name in archive.files}
+    for role in ("leader", "follower"):
+        arrays |= {f"held_{i}/{role}": arrays[f"made_{i}/{role}"] for i in (1, 2)}
+    copied = tmp_path / "copied.npz"
+    np.savez(copied, **arrays)
+    everything, copies = tmp_path / "everything", tmp_path / "copies"
+    for path, out, changes in (
+        (data, everything, {"learn_all": True}),
+        (copied, copies, {"val": ("held_1",), "test": ("held_2",)}),
+    ):
+        train_hfsq.main(stage1(path, out, **changes))
+        train_denoiser.main(stage2(path, out, **changes))
+    for name in ("hfsq", "denoiser"):
+        learnt, expected = ((out / f"{name}.safetensors").read_bytes() for out in (everything, copies))
+        assert learnt == expected
+        provenance = json.loads((everything / f"{name}.json").read_text())["provenance"]
+        assert provenance["options"]["learn_all"] == "True"
+        assert not any("mpjpe" in key for key in provenance["validation"]), "nothing is left to measure"
+
+
 def test_two_processes_train_together(data: Path, tmp_path: Path) -> None:
     """The same program under torchrun: two CPU processes, two steps, one checkpoint."""
     script = tmp_path / "two.py"

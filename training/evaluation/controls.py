@@ -14,8 +14,9 @@ from training.evaluation.metrics.distance import facing, root_distance
 from training.evaluation.metrics.errors import mpjpe, root_error
 from training.evaluation.metrics.penetration import penetration
 from training.evaluation.metrics.response import between_seeds
+from training.evaluation.metrics.seams import boundaries, seam_ratio, seam_sample
 from training.evaluation.metrics.speed import band_power, joint_acceleration
-from training.evaluation.protocol import ControlledDance, ReactorGenerator
+from training.evaluation.protocol import ControlledDance, ReactorGenerator, Solver
 
 SLOW_HZ, QUICK_HZ = (0.0, 1.5), (3.0, 15.0)
 QUARTERS = (1.0, 0.75, 0.5, 0.25)  # shares of the way from the default to an end
@@ -34,38 +35,44 @@ def measure_controls(
     dances: Sequence[ControlledDance],
     defaults: Mapping[str, float],
     seeds: Sequence[int],
+    solve: Solver | None = None,
 ) -> dict[str, list[dict[str, float]]]:
     """For each control the rows of its `travel`, means over dances and seeds; the other controls at their defaults.
-    What is measured against the truth is the mean over the dances that have one.
+    What is measured against the truth is the mean over the dances that have one. solve: the skeleton that is drawn,
+    to measure that in place of the generated joints.
 
     `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song),
     for variety seeds_apart_mm (pose, between the seeds).
     """
 
     def make(
-        dance: ControlledDance, seed: int, changed: Mapping[str, float], other_song: bool = False
-    ) -> np.ndarray:
+        dance: ControlledDance, changed: Mapping[str, float], other_song: bool = False
+    ) -> list[np.ndarray]:
         weights = {**defaults, **changed}
-        return generate(
-            dance.leader,
-            dance.other_music if other_song else dance.music,
-            seed,
-            guidance=(weights["coarse"], weights["fine"]),
-            music_guidance=weights["music"],
-            variety=weights["variety"],
-        )
+        made = [
+            generate(
+                dance.leader,
+                dance.other_music if other_song else dance.music,
+                seed,
+                guidance=(weights["coarse"], weights["fine"]),
+                music_guidance=weights["music"],
+                variety=weights["variety"],
+            )
+            for seed in seeds
+        ]
+        return solve(made, dance.leader) if solve else made
 
-    before = [[make(dance, seed, {}) for seed in seeds] for dance in dances]
+    before = [make(dance, {}) for dance in dances]
     result: dict[str, list[dict[str, float]]] = {}
     for control in CONTROLS:
         result[control] = []
         for value in travel(control, defaults[control]):
             rows = []
             for dance, usual in zip(dances, before, strict=True):
-                made = [make(dance, seed, {control: value}) for seed in seeds]
+                made = make(dance, {control: value})
                 row = mean_report([_measure(dance, *pair) for pair in zip(usual, made, strict=True)])
                 if control == "music":
-                    other = [make(dance, seed, {control: value}, other_song=True) for seed in seeds]
+                    other = make(dance, {control: value}, other_song=True)
                     pairs = [between_seeds(pair)["pose_mm"] for pair in zip(made, other, strict=True)]
                     row["songs_apart_mm"] = float(np.mean(pairs))
                 if control == "variety" and len(seeds) > 1:
@@ -87,8 +94,8 @@ def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dic
     pose_moved_mm and root_moved_mm: mean distance from the usual dance, of joints relative to the root and of the
     root. slow_ratio and quick_ratio: energy under 1.5 Hz and over 3 Hz over the usual dance's. bed_forward: beat echo
     degree, how often beats of the reactor follow the leader's. facing_deg: between the two headings, 180 is face to
-    face. Against the truth: mpjpe_mm, root_error_mm, acceleration_ratio, skate_ratio, contact_ratio and
-    overlap_points (percentage points of overlapping frames).
+    face. Against the truth: mpjpe_mm, root_error_mm, acceleration_ratio, skate_ratio, contact_ratio, overlap_points
+    (percentage points of overlapping frames) and, in a dance of more than one block, seams_ratio (`seam_ratio`).
     """
     leader, truth = dance.leader, dance.reactor
     moved = between_seeds([usual, made])
@@ -111,6 +118,8 @@ def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dic
         return row
     feet, true_feet = foot_skating(made), foot_skating(truth)
     overlap, true_overlap = (penetration(leader, motion)["ipr_capsules"] for motion in (made, truth))
+    if len(seams := boundaries(len(made))):
+        row["seams_ratio"] = seam_ratio([seam_sample(truth, made, seams)])["ratio"]
     return row | {
         "mpjpe_mm": mpjpe(truth, made),
         "root_error_mm": root_error(leader, truth, made),

@@ -66,8 +66,9 @@ def evaluate(
     """Every measure in one run.
 
     train: duets that the baselines learn from. given: further rows whose motions exist already, such as
-    reconstructions. solvers: each gives a row of its name, the generated motions on a skeleton of constant
-    bone lengths, as drawn and exported. out_of_distribution: leaders of other dances, without a partner.
+    reconstructions. solvers: each gives a row of its name, the generated motions on a skeleton of constant bone
+    lengths; the last is what is drawn and exported, and controls are measured on it. out_of_distribution: leaders of
+    other dances, without a partner.
     control_defaults: the model's weight of every control, needed where the settings ask for controls.
     guided_at_every_step: the model with the paper's form of guidance, for the settings' grid.
     Raises ValueError without a held-out duet.
@@ -75,15 +76,14 @@ def evaluate(
     settings = settings or Settings()
     if not held_out:
         raise ValueError("no held-out duet to evaluate on")
+    drawn = next(reversed((solvers or {}).values()), None)
     log("generating")
     generated, seconds = generate_motions(generate, held_out, settings.seeds)
     rows: dict[str, Motions] = {TRUTH: {i.duet.name: [i.duet.reactor] for i in held_out}}
     rows |= dict(given or {}) | {GENERATED: generated}
     for name, solve in (solvers or {}).items():
         log(name)
-        rows[name] = {
-            i.duet.name: [solve(motion, i.duet.leader) for motion in generated[i.duet.name]] for i in held_out
-        }
+        rows[name] = {i.duet.name: solve(generated[i.duet.name], i.duet.leader) for i in held_out}
     log("baselines")
     rows |= baselines(held_out, train)
 
@@ -111,7 +111,8 @@ def evaluate(
             generate,
             _controlled(held_out, out_of_distribution, settings),
             control_defaults,
-            settings.seeds[: settings.response_seeds],
+            settings.seeds,
+            drawn,
         )
     if settings.guidance_grid and guided_at_every_step:
         log("guidance at every step")

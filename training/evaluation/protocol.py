@@ -5,6 +5,7 @@ Every motion is (T, 22, 3) metres, y up, at 30 fps; music is (T, 54) features of
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -44,8 +45,8 @@ class ReactorGenerator(Protocol):
 class Solver(Protocol):
     """Fits a skeleton of constant bone lengths to generated joints, as they are drawn and exported."""
 
-    def __call__(self, motion: np.ndarray, leader: np.ndarray, /) -> np.ndarray:
-        """The fitted motion (T, 22, 3) of a motion (T, 22, 3), kept out of the leader's body (T, 22, 3); metres."""
+    def __call__(self, motions: Sequence[np.ndarray], leader: np.ndarray, /) -> list[np.ndarray]:
+        """The fitted form of each motion (T, 22, 3), kept out of the leader's body (T, 22, 3); metres."""
         ...
 
 

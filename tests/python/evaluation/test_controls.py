@@ -133,6 +133,7 @@ def test_measures_against_the_truth_are_of_the_dances_that_have_one(dances: list
         assert row["skate_ratio"] == 0, "the made one stands"
         assert row["contact_ratio"] == pytest.approx(1)
         assert row["overlap_points"] == 0
+        assert "seams_ratio" not in row, "four seconds are one block"
     alone = measure_controls(generate, dances[1:], DEFAULTS, (0,))["coarse"][0]
     assert "mpjpe_mm" not in alone
     inside = replace(dance, reactor=true - np.array([0.0, 0.0, 0.9]))
@@ -214,3 +215,34 @@ def test_evaluation_moves_the_controls_beside_held_out_duets_and_named_leaders(
             out_of_distribution=leaders,
             control_defaults=DEFAULTS,
         )
+
+
+def test_block_boundaries_are_measured_where_there_are_some():
+    """A reactor who is the true one but for a jump of 5 cm where the second block begins."""
+    true = np.tile(truth(), (3, 1, 1))
+
+    def jump(leader, music, seed, **_):
+        return true + (np.arange(len(true)) >= 240)[:, None, None] * np.array([0, 0.05, 0])
+
+    dance = ControlledDance(np.tile(standing(FRAMES), (3, 1, 1)), None, None, true)
+    (at_rest,) = {
+        row["seams_ratio"] for row in measure_controls(lambda *_, **__: true, [dance], DEFAULTS, (0,))["fine"]
+    }
+    (jumped,) = {row["seams_ratio"] for row in measure_controls(jump, [dance], DEFAULTS, (0,))["fine"]}
+    assert at_rest == pytest.approx(1)
+    assert jumped > 2
+
+
+def test_what_is_drawn_is_measured_where_a_solver_is_given(dances: list[ControlledDance]):
+    """The solver gets all seeds of a dance beside its leader, and what it returns is measured."""
+    asked = []
+
+    def lowered(motions, leader):
+        asked.append((len(motions), float(leader[0, 0, 0])))
+        return [motion * np.array([1, 0.5, 1]) for motion in motions]
+
+    raw = measure_controls(generate, dances, DEFAULTS, (0, 1))["fine"][0]
+    drawn = measure_controls(generate, dances, DEFAULTS, (0, 1), lowered)["fine"][0]
+    assert {count for count, _ in asked} == {2}
+    assert len({place for _, place in asked}) == len(dances)
+    assert drawn["pose_moved_mm"] == pytest.approx(raw["pose_moved_mm"] / 2)

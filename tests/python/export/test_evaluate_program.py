@@ -32,7 +32,7 @@ def test_the_pages_solver_keeps_bones_rigid():
     motion = made_duet(60, 1).leader
     breathing = motion[:, :1] + (motion - motion[:, :1]) * (1 + 0.05 * np.sin(np.arange(60)))[:, None, None]
     far = motion + np.array([3, 0, 0], np.float32)
-    solved = solve_with_node(breathing, far)
+    (solved,) = solve_with_node([breathing], far)
     assert bone_variation(breathing) > 0.02
     assert bone_variation(solved) < 1e-4
     assert np.linalg.norm(solved - breathing, axis=-1).mean() < 0.05
@@ -43,7 +43,7 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     """A dancer inside the leader is moved aside over the floor, no farther than needed."""
     motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
     inside = motion + np.array([0.1, 0, 0], np.float32)
-    free, solved = (solve_with_node(inside, motion + np.array([x, 0, 0], np.float32)) for x in (3, 0))
+    free, solved = (solve_with_node([inside], motion + np.array([x, 0, 0], np.float32))[0] for x in (3, 0))
     aside = solved - free
     assert np.median(overlap_depth(motion, inside)) > 0.1
     assert np.abs(aside[..., 1]).max() == 0

@@ -35,5 +35,7 @@ def quick_report(
 
 
 def mean_report(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    """The mean over reports of every measure that all of them have."""
+    """The mean over reports of every measure that all of them have; none of no reports."""
+    if not rows:
+        return {}
     return {key: float(np.mean([row[key] for row in rows])) for key in rows[0] if all(key in r for r in rows)}
