@@ -1,3 +1,4 @@
+import { AppError } from '../common/error';
 import { musicFeatures, type MusicFeatures } from './features';
 import type { AudioRecipe } from './recipe';
 import { resample } from './dsp/resample';
@@ -16,6 +17,9 @@ export interface Analysis extends MusicFeatures {
 /** Share of the running time that mixing and resampling take, as measured; used for the progress only. */
 const RESAMPLING_SHARE = 0.3;
 
+/** Largest amplitude that is accepted: 60 decibels above full scale, far beyond any recording. */
+const MAX_AMPLITUDE = 1000;
+
 /** Largest amplitude of a silent song (full scale is 1): -80 decibels. */
 const MAX_SILENT_AMPLITUDE = 1e-4;
 
@@ -24,6 +28,7 @@ const MAX_SILENT_AMPLITUDE = 1e-4;
  *
  * @param channels samples of each channel at `sampleRate`, at least one channel and one sample
  * @param onProgress called with ascending fractions of the work done, the last one 1
+ * @throws {AppError} `not-audio` where a sample is not finite or too loud
  */
 export function analyse(
   channels: readonly Float32Array[],
@@ -31,6 +36,7 @@ export function analyse(
   recipe: AudioRecipe,
   onProgress: (fraction: number) => void,
 ): Analysis {
+  channels.forEach((channel) => checkSamples(channel, sampleRate));
   const pcm = resample(mixDown(channels), sampleRate, recipe.sample_rate, (fraction) =>
     onProgress(RESAMPLING_SHARE * fraction),
   );
@@ -43,6 +49,18 @@ export function analyse(
     sound: encodeWav(channels, sampleRate),
     silent: pcm.every((sample) => Math.abs(sample) <= MAX_SILENT_AMPLITUDE),
   };
+}
+
+/** @throws {AppError} not-audio */
+function checkSamples(samples: Float32Array, sampleRate: number): void {
+  // Written so that a sample that is not a number is found as well.
+  const wrong = samples.findIndex((sample) => !(Math.abs(sample) <= MAX_AMPLITUDE));
+  if (wrong < 0) return;
+  throw new AppError(
+    'not-audio',
+    `The song is damaged at ${(wrong / sampleRate).toFixed(2)} seconds: a sample there is no loudness of a sound.`,
+    'Open it in a sound editor and save it again, or choose another file.',
+  );
 }
 
 /** Mean of the channels. */

@@ -1,4 +1,5 @@
 import { AppError } from '../common/error';
+import { isPlaylist, PLAYLIST_HEAD_BYTES } from './playlist';
 
 /**
  * Hz at which songs are decoded and played: a common rate, and so far above the recipe's that the browser's own
@@ -37,6 +38,13 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
       'empty-file',
       'The song file is empty.',
       'Choose another file, or copy this one again.',
+    );
+  }
+  if (isPlaylist(new Uint8Array(await readBytes(file.slice(0, PLAYLIST_HEAD_BYTES))))) {
+    throw new AppError(
+      'not-audio',
+      'The file is a playlist: it names songs and holds none.',
+      'Choose the file of the song itself.',
     );
   }
   checkDuration(await headerDuration(file));

@@ -3,12 +3,19 @@ import { FLOOR } from '../motion/bvh/axes-and-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { AppError } from '../common/error';
 
-const count = v.pipe(v.number(), v.integer(), v.minValue(1));
-const natural = v.pipe(v.number(), v.integer(), v.minValue(0));
+/** Far above what any model of this method has: sizes beyond it only fill the memory. */
+const MAX_COUNT = 1e6;
+const count = v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(MAX_COUNT));
+const natural = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(MAX_COUNT));
+const joint = v.pipe(natural, v.maxValue(SMPL22.length - 1));
+/** A number of some quantity that a person could have meant. */
+const finite = v.pipe(v.number(), v.minValue(-1000), v.maxValue(1000));
+/** Metres of a body's height. */
+const height = v.pipe(v.number(), v.minValue(0.5), v.maxValue(3));
 
 const file = v.object({
   path: v.pipe(v.string(), v.minLength(1)),
-  bytes: count,
+  bytes: v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(2 ** 32)),
   sha256: v.pipe(v.string(), v.regex(/^[0-9a-f]{64}$/, 'Expected 64 hexadecimal digits')),
 });
 
@@ -18,10 +25,10 @@ const graph = v.object({
   files: v.object({ wasm: file, webgpu: file }),
 });
 
-const positive = v.pipe(v.number(), v.minValue(0));
+const positive = v.pipe(v.number(), v.minValue(0), v.maxValue(1e5));
 
 /** Least and greatest weight, the distance between two of them, and the default. */
-const range = v.object({ min: v.number(), max: v.number(), step: positive, default: v.number() });
+const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtValue(0)), default: finite });
 
 /** Constants of the measures on the page, as Python has them; see quality/rules.ts. */
 const quality = v.object({
@@ -35,7 +42,7 @@ const quality = v.object({
     capsules: v.array(
       v.object({ from: v.picklist(SMPL22), to: v.picklist(SMPL22), radius: positive, beyond: positive }),
     ),
-    reference_height: v.pipe(v.number(), v.minValue(0.1)),
+    reference_height: height,
     deep: positive,
   }),
   beats: v.object({ smoothing: positive, tolerance: positive }),
@@ -54,29 +61,33 @@ const schema = v.object({
   skeleton: v.object({
     joints: v.array(v.string()),
     parents: v.array(v.number()),
-    upper: v.array(natural),
-    lower: v.array(natural),
-    feet: v.array(natural),
+    upper: v.array(joint),
+    lower: v.array(joint),
+    feet: v.array(joint),
     /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
-    reference_height: v.pipe(v.number(), v.minValue(0.1)),
+    reference_height: height,
     /** See FLOOR in motion/bvh/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
-  fps: v.pipe(v.number(), v.minValue(1)),
+  /** That of every clip on the page. */
+  fps: v.literal(30),
   /** Mean unfamiliarity from which a leader is unlike all that the model was trained on. */
   leader: v.object({ unfamiliar_from: positive }),
   latent: v.object({
     /** Motion frames per latent frame. */
-    stride: count,
+    stride: v.pipe(count, v.maxValue(64)),
     /** Latent frames per block. */
-    block: count,
+    block: v.pipe(count, v.maxValue(10_000)),
     /** Channels of one residual layer, all streams together. */
-    channels: count,
+    channels: v.pipe(count, v.maxValue(65_536)),
     streams: v.pipe(v.array(v.string()), v.minLength(1)),
     layers: v.pipe(v.array(v.string()), v.minLength(1)),
-    memory_width: count,
+    memory_width: v.pipe(count, v.maxValue(65_536)),
     /** Latent frames that a graph needs on each side of a piece of clip for an exact result inside it. */
-    receptive_field: v.object({ condition: natural, decode: natural }),
+    receptive_field: v.object({
+      condition: v.pipe(natural, v.maxValue(10_000)),
+      decode: v.pipe(natural, v.maxValue(10_000)),
+    }),
   }),
   diffusion: v.object({
     train_steps: count,
@@ -90,7 +101,7 @@ const schema = v.object({
     /** Time of the last step, a share of train_steps. */
     last_time: v.pipe(v.number(), v.gtValue(0), v.maxValue(1)),
     /** By stream: how far the last prediction is extrapolated from the one before it. */
-    extrapolation: v.array(v.number()),
+    extrapolation: v.array(finite),
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
@@ -100,11 +111,11 @@ const schema = v.object({
     fine: range,
     music: range,
     /** `seeds`: how many seeds, from 0, the mean is taken of that variety keeps a seed away from. */
-    variety: v.object({ ...range.entries, seeds: count }),
+    variety: v.object({ ...range.entries, seeds: v.pipe(count, v.maxValue(64)) }),
   }),
   noise: v.object({ algorithm: v.literal('philox4x32-10') }),
   /** What the decode graph does to decoded joints: strength of the foot-contact correction in m/s. */
-  decode: v.object({ foot_contact: v.number() }),
+  decode: v.object({ foot_contact: positive }),
   /** How the networks are built; the page reads none of it, a person can. */
   architecture: v.looseObject({}),
   /** The feature recipe; its other keys are checked by the audio side, which reads them. */
@@ -166,6 +177,21 @@ function check(manifest: Manifest): void {
   if (latent.channels % latent.streams.length !== 0) {
     throw invalid(
       `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
+    );
+  }
+  const { alphas_cumprod: alphas, extrapolation } = diffusion;
+  if (!alphas.every((alpha, t) => alpha > 0 && alpha < (alphas[t - 1] ?? 1))) {
+    throw invalid(
+      'The model\'s manifest has a "diffusion.alphas_cumprod" that does not fall from step to step.',
+    );
+  }
+  if (Math.round(diffusion.last_time * diffusion.train_steps) < 1) {
+    throw invalid('The model\'s manifest has a "diffusion.last_time" before the first train step.');
+  }
+  if (extrapolation.length !== latent.streams.length) {
+    throw invalid(
+      `The model's manifest has ${extrapolation.length} values in "diffusion.extrapolation" ` +
+        `for ${latent.streams.length} streams.`,
     );
   }
   const { min, max, default: preset } = diffusion.steps;

@@ -1,3 +1,5 @@
+import { AppError } from '../../common/error';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Manifest } from '../manifest';
 import { blend, layerGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
@@ -21,28 +23,60 @@ export interface Golden {
   readonly reactor: Float32Array;
 }
 
-/** Reads the golden sampling from the archive beside a manifest. */
+/** Largest number of motion frames and of steps of a golden sampling; what is exported has 600 and up to 50. */
+const MAX_FRAMES = 10_000;
+const MAX_STEPS = 1000;
+
+/**
+ * Reads the golden sampling from the archive beside a manifest.
+ *
+ * @throws {AppError} `model-corrupt` where an array is missing, or of another size than the others
+ */
 export function readGolden(bytes: Uint8Array): Golden {
   const arrays = readNpz(bytes);
   const array = (name: string): NpzArray => {
     const found = arrays.get(name);
-    if (found === undefined) throw new Error(`The golden file has no array "${name}".`);
+    if (found === undefined) throw invalid(`has no array "${name}"`);
     return found;
   };
-  const floats = (name: string): Float32Array => Float32Array.from(array(name).data);
-  const number = (name: string): number => array(name).data[0] ?? NaN;
-  return {
-    leader: floats('leader'),
-    music: floats('music'),
-    musicValid: floats('music_valid'),
-    role: number('role'),
-    guidance: interleaved(floats('coarse'), floats('fine')),
-    musicGuidance: number('music_guidance'),
-    seed: number('seed'),
-    steps: number('steps'),
-    bones: floats('bones'),
-    reactor: floats('reactor'),
+  const frames = array('music_valid').data.length;
+  if (frames < 1 || frames > MAX_FRAMES) throw invalid(`has ${frames} frames, not 1 to ${MAX_FRAMES}`);
+  const shaped = (name: string, ...shape: readonly (number | null)[]): Float32Array => {
+    const found = array(name);
+    const fits =
+      found.shape.length === shape.length &&
+      shape.every((length, axis) => length === null || length === found.shape[axis]);
+    if (!fits) throw invalid(`has an array "${name}" of the wrong size, (${found.shape.join(', ')})`);
+    return Float32Array.from(found.data);
   };
+  const number = (name: string): number => shaped(name, 1)[0]!;
+  const count = (name: string, min: number, max: number): number => {
+    const value = number(name);
+    if (!Number.isInteger(value) || value < min || value > max)
+      throw invalid(`has a "${name}" of ${value}, not a whole number from ${min} to ${max}`);
+    return value;
+  };
+  const coarse = shaped('coarse', null);
+  return {
+    leader: shaped('leader', frames, JOINT_COUNT, 3),
+    music: shaped('music', frames, null),
+    musicValid: shaped('music_valid', frames),
+    role: number('role'),
+    guidance: interleaved(coarse, shaped('fine', coarse.length)),
+    musicGuidance: number('music_guidance'),
+    seed: count('seed', 0, 2 ** 32 - 1),
+    steps: count('steps', 1, MAX_STEPS),
+    bones: shaped('bones', JOINT_COUNT),
+    reactor: shaped('reactor', frames, JOINT_COUNT, 3),
+  };
+}
+
+function invalid(what: string): AppError {
+  return new AppError(
+    'model-corrupt',
+    `The model's golden sampling ${what}.`,
+    'Export the model again and copy its whole folder.',
+  );
 }
 
 /** Weights of coarse and fine, one a stream each, as streams x layers. */

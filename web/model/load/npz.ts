@@ -1,4 +1,5 @@
 import { unzipSync } from 'fflate';
+import { AppError } from '../../common/error';
 
 /** One array of a NumPy archive; integers and doubles come as doubles. */
 export interface NpzArray {
@@ -34,29 +35,79 @@ function rowsFirst<T extends NpzArray['data']>(data: T, shape: readonly number[]
   return out;
 }
 
-/** Read one .npy file: little-endian float32, float64, int32 or int64. */
+/** Bytes of one value of each type. */
+const ITEM_BYTES: Record<string, number> = { '<f4': 4, '<f8': 8, '<i4': 4, '<i8': 8 };
+/** Largest size of all arrays together, bytes. */
+const MAX_BYTES = 64 * 1024 * 1024;
+const MAGIC = '\u0093NUMPY';
+
+function damaged(message: string, cause?: unknown): AppError {
+  return new AppError(
+    'model-corrupt',
+    message,
+    'Export the model again and copy its whole folder, or load the page again.',
+    { cause },
+  );
+}
+
+/** The lengths in a header's shape; null where one is no length. */
+function readShape(header: string): number[] | null {
+  const inside = /'shape': \(([^)]*)\)/.exec(header)?.[1];
+  if (inside === undefined) return null;
+  const parts = inside.split(',').map((part) => part.trim());
+  const lengths = parts.filter((text) => text !== '');
+  return lengths.every((text) => /^\d{1,9}$/.test(text)) ? lengths.map(Number) : null;
+}
+
+/** Read one .npy file: little-endian float32, float64, int32 or int64, all values finite. */
 function readNpy(bytes: Uint8Array, name: string): NpzArray {
+  const text = (from: number, to: number): string => String.fromCharCode(...bytes.subarray(from, to));
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const wide = view.getUint8(6) > 1;
-  const start = wide ? 12 : 10;
-  const end = start + (wide ? view.getUint32(8, true) : view.getUint16(8, true));
+  const start = bytes.length > 12 && view.getUint8(6) > 1 ? 12 : 10;
+  if (bytes.length <= start || text(0, MAGIC.length) !== MAGIC)
+    throw damaged(`The array "${name}" is no NumPy array.`);
+  const end = start + (start === 12 ? view.getUint32(8, true) : view.getUint16(8, true));
   const header = new TextDecoder().decode(bytes.subarray(start, end));
   const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
-  const shape = (/'shape': \(([^)]*)\)/.exec(header)?.[1] ?? '').split(',').flatMap((part) => {
-    const text = part.trim();
-    return text === '' ? [] : [Number(text)];
-  });
   const read = READERS[type];
-  if (read === undefined) throw new Error(`The array "${name}" is of a type that is not read here: ${type}`);
-  const count = shape.reduce((product, length) => product * length, 1);
+  const itemBytes = ITEM_BYTES[type];
+  if (read === undefined || itemBytes === undefined)
+    throw damaged(`The array "${name}" is of a type that is not read here: ${type.slice(0, 24)}.`);
+  const shape = readShape(header);
+  const count = shape?.reduce((product, length) => product * length, 1);
+  if (!shape || count === undefined || bytes.length - end !== count * itemBytes)
+    throw damaged(`The array "${name}" does not have the size that its header states.`);
   const data = read(new DataView(bytes.buffer, bytes.byteOffset + end), count);
+  if (!data.every((value) => Number.isFinite(value)))
+    throw damaged(`The array "${name}" holds a value that is not a finite number.`);
   return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
 }
 
-/** Read a NumPy archive (numpy.savez, compressed or not). */
+/** The files of a zip archive; none is unpacked that would make them larger than `MAX_BYTES`. */
+function unzip(bytes: Uint8Array): Record<string, Uint8Array> {
+  let total = 0;
+  try {
+    return unzipSync(bytes, {
+      filter: ({ originalSize }) => {
+        total += originalSize;
+        if (total > MAX_BYTES) throw damaged(`The archive holds more than ${MAX_BYTES / 1024 ** 2} MB.`);
+        return true;
+      },
+    });
+  } catch (cause) {
+    if (cause instanceof AppError) throw cause;
+    throw damaged('The archive of arrays is damaged: it is no whole zip file.', cause);
+  }
+}
+
+/**
+ * Read a NumPy archive (numpy.savez, compressed or not).
+ *
+ * @throws {AppError} `model-corrupt` where the archive, an array's header or a value is wrong
+ */
 export function readNpz(bytes: Uint8Array): Map<string, NpzArray> {
   return new Map(
-    Object.entries(unzipSync(bytes)).map(([file, content]) => {
+    Object.entries(unzip(bytes)).map(([file, content]) => {
       const name = file.replace(/\.npy$/, '');
       return [name, readNpy(content, name)];
     }),

@@ -11,6 +11,9 @@ interface ReadFrames {
   readonly truncated: boolean;
 }
 
+/** Largest number of values: 15 minutes of 60 joints at 60 frames per second. */
+const MAX_VALUES = 1e7;
+
 /** The error of a file that ends too early, as after an interrupted download. */
 export function truncated(message: string): AppError {
   return new AppError('truncated', message, 'The file is incomplete: download, copy or export it again.');
@@ -27,7 +30,7 @@ function lastLine(lines: readonly string[]): number {
  * Checks the lines of numbers from lines[first] on: as many columns as channels, all finite numbers. Where the file ends
  * too early, its complete frames are used.
  *
- * @throws {AppError} `bad-number`, `wrong-columns` or `truncated`
+ * @throws {AppError} `bad-number`, `wrong-columns`, `truncated` or `too-long`
  */
 export function readFrames(
   lines: readonly string[],
@@ -38,6 +41,14 @@ export function readFrames(
   const columns = nodes.flatMap(({ name, channels }) => channels.map((channel) => `${channel} of ${name}`));
   const frameLines: string[] = [];
   const last = lastLine(lines);
+  const frames = Math.min(stated, last + 1 - first);
+  if (frames * columns.length > MAX_VALUES) {
+    throw new AppError(
+      'too-long',
+      `The file has ${frames} frames of ${columns.length} values; up to ${MAX_VALUES / 1e6} million values are read.`,
+      'Export a shorter part of the dance, fewer frames per second, or the body without fingers.',
+    );
+  }
   let extra = 0;
   for (let line = first; line <= last; line++) {
     const text = lines[line]!.trim();

@@ -17,6 +17,8 @@ const CHANNELS = ['Xposition', 'Yposition', 'Zposition', 'Xrotation', 'Yrotation
 
 /** Largest depth of the hierarchy; the longest tails and cloaks have a few dozen joints in a row. */
 const MAX_DEPTH = 300;
+/** Largest number of joints and end sites: bodies with fingers, face and clothes have some hundreds. */
+const MAX_NODES = 1000;
 
 /** Reads the tokens of the hierarchy in order, with the line number of each. */
 class TokenReader {
@@ -24,9 +26,13 @@ class TokenReader {
   private position = 0;
 
   constructor(lines: readonly string[], end: number) {
+    let nodes = 0;
     for (let line = 0; line < end; line++) {
       const spaced = lines[line]!.replaceAll(/[{}]/g, ' $& ');
-      for (const text of spaced.split(/\s+/)) if (text !== '') this.tokens.push({ text, line: line + 1 });
+      for (const text of spaced.split(/\s+/)) {
+        if (text !== '') this.tokens.push({ text, line: line + 1 });
+        if (text === '{' && ++nodes > MAX_NODES) throw tooManyNodes(line + 1);
+      }
     }
   }
 
@@ -51,6 +57,14 @@ class TokenReader {
     }
     return rest.join(' ');
   }
+}
+
+function tooManyNodes(line: number): AppError {
+  return new AppError(
+    'bad-hierarchy',
+    `Line ${line}: the skeleton has more than ${MAX_NODES} joints.`,
+    'Export the body alone, without cloth, hair and props.',
+  );
 }
 
 function truncated(tokens: TokenReader): AppError {
@@ -100,11 +114,14 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
     if (tokens.peek()?.toUpperCase() === 'CHANNELS') {
       tokens.next();
       const [count] = numbers(1, `the CHANNELS of ${name}`) as [number];
+      if (!Number.isInteger(count) || count < 0 || count > CHANNELS.length)
+        throw invalid(`${name} has ${count} channels; a joint has 0 to ${CHANNELS.length}`);
       for (let i = 0; i < count; i++) {
         const token = tokens.peek();
         const channel = CHANNELS.find((known) => known.toLowerCase() === token?.toLowerCase());
         if (channel === undefined)
           throw invalid(`"${token ?? ''}" in ${name} is no channel of position or rotation`);
+        if (channels.includes(channel)) throw invalid(`${name} has the channel ${channel} twice`);
         channels.push(channel);
         tokens.next();
       }

@@ -9,6 +9,7 @@ import { AppError } from '../../common/error';
 import { frameRate, checkedRate } from './frame-rate';
 import { type JointMap, mapJoints, TRUNK_JOINTS } from './joint-map';
 import { restFrames } from './t-pose';
+import { checkPlausible } from '../skeleton/plausible';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from '../skeleton/skeleton';
 import { median } from '../math/statistics';
 import { add, distance, lerp, readVec, scale, type Vec3, ZERO } from '../math/vec3';
@@ -158,6 +159,8 @@ export function readBvh(text: string, options: { readonly fps?: number } = {}): 
     frames: motion.frames,
     positions: shiftFloorToZero(positions, unit.metres, own),
   };
+
+  checkPlausible(clip);
 
   const warnings = [...file.warnings];
   if (!up.certain) warnings.push(`It is not clear which way is up; ${up.name} was taken.`);

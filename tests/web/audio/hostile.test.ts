@@ -1,0 +1,32 @@
+import { describe, expect, it } from 'vitest';
+import { analyse } from '../../../web/audio/analyse';
+import { isPlaylist } from '../../../web/audio/playlist';
+
+const bytes = (text: string): Uint8Array => new TextEncoder().encode(text);
+
+describe('a playlist', () => {
+  it.each([
+    ['M3U', '#EXTM3U\n#EXTINF:123,Song\nhttps://example.org/song.mp3\n'],
+    ['M3U with a byte order mark', '\uFEFF#EXTM3U\nhttps://example.org/song.mp3\n'],
+    ['HLS', '#EXTM3U\n#EXT-X-VERSION:3\n#EXTINF:10,\nhttps://example.org/part.ts\n'],
+    ['PLS', '[playlist]\nFile1=https://example.org/song.mp3\n'],
+    ['XSPF', '<?xml version="1.0"?>\n<playlist version="1" xmlns="http://xspf.org/ns/0/">'],
+    ['a list of addresses', 'https://example.org/song.mp3\n'],
+  ])('%s is told from a song', (_, text) => {
+    expect(isPlaylist(bytes(text))).toBe(true);
+  });
+
+  it.each(['RIFF....WAVEfmt ', 'ID3\u0004', 'OggS', 'fLaC', ''])('%s begins a song', (text) => {
+    expect(isPlaylist(bytes(text))).toBe(false);
+  });
+});
+
+describe('samples that are no sound', () => {
+  it.each([NaN, Infinity, -Infinity, 1e30])('%s is refused with its time', (value) => {
+    const samples = new Float32Array(48000);
+    samples[24000] = value;
+    expect(() => analyse([samples], 48000, undefined as never, () => undefined)).toThrow(
+      'The song is damaged at 0.50 seconds',
+    );
+  });
+});
