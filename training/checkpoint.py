@@ -18,6 +18,7 @@ from training.config import (
     to_json,
     write_json,
 )
+from training.data.naming import naming
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
@@ -49,32 +50,50 @@ def save_denoiser(folder: Path, model: Denoiser, diffusion: DiffusionConfig, pro
 
 
 def read_config(folder: Path, name: str) -> dict:
-    """NAME.json of a checkpoint. Raises FileNotFoundError."""
+    """NAME.json of a checkpoint. Raises FileNotFoundError, and ValueError where it is no JSON object."""
     path = folder / f"{name}.json"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
-    return json.loads(path.read_text())
+    with naming(path):
+        config = json.loads(path.read_text())
+        if not isinstance(config, dict):
+            raise ValueError("it holds no JSON object")
+        return config
 
 
 def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:
     """The stage-1 model, frozen and in evaluation mode."""
     config = read_config(folder, "hfsq")
-    model = Autoencoder(from_json(HfsqConfig, config["hfsq"]))
-    load_weights(model, str(folder / "hfsq.safetensors"), strict=True)
-    return model.eval().requires_grad_(False), from_json(FrameConfig, config["frame"])
+    with naming(folder / "hfsq.json"):
+        model = Autoencoder(from_json(HfsqConfig, config["hfsq"]))
+        frame = from_json(FrameConfig, config["frame"])
+    start_from(model, folder, "hfsq")
+    return model.eval().requires_grad_(False), frame
 
 
 def start_from(module: nn.Module, folder: Path, name: str) -> None:
-    """Loads NAME.safetensors of `folder` into a module. Raises RuntimeError where names or sizes differ."""
-    load_weights(module, str(folder / f"{name}.safetensors"), strict=True)
+    """Loads NAME.safetensors of `folder` into a module.
+
+    Raises FileNotFoundError, and ValueError where names or sizes differ or a weight is not finite.
+    """
+    path = folder / f"{name}.safetensors"
+    if not path.exists():
+        raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
+    with naming(path):
+        load_weights(module, str(path), strict=True)
+        for key, value in module.state_dict().items():
+            if not value.isfinite().all():
+                raise ValueError(f"the weights {key} are not finite")
 
 
 def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionConfig]:
     """The stage-2 model in evaluation mode, not frozen. hfsq: stage 1 of the same checkpoint."""
     config = read_config(folder, "denoiser")
-    model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
-    load_weights(model, str(folder / "denoiser.safetensors"), strict=True)
-    return model.eval(), from_json(DiffusionConfig, config["diffusion"])
+    with naming(folder / "denoiser.json"):
+        model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
+        diffusion = from_json(DiffusionConfig, config["diffusion"])
+    start_from(model, folder, "denoiser")
+    return model.eval(), diffusion
 
 
 def load_model(folder: Path) -> Model:

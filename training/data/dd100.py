@@ -15,6 +15,7 @@ import numpy as np
 
 from training.config import STRIDE
 from training.data.duet import Duet
+from training.data.naming import naming
 from training.data.splits import Split
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
@@ -29,7 +30,10 @@ def y_up(motion: np.ndarray) -> np.ndarray:
 
 def _read_motion(path: Path) -> np.ndarray:
     """(T, 22, 3) float32, y up. The first 22 SMPL-X joints are the SMPL body in the same order."""
-    joints = np.load(path)
+    with naming(path):
+        joints = np.load(path)
+        if not isinstance(joints, np.ndarray) or joints.dtype.kind != "f":
+            raise ValueError("no array of coordinates")
     if joints.ndim == 2 and joints.shape[1] == _SMPLX_JOINTS * 3:
         joints = joints.reshape(-1, _SMPLX_JOINTS, 3)
     if joints.ndim != 3 or joints.shape[1:] != (_SMPLX_JOINTS, 3):
@@ -54,9 +58,10 @@ def read_dd100(root: Path | str) -> list[Duet]:
             raise FileNotFoundError(f"{reactor_path} has no leader {leader_path.name} beside it")
         leader, reactor = _read_motion(leader_path), _read_motion(reactor_path)
         frames = min(len(leader), len(reactor)) // STRIDE * STRIDE
-        duets.append(
-            Duet(name, put_on_floor(leader[:frames]), put_on_floor(reactor[:frames]), songs.get(name))
-        )
+        with naming(reactor_path):
+            duets.append(
+                Duet(name, put_on_floor(leader[:frames]), put_on_floor(reactor[:frames]), songs.get(name))
+            )
     return duets
 
 

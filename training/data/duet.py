@@ -10,6 +10,10 @@ import numpy as np
 from training.config import FPS
 from training.motion.skeleton import JOINTS
 
+# Largest distance from the origin, and of a joint from the pelvis, metres; those of the page's reader of BVH files.
+_MAX_PLACE = 50.0
+_MAX_REACH = 3.0
+
 __all__ = ["FPS", "Duet", "Solo"]
 
 
@@ -24,6 +28,14 @@ def _check(name: str, role: str, motion: np.ndarray) -> None:
     bad = ~np.isfinite(motion).all(axis=(1, 2))
     if bad.any():
         raise ValueError(f"{where}: {int(bad.sum())} frames are not finite, the first is {int(bad.argmax())}")
+    far = (np.linalg.norm(motion.astype(np.float64), axis=-1) > _MAX_PLACE).any(axis=1)
+    if far.any():
+        raise ValueError(f"{where}: frame {int(far.argmax())} is more than {_MAX_PLACE:g} m from the origin")
+    wide = (np.linalg.norm(motion - motion[:, :1], axis=-1) > _MAX_REACH).any(axis=1)
+    if wide.any():
+        raise ValueError(
+            f"{where}: in frame {int(wide.argmax())} a joint is more than {_MAX_REACH:g} m from the pelvis"
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +43,8 @@ class Duet:
     """Two dancers in one world: metres, y up, right-handed, 30 fps, floor at 0, SMPL-22 joint order.
 
     leader, reactor: (T, 22, 3) float32, frame by frame in sync. song: an audio file in sync with frame 0, if
-    any. Raises ValueError when a shape, type or length is wrong or a coordinate is not finite.
+    any. Raises ValueError when a shape, type or length is wrong a coordinate is not finite,
+    or a joint is where no dancer's joint can be.
     """
 
     name: str

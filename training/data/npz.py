@@ -7,8 +7,16 @@ from pathlib import Path
 import numpy as np
 
 from training.data.duet import FPS, Duet, Solo
+from training.data.naming import naming
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
+
+
+def _open(path: Path) -> np.lib.npyio.NpzFile:
+    archive = np.load(path)
+    if not isinstance(archive, np.lib.npyio.NpzFile):
+        raise ValueError("no npz archive")
+    return archive
 
 
 def _check_header(archive: np.lib.npyio.NpzFile, path: Path) -> None:
@@ -24,7 +32,7 @@ def read_npz(path: Path | str) -> list[Duet]:
     Each dancer's floor is put at 0. Raises ValueError when a partner is missing or the archive holds no duet.
     """
     path = Path(path)
-    with np.load(path) as archive:
+    with naming(path), _open(path) as archive:
         _check_header(archive, path)
         roles = ("leader", "follower")
         names = sorted({key.rpartition("/")[0] for key in archive.files if key.rpartition("/")[2] in roles})
@@ -46,7 +54,7 @@ def read_solo(path: Path | str, prefixes: tuple[str, ...] = ("",)) -> list[Solo]
     prefixes: of the names that are read.
     """
     path = Path(path)
-    with np.load(path) as archive:
+    with naming(path), _open(path) as archive:
         _check_header(archive, path)
         names = sorted(
             key for key in archive.files if key not in ("fps", "joints") and key.startswith(prefixes)

@@ -9,6 +9,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 _CHANNELS = ("xposition", "yposition", "zposition", "xrotation", "yrotation", "zrotation")
+# Limits of a file: joints and end sites, values of all frames together, and the size of one.
+_MAX_NODES = 1000
+_MAX_VALUES = 10_000_000
+_MAX_VALUE = 1e7
 _USUAL_RATES = (
     24,
     25,
@@ -70,12 +74,16 @@ def _read_hierarchy(words: list[str], path: Path) -> list[Node]:
             raise ValueError(
                 f"{path}: expected ROOT, JOINT, End Site or }} in the skeleton, found {words[at]!r}"
             )
+        if len(nodes) == _MAX_NODES:
+            raise ValueError(f"{path}: more than {_MAX_NODES} joints")
         opening = words.index("{", at)
         name = " ".join(words[at + 1 : opening])
         at = opening + 1
         if words[at].upper() != "OFFSET":
             raise ValueError(f"{path}: {name} has no OFFSET")
         x, y, z = (float(word) for word in words[at + 1 : at + 4])
+        if not max(abs(x), abs(y), abs(z)) < _MAX_VALUE or x != x or y != y or z != z:
+            raise ValueError(f"{path}: the OFFSET of {name} is no place of a joint")
         at += 4
         channels: tuple[str, ...] = ()
         if words[at].upper() == "CHANNELS":
@@ -83,6 +91,8 @@ def _read_hierarchy(words: list[str], path: Path) -> list[Node]:
             channels = tuple(word.lower() for word in words[at + 2 : at + 2 + count])
             if unknown := set(channels) - set(_CHANNELS):
                 raise ValueError(f"{path}: {name} has unknown channels {sorted(unknown)}")
+            if count != len(set(channels)):
+                raise ValueError(f"{path}: {name} does not have {count} different channels")
             at += 2 + count
         nodes.append(Node(name, parents[-1], (x, y, z), channels, kind == "END"))
         parents.append(len(nodes) - 1)
@@ -113,16 +123,24 @@ def parse_bvh(path: Path | str) -> BvhFile:
         nodes = _read_hierarchy(words, path)
         lines = [line.strip() for line in motion.splitlines() if line.strip()]
         frames = int(lines[0].split()[-1])
+        if frames < 1:
+            raise ValueError(f"it states {frames} frames")
         fps = frame_rate(lines[1].split()[-1])
         rows = [line.split() for line in lines[2 : 2 + frames]]
         channels = sum(len(node.channels) for node in nodes)
+        if len(rows) * channels > _MAX_VALUES:
+            raise ValueError(f"{len(rows)} frames of {channels} values; up to {_MAX_VALUES} values are read")
         whole = sum(len(row) == channels for row in rows)
         if whole != frames or not frames:
             raise ValueError(f"expected {frames} frames of {channels} values, found {whole}")
         values = np.array(rows, dtype=np.float64)
         if not np.isfinite(values).all():
             raise ValueError(f"frame {int((~np.isfinite(values)).any(axis=1).argmax()) + 1} is not finite")
-    except (IndexError, ValueError) as error:
+        if (np.abs(values) >= _MAX_VALUE).any():
+            raise ValueError(f"a value is {_MAX_VALUE:g} or larger")
+    except IndexError as error:
+        raise ValueError(f"{path}: the file is cut off") from error
+    except ValueError as error:
         raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
     return BvhFile(nodes, values, fps)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +11,7 @@ from training.data.bvh.body import assemble, find_unit, find_up, read_body
 from training.data.bvh.file import parse_bvh
 from training.data.bvh.rest_pose import rest_frames
 from training.data.duet import Duet, Solo
+from training.data.naming import naming
 from training.motion.floor import put_on_floor
 
 SONG_SUFFIXES = (".wav", ".mp3", ".ogg", ".flac")
@@ -24,8 +23,10 @@ def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
     fps: overrides the frame rate that the file states.
     Raises ValueError that names the file when it is not a complete BVH file of a whole body.
     """
-    (motion,) = _read_together([Path(path)], fps)
-    return Solo(Path(path).stem, put_on_floor(motion))
+    path = Path(path)
+    (motion,) = _read_together([path], fps)
+    with naming(path):
+        return Solo(path.stem, put_on_floor(motion))
 
 
 def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
@@ -59,25 +60,16 @@ def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
     return duets
 
 
-@contextmanager
-def _naming(path: Path) -> Iterator[None]:
-    """Puts the file's name before the message of a ValueError."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error
-
-
 def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
     """Dancers of one world, (T, 22, 3) each; files of one recording have one unit, one up axis and one beginning."""
     files, rests, bodies = [], [], []
     for path in paths:
-        with _naming(path):
+        with naming(path):
             file = parse_bvh(path)
             rests.append(rest_frames(file))
             files.append(file)
     for path, file in zip(paths, files, strict=True):
-        with _naming(path):
+        with naming(path):
             bodies.append(read_body(replace(file, values=file.values[max(rests) :]), fps))
     up = find_up(sum((body.upright() / body.size() for body in bodies), start=np.zeros(3)))
     metres = find_unit(float(np.exp(np.mean([np.log(body.size()) for body in bodies]))))
