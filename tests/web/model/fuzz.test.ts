@@ -4,8 +4,8 @@ import { expect, test } from 'vitest';
 import { readGolden } from '../../../web/model/load/golden';
 import { parseManifest } from '../../../web/model/manifest';
 import { ddim } from '../../../web/model/sample/schedule';
-import { fuzz } from '../support/fuzz';
-import { damagedBytes, damagedJson } from '../support/mutations';
+import { fuzz } from '../support/hostile/fuzz';
+import { damagedBytes, damagedJson } from '../support/hostile/mutations';
 import { smallJson } from '../support/small-manifest';
 
 test('a damaged manifest is refused in a sentence or says what can be sampled', { timeout: 600_000 }, () => {

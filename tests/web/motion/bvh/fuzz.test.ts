@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
 import { AppError } from '../../../../web/common/error';
 import { readBvh } from '../../../../web/motion/bvh/read';
-import { fuzz } from '../../support/fuzz';
+import { fuzz } from '../../support/hostile/fuzz';
 import { madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
-import { damagedText, MAX_CASE_MS } from '../../support/mutations';
+import { damagedText, MAX_CASE_MS } from '../../support/hostile/mutations';
 
 const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 6 });
 

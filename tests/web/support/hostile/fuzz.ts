@@ -1,5 +1,5 @@
 import { expect } from 'vitest';
-import { AppError } from '../../../web/common/error';
+import { AppError } from '../../../../web/common/error';
 import { FUZZ_CASES, MAX_CASE_MS, type Random, randomOf } from './mutations';
 
 /** How the cases of a reader ended. */
