@@ -116,7 +116,7 @@ def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> N
     config = json.loads((tmp_path / "hfsq.json").read_text())
     config["hfsq"]["depth"] = 2
     (tmp_path / "hfsq.json").write_text(json.dumps(config))
-    with pytest.raises(RuntimeError, match="Missing key"):
+    with pytest.raises(ValueError, match="Missing key"):
         load_hfsq(tmp_path)
     with pytest.raises(FileNotFoundError, match="train it first"):
         load_hfsq(tmp_path / "nowhere")
@@ -134,7 +134,7 @@ def test_training_starts_from_another_checkpoint(data: Path, trained: Path, tmp_
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])
     for (name, a), b in zip(first.state_dict().items(), same.state_dict().values(), strict=True):
         assert torch.allclose(a, b, atol=2e-3), name
-    with pytest.raises(RuntimeError):
+    with pytest.raises(ValueError, match="safetensors"):
         train_hfsq.main(stage1(data, tmp_path / "x", init=trained, hfsq=replace(HFSQ, depth=2)))
 
 
