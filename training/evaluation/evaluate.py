@@ -76,7 +76,7 @@ def evaluate(
     settings = settings or Settings()
     if not held_out:
         raise ValueError("no held-out duet to evaluate on")
-    drawn = next(reversed((solvers or {}).values()), None)
+    drawn = list(solvers.values())[-1] if solvers else None
     log("generating")
     generated, seconds = generate_motions(generate, held_out, settings.seeds)
     rows: dict[str, Motions] = {TRUTH: {i.duet.name: [i.duet.reactor] for i in held_out}}

@@ -27,7 +27,7 @@ def possible(dances: list[Solo] | list[Duet]) -> bool:
 
 def archive(arrays: dict[str, np.ndarray]) -> bytes:
     out = io.BytesIO()
-    np.savez(out, **arrays)
+    np.savez(out, **arrays)  # pyright: ignore[reportArgumentType]
     return out.getvalue()
 
 

@@ -221,14 +221,18 @@ def test_block_boundaries_are_measured_where_there_are_some():
     """A reactor who is the true one but for a jump of 5 cm where the second block begins."""
     true = np.tile(truth(), (3, 1, 1))
 
-    def jump(leader, music, seed, **_):
-        return true + (np.arange(len(true)) >= 240)[:, None, None] * np.array([0, 0.05, 0])
+    jumped_motion = true + (np.arange(len(true)) >= 240)[:, None, None] * np.array([0, 0.05, 0])
 
     dance = ControlledDance(np.tile(standing(FRAMES), (3, 1, 1)), None, None, true)
-    (at_rest,) = {
-        row["seams_ratio"] for row in measure_controls(lambda *_, **__: true, [dance], DEFAULTS, (0,))["fine"]
-    }
-    (jumped,) = {row["seams_ratio"] for row in measure_controls(jump, [dance], DEFAULTS, (0,))["fine"]}
+    (at_rest,), (jumped,) = (
+        {
+            row["seams_ratio"]
+            for row in measure_controls(lambda *_, motion=motion, **__: motion, [dance], DEFAULTS, (0,))[
+                "fine"
+            ]
+        }
+        for motion in (true, jumped_motion)
+    )
     assert at_rest == pytest.approx(1)
     assert jumped > 2
 
