@@ -1,6 +1,7 @@
 import type { BodyLibrary } from './body/library';
 import { CameraRig } from './camera/camera-rig';
 import { easing, isFar, measureCouple, nearestAngle, type Couple } from './camera/framing';
+import { planHeading } from './camera/heading-plan';
 import { Canvas, type PictureSize, type Viewport } from './canvas';
 import { perVertexMaterial, perPixelMaterial } from './dancer/body-material';
 import { Dancers } from './dancer/dancers';
@@ -38,6 +39,8 @@ export class StageRenderer {
   private seconds = 0;
   private poseStale = true;
   private couple: Couple = measureCouple([]);
+  /** Motions of the couple that the camera's headings are planned for. */
+  private planned: Dancers['couple'] = null;
   private lightHeading: number;
   /** Whether the shadow map holds a dancer's shadow, or nothing yet. */
   private shadowsStale = true;
@@ -87,6 +90,19 @@ export class StageRenderer {
     return this.couple;
   }
 
+  /** Moment of the dance that is shown, seconds. */
+  get time(): number {
+    return this.seconds;
+  }
+
+  /** Plans how the camera turns with the couple on the stage, unless it is still the same. */
+  planCamera(): void {
+    const { couple } = this.contents.dancers;
+    if (couple?.[0] === this.planned?.[0] && couple?.[1] === this.planned?.[1]) return;
+    this.planned = couple;
+    this.rig.setPlan(couple && planHeading(...couple));
+  }
+
   /** Turns the lights to the camera at once. */
   alignLights(): void {
     this.lightHeading = this.rig.heading;
@@ -117,7 +133,7 @@ export class StageRenderer {
     if (crossfading) this.invalidatePose();
     const danced = this.poseStale;
     const couple = this.pose();
-    const cameraMoves = rig.update(dt, couple, danced);
+    const cameraMoves = rig.update(dt, { couple, seconds: this.seconds, danced });
     const lightsTurn = this.turnLights(dt, danced);
     contents.centreOn(couple, this.lightHeading);
     dancers.setLowDetail(isFar(rig.camera.position, couple, canvas.renderer.domElement.height));

@@ -22,7 +22,7 @@ export interface BodyMesh extends Skin {
 export const CELL = 0.018;
 /** Nodes a side of the blocks in which the grid is filled: blocks away from the body are skipped. */
 const BLOCK = 4;
-const SHOE_SHADE = 0.38;
+const SHOE_SHADE = 0.3;
 
 /** Distance to the smooth union of `shapes`, in order. */
 function distance(shapes: readonly Shape[], x: number, y: number, z: number): number {

@@ -1,5 +1,7 @@
 import { Vector3, type PerspectiveCamera } from 'three';
 import { followByJumps, followSmoothly, type FollowInput } from './following';
+import { nearestSide, type HeadingPlan } from './heading-plan';
+import { focusShot, type Detail } from './focus';
 import {
   fitDistance,
   measureCouple,
@@ -17,6 +19,16 @@ import { OrbitCamera } from './orbit-camera';
 const MOVE_SECONDS = 0.6;
 /** Change of distance during a gesture from which on it counts as zooming, metres. */
 const ZOOMED = 0.01;
+/** Change of an angle (radians) or of the target (metres) from which on it counts as turning or panning. */
+const DRAGGED = 0.005;
+
+/** What a camera follows at one moment of the dance. */
+interface Dance {
+  readonly couple: Couple;
+  readonly seconds: number;
+  /** Whether the couple has moved since the last frame. */
+  readonly danced: boolean;
+}
 
 /** Cubic ease-in and ease-out of 0 to 1. */
 const easeInOut = (t: number): number => (t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2);
@@ -30,6 +42,13 @@ export class CameraRig {
   private userMoved = false;
   /** Whether the person has chosen a distance, which is then kept. */
   private ownDistance = false;
+  /** Whether the person has turned or panned the camera, which then does not turn by itself. */
+  private ownHeading = false;
+  /** Whether the camera shows a detail, and not the couple. */
+  private focused = false;
+  private plan: HeadingPlan | null = null;
+  /** Moment that the camera last turned for, seconds: a new dance at the same moment does not turn it. */
+  private turnedFor = NaN;
   /** Shot when the gesture that is going on began. */
   private gestureStart: Shot | null = null;
   /** Where the couple was when the camera last followed; the view that the person panned to stays relative to it. */
@@ -79,16 +98,39 @@ export class CameraRig {
     this.onChange();
   }
 
+  /** Sets the headings from which both dancers are seen; null for a dancer alone. */
+  setPlan(plan: HeadingPlan | null): void {
+    this.plan = plan;
+  }
+
   /** Moves to a view's first shot. */
-  setView(view: View, couple: Couple): void {
+  setView(view: View, couple: Couple, seconds: number): void {
     this.view = view;
-    const heading = view === 'top' ? couple.sideHeading : this.heading;
+    const heading = view === 'top' ? couple.sideHeading : this.sideHeading(seconds);
     this.moveTo(shotOf(view, couple, this.orbit.aspect, heading));
   }
 
-  /** Brings both dancers into the picture, from the side they are seen from now. */
-  frame(couple: Couple): void {
-    this.moveTo(shotOf(this.view, couple, this.orbit.aspect, this.heading));
+  /** Brings both dancers into the picture, from the side nearest to where they are seen from now. */
+  frame(couple: Couple, seconds: number): void {
+    this.moveTo(shotOf(this.view, couple, this.orbit.aspect, this.sideHeading(seconds)));
+  }
+
+  /**
+   * Shows a detail of the moment `seconds` until the camera is moved in another way.
+   *
+   * @param made 22 x 3 joints of the dancer that was made, at that moment, metres
+   */
+  focusOn(detail: Detail, made: Float32Array, seconds: number, couple: Couple): void {
+    this.moveTo(focusShot(detail, made, couple, this.orbit.aspect, this.sideHeading(seconds)));
+    this.tracked.set(couple.x, 0, couple.z);
+    this.ownDistance = true;
+    this.ownHeading = true;
+    this.focused = true;
+  }
+
+  /** Frames the couple again if the camera still shows a detail. */
+  endFocus(couple: Couple, seconds: number): void {
+    if (this.focused) this.frame(couple, seconds);
   }
 
   /** Moves back or closer for a picture of another shape, unless the person chose the distance. */
@@ -96,16 +138,20 @@ export class CameraRig {
     if (this.ownDistance) return this.onChange();
     const { shot } = this.orbit;
     const { distance } = shotOf(this.view, couple, this.orbit.aspect, shot.heading);
+    const { ownHeading } = this;
     const tracked = this.tracked.clone();
     this.moveTo({ ...shot, distance });
     // The couple has not moved, and a panned view stays relative to it.
     this.tracked.copy(tracked);
+    this.ownHeading = ownHeading;
   }
 
   /** Frames dancers who are new on the stage: the first at once, a partner with a move, unless the person moved it. */
-  frameNewcomers(couple: Couple, atOnce: boolean): void {
+  frameNewcomers(couple: Couple, seconds: number, atOnce: boolean): void {
     if (this.userMoved) return;
-    const shot = shotOf(this.view, couple, this.orbit.aspect, couple.sideHeading);
+    const { sideHeading } = couple;
+    const heading = this.plan ? nearestSide(this.plan(seconds), sideHeading) : sideHeading;
+    const shot = shotOf(this.view, couple, this.orbit.aspect, heading);
     this.moveTo(shot);
     if (atOnce) this.placeAt(shot);
   }
@@ -119,33 +165,44 @@ export class CameraRig {
       shot: { ...shot, target: [x - couple.x, y, z - couple.z] },
       tracked: [this.tracked.x - couple.x, this.tracked.z - couple.z],
       ownDistance: this.ownDistance,
+      ownHeading: this.ownHeading,
       aspect: this.orbit.aspect,
     };
   }
 
   /** Frames the couple as another rig did. */
-  frameAs(framing: Framing, couple: Couple): void {
+  frameAs(framing: Framing, couple: Couple, seconds: number): void {
     this.view = framing.view;
     this.ownDistance = framing.ownDistance;
+    this.ownHeading = framing.ownHeading;
     this.userMoved = true;
-    this.placeAt(reframed(framing, couple, this.orbit.aspect));
+    const shot = reframed(framing, couple, this.orbit.aspect);
+    this.placeAt(shot);
+    if (this.turnsByItself) this.placeAt({ ...shot, heading: this.sideHeading(seconds) });
     this.tracked.set(couple.x + framing.tracked[0], 0, couple.z + framing.tracked[1]);
     this.onChange();
   }
 
-  /**
-   * Goes on by `dt` seconds; true while the camera is still moving.
-   *
-   * @param danced whether the couple moved since the last frame.
-   */
-  update(dt: number, couple: Couple, danced: boolean): boolean {
-    const moving = this.move === null ? this.follow(dt, couple, danced) : this.glide(this.move, dt);
+  /** Goes on by `dt` seconds; true while the camera is still moving. */
+  update(dt: number, dance: Dance): boolean {
+    const moving = this.move === null ? this.follow(dt, dance) : this.glide(this.move, dt);
     return this.orbit.controls.update(dt) || moving;
   }
 
   dispose(): void {
     this.reducedMotion?.removeEventListener('change', this.applyPreference);
     this.orbit.controls.dispose();
+  }
+
+  /** Whether the camera turns with the couple. */
+  private get turnsByItself(): boolean {
+    const follows = this.view === 'orbit' || this.view === 'follow';
+    return follows && !this.ownHeading && this.gestureStart === null;
+  }
+
+  /** The heading nearest to the present one from which both dancers are seen; the present one for a dancer alone. */
+  private sideHeading(seconds: number): number {
+    return this.plan ? nearestSide(this.plan(seconds), this.heading) : this.heading;
   }
 
   private placeAt(shot: Shot): void {
@@ -155,6 +212,8 @@ export class CameraRig {
 
   private moveTo(shot: Shot): void {
     this.ownDistance = false;
+    this.ownHeading = false;
+    this.focused = false;
     this.tracked.set(...shot.target);
     const from = this.orbit.shot;
     const to = { ...shot, heading: nearestAngle(shot.heading, from.heading) };
@@ -174,6 +233,7 @@ export class CameraRig {
   private beginGesture(): void {
     this.move = null;
     this.userMoved = true;
+    this.focused = false;
     // When one of two fingers is lifted, the other starts anew: it is all one gesture.
     this.gestureStart ??= this.orbit.shot;
   }
@@ -181,7 +241,13 @@ export class CameraRig {
   /** Zooming is told apart from turning and panning by the distance. */
   private endGesture(): void {
     if (this.gestureStart === null) return;
-    if (Math.abs(this.orbit.shot.distance - this.gestureStart.distance) > ZOOMED) this.ownDistance = true;
+    const [before, after] = [this.gestureStart, this.orbit.shot];
+    const zoomed = Math.abs(after.distance - before.distance) > ZOOMED;
+    const turned = Math.hypot(after.heading - before.heading, after.elevation - before.elevation) > DRAGGED;
+    const panned = Math.hypot(...after.target.map((value, axis) => value - before.target[axis]!)) > DRAGGED;
+    if (zoomed) this.ownDistance = true;
+    // Zooming to the pointer moves the target too.
+    if (turned || (panned && !zoomed)) this.ownHeading = true;
     this.gestureStart = null;
   }
 
@@ -206,7 +272,7 @@ export class CameraRig {
   }
 
   /** Follows the couple; true while the camera moves. */
-  private follow(dt: number, couple: Couple, danced: boolean): boolean {
+  private follow(dt: number, { couple, seconds, danced }: Dance): boolean {
     const input: FollowInput = {
       view: this.view,
       aspect: this.orbit.aspect,
@@ -214,12 +280,17 @@ export class CameraRig {
       distance: this.orbit.shot.distance,
       fitDistance: fitDistance(couple, this.orbit.aspect),
       mayZoom: !this.ownDistance && this.gestureStart === null && this.view !== 'top',
+      turn: this.turnsByItself && seconds !== this.turnedFor ? this.sideHeading(seconds) - this.heading : 0,
     };
-    const { shift, distance, moving } = this.jumps ? followByJumps(input) : followSmoothly(input, dt, danced);
+    const { shift, distance, turn, moving } = this.jumps
+      ? followByJumps(input)
+      : followSmoothly(input, dt, danced);
     const [x, z] = shift;
     this.tracked.set(this.tracked.x + x, this.tracked.y, this.tracked.z + z);
     this.orbit.translate(x, z);
     if (distance !== null) this.orbit.shot = { ...this.orbit.shot, distance };
+    if (turn !== 0) this.orbit.turn(turn, this.tracked);
+    else this.turnedFor = seconds;
     return moving;
   }
 }
