@@ -107,6 +107,10 @@ const services: Services = {
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
+  showMoment: (measure, seconds) => {
+    playback.loopAround(seconds);
+    stage?.focusOn(MEASURED[measure], seconds);
+  },
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
     openVideoStage: stage && ((size) => openCamera(stage, store, size)),
@@ -164,6 +168,9 @@ void model
     (reference) => apply(store, referenceLoaded(reference)),
     () => undefined,
   );
+
+/** Where on the stage a moment of each measure is seen. */
+const MEASURED = { feet: 'feet', closeness: 'trunks', beats: 'couple', seams: 'couple' } as const;
 
 /** An element of index.html that panels are mounted in. */
 function place(id: string): HTMLElement {

@@ -50,6 +50,12 @@ export function bindStage(stage: Stage, store: Store): () => void {
       (state) => state.camera,
       (camera) => stage.setCamera(camera),
     ),
+    // A detail is shown while its seconds are looped.
+    watch(
+      store,
+      (state) => state.playback.region,
+      () => stage.endFocus(),
+    ),
   );
 }
 

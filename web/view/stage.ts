@@ -191,7 +191,7 @@ export class Stage {
 
   /** Frames both dancers again if the camera still shows a detail. */
   endFocus(): void {
-    this.view.rig.endFocus(this.view.pose(), this.view.time);
+    this.view.rig.endFocus(this.view.pose());
   }
 
   /** How the couple is framed now, for another stage to frame it alike. */

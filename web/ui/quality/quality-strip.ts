@@ -13,8 +13,6 @@ import { type Store, watchAll } from '../store/store';
 import type { Span } from '../store/time-scale';
 
 const PARTS: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
-/** How much before a moment a click jumps while it plays, seconds. */
-const LEAD_IN = 0.5;
 /** Width that a mark takes in a row, CSS pixels. */
 const MARK_WIDTH = 28;
 
@@ -25,7 +23,7 @@ function wholeDance(state: AppState): Span {
 
 /**
  * The quality of the dance along the timeline: a narrow lane for each part, and one of the worst of them, which low
- * windows show instead. The worst moments are numbered; a click jumps there.
+ * windows show instead. The worst moments are numbered; a click plays the seconds around one in a loop.
  * @param root the grid of the timeline's lanes: labels left, lanes right
  * @param visibleSpan the part of the dance that the lanes show
  */
@@ -35,11 +33,9 @@ export function mountQualityStrip(
   services: Services,
   visibleSpan: (state: AppState) => Span = wholeDance,
 ): () => void {
-  const jumpTo = ({ moment }: Mark): void => {
-    const { playback, quality } = store.getState();
-    if (!quality) return;
-    const time = moment.frame / quality.reactor.fps;
-    services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
+  const jumpTo = ({ part, moment }: Mark): void => {
+    const { quality } = store.getState();
+    if (quality) services.showMoment(part, moment.frame / quality.reactor.fps);
   };
   const cards = new InfoCard(root.closest('section') ?? root);
   const partLanes = PARTS.map((part) =>

@@ -1,14 +1,12 @@
-import { coarseIsMissing } from '../generation/coarse-layer';
 import { listen, combineDisposers } from '../widgets/dom';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
-import { OVERLAYS } from './overlay-menu';
-import type { VisibleOverlays } from '../../common/visible-overlays';
+import { OVERLAYS, toggleOverlay } from './overlay-menu';
 import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { problemClosed } from '../store/actions/notices';
-import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
+import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
 import { takeStarred } from '../store/actions/takes';
@@ -137,12 +135,4 @@ function focusFader(label: string): void {
 
 function toggleCamera(store: Store, camera: Camera): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
-}
-
-/** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
-function toggleOverlay(store: Store, what: keyof VisibleOverlays): void {
-  apply(store, overlayToggled(what));
-  const { overlays, openPanel, firstVisit } = store.getState();
-  const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());
-  if (isMissing && openPanel === null && !firstVisit) apply(store, panelToggled('overlays'));
 }

@@ -3,6 +3,7 @@ import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
 import type { StorageUsage } from '../../offline/storage-usage';
+import type { Report } from '../../quality/client';
 import type { LoadedLeader, LoadedSong } from './reaction';
 import type { InputKind } from './state';
 import type { Store } from './store';
@@ -69,6 +70,8 @@ export interface Services {
   readonly togglePlay: () => void;
   /** Jumps to a time in seconds, playing or not. */
   readonly seek: (seconds: number) => void;
+  /** Loops the seconds around a moment that a measure marks, and shows it from where it is seen. */
+  readonly showMoment: (measure: keyof Report, seconds: number) => void;
   /** Frames both dancers in the picture. */
   readonly frameBoth: () => void;
   /** Writes the chosen motion in this format and hands it to the browser's downloads. */

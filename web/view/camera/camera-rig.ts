@@ -44,8 +44,8 @@ export class CameraRig {
   private ownDistance = false;
   /** Whether the person has turned or panned the camera, which then does not turn by itself. */
   private ownHeading = false;
-  /** Whether the camera shows a detail, and not the couple. */
-  private focused = false;
+  /** How the couple was framed before the camera showed a detail; null while it shows none. */
+  private beforeFocus: Framing | null = null;
   private plan: HeadingPlan | null = null;
   /** Moment that the camera last turned for, seconds: a new dance at the same moment does not turn it. */
   private turnedFor = NaN;
@@ -121,16 +121,18 @@ export class CameraRig {
    * @param made 22 x 3 joints of the dancer that was made, at that moment, metres
    */
   focusOn(detail: Detail, made: Float32Array, seconds: number, couple: Couple): void {
+    const before = this.framing(couple);
     this.moveTo(focusShot(detail, made, couple, this.orbit.aspect, this.sideHeading(seconds)));
-    this.tracked.set(couple.x, 0, couple.z);
-    this.ownDistance = true;
-    this.ownHeading = true;
-    this.focused = true;
+    this.track({ ...before, tracked: [0, 0], ownDistance: true, ownHeading: true }, couple);
+    this.beforeFocus = before;
   }
 
-  /** Frames the couple again if the camera still shows a detail. */
-  endFocus(couple: Couple, seconds: number): void {
-    if (this.focused) this.frame(couple, seconds);
+  /** Frames the couple as before the detail that the camera shows, if it still does. */
+  endFocus(couple: Couple): void {
+    const before = this.beforeFocus;
+    if (before === null) return;
+    this.moveTo(reframed(before, couple, this.orbit.aspect));
+    this.track(before, couple);
   }
 
   /** Moves back or closer for a picture of another shape, unless the person chose the distance. */
@@ -138,12 +140,10 @@ export class CameraRig {
     if (this.ownDistance) return this.onChange();
     const { shot } = this.orbit;
     const { distance } = shotOf(this.view, couple, this.orbit.aspect, shot.heading);
-    const { ownHeading } = this;
-    const tracked = this.tracked.clone();
+    const framing = this.framing(couple);
     this.moveTo({ ...shot, distance });
     // The couple has not moved, and a panned view stays relative to it.
-    this.tracked.copy(tracked);
-    this.ownHeading = ownHeading;
+    this.track(framing, couple);
   }
 
   /** Frames dancers who are new on the stage: the first at once, a partner with a move, unless the person moved it. */
@@ -173,13 +173,11 @@ export class CameraRig {
   /** Frames the couple as another rig did. */
   frameAs(framing: Framing, couple: Couple, seconds: number): void {
     this.view = framing.view;
-    this.ownDistance = framing.ownDistance;
-    this.ownHeading = framing.ownHeading;
     this.userMoved = true;
+    this.track(framing, couple);
     const shot = reframed(framing, couple, this.orbit.aspect);
     this.placeAt(shot);
     if (this.turnsByItself) this.placeAt({ ...shot, heading: this.sideHeading(seconds) });
-    this.tracked.set(couple.x + framing.tracked[0], 0, couple.z + framing.tracked[1]);
     this.onChange();
   }
 
@@ -205,6 +203,13 @@ export class CameraRig {
     return this.plan ? nearestSide(this.plan(seconds), this.heading) : this.heading;
   }
 
+  /** Follows the couple from now on as `framing` does. */
+  private track({ tracked: [x, z], ownDistance, ownHeading }: Framing, couple: Couple): void {
+    this.tracked.set(couple.x + x, 0, couple.z + z);
+    this.ownDistance = ownDistance;
+    this.ownHeading = ownHeading;
+  }
+
   private placeAt(shot: Shot): void {
     this.move = null;
     this.orbit.shot = shot;
@@ -213,7 +218,7 @@ export class CameraRig {
   private moveTo(shot: Shot): void {
     this.ownDistance = false;
     this.ownHeading = false;
-    this.focused = false;
+    this.beforeFocus = null;
     this.tracked.set(...shot.target);
     const from = this.orbit.shot;
     const to = { ...shot, heading: nearestAngle(shot.heading, from.heading) };
@@ -233,7 +238,7 @@ export class CameraRig {
   private beginGesture(): void {
     this.move = null;
     this.userMoved = true;
-    this.focused = false;
+    this.beforeFocus = null;
     // When one of two fingers is lifted, the other starts anew: it is all one gesture.
     this.gestureStart ??= this.orbit.shot;
   }
