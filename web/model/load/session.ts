@@ -1,6 +1,7 @@
 /** The only module that uses onnxruntime: three graphs, one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
 import { AppError } from '../../common/error';
+import { loadPart } from '../../common/page-part';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
 import type {
   ConditionInput,
@@ -47,6 +48,9 @@ function enqueue<T>(job: () => Promise<T>): Promise<T> {
 
 type Runtime = typeof ort;
 
+/** Longest time for the runtime's script to come, and for its threads to start, milliseconds. */
+const START_MS = 60_000;
+
 /**
  * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
  * as long there and is twice as large, so each provider has its own and only that one is downloaded.
@@ -56,14 +60,27 @@ async function loadRuntime(
   threads: number,
   wasm?: Uint8Array<ArrayBuffer>,
 ): Promise<Runtime> {
-  const runtime = await (provider === 'wasm'
-    ? import('onnxruntime-web/wasm')
-    : import('onnxruntime-web/webgpu'));
+  const runtime = await loadPart(() =>
+    inTime(provider === 'wasm' ? import('onnxruntime-web/wasm') : import('onnxruntime-web/webgpu')),
+  );
   // Read once, when the first graph is opened.
+  runtime.env.wasm.initTimeout = START_MS;
   runtime.env.wasm.numThreads = threads;
   if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
   runtime.env.logLevel = 'error';
   return runtime;
+}
+
+async function inTime<T>(work: Promise<T>): Promise<T> {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const late = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`nothing for ${START_MS / 1000} seconds`)), START_MS);
+  });
+  try {
+    return await Promise.race([work, late]);
+  } finally {
+    clearTimeout(timer);
+  }
 }
 
 async function open(
@@ -90,7 +107,42 @@ async function open(
   );
 }
 
-async function run(session: ort.InferenceSession, feeds: Tensors): Promise<Arrays> {
+/** A graph, and what is rejected when its GPU is lost; nothing where there is none. */
+interface Opened {
+  readonly session: ort.InferenceSession;
+  readonly loss: Promise<never>;
+}
+
+/** Rejected when the runtime's GPU is lost; it has one when a graph is open. */
+function lossOfGpu(runtime: Runtime): Promise<never> {
+  const loss = runtime.env.webgpu.device
+    .then((device) => device.lost)
+    .then(({ message, reason }) => {
+      throw new AppError(
+        'gpu-lost',
+        `The graphics card stopped working for this page (${message || reason}).`,
+        'Reload the page to try it again, or choose the processor.',
+      );
+    });
+  // Nothing may be running when it is lost.
+  loss.catch(() => undefined);
+  return loss;
+}
+
+/** How long after a failed run the loss of the GPU is waited for, which would explain it, milliseconds. */
+const LOSS_MS = 500;
+
+/** Runs a graph; a lost GPU fails the run at once, which would otherwise never end or end without the reason. */
+async function run({ session, loss }: Opened, feeds: Tensors): Promise<Arrays> {
+  try {
+    return await Promise.race([readAll(session, feeds), loss]);
+  } catch (error) {
+    await Promise.race([loss, new Promise((resolve) => setTimeout(resolve, LOSS_MS))]);
+    throw error;
+  }
+}
+
+async function readAll(session: ort.InferenceSession, feeds: Tensors): Promise<Arrays> {
   const results = await session.run(feeds);
   const arrays: Arrays = {};
   for (const [name, value] of Object.entries(results)) {
@@ -112,7 +164,8 @@ function output(arrays: Arrays, name: string): Float32Array {
  * @param graphs the ONNX files
  * @param threads of the wasm runtime; the first session of a worker decides for all
  * @param wasm the runtime's WebAssembly; without it onnxruntime fetches its own
- * @throws {AppError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
+ * @throws {AppError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads; its runs
+ * throw `gpu-lost`
  */
 export async function openSession(
   manifest: Manifest,
@@ -135,7 +188,9 @@ export async function openSession(
   }
   // Compiled by now: its bytes need not stay in memory.
   delete runtime.env.wasm.wasmBinary;
-  const { condition, step, decode } = sessions as Record<GraphName, ort.InferenceSession>;
+  const loss = provider === 'webgpu' ? lossOfGpu(runtime) : new Promise<never>(() => undefined);
+  const opened = (name: GraphName): Opened => ({ session: sessions[name]!, loss });
+  const [condition, step, decode] = [opened('condition'), opened('step'), opened('decode')];
   const { latent, audio } = manifest;
   const joints = manifest.skeleton.joints.length;
   const tensor = (data: Float32Array | readonly number[], dims: readonly number[]): ort.Tensor =>
