@@ -128,10 +128,10 @@ export class WorkerConnection<T extends Tasks> {
   readonly #worker: Worker;
   readonly #remote: Remote<TaskRunner>;
   readonly #toError: (reason: string) => Error;
-  /** Rejected when the worker ends, so that no call waits for its answer for ever. */
-  readonly #end: Promise<never>;
-  #reject: (error: Error) => void = () => undefined;
-  #ended = false;
+  /** Fail the calls under way when the worker ends, so that none waits for its answer for ever. */
+  readonly #failures = new Set<(error: Error) => void>();
+  /** Why the worker ended; null while it has not. */
+  #end: Error | null = null;
   #calls = 0;
   /** Calls that the worker has not answered, cancelled ones among them. */
   #unanswered = 0;
@@ -149,9 +149,6 @@ export class WorkerConnection<T extends Tasks> {
       () => this.#remote.answer(),
       (seconds) => this.dispose(toError(`no sign of life for ${seconds} seconds`)),
     );
-    this.#end = new Promise((_, reject) => (this.#reject = reject));
-    // Nobody may be waiting when it ends.
-    this.#end.catch(() => undefined);
     worker.addEventListener('error', (event) => {
       event.preventDefault();
       if (event.message) this.dispose(toError(event.message));
@@ -163,7 +160,7 @@ export class WorkerConnection<T extends Tasks> {
 
   /** True after a crash, silence or `dispose`: calls fail. */
   get ended(): boolean {
-    return this.#ended;
+    return this.#end !== null;
   }
 
   /**
@@ -177,6 +174,7 @@ export class WorkerConnection<T extends Tasks> {
     { signal, onReport, transfers = [] }: CallOptions<ReportOf<T[K]>> = {},
   ): Promise<OutputOf<T[K]>> {
     signal?.throwIfAborted();
+    if (this.#end) throw this.#end;
     const id = ++this.#calls;
     let over = false;
     const report = proxy((value: unknown): void => {
@@ -184,21 +182,26 @@ export class WorkerConnection<T extends Tasks> {
       if (!over) onReport?.(value as ReportOf<T[K]>);
     });
     let cancel: () => void = () => undefined;
-    const cancelled = new Promise<never>((_, reject) => {
-      cancel = () => {
-        void this.#remote.cancel(id);
-        reject(signal?.reason as Error);
-      };
-    });
-    signal?.addEventListener('abort', cancel);
+    let fail: (error: Error) => void = () => undefined;
     try {
-      const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
-      this.#watchUntil(call);
-      const outcome = await Promise.race([call, this.#end, cancelled]);
+      // Not a race with a promise that lives as long as the worker: it would hold on to the output of every call.
+      const outcome = await new Promise<Outcome>((resolve, reject) => {
+        fail = reject;
+        cancel = () => {
+          void this.#remote.cancel(id);
+          reject(signal?.reason as Error);
+        };
+        this.#failures.add(fail);
+        signal?.addEventListener('abort', cancel);
+        const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
+        this.#watchUntil(call);
+        call.then(resolve, reject);
+      });
       if (outcome.kind === 'done') return outcome.output as OutputOf<T[K]>;
       throw await explainedByVersion(this.#errorOf(outcome));
     } finally {
       over = true;
+      this.#failures.delete(fail);
       signal?.removeEventListener('abort', cancel);
     }
   }
@@ -206,11 +209,12 @@ export class WorkerConnection<T extends Tasks> {
   /** Expects signs of life until the worker has answered, also where a cancelled call is no longer waited for. */
   #watchUntil(call: Promise<unknown>): void {
     this.#unanswered++;
-    if (!this.#ended) this.#watch.start();
-    void call.then(() => {
+    this.#watch.start();
+    const answered = (): void => {
       this.#watch.hear();
       if (--this.#unanswered === 0) this.#watch.stop();
-    });
+    };
+    call.then(answered, answered);
   }
 
   #errorOf(outcome: Exclude<Outcome, { kind: 'done' }>): Error {
@@ -229,10 +233,10 @@ export class WorkerConnection<T extends Tasks> {
 
   /** Ends the worker; calls under way are rejected with `reason`. */
   dispose(reason: Error = new DOMException('The worker was ended.', 'AbortError')): void {
-    this.#ended = true;
+    this.#end ??= reason;
     this.#watch.stop();
     this.#worker.terminate();
-    this.#reject(reason);
+    for (const fail of this.#failures) fail(this.#end);
   }
 }
 
