@@ -6,6 +6,7 @@ import type { ModelFolder } from './load/download';
 import {
   type CoarseRequest,
   type GenerateRequest,
+  HEIGHTS,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -75,7 +76,7 @@ export interface Generator {
   dispose(): void;
 }
 
-export { secondsNow };
+export { HEIGHTS, secondsNow };
 
 /** A worker with a loaded model. */
 interface LoadedWorker extends Loaded {
