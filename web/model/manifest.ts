@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { FLOOR } from '../motion/bvh/axes-and-units';
+import { FLOOR } from '../motion/retarget/axes-and-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { AppError } from '../common/error';
 
@@ -66,7 +66,7 @@ const schema = v.object({
     feet: v.array(joint),
     /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
     reference_height: height,
-    /** See FLOOR in motion/bvh/axes-and-units.ts. */
+    /** See FLOOR in motion/retarget/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   /** That of every clip on the page. */
