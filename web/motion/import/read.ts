@@ -24,6 +24,18 @@ const READERS: Readonly<Partial<Record<MotionFormat, () => Promise<Reader>>>> = 
     const { readBvh } = await import('./bvh/read');
     return ([file], part) => readBvh(text(file), part);
   },
+  numpy: async () => {
+    const { readNumpy } = await import('./numpy/read');
+    return ([file], part) => readNumpy(file.bytes, file.name, part);
+  },
+  json: async () => {
+    const { readJsonMotion } = await import('./tables/json');
+    return ([file], part) => readJsonMotion(text(file), part);
+  },
+  csv: async () => {
+    const { readCsv } = await import('./tables/csv');
+    return ([file], part) => readCsv(text(file), part);
+  },
 };
 
 /**
