@@ -6,13 +6,15 @@ export type ErrorCode =
   | 'too-long'
   // A motion.
   | 'not-bvh'
+  | 'not-motion'
+  | 'no-motion'
+  | 'missing-file'
   | 'truncated'
   | 'bad-hierarchy'
   | 'bad-number'
   | 'wrong-columns'
   | 'bad-frame-time'
   | 'too-few-frames'
-  | 'several-roots'
   | 'missing-joints'
   | 'not-a-body'
   // A song.

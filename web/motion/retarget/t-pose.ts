@@ -1,9 +1,9 @@
-import { sampleNodes, type NodeMotion } from './sample';
-import type { BvhFile } from './text';
+import { sampleNodes, type NodeMotion, worldPose } from './sample';
+import type { MotionSource } from './source';
 import type { JointMap } from './joint-map';
-import { conjugate, readQuat, rotate } from '../math/quat';
+import { conjugate, type Quat, readQuat, rotate } from '../math/quat';
 import type { JointName } from '../skeleton/skeleton';
-import { add, direction, distance, dot, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
+import { direction, distance, dot, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
 
 /** Frames after the first one with which it is compared, at most and at least. */
 const COMPARED_FRAMES = 32;
@@ -36,16 +36,16 @@ const BONES = SIDES.flatMap((side) => [
  * the transition out of it. 0 unless that is certain: the first pose must be a T-pose or the file's own rest pose, and
  * the step to the second one faster than a body can move. The rule is that of training/data/bvh/rest_pose.py.
  */
-export function restFrames(file: BvhFile, map: JointMap): number {
-  const first = file.frameLines.slice(0, COMPARED_FRAMES + 2);
-  if (first.length < MIN_COMPARED_FRAMES + 2) return 0;
+export function restFrames(source: MotionSource, map: JointMap): number {
+  const first = Math.min(source.frames, COMPARED_FRAMES + 2);
+  if (first < MIN_COMPARED_FRAMES + 2) return 0;
   const nodes = [...map.nodes.values()];
-  const motion = sampleNodes({ ...file, frameLines: first }, nodes, 1, 1);
+  const motion = sampleNodes({ ...source, frames: first }, nodes, 1, 1);
   const place = (node: number, frame: number): Vec3 => readVec(motion.position(node), frame);
   const joint = (name: JointName): Vec3 => place(map.nodes.get(name)!, 0);
-  if (!isTPose(joint, topOf(map)) && !isRestPose(file, map, motion)) return 0;
+  if (!isTPose(joint, topOf(map)) && !isRestPose(source, map, motion)) return 0;
 
-  const frames = [...first.keys()];
+  const frames = [...Array(first).keys()];
   const rootMeanSquare = (value: (node: number) => number): number =>
     Math.sqrt(nodes.reduce((sum, node) => sum + value(node) ** 2, 0) / nodes.length);
   const steps = frames
@@ -105,16 +105,15 @@ function isTPose(at: At, top: JointName): boolean {
 }
 
 /** Whether every limb is as in the file's skeleton without any joint rotation, for any rotation of the hips. */
-function isRestPose(file: BvhFile, map: JointMap, motion: NodeMotion): boolean {
-  const rest: Vec3[] = [];
-  for (const { parent, offset } of file.nodes)
-    rest.push(parent < 0 ? [...offset] : add(rest[parent]!, offset));
-  const hips = file.nodes[map.nodes.get('left_hip')!]!.parent;
+function isRestPose({ joints, rest }: MotionSource, map: JointMap, motion: NodeMotion): boolean {
+  const hips = joints[map.nodes.get('left_hip')!]!.parent;
   if (hips < 0) return false;
-  const inverse = conjugate(readQuat(motion.rotation(hips), 0));
+  const { places, turns } = worldPose(joints, rest, 0);
+  const [now, then] = [readQuat(motion.rotation(hips), 0), turns[hips]!].map(conjugate) as [Quat, Quat];
   return BONES.every((ends) => {
     const [from, to] = ends.map((name) => map.nodes.get(name)!) as [number, number];
-    const bone = rotate(inverse, sub(readVec(motion.position(to), 0), readVec(motion.position(from), 0)));
-    return dot(direction(bone, ZERO), direction(sub(rest[to]!, rest[from]!), ZERO)) > REST_POSE_COSINE;
+    const bone = rotate(now, sub(readVec(motion.position(to), 0), readVec(motion.position(from), 0)));
+    const resting = rotate(then, sub(places[to]!, places[from]!));
+    return dot(direction(bone, ZERO), direction(resting, ZERO)) > REST_POSE_COSINE;
   });
 }

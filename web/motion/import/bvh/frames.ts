@@ -1,6 +1,6 @@
 import type { BvhNode } from './hierarchy';
 import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
-import { AppError } from '../../common/error';
+import { AppError } from '../../../common/error';
 
 /** The frames of a file, checked. */
 interface ReadFrames {

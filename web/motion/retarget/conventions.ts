@@ -1,5 +1,3 @@
-import type { JointName } from '../skeleton/skeleton';
-
 /** Joints of one side of the body, from the trunk outwards. */
 export const LIMB_JOINTS = ['hip', 'knee', 'ankle', 'toe', 'shoulder', 'elbow', 'wrist', 'collar'] as const;
 export type LimbJoint = (typeof LIMB_JOINTS)[number];
@@ -7,7 +5,8 @@ export type LimbJoint = (typeof LIMB_JOINTS)[number];
 /**
  * Skeleton convention: the joint names that a family of programs uses.
  *
- * Names are compared in lower case without prefix, namespace, spaces and punctuation; `*` stands for the side.
+ * Names are compared in lower case without prefix, namespace, spaces and punctuation, whatever the script; `*` stands
+ * for the side.
  */
 export interface SkeletonConvention {
   readonly name: string;
@@ -98,6 +97,155 @@ export const CONVENTIONS: readonly SkeletonConvention[] = [
     head: ['head'],
   },
   {
+    // Humanoid bones of Unity and VRM; VRoid writes J_Bip_L_UpperLeg.
+    name: 'VRM / Unity',
+    sides: [...SIDE_WORDS, ...SIDE_LETTERS],
+    limbs: {
+      hip: ['*upperleg', 'jbip*upperleg'],
+      knee: ['*lowerleg', 'jbip*lowerleg'],
+      ankle: ['*foot', 'jbip*foot'],
+      toe: ['*toes', '*toebase', 'jbip*toebase', '*toe'],
+      shoulder: ['*upperarm', 'jbip*upperarm'],
+      elbow: ['*lowerarm', 'jbip*lowerarm'],
+      wrist: ['*hand', 'jbip*hand'],
+      collar: ['*shoulder', 'jbip*shoulder'],
+    },
+    neck: ['neck', 'jbipcneck'],
+    head: ['head', 'jbipchead'],
+  },
+  {
+    // Unreal's mannequin.
+    name: 'Unreal',
+    sides: SIDE_LETTERS,
+    limbs: {
+      hip: ['thigh*'],
+      knee: ['calf*'],
+      ankle: ['foot*'],
+      toe: ['ball*'],
+      shoulder: ['upperarm*'],
+      elbow: ['lowerarm*'],
+      wrist: ['hand*'],
+      collar: ['clavicle*'],
+    },
+    neck: ['neck01'],
+    head: ['head'],
+  },
+  {
+    // Deform bones of Blender's Rigify, and its metarig.
+    name: 'Rigify',
+    sides: SIDE_LETTERS,
+    limbs: {
+      hip: ['thigh*'],
+      knee: ['shin*'],
+      ankle: ['foot*'],
+      toe: ['toe*'],
+      shoulder: ['upperarm*'],
+      elbow: ['forearm*'],
+      wrist: ['hand*'],
+      collar: ['shoulder*'],
+    },
+    neck: ['spine004', 'neck'],
+    head: ['spine006', 'head'],
+  },
+  {
+    name: 'SOMA',
+    sides: SIDE_WORDS,
+    limbs: { ...HUMAN_IK.limbs, hip: ['*leg'], knee: ['*shin'] },
+    neck: ['neck1'],
+    head: ['head'],
+  },
+  {
+    // Marker-based skeletons of OptiTrack Motive.
+    name: 'OptiTrack',
+    sides: SIDE_LETTERS,
+    limbs: {
+      hip: ['*thigh'],
+      knee: ['*shin'],
+      ankle: ['*foot'],
+      toe: ['*toe'],
+      shoulder: ['*uarm'],
+      elbow: ['*farm'],
+      wrist: ['*hand'],
+      collar: ['*shoulder'],
+    },
+    neck: ['neck'],
+    head: ['head'],
+  },
+  {
+    name: 'Rokoko',
+    sides: SIDE_WORDS,
+    limbs: { ...HUMAN_IK.limbs, hip: ['*thigh'], knee: ['*shin'], toe: ['*toe', '*toebase'] },
+    neck: ['neck'],
+    head: ['head'],
+  },
+  {
+    // Segments of Xsens MVN in FBX.
+    name: 'Xsens',
+    sides: SIDE_WORDS,
+    limbs: {
+      hip: ['*upperleg'],
+      knee: ['*lowerleg'],
+      ankle: ['*foot'],
+      toe: ['*toe'],
+      shoulder: ['*upperarm'],
+      elbow: ['*forearm'],
+      wrist: ['*hand'],
+      collar: ['*shoulder'],
+    },
+    neck: ['neck'],
+    head: ['head'],
+  },
+  {
+    // Joints of Xsens MVN in BVH, and of the first BVH files: the shoulder is the shoulder, not the collar.
+    name: 'Xsens',
+    sides: SIDE_WORDS,
+    limbs: {
+      hip: ['*hip'],
+      knee: ['*knee'],
+      ankle: ['*ankle'],
+      toe: ['*toe'],
+      shoulder: ['*shoulder'],
+      elbow: ['*elbow'],
+      wrist: ['*wrist'],
+      collar: ['*collar'],
+    },
+    neck: ['neck'],
+    head: ['head'],
+  },
+  {
+    // Bones of ASF skeletons; a joint is where its bone begins.
+    name: 'CMU (ASF)',
+    sides: SIDE_LETTERS,
+    limbs: {
+      hip: ['*femur'],
+      knee: ['*tibia'],
+      ankle: ['*foot'],
+      toe: ['*toes'],
+      shoulder: ['*humerus'],
+      elbow: ['*radius'],
+      wrist: ['*wrist'],
+      collar: ['*clavicle'],
+    },
+    neck: ['lowerneck'],
+    head: ['head'],
+  },
+  {
+    name: 'MMD',
+    sides: [['左', '右']],
+    limbs: {
+      hip: ['*足'],
+      knee: ['*ひざ'],
+      ankle: ['*足首'],
+      toe: ['*つま先', '*足先ex'],
+      shoulder: ['*腕'],
+      elbow: ['*ひじ'],
+      wrist: ['*手首'],
+      collar: ['*肩'],
+    },
+    neck: ['首'],
+    head: ['頭'],
+  },
+  {
     name: 'generic names',
     sides: [...SIDE_WORDS, ...SIDE_LETTERS],
     limbs: {
@@ -126,41 +274,3 @@ export const CONVENTIONS: readonly SkeletonConvention[] = [
     head: ['head', 'spine006'],
   },
 ];
-
-/**
- * Names of the 22 joints in files that `writeBvh` writes: those of MotionBuilder's HumanIK, which Blender add-ons, Maya,
- * MotionBuilder and game engines recognise without a mapping by hand.
- */
-export const BVH_NAMES: Readonly<Record<JointName, string>> = {
-  pelvis: 'Hips',
-  left_hip: 'LeftUpLeg',
-  right_hip: 'RightUpLeg',
-  spine1: 'Spine',
-  left_knee: 'LeftLeg',
-  right_knee: 'RightLeg',
-  spine2: 'Spine1',
-  left_ankle: 'LeftFoot',
-  right_ankle: 'RightFoot',
-  spine3: 'Spine2',
-  left_foot: 'LeftToeBase',
-  right_foot: 'RightToeBase',
-  neck: 'Neck',
-  left_collar: 'LeftShoulder',
-  right_collar: 'RightShoulder',
-  head: 'Head',
-  left_shoulder: 'LeftArm',
-  right_shoulder: 'RightArm',
-  left_elbow: 'LeftForeArm',
-  right_elbow: 'RightForeArm',
-  left_wrist: 'LeftHand',
-  right_wrist: 'RightHand',
-};
-
-/** Name of the convention of files that `writeBvh` wrote. */
-export const OWN_CONVENTION = 'ReactDance';
-
-/** Whether these are the names of a file that `writeBvh` wrote: exactly the 22 of `BVH_NAMES`. */
-export function isOwnSkeleton(names: readonly string[]): boolean {
-  const own = Object.values(BVH_NAMES);
-  return names.length === own.length && own.every((name) => names.includes(name));
-}

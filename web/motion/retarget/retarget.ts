@@ -1,6 +1,6 @@
 import { forwardOf } from '../skeleton/heading';
 import type { NodeMotion } from './sample';
-import type { BvhNode } from './hierarchy';
+import type { SourceJoint } from './source';
 import type { JointMap } from './joint-map';
 import { conjugate, IDENTITY, multiply, type Quat, readQuat, rotate } from '../math/quat';
 import { J, type JointName, SMPL22 } from '../skeleton/skeleton';
@@ -39,14 +39,14 @@ export interface Body {
 }
 
 /** The toe joint, or else the end site below the ankle; null where the file has neither. */
-function toeNode(nodes: readonly BvhNode[], map: JointMap, side: (typeof SIDES)[number]): number | null {
+function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: (typeof SIDES)[number]): number | null {
   const ankle = map.nodes.get(`${side}_ankle`)!;
   const end = nodes.findIndex(({ endSite, parent }) => endSite && parent === ankle);
   return map.nodes.get(`${side}_foot`) ?? (end < 0 ? null : end);
 }
 
 /** Nodes whose motion is read from the file. */
-export function nodesOfBody(nodes: readonly BvhNode[], map: JointMap): number[] {
+export function nodesOfBody(nodes: readonly SourceJoint[], map: JointMap): number[] {
   const toes = SIDES.flatMap((side) => toeNode(nodes, map, side) ?? []);
   return [...new Set([...map.nodes.values(), ...map.spine, ...toes])];
 }
@@ -126,7 +126,7 @@ export function measureBody(body: Body, frame: number): { size: number; upright:
 }
 
 /** The body with its toes; a node that lies on the ankle is not taken for one. */
-export function withToes(nodes: readonly BvhNode[], map: JointMap, motion: NodeMotion): Body {
+export function withToes(nodes: readonly SourceJoint[], map: JointMap, motion: NodeMotion): Body {
   const bare: Body = { map, motion, up: IDENTITY, toes: { left: null, right: null } };
   const { size } = measureBody(bare, 0);
   const [left, right] = SIDES.map((side) => {

@@ -1,15 +1,15 @@
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, test } from 'vitest';
-import { readBvh } from '../../../../web/motion/bvh/read';
-import { writeBvh } from '../../../../web/motion/bvh/write';
-import { bodyHeight } from '../../../../web/motion/skeleton/scale';
-import { J, JOINT_COUNT, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
-import { solve } from '../../../../web/motion/fit/ik';
-import { percentile } from '../../../../web/motion/math/statistics';
-import { distance, readVec } from '../../../../web/motion/math/vec3';
+import { leaderBvh } from '../../../support/leader-bvh';
+import { writeBvh } from '../../../../../web/motion/bvh/write';
+import { bodyHeight } from '../../../../../web/motion/skeleton/scale';
+import { J, JOINT_COUNT, SMPL22 } from '../../../../../web/motion/skeleton/skeleton';
+import { solve } from '../../../../../web/motion/fit/ik';
+import { percentile } from '../../../../../web/motion/math/statistics';
+import { distance, readVec } from '../../../../../web/motion/math/vec3';
 
-const folder = fileURLToPath(new URL('../../../../../shared/data/bvh/', import.meta.url));
+const folder = fileURLToPath(new URL('../../../../../../shared/data/bvh/', import.meta.url));
 const present = existsSync(folder);
 const files = present ? readdirSync(folder).filter((name) => name.endsWith('.bvh')) : [];
 const text = (file: string): string => readFileSync(folder + file, 'utf8');
@@ -19,7 +19,7 @@ const trueRate = (file: string) => (file.includes('daz') ? { fps: 60 } : {});
 if (!present) test.skip('recorded dances: real data not present', () => undefined);
 
 describe.each(files)('%s', (file) => {
-  const { clip, report } = readBvh(text(file), trueRate(file));
+  const { clip, report } = leaderBvh(text(file), trueRate(file));
   const motion = solve(clip);
 
   test('is understood', () => {
@@ -43,7 +43,7 @@ describe.each(files)('%s', (file) => {
 
   test('is solved to millimetres, and is the same after writing and reading', () => {
     expect(motion.fitError).toBeLessThan(0.005);
-    const back = readBvh(writeBvh(motion)).clip;
+    const back = leaderBvh(writeBvh(motion)).clip;
     for (let i = 0; i < motion.positions.length / 3; i++) {
       expect(distance(readVec(back.positions, i), readVec(motion.positions, i))).toBeLessThan(1e-4);
     }
@@ -51,15 +51,15 @@ describe.each(files)('%s', (file) => {
 });
 
 test.runIf(present)('the rate that a header states wrongly is noticed', () => {
-  const { report } = readBvh(text('cmu_60_10_daz.bvh'));
+  const { report } = leaderBvh(text('cmu_60_10_daz.bvh'));
   expect(report.sourceFps).toBe(120);
   expect(report.warnings.join()).toMatch(/frame rate of the file \(120\) is wrong/);
-  expect(readBvh(text('cmu_60_10_daz.bvh'), { fps: 60 }).report.warnings).toEqual([]);
+  expect(leaderBvh(text('cmu_60_10_daz.bvh'), { fps: 60 }).report.warnings).toEqual([]);
 });
 
 test.runIf(present)('a T-pose at the beginning is not danced', () => {
   for (const file of files) {
-    const { clip, report } = readBvh(text(file), trueRate(file));
+    const { clip, report } = leaderBvh(text(file), trueRate(file));
     const daz = file.includes('daz');
     expect(report.remarks.join()).toMatch(
       daz ? /^The first frame is a rest pose and is left out, with the 3 after/ : /^$/,
@@ -74,7 +74,7 @@ test.runIf(present)('a T-pose at the beginning is not danced', () => {
 
 test.runIf(present)('leader and reactor of one dance keep their distance', () => {
   const [leader, reactor] = ['cmu_60_10_daz.bvh', 'cmu_61_10_daz.bvh'].map((file) =>
-    readBvh(text(file), { fps: 60 }),
+    leaderBvh(text(file), { fps: 60 }),
   );
   const apart = Array.from({ length: leader!.clip.frames }, (_, frame) => {
     const [a, b] = [leader!, reactor!].map(({ clip }) => readVec(clip.positions, frame * JOINT_COUNT));

@@ -1,25 +1,18 @@
 import { BVHLoader } from 'three/addons/loaders/BVHLoader.js';
 import type { BvhNode } from './hierarchy';
 import type { BvhFile } from './text';
-import { readVec, sub, type Vec3, writeVec } from '../math/vec3';
-
-/** Local transforms of every node in chosen frames. */
-interface BvhPoses {
-  /** frames x nodes x 4, xyzw. */
-  readonly rotations: Float32Array;
-  /** frames x nodes x 3, from the parent, in the file's unit. */
-  readonly translations: Float32Array;
-}
+import type { LocalPoses } from '../../retarget/source';
+import { readVec, sub, type Vec3, writeVec } from '../../math/vec3';
 
 /** Frames that the loader gets at once: it allocates an object per joint and frame, too many for a long file. */
 const CHUNK = 256;
 
 /** The lines of a node and everything below it in the one form that three's loader reads, with unique names. */
 function canonical(nodes: readonly BvhNode[], at: number): string[] {
-  const { endSite, offset, channels, parent } = nodes[at]!;
+  const { endSite, offset, channels } = nodes[at]!;
   const children = nodes.flatMap((node, index) => (node.parent === at ? canonical(nodes, index) : []));
   return [
-    endSite ? 'End Site' : `${parent < 0 ? 'ROOT' : 'JOINT'} j${at}`,
+    endSite ? 'End Site' : `JOINT j${at}`,
     '{',
     `OFFSET ${offset.join(' ')}`,
     ...(endSite ? [] : [`CHANNELS ${channels.length} ${channels.join(' ')}`]),
@@ -42,21 +35,26 @@ function includesOffset(offset: Vec3, values: readonly Vec3[]): boolean {
 /**
  * Local transforms of the nodes in the frames `wanted`, computed by three's BVHLoader from text that has been checked.
  */
-export function readPoses(file: BvhFile, wanted: readonly number[]): BvhPoses {
+export function readPoses(file: BvhFile, wanted: readonly number[]): LocalPoses {
   const { nodes, frameLines } = file;
   const rotations = new Float32Array(wanted.length * nodes.length * 4);
   const translations = new Float32Array(wanted.length * nodes.length * 3);
-  const head = ['HIERARCHY', ...canonical(nodes, 0), 'MOTION'].join('\n');
+  // The loader reads one root: a joint without channels, on which all roots of the file hang.
+  const roots = nodes.flatMap(({ parent }, node) => (parent < 0 ? canonical(nodes, node) : []));
+  const head = ['HIERARCHY', 'ROOT all', '{', 'OFFSET 0 0 0', 'CHANNELS 0', ...roots, '}', 'MOTION'].join(
+    '\n',
+  );
   const moving = nodes.flatMap(({ endSite }, node) => (endSite ? [] : [node]));
   const loader = new BVHLoader();
   for (let first = 0; first < wanted.length; first += CHUNK) {
     const lines = wanted.slice(first, first + CHUNK).map((frame) => frameLines[frame]!);
     const text = `${head}\nFrames: ${lines.length}\nFrame Time: 1\n${lines.join('\n')}`;
     const { tracks } = loader.parse(text).clip;
-    // Two tracks per joint, in the order of the file: position (offset included) and quaternion.
+    // Two tracks per joint after those of the common root, in the order of the file: position (offset included) and
+    // quaternion.
     moving.forEach((node, index) => {
-      const positions = tracks[2 * index]!.values;
-      const quaternions = tracks[2 * index + 1]!.values;
+      const positions = tracks[2 * index + 2]!.values;
+      const quaternions = tracks[2 * index + 3]!.values;
       for (let frame = 0; frame < lines.length; frame++) {
         const at = (first + frame) * nodes.length + node;
         translations.set(positions.subarray(3 * frame, 3 * frame + 3), 3 * at);

@@ -1,8 +1,9 @@
 import { describe, expect, test } from 'vitest';
-import { type LeaderFile, readBvh } from '../../../../web/motion/bvh/read';
-import { J, JOINT_COUNT, type JointName, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
-import { distance, dot, lerp, readVec, sub, type Vec3 } from '../../../../web/motion/math/vec3';
-import { type BodyNames, madeBody, madeBvh, type MadeFile, MIXAMO } from '../../support/made-bvh';
+import type { LeaderFile } from '../../../../../web/motion/retarget/leader';
+import { leaderBvh } from '../../../support/leader-bvh';
+import { J, JOINT_COUNT, type JointName, SMPL22 } from '../../../../../web/motion/skeleton/skeleton';
+import { distance, dot, lerp, readVec, sub, type Vec3 } from '../../../../../web/motion/math/vec3';
+import { type BodyNames, madeBody, madeBvh, type MadeFile, MIXAMO } from '../../../support/made-bvh';
 
 const joint = (file: LeaderFile, frame: number, name: JointName): Vec3 =>
   readVec(file.clip.positions, frame * JOINT_COUNT + J[name]);
@@ -137,8 +138,7 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
     },
   ],
   [
-    // Unreal's mannequin.
-    'generic names',
+    'Unreal',
     {
       root: 'pelvis',
       spine: ['spine_01', 'spine_02', 'spine_03', 'spine_04', 'spine_05'],
@@ -156,8 +156,8 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
     },
   ],
   [
-    // Rigify's deform bones in Blender.
-    'generic names',
+    // Deform bones in Blender.
+    'Rigify',
     {
       root: 'DEF-spine',
       spine: ['DEF-spine.001', 'DEF-spine.002', 'DEF-spine.003'],
@@ -175,8 +175,7 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
     },
   ],
   [
-    // Rokoko.
-    'generic names',
+    'Rokoko',
     {
       root: 'Hips',
       spine: ['Spine', 'Spine2'],
@@ -194,8 +193,8 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
     },
   ],
   [
-    // Xsens and the first BVH files: the shoulder is the shoulder, not the collar.
-    'generic names',
+    // The shoulder is the shoulder, not the collar.
+    'Xsens',
     {
       root: 'Hips',
       spine: ['Chest', 'Chest2'],
@@ -217,7 +216,7 @@ const FAMILIES: readonly (readonly [string, BodyNames])[] = [
 describe('skeleton conventions', () => {
   test.each(FAMILIES)('%s %#', (convention, names) => {
     const made = madeBvh({ joints: madeBody(names) });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.report.convention).toBe(convention);
     expect(file.clip).toMatchObject({ fps: 30, frames: 40 });
     const pairs = pairsOf(names);
@@ -230,12 +229,12 @@ describe('skeleton conventions', () => {
 
   test('finger and twist joints do not change the result', () => {
     const [, names] = FAMILIES[1]!;
-    const plain = readBvh(madeBvh({ joints: madeBody(names), swing: 0 }).text);
+    const plain = leaderBvh(madeBvh({ joints: madeBody(names), swing: 0 }).text);
     const extra = [
       { name: 'CC_Base_L_CalfTwist01', parent: 'CC_Base_L_Calf', offset: [0, -0.1, 0] as const },
       { name: 'CC_Base_L_Index1', parent: 'CC_Base_L_Hand', offset: [0.1, 0, 0] as const },
     ];
-    const rich = readBvh(madeBvh({ joints: [...madeBody(names), ...extra], swing: 0 }).text);
+    const rich = leaderBvh(madeBvh({ joints: [...madeBody(names), ...extra], swing: 0 }).text);
     expect(rich.clip).toEqual(plain.clip);
   });
 });
@@ -249,13 +248,13 @@ describe('units and axes', () => {
     [0.45 / 0.0254, 'CMU units of 5.64 cm'],
   ])('%d units per metre are %s', (unitsPerMetre, unit) => {
     const made = madeBvh({ joints: madeBody(MIXAMO), unitsPerMetre });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.report.unit).toBe(unit);
     expectSame(file, made, pairsOf(MIXAMO));
   });
 
   test('a body that no unit fits is scaled to an adult, with a warning', () => {
-    const file = readBvh(madeBvh({ joints: madeBody(MIXAMO), unitsPerMetre: 1e5 }).text);
+    const file = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), unitsPerMetre: 1e5 }).text);
     expect(file.report.unit).toBe('unknown unit');
     expect(file.report.warnings.join()).toMatch(/scaled/);
     const knee = distance(joint(file, 0, 'left_knee'), joint(file, 0, 'left_ankle'));
@@ -265,14 +264,14 @@ describe('units and axes', () => {
 
   test.each(['y', 'z'] as const)('%s up', (up) => {
     const made = madeBvh({ joints: madeBody(MIXAMO), up });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.report.upAxis).toBe(up);
     expectSame(file, made, pairsOf(MIXAMO));
     expect(joint(file, 0, 'head')[1]).toBeGreaterThan(1.2);
   });
 
   test('the floor is at 0: the toes of standing feet are three centimetres above it', () => {
-    const file = readBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
+    const file = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
     expect(joint(file, 0, 'left_foot')[1]).toBeCloseTo(0.03, 5);
   });
 });
@@ -289,36 +288,36 @@ describe('time', () => {
     ['0.0333667', 1 / 0.0333667],
     ['8.33333e-3', 120],
   ])('a frame time of %s is %d frames per second', (frameTime, fps) => {
-    const { report } = readBvh(madeBvh({ joints: madeBody(MIXAMO), frameTime, frames: 60 }).text);
+    const { report } = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), frameTime, frames: 60 }).text);
     expect(report.sourceFps).toBeCloseTo(fps, 9);
     expect(report.sourceDuration).toBeCloseTo(60 / fps, 9);
   });
 
   test('a long dance is read completely', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frames: 600 });
-    expectSame(readBvh(made.text), made, pairsOf(MIXAMO));
+    expectSame(leaderBvh(made.text), made, pairsOf(MIXAMO));
   });
 
   test('120 frames per second give every fourth frame', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frameTime: '0.00833333', frames: 121 });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.clip.frames).toBe(31);
     expectSame(file, made, pairsOf(MIXAMO), 4);
   });
 
   test('a given frame rate replaces that of the header', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frameTime: '0.00833333', frames: 121 });
-    const file = readBvh(made.text, { fps: 60 });
+    const file = leaderBvh(made.text, { fps: 60 });
     expect(file.report.sourceFps).toBe(60);
     expect(file.clip.frames).toBe(61);
     expectSame(file, made, pairsOf(MIXAMO), 2);
     const broken = made.text.replace('Frame Time: 0.00833333', 'Frame Time: 0');
-    expect(readBvh(broken, { fps: 60 }).clip.frames).toBe(61);
+    expect(leaderBvh(broken, { fps: 60 }).clip.frames).toBe(61);
   });
 
   test('between frames rotations are interpolated, so bones keep their lengths', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), frameTime: '0.1', frames: 12, swing: 60 });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.clip.frames).toBe(34);
     for (let frame = 0; frame < file.clip.frames; frame++) {
       const shin = distance(joint(file, frame, 'left_knee'), joint(file, frame, 'left_ankle'));
@@ -334,22 +333,22 @@ describe('time', () => {
 
   test('frames beyond the stated number are left out, with a warning', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 40 });
-    const { clip, report } = readBvh(text.replace('Frames: 40', 'Frames: 35'));
+    const { clip, report } = leaderBvh(text.replace('Frames: 40', 'Frames: 35'));
     expect(clip.frames).toBe(35);
     expect(report.warnings).toEqual(['5 frames beyond the 35 that the file states were left out.']);
   });
 
   test('a dance at a multiple of its speed raises a warning', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 400, swing: 25 });
-    expect(readBvh(text).report.warnings).toEqual([]);
-    expect(readBvh(text, { fps: 120 }).report.warnings.join()).toMatch(/frame rate of the file \(120\)/);
+    expect(leaderBvh(text).report.warnings).toEqual([]);
+    expect(leaderBvh(text, { fps: 120 }).report.warnings.join()).toMatch(/frame rate of the file \(120\)/);
   });
 });
 
 describe('joints that the file does not have', () => {
   const without = (part: keyof BodyNames, names = MIXAMO): BodyNames =>
     Object.fromEntries(Object.entries(names).filter(([name]) => name !== part)) as unknown as BodyNames;
-  const read = (names: BodyNames): LeaderFile => readBvh(madeBvh({ joints: madeBody(names) }).text);
+  const read = (names: BodyNames): LeaderFile => leaderBvh(madeBvh({ joints: madeBody(names) }).text);
 
   test.each([
     ['collar', ['left_collar', 'right_collar']],
@@ -360,8 +359,8 @@ describe('joints that the file does not have', () => {
     const file = read(without(part));
     expect(file.report.estimated).toEqual(expect.arrayContaining([...made]));
     for (const name of made) expect(file.report.joints[name]).toBeNull();
-    const still = readBvh(madeBvh({ joints: madeBody(without(part)), swing: 0 }).text);
-    const wanted = readBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
+    const still = leaderBvh(madeBvh({ joints: madeBody(without(part)), swing: 0 }).text);
+    const wanted = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), swing: 0 }).text);
     for (const name of made)
       expect(distance(joint(still, 0, name), joint(wanted, 0, name))).toBeLessThan(0.07);
     expect(truth.report.estimated).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
@@ -379,7 +378,7 @@ describe('joints that the file does not have', () => {
       one.name.endsWith('Foot') ? { ...one, end: [0, -0.05, 0.12] as const } : one,
     );
     const made = madeBvh({ joints });
-    const file = readBvh(made.text);
+    const file = leaderBvh(made.text);
     expect(file.report.estimated).not.toContain('left_foot');
     expect(file.report.joints.left_foot).toBe('end of mixamorig:LeftFoot');
     expectSame(file, made, [
@@ -392,7 +391,7 @@ describe('joints that the file does not have', () => {
     const joints = madeBody(MIXAMO).map((one) =>
       one.name.endsWith('ToeBase') ? { ...one, offset: [0, -0.001, 0] as const } : one,
     );
-    const file = readBvh(madeBvh({ joints }).text);
+    const file = leaderBvh(madeBvh({ joints }).text);
     expect(file.report.estimated).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
     expect(file.report.joints.left_foot).toBeNull();
     expect(distance(joint(file, 0, 'left_foot'), joint(file, 0, 'left_ankle'))).toBeGreaterThan(0.08);
@@ -402,12 +401,12 @@ describe('joints that the file does not have', () => {
     'without an end, toes are made ahead of the ankle and turn with it, %s up',
     (up) => {
       const made = madeBvh({ joints: madeBody(without('toe')), up });
-      const file = readBvh(made.text);
+      const file = leaderBvh(made.text);
       expect(file.report.estimated).toEqual(expect.arrayContaining(['left_foot', 'right_foot']));
       const ended = madeBody(without('toe')).map((one) =>
         one.name.endsWith('Foot') ? { ...one, end: [0, -0.05, 0.12] as const } : one,
       );
-      const truth = readBvh(madeBvh({ joints: ended, up }).text);
+      const truth = leaderBvh(madeBvh({ joints: ended, up }).text);
       const foot = (from: LeaderFile, frame: number): Vec3 =>
         sub(joint(from, frame, 'left_foot'), joint(from, frame, 'left_ankle'));
       const angles = Array.from({ length: file.clip.frames }, (_, frame) =>
@@ -415,7 +414,7 @@ describe('joints that the file does not have', () => {
       );
       expect(Math.min(...angles)).toBeGreaterThan(0.9 * 0.099 * 0.13);
       expect(Math.max(...angles) - Math.min(...angles)).toBeLessThan(1e-6);
-      const still = readBvh(madeBvh({ joints: madeBody(without('toe')), up, swing: 0 }).text);
+      const still = leaderBvh(madeBvh({ joints: madeBody(without('toe')), up, swing: 0 }).text);
       const [x, y, z] = joint(still, 0, 'right_ankle');
       const [toeX, toeY, toeZ] = joint(still, 0, 'right_foot');
       expect(toeX).toBeCloseTo(x, 4);
@@ -426,7 +425,7 @@ describe('joints that the file does not have', () => {
 
   test.each([0, 1, 2, 5])('a back of %i joints is divided like the others', (count) => {
     const spine = Array.from({ length: count }, (_, i) => `mixamorig:Spine${i}`);
-    const file = readBvh(madeBvh({ joints: madeBody({ ...MIXAMO, spine }), swing: 0 }).text);
+    const file = leaderBvh(madeBvh({ joints: madeBody({ ...MIXAMO, spine }), swing: 0 }).text);
     const hips = joint(file, 0, 'left_hip')[1];
     const neck = joint(file, 0, 'neck')[1];
     const shares = (['pelvis', 'spine1', 'spine2', 'spine3'] as const).map(
@@ -439,27 +438,66 @@ describe('joints that the file does not have', () => {
 describe('variants of the format', () => {
   test.each(['whole', 'added'] as const)('positions below the root that are %s', (positions) => {
     const made = madeBvh({ joints: madeBody(MIXAMO), positions });
-    expectSame(readBvh(made.text), made, pairsOf(MIXAMO));
+    expectSame(leaderBvh(made.text), made, pairsOf(MIXAMO));
   });
 
   test('line ends, byte order mark, lower case, braces on the line of the name', () => {
     const made = madeBvh({ joints: madeBody(MIXAMO), newline: '\r\n' });
-    expectSame(readBvh('\uFEFF' + made.text), made, pairsOf(MIXAMO));
+    expectSame(leaderBvh('\uFEFF' + made.text), made, pairsOf(MIXAMO));
     const odd = made.text
       .replaceAll(/\r\n(\t*){/g, ' {')
       .replaceAll('OFFSET', 'offset')
       .replaceAll('Zrotation', 'ZROTATION');
-    expectSame(readBvh(odd), made, pairsOf(MIXAMO));
+    expectSame(leaderBvh(odd), made, pairsOf(MIXAMO));
   });
 
-  test('a file with left and right exchanged raises a warning', () => {
+  test('exchanged left and right are put right, with a warning', () => {
     const swapped = { ...MIXAMO, sides: ['Right', 'Left'] as const };
-    const { report } = readBvh(madeBvh({ joints: madeBody(swapped) }).text);
-    expect(report.warnings.join()).toMatch(/left and right/);
+    const made = madeBvh({ joints: madeBody(swapped) });
+    const file = leaderBvh(made.text);
+    expect(file.report.warnings.join()).toMatch(/left and right of this file were exchanged/);
+    expect(file.report.joints.left_knee).toBe('mixamorig:RightLeg');
+    expectSame(file, made, pairsOf(swapped));
   });
 
   test('every joint is in the report', () => {
-    const { report } = readBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
+    const { report } = leaderBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
     expect(Object.keys(report.joints)).toEqual([...SMPL22]);
+  });
+});
+
+describe('several roots', () => {
+  /** One file with the dancers of several: their skeletons after one another, and their frames side by side. */
+  const together = (...texts: string[]): string => {
+    const parts = texts.map((text) => text.split('MOTION\n') as [string, string]);
+    const rows = parts.map(([, motion]) => motion.split('\n').slice(2));
+    const skeletons = parts.map(([skeleton], i) =>
+      i === 0 ? skeleton : skeleton.replace('HIERARCHY\n', ''),
+    );
+    const head = parts[0]![1].split('\n').slice(0, 2);
+    const lines = rows[0]!.map((_, frame) => rows.map((one) => one[frame]!).join(' '));
+    return [`${skeletons.join('')}MOTION`, ...head, ...lines].join('\n');
+  };
+  const prop =
+    'HIERARCHY\nROOT Stick\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION\n';
+  const stick = `${prop}Frames: 40\nFrame Time: 0.0333333\n${'900 900 900\n'.repeat(40)}`;
+  const names = { ...MIXAMO, root: 'mixamorig:Other' };
+
+  test('one of two dancers is chosen', () => {
+    const [a, b] = [
+      madeBvh({ joints: madeBody(MIXAMO) }),
+      madeBvh({ joints: madeBody(names), swing: 22, unitsPerMetre: 100 }),
+    ] as const;
+    const text = together(a.text, b.text);
+    expectSame(leaderBvh(text), a, pairsOf(MIXAMO));
+    const second = leaderBvh(text, { part: 1 });
+    expectSame(second, b, pairsOf(names));
+    expect(second.report).toMatchObject({ part: 1, parts: ['mixamorig:Hips', 'mixamorig:Other'] });
+  });
+
+  test('a prop beside the dancer is left out, before or after it', () => {
+    const made = madeBvh({ joints: madeBody(MIXAMO) });
+    for (const text of [together(made.text, stick), together(stick, made.text)])
+      expectSame(leaderBvh(text), made, pairsOf(MIXAMO));
   });
 });

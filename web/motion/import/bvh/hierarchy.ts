@@ -1,13 +1,9 @@
 import { HINT_EXPORT_AGAIN, numberProblem, numberHint } from './number';
-import { AppError } from '../../common/error';
+import { AppError } from '../../../common/error';
+import type { SourceJoint } from '../../retarget/source';
 
-/** One joint or end site of the hierarchy, in the order of the file. */
-export interface BvhNode {
-  /** Name as written; an end site is named after its parent. */
-  readonly name: string;
-  readonly endSite: boolean;
-  /** Index of the parent node, -1 for the root. */
-  readonly parent: number;
+/** One joint or end site of the hierarchy, in the order of the file; an end site is named after its parent. */
+export interface BvhNode extends SourceJoint {
   readonly offset: readonly [number, number, number];
   /** Channel names in the file's order and usual spelling ('Xposition', 'Zrotation', ...). */
   readonly channels: readonly string[];
@@ -78,13 +74,12 @@ function truncated(tokens: TokenReader): AppError {
 /**
  * Reads the skeleton in lines[0] to lines[end - 1], which begin with HIERARCHY.
  *
- * @throws {AppError} `truncated`, `bad-hierarchy`, `bad-number` or `several-roots`
+ * @throws {AppError} `truncated`, `bad-hierarchy` or `bad-number`
  */
 export function readHierarchy(lines: readonly string[], end: number): BvhNode[] {
   const tokens = new TokenReader(lines, end);
   tokens.next();
   const nodes: BvhNode[] = [];
-  const roots: { name: string; line: number }[] = [];
   const invalid = (what: string): AppError =>
     tokens.peek() === undefined && end === lines.length
       ? truncated(tokens)
@@ -139,20 +134,9 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
 
   while (tokens.peek() !== undefined) {
     if (tokens.peek()!.toUpperCase() !== 'ROOT') throw invalid(`expected ROOT, found "${tokens.peek()!}"`);
-    roots.push({ name: '', line: tokens.line });
     tokens.next();
-    const first = nodes.length;
     readNode(-1, false, 0);
-    roots.at(-1)!.name = nodes[first]!.name;
   }
-  if (roots.length === 0) throw invalid('there is no ROOT');
-  if (roots.length > 1) {
-    const where = roots.map(({ name, line }) => `${name} at line ${line}`).join(', ');
-    throw new AppError(
-      'several-roots',
-      `The file holds ${roots.length} skeletons: ${where}.`,
-      'Export one dancer per file: the leader.',
-    );
-  }
+  if (nodes.length === 0) throw invalid('there is no ROOT');
   return nodes;
 }

@@ -1,7 +1,7 @@
 import { readFrames } from './frames';
 import { type BvhNode, readHierarchy } from './hierarchy';
 import { HINT_EXPORT_AGAIN } from './number';
-import { AppError } from '../../common/error';
+import { AppError } from '../../../common/error';
 
 /** A BVH file in which every number has been checked. */
 export interface BvhFile {
@@ -35,7 +35,7 @@ function headerEntry(
  * frames are used.
  *
  * @throws {AppError} `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
- *   `too-few-frames` or `several-roots`, naming the line, and the joint where there is one
+ *   or `too-few-frames`, naming the line, and the joint where there is one
  */
 export function parseBvhText(text: string): BvhFile {
   const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);

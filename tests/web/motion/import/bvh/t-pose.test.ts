@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { readBvh } from '../../../../web/motion/bvh/read';
-import { type MadeJoint, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
+import { leaderBvh } from '../../../support/leader-bvh';
+import { type MadeJoint, madeBody, madeBvh, MIXAMO } from '../../../support/made-bvh';
 
 const LEFT_OUT = 'The first frame is a rest pose and is left out.';
 const body = madeBody(MIXAMO);
@@ -49,7 +49,7 @@ const before = (text: string, ...frames: readonly (readonly number[])[]): string
 
 describe('a rest pose before the dance is left out', () => {
   const expectLeftOut = (text: string, plain: string): void => {
-    const [read, meant] = [readBvh(text), readBvh(plain)];
+    const [read, meant] = [leaderBvh(text), leaderBvh(plain)];
     expect(read.report.remarks).toEqual([LEFT_OUT]);
     expect(read.report.warnings).toEqual([]);
     expect(read.report.sourceFrames).toBe(60);
@@ -77,7 +77,7 @@ describe('a rest pose before the dance is left out', () => {
     const raised = pose(hanging, [40, 95, 40], { LeftArm: 75, RightArm: -75 });
     expectLeftOut(before(text, raised), text);
     const half = pose(hanging, [40, 95, 40], { LeftArm: 40, RightArm: -40 });
-    expect(readBvh(before(text, half)).report.remarks).toEqual([]);
+    expect(leaderBvh(before(text, half)).report.remarks).toEqual([]);
   });
 
   test('with the fast frames in which a solver moves out of it', () => {
@@ -90,7 +90,7 @@ describe('a rest pose before the dance is left out', () => {
     const [first] = calm as [number[]];
     const rest = pose(body, [90, 95, 100]);
     const way = [0.8, 0.93, 0.99].map((part) => rest.map((value, i) => value + part * (first[i]! - value)));
-    const read = readBvh(withFrames(dance, [rest, ...way, ...calm]));
+    const read = leaderBvh(withFrames(dance, [rest, ...way, ...calm]));
     expect(read.report.remarks).toEqual([
       'The first frame is a rest pose and is left out, with the 2 after it, in which the body jumps from it into the dance.',
     ]);
@@ -99,7 +99,7 @@ describe('a rest pose before the dance is left out', () => {
 });
 
 describe('no frame is left out of a dance', () => {
-  const remarks = (text: string): readonly string[] => readBvh(text).report.remarks;
+  const remarks = (text: string): readonly string[] => leaderBvh(text).report.remarks;
 
   test('that begins in a T-pose, however quickly', () => {
     const rest = pose(body, [0, 95, 18]);

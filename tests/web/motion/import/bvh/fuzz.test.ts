@@ -1,16 +1,16 @@
 import { expect, test } from 'vitest';
-import { AppError } from '../../../../web/common/error';
-import { readBvh } from '../../../../web/motion/bvh/read';
-import { fuzz } from '../../support/hostile/fuzz';
-import { madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
-import { damagedText, MAX_CASE_MS } from '../../support/hostile/mutations';
+import { AppError } from '../../../../../web/common/error';
+import { leaderBvh } from '../../../support/leader-bvh';
+import { fuzz } from '../../../support/hostile/fuzz';
+import { madeBody, madeBvh, MIXAMO } from '../../../support/made-bvh';
+import { damagedText, MAX_CASE_MS } from '../../../support/hostile/mutations';
 
 const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 6 });
 
 function problemOf(bvh: string): AppError {
   const began = performance.now();
   try {
-    readBvh(bvh);
+    leaderBvh(bvh);
   } catch (error) {
     expect(performance.now() - began).toBeLessThan(MAX_CASE_MS);
     if (error instanceof AppError) return error;
@@ -22,7 +22,7 @@ function problemOf(bvh: string): AppError {
 test('a damaged BVH file is read as a possible dance or refused in a sentence', { timeout: 600_000 }, () => {
   const { read, refused } = fuzz(
     (random) => damagedText(text, random),
-    (bvh) => readBvh(bvh).clip,
+    (bvh) => leaderBvh(bvh).clip,
     ({ frames, positions }) => {
       expect(frames).toBeGreaterThan(1);
       expect(positions.every((value) => Math.abs(value) <= 53)).toBe(true);
