@@ -1,7 +1,8 @@
-/** The only module that uses onnxruntime: three graphs, one execution provider, one run at a time. */
+/** The three graphs of a model under onnxruntime: one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
 import { AppError } from '../../common/error';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
+import { loadRuntime, type Provider, type Runtime } from './runtime';
 import type {
   ConditionInput,
   ConditionRunner,
@@ -10,8 +11,6 @@ import type {
   StepInput,
   StepRunner,
 } from '../sample/graphs';
-
-export type Provider = 'webgpu' | 'wasm';
 
 /** The three graphs of a model, ready to run. Calls may overlap; they are run one after the other. */
 export interface ModelSession {
@@ -43,27 +42,6 @@ function enqueue<T>(job: () => Promise<T>): Promise<T> {
   const result = lastJob.then(job);
   lastJob = result.catch(() => undefined);
   return result;
-}
-
-type Runtime = typeof ort;
-
-/**
- * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
- * as long there and is twice as large, so each provider has its own and only that one is downloaded.
- */
-async function loadRuntime(
-  provider: Provider,
-  threads: number,
-  wasm?: Uint8Array<ArrayBuffer>,
-): Promise<Runtime> {
-  const runtime = await (provider === 'wasm'
-    ? import('onnxruntime-web/wasm')
-    : import('onnxruntime-web/webgpu'));
-  // Read once, when the first graph is opened.
-  runtime.env.wasm.numThreads = threads;
-  if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
-  runtime.env.logLevel = 'error';
-  return runtime;
 }
 
 async function open(
