@@ -21,6 +21,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { SOLE } from '../../../../web/view/body/leg';
 import { createMannequin } from './mannequin';
 
 /** A camera that stands still and looks at a point; metres, y up. */
@@ -51,7 +52,10 @@ function studio(): Scene {
   scene.add(sun, new HemisphereLight(0xffffff, 0x8a8378, 1.6));
   const floor = new Mesh(new PlaneGeometry(14, 14), new MeshLambertMaterial({ color: 0xa98a64 }));
   floor.rotateX(-Math.PI / 2);
-  scene.add(floor, new GridHelper(14, 28, 0x7a6348, 0x7a6348));
+  const lines = new GridHelper(14, 28, 0x7a6348, 0x7a6348);
+  // The soles of shoes are below the joints of the toes, which motions have on the floor.
+  floor.position.y = lines.position.y = -SOLE;
+  scene.add(floor, lines);
   return scene;
 }
 

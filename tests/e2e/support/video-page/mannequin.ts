@@ -45,10 +45,11 @@ export async function createMannequin(motion: SolvedMotion, clothed: boolean): P
   const material = new MeshLambertMaterial({ vertexColors: true, color: clothed ? 0xffffff : 0x4b9bd4 });
   const rig = createRig();
   rig.fit(motion.offsets);
-  rig.bind(body.offsets);
   const mesh = new SkinnedMesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.bind(rig.skeleton);
+  // After the mesh's own binding, which takes the pose of the bones for that of the skin.
+  rig.bind(body.offsets);
   const pose = createPose();
   return {
     mesh,
