@@ -36,11 +36,9 @@ export function walker({ seconds, turn, distance }: WalkOptions): SolvedMotion {
   const frames = Math.round(seconds * FPS);
   const place = (time: number): Place => {
     const phase = (2 * Math.PI * time) / seconds;
-    const back = time > seconds / 2;
     // Half a turn at the far end takes a second and a half.
     const half = Math.min(1, Math.max(0, (time - seconds / 2 + 0.75) / 1.5));
     const walkHeading = distance > 0 ? Math.PI * (1 - half) : 0;
-    void back;
     return {
       x: 0,
       z: (-distance * (1 - Math.cos(phase))) / 2,
