@@ -14,6 +14,7 @@ import { BVH_NAMES } from '../motion/bvh/names';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
+import { SOLE } from '../view/body/leg';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
 import { createRig, type Rig } from '../view/dancer/rig';
@@ -74,7 +75,7 @@ function rigAtRest(motion: SolvedMotion, bound: Float32Array): Rig {
   const heights: number[] = [];
   for (let joint = 0; joint < JOINT_COUNT; joint++)
     heights.push((heights[PARENTS[joint] ?? -1] ?? 0) + (motion.offsets[joint * 3 + 1] ?? 0));
-  rig.root.position.set(motion.root[0] ?? 0, -Math.min(...heights), motion.root[2] ?? 0);
+  rig.root.position.set(motion.root[0] ?? 0, SOLE - Math.min(...heights), motion.root[2] ?? 0);
   rig.bones.forEach((bone, joint) => (bone.name = BVH_NAMES[SMPL22[joint] ?? 'pelvis']));
   return rig;
 }
