@@ -95,10 +95,15 @@ export class StageRenderer {
     return this.seconds;
   }
 
-  /** Plans how the camera turns with the couple on the stage, unless it is still the same. */
-  planCamera(): void {
+  /**
+   * Plans how the camera turns with the couple on the stage.
+   *
+   * @param passing whether the dance is one of many that pass by, for which a camera that has a plan keeps it
+   */
+  planCamera(passing: boolean): void {
     const { couple } = this.contents.dancers;
-    if (couple?.[0] === this.planned?.[0] && couple?.[1] === this.planned?.[1]) return;
+    const same = couple?.filter((motion, i) => motion === this.planned?.[i]).length ?? 0;
+    if (same === 2 || (same === 1 && passing)) return;
     this.planned = couple;
     this.rig.setPlan(couple && planHeading(...couple));
   }

@@ -98,7 +98,8 @@ export class Stage {
       if (motion !== undefined) dancers.setMotion(role, motion, crossfade);
     }
     this.view.invalidatePose();
-    this.view.planCamera();
+    // Only the dancer moves while the settings do, never the camera.
+    this.view.planCamera(!crossfade);
     const couple = this.view.pose();
     if (dancers.present > before) {
       this.view.rig.frameNewcomers(couple, this.view.time, before === 0);

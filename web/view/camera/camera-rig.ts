@@ -14,14 +14,10 @@ import {
   type View,
 } from './framing';
 import { OrbitCamera } from './orbit-camera';
+import { gestureBetween, shotBetween } from './shot-change';
 
 /** Seconds that a move from one shot to another takes. */
 const MOVE_SECONDS = 0.6;
-/** Change of distance during a gesture from which on it counts as zooming, metres. */
-const ZOOMED = 0.01;
-/** Change of an angle (radians) or of the target (metres) from which on it counts as turning or panning. */
-const DRAGGED = 0.005;
-
 /** What a camera follows at one moment of the dance. */
 interface Dance {
   readonly couple: Couple;
@@ -29,9 +25,6 @@ interface Dance {
   /** Whether the couple has moved since the last frame. */
   readonly danced: boolean;
 }
-
-/** Cubic ease-in and ease-out of 0 to 1. */
-const easeInOut = (t: number): number => (t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2);
 
 /** The camera of the stage: its views, moves between them, the person's gestures, and following the couple. */
 export class CameraRig {
@@ -243,35 +236,18 @@ export class CameraRig {
     this.gestureStart ??= this.orbit.shot;
   }
 
-  /** Zooming is told apart from turning and panning by the distance. */
   private endGesture(): void {
     if (this.gestureStart === null) return;
-    const [before, after] = [this.gestureStart, this.orbit.shot];
-    const zoomed = Math.abs(after.distance - before.distance) > ZOOMED;
-    const turned = Math.hypot(after.heading - before.heading, after.elevation - before.elevation) > DRAGGED;
-    const panned = Math.hypot(...after.target.map((value, axis) => value - before.target[axis]!)) > DRAGGED;
+    const { zoomed, dragged } = gestureBetween(this.gestureStart, this.orbit.shot);
     if (zoomed) this.ownDistance = true;
-    // Zooming to the pointer moves the target too.
-    if (turned || (panned && !zoomed)) this.ownHeading = true;
+    if (dragged) this.ownHeading = true;
     this.gestureStart = null;
   }
 
   /** Goes on with a move; always true, so that the frame after the last step is drawn too. */
   private glide(move: NonNullable<CameraRig['move']>, dt: number): true {
     move.done = Math.min(1, move.done + dt / MOVE_SECONDS);
-    const t = easeInOut(move.done);
-    const { from, to } = move;
-    const between = (a: number, b: number): number => a + (b - a) * t;
-    this.orbit.shot = {
-      target: [
-        between(from.target[0], to.target[0]),
-        between(from.target[1], to.target[1]),
-        between(from.target[2], to.target[2]),
-      ],
-      distance: between(from.distance, to.distance),
-      heading: between(from.heading, to.heading),
-      elevation: between(from.elevation, to.elevation),
-    };
+    this.orbit.shot = shotBetween(move.from, move.to, move.done);
     if (move.done === 1) this.move = null;
     return true;
   }
