@@ -131,7 +131,7 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeHidden();
     const letter = page.getByRole('button', { name: `Use ${older} as B` });
     await expect(letter).toBeDisabled();
-    await expect(letter).toHaveAccessibleDescription('Dances the other part.');
+    await expect(letter).toHaveAccessibleDescription('This take dances the other role.');
     await page.getByRole('spinbutton', { name: 'Seed' }).fill('78');
     await page.keyboard.press('Enter');
     await app.until(({ takes, job }) => takes.length === 4 && !job);

@@ -152,9 +152,9 @@ test('the song is shifted by dragging, by keys and by the suggestion, and the re
     await align.click();
     expect(await shift()).toBe(frames);
     await expect(align).toBeHidden();
-    await expect(page.getByText('no better shift')).toBeVisible();
+    await expect(page.getByText('timing fits')).toBeVisible();
     await app.until(({ reaction, shift }) => reaction?.inputs.shift === shift);
-    await page.getByRole('button', { name: /^Song shift .*put it back/ }).click();
+    await page.getByRole('button', { name: /^Song shift .*move it back/ }).click();
     expect(await shift()).toBe(0);
   });
 

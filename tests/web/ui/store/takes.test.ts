@@ -343,11 +343,11 @@ describe('A and B', () => {
     expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
     page.arrive();
     const [take] = page.state.takes.filter(({ id }) => id === page.id('Take 1'));
-    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('Dances the other part.');
+    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('This take dances the other role.');
     page.do(edit.letterGiven(page.id('Take 1'), 'B'));
     expect(page.state.other).toBeNull();
     const [alone] = page.state.takes.filter(({ id }) => id === page.id('Take 4'));
-    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
+    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare with.');
   });
 
   it('are not drawn while another leader is there', () => {
