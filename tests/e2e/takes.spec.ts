@@ -110,6 +110,19 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
     await compare.getByRole('radio', { name: 'A' }).click();
     await expect(take(page, 'Softer hands')).toHaveAttribute('aria-selected', 'true');
+    // Tab flips only after a click on the stage, and with Shift leaves it.
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    const picture = page.locator('.picture');
+    await picture.focus();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    await expect(picture).toBeFocused();
+    await page.keyboard.press('Shift+Tab');
+    await expect(picture).not.toBeFocused();
+    await page.evaluate('document.activeElement.blur()');
   });
 
   await test.step('delete, undo and redo', async () => {

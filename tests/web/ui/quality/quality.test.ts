@@ -136,7 +136,7 @@ describe('what is shown', () => {
     expect(words.feet.value).toMatch(/^\d+ %$/);
     expect(words.feet.sentence).toContain('(recorded dancers: 33 %)');
     expect(words.feet.sentence).toMatch(
-      /of the dance \(recorded dancers: 48 %\) and move \d\.\d\d m\/s then\.$/,
+      /of the dance \(recorded dancers: 48 %\) and move at \d\.\d\d m\/s there\.$/,
     );
     expect(words.closeness).toEqual({
       value: '1.00 m',
