@@ -24,7 +24,7 @@ export interface Figures {
 
 const FIELD_OF_VIEW = 22;
 /** The middle of what is seen, the eye, and the height of the picture there, metres. */
-const [TARGET_HEIGHT, EYE_HEIGHT, VIEW_HEIGHT] = [0.86, 1.15, 2];
+const [TARGET_HEIGHT, EYE_HEIGHT, VIEW_HEIGHT] = [0.84, 1.15, 1.9];
 /** Time between two looks whether a picture is finished, milliseconds. */
 const POLL_MS = 4;
 

@@ -8,7 +8,7 @@ import type { Services } from '../store/services';
 import type { AppState, Variation } from '../store/state';
 
 /** From how far beside their front the dancers are seen, radians. */
-const TO_THE_SIDE = 0.45;
+const TO_THE_SIDE = 0.6;
 
 /** Frames by the variations that differ most in them. */
 const frames = new WeakMap<readonly Variation[], number>();
