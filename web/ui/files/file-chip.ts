@@ -10,7 +10,7 @@ import { watchAll, type Store } from '../store/store';
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
 /** Which files can be chosen. */
-const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a BVH file' } as const;
+const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a motion file' } as const;
 
 /** The song's or the leader's chip in the bar: its name, below it what it is, and a click chooses another one. */
 export function mountFileChip(

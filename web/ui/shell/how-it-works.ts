@@ -57,7 +57,7 @@ export function howItWorks(): HTMLElement {
       'ul',
       {},
       item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances in silence.'),
-      item('Leader', 'a BVH file of one whole body. The dance is as long as the leader.'),
+      item('Leader', 'a BVH file, or joints as NPZ, NPY, JSON or CSV. The dance is as long as the leader.'),
     ),
     el('h3', { text: 'Where a leader comes from' }),
     el(

@@ -58,6 +58,7 @@ function filled(): change.Store {
   change.apply(store, change.guidanceSet('coarse', 1.2));
   react(2);
   change.apply(store, change.seedSet(99));
+  change.apply(store, change.heightSet(1.7));
   react(3);
   change.apply(store, takeStarred('t1'));
   change.apply(store, takeRenamed('t2', 'Softer hands'));
@@ -69,8 +70,8 @@ function filled(): change.Store {
 
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
-  leader: ({ name, label, text, fps }) =>
-    Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+  leader: ({ name, label, files, options }) =>
+    Promise.resolve({ name, label, files, options, file: leaderFile(60), motion: still(60) }),
 };
 
 function empty(): change.Store {
@@ -233,6 +234,7 @@ describe('a part that cannot be read any more', () => {
       steps: 10,
       seed: 5,
       role: 'reactor',
+      height: null,
     });
   });
 });
