@@ -144,7 +144,7 @@ describe('what is shown', () => {
       sentence: 'At their closest the hips of the two are 1.00 m apart. The bodies never overlap.',
     });
     expect(words.beats.value).toMatch(/^– \d\.\d\d$/);
-    expect(words.beats.sentence).toContain('no beats of the music');
+    expect(words.beats.sentence).toContain('No beats of the music');
     expect(words.seams.sentence).toContain('blocks of 8 s');
     const slide = { kind: 'slide' as const, frame: 753, value: 0.714, severity: 2 };
     expect(momentLabel(slide, 30)).toBe('Foot slide, 0.71 m/s at 0:25.1');
