@@ -9,6 +9,7 @@ import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, shiftForFirstVisit } from './stage-binding';
+import { createFigures } from './view/figures';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
@@ -104,6 +105,7 @@ const services: Services = {
     variations.cancel();
   },
   makeVariations: variations.make,
+  drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
@@ -186,6 +188,8 @@ function openStage(host: HTMLElement): Stage | null {
   const picture = document.createElement('div');
   picture.className = 'picture';
   picture.setAttribute('role', 'img');
+  // A click gives it the focus, so that keys go to the stage; Tab passes it by.
+  picture.tabIndex = -1;
   picture.setAttribute('aria-label', 'Leader in blue and reactor in orange, dancing');
   host.append(picture);
   try {

@@ -143,7 +143,7 @@ test.describe('the model', () => {
     await app.openWithoutPicture('/?model=/models/tiny/manifest.json');
     await app.until(({ model }) => model.phase === 'ready');
     expect(await app.read(({ model }) => model.phase === 'ready' && model.backend)).toBe('wasm');
-    await expect(page.getByRole('banner')).toContainText('WebAssembly');
+    await expect(page.getByRole('banner')).toContainText('Processor');
     await expect(page.getByRole('complementary')).toContainText(/WebGPU/);
     await expectStillGenerates(app);
   });

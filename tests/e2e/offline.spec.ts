@@ -13,7 +13,7 @@ async function serviceWorkerReady(page: Page): Promise<void> {
 }
 
 async function openCard(page: Page): Promise<Locator> {
-  await page.getByRole('banner').getByRole('button', { name: 'WebAssembly' }).click();
+  await page.getByRole('banner').getByRole('button', { name: 'Processor' }).click();
   return page.getByRole('dialog', { name: 'On this device' });
 }
 

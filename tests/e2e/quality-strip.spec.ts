@@ -23,6 +23,12 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
 
   const mark = timeline.getByRole('button', { name: /^1\. .* (at|around) 0:\d\d\.\d$/ });
   await expect(mark).toHaveText('1');
+  // No alarm before someone looks at the strip.
+  await expect(mark).toHaveCSS('opacity', '0');
+  await feet.hover();
+  await expect(mark).toHaveCSS('opacity', '1');
+  await page.mouse.move(400, 5);
+  await expect(mark).toHaveCSS('opacity', '0');
   const [, seconds = ''] = /0:(\d\d\.\d)$/.exec((await mark.getAttribute('aria-label')) ?? '') ?? [];
   expect(await app.read(({ playback }) => playback.time)).not.toBeCloseTo(Number(seconds), 0);
   await mark.click();

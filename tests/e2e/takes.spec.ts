@@ -110,6 +110,19 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
     await compare.getByRole('radio', { name: 'A' }).click();
     await expect(take(page, 'Softer hands')).toHaveAttribute('aria-selected', 'true');
+    // Tab flips only after a click on the stage, and with Shift leaves it.
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    const picture = page.locator('.picture');
+    await picture.focus();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    await expect(picture).toBeFocused();
+    await page.keyboard.press('Shift+Tab');
+    await expect(picture).not.toBeFocused();
+    await page.evaluate('document.activeElement.blur()');
   });
 
   await test.step('delete, undo and redo', async () => {
@@ -131,7 +144,7 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeHidden();
     const letter = page.getByRole('button', { name: `Use ${older} as B` });
     await expect(letter).toBeDisabled();
-    await expect(letter).toHaveAccessibleDescription('Dances the other part.');
+    await expect(letter).toHaveAccessibleDescription('This take dances the other role.');
     await page.getByRole('spinbutton', { name: 'Seed' }).fill('78');
     await page.keyboard.press('Enter');
     await app.until(({ takes, job }) => takes.length === 4 && !job);

@@ -58,7 +58,7 @@ function checkSamples(samples: Float32Array, sampleRate: number): void {
   if (wrong < 0) return;
   throw new AppError(
     'not-audio',
-    `The song is damaged at ${(wrong / sampleRate).toFixed(2)} seconds: a sample there is no loudness of a sound.`,
+    `The song is damaged at ${(wrong / sampleRate).toFixed(2)} seconds: what is there is not sound.`,
     'Open it in a sound editor and save it again, or choose another file.',
   );
 }

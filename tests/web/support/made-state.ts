@@ -52,7 +52,7 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
 
 export function leader(
   frames: number,
-  name = 'lead_0412.bvh',
+  name = 'leader_0412.bvh',
   warnings: string[] = [],
   remarks: string[] = [],
 ): LoadedLeader {

@@ -145,7 +145,7 @@ function videoText(plan: Plan, state: AppState): string {
   const saved = savedVideo(plan, state);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
-  const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as framed';
+  const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as you see it';
   return `${container}${pace}`;
 }
 

@@ -8,7 +8,7 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     'div',
     { class: 'drop-overlay', attributes: { 'aria-hidden': 'true' } },
     el('b', { text: 'Drop it anywhere' }),
-    el('span', { text: 'A song, a leader as BVH, or both at once; a project; a model as a folder' }),
+    el('span', { text: 'A song, a leader (BVH), or both. A project, or the folder of a model' }),
   );
   overlay.hidden = true;
   root.append(overlay);

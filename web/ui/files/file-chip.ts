@@ -10,7 +10,7 @@ import { watchAll, type Store } from '../store/store';
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
 /** Which files can be chosen. */
-const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a BVH file' } as const;
+const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a motion file' } as const;
 
 /** The song's or the leader's chip in the bar: its name, below it what it is, and a click chooses another one. */
 export function mountFileChip(
@@ -54,9 +54,7 @@ export function mountFileChip(
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
     // Contains the visible text, so that speech control finds the button by it.
-    const what = content.name
-      ? `${title}: ${content.name} ${content.details}`
-      : `No ${side} yet`;
+    const what = content.name ? `${title}: ${content.name} ${content.details}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
   return combineDisposers(
@@ -76,8 +74,7 @@ interface ChipContent {
 
 function describe(state: AppState, side: InputKind): ChipContent {
   const reading = state.reading[side];
-  if (reading)
-    return { name: reading.name, details: 'reading', refused: false, fraction: reading.fraction };
+  if (reading) return { name: reading.name, details: 'reading', refused: false, fraction: reading.fraction };
   const refused = state.problem?.refused;
   if (refused?.kind === side)
     return { name: refused.name, details: 'not used', refused: true, fraction: null };

@@ -97,7 +97,7 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Skeleton', report.convention),
     ...fact('Joints', jointText(report)),
-    ...fact('Space', `${report.unit}, ${report.upAxis} up`),
+    ...fact('Units', `${report.unit}, ${report.upAxis} up`),
   ];
 }
 
@@ -136,7 +136,7 @@ function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElemen
     ...fact('Height', heightText(motion, inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
-      ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)
+      ? fact('Bones', `constant length, ${millimetres(motion.fitError)} off the model’s joints`)
       : []),
   ];
 }

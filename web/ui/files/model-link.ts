@@ -47,7 +47,7 @@ export function createModelLink(
     else apply(store, modelChanged(stateOf(status)));
   };
   const load = async (): Promise<Generator> => {
-    apply(store, modelChanged({ phase: 'loading', label: 'Asking for the model', received: 0, total: 0 }));
+    apply(store, modelChanged({ phase: 'loading', label: 'Finding the model', received: 0, total: 0 }));
     // Other downloads may still report progress after one has failed.
     let failed = false;
     try {
@@ -112,7 +112,7 @@ function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): Mode
       return preparing('Opening the model');
     case 'check':
     case 'checked':
-      return preparing('Checking its numbers');
+      return preparing('Checking the model');
     case 'warm-up':
       return preparing('Warming up');
     case 'ready': {

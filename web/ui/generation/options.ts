@@ -149,7 +149,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
       );
       button.title = making
         ? 'Make no more'
-        : 'Try several seeds, make the three reactions that differ most, and pick one';
+        : 'Makes three reactions that differ as much as possible, for you to pick from';
     },
   };
 }
@@ -161,11 +161,11 @@ function canGenerate(state: AppState): boolean {
 
 function generateTitle(state: AppState): string {
   if (!state.leader)
-    return state.reading.leader ? 'Reading the leader' : 'Needs a leader; a song is optional.';
+    return state.reading.leader ? 'Reading the leader' : 'Choose a leader first. A song is optional.';
   if (state.job) return 'The reaction is being made.';
   if (state.reading.song) return 'Reading the song';
   if (!upToDate(state)) return state.reaction ? 'The settings have changed since.' : 'Ready.';
   return state.seedLocked
-    ? 'Makes the same again: the seed is locked.'
-    : 'Another reaction, with a new seed. Changed settings take effect by themselves.';
+    ? 'The seed is locked, so this makes the same reaction again.'
+    : 'Makes another reaction, with a new seed.';
 }

@@ -30,14 +30,14 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
     el('p', {
       class: 'intro',
-      text: 'Your browser dances the reacting partner and shows both in 3D.',
+      text: 'Your browser makes the dance partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
       fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
-      fileChoice(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
+      fileChoice(services, 'leader', 'Leader', 'one dancer’s motion as BVH', 'Choose a motion'),
     ),
     steps(opensHowItWorks('Where from?', 'link')),
     el(
@@ -78,9 +78,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
 
 function demoText(state: AppState): string {
   if (state.demo === 'loading') return 'Loading the demo';
-  if (state.demo === 'missing') return 'The demo is not here. Your own files work.';
+  if (state.demo === 'missing') return 'The demo could not be loaded. Your own files work.';
   const length = duration(danceDuration(state));
-  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
+  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is being made`;
 }
 
 function fileChoice(

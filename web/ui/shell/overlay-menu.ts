@@ -187,6 +187,6 @@ function ghostNote(state: AppState): string {
 
 function missingText({ label }: Reaction): string {
   return label === null
-    ? 'This take was made by another model, or kept without its layers.'
-    : `The ${label} came ready-made, without its layers.`;
+    ? 'This take was made by another model, or stored without its coarse layer.'
+    : `The ${label} has no coarse layer to show.`;
 }

@@ -122,7 +122,7 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
   }
 }
 
-/** The label of the button that closes the dialog. It names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+/** The label of the button that closes the dialog. It names the files that stay: `Keep leader_0412.bvh`, or song and leader where the file could have been either. */
 export function dismissLabel(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
   if (!problem.refused) return 'Close';
   const { kind } = problem.refused;

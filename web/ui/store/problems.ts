@@ -113,7 +113,7 @@ export function coarseProblem(error: unknown): Problem {
   return (
     versionProblem(error) ?? {
       code: explained ? error.code : 'coarse-failed',
-      title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
+      title: explained ? error.message : 'The coarse layer of this reaction could not be shown.',
       hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
       remedy: 'generate',
       refused: null,
@@ -170,8 +170,8 @@ export function dropProblem(error: unknown): Problem {
   return {
     code: 'drop-unreadable',
     title: forbidden
-      ? 'The browser may not read what was dropped.'
-      : 'What was dropped could not be read to its end.',
+      ? 'The browser is not allowed to read what was dropped.'
+      : 'Not everything that was dropped could be read.',
     hint: 'Check that it is still there and that you may open it, copy it to a folder of your own, and drop it again.',
     remedy: 'any-file',
     refused: null,
@@ -181,7 +181,7 @@ export function dropProblem(error: unknown): Problem {
 export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
-    title: 'There is no file in what was dropped.',
+    title: 'Nothing that was dropped is a file.',
     hint: 'Drop a song, a leader’s motion file, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
@@ -202,7 +202,7 @@ export function emptyFileProblem(name: string): Problem {
   return {
     code: 'empty-file',
     title: `${name} is empty.`,
-    hint: 'The file has no bytes; the copy or download may have failed. Choose it again from its source.',
+    hint: 'The copy or download may have failed. Copy or download it again.',
     remedy: 'any-file',
     refused: { kind: null, name },
   };

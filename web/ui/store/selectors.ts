@@ -95,7 +95,7 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
         ? `waiting for the model, ${bytesOf(model.received, model.total)}`
         : 'waiting for the model';
     case 'condition':
-      return 'listening and watching';
+      return 'reading song and leader';
     case 'step':
       return stepText(job, settings?.steps ?? job.total);
   }
@@ -115,7 +115,7 @@ export function lengthNote({
 }: Pick<AppState, 'song' | 'leader' | 'shift' | 'reading'>): string | null {
   if (!leader || reading.song) return null;
   const dance = leader.file.clip.frames / leader.file.clip.fps;
-  if (!song) return 'No song: the partner dances to silence.';
+  if (!song) return 'No song: the couple dances in silence.';
   const end = song.data.duration + shift / leader.file.clip.fps;
   const rest = dance - end;
   if (rest > 0.5) return `The song ends at ${duration(end)}; silence follows to the end of the dance.`;
@@ -144,8 +144,8 @@ export interface Note {
 }
 
 const UNFAMILIAR =
-  'This leader dances unlike all that the model has learned from. The partner answers in the style it knows, and may ' +
-  'move oddly.';
+  'This leader moves unlike the dancers that the model learned from. The partner answers in the style it knows and ' +
+  'may look odd.';
 
 /** Whether the reaction on the stage is to a leader unlike those that the model was trained on. */
 function isUnfamiliar({ reaction, manifest }: AppState): boolean {
@@ -159,7 +159,7 @@ function fileNotes(state: AppState): Note[] {
   const length = lengthNote(state);
   if (length) list.push({ text: length, isWarning: false });
   if (song?.data.silent)
-    list.push({ text: 'The song is silent: it carries no beat to dance to.', isWarning: true });
+    list.push({ text: 'The song is silent: there is no beat to dance to.', isWarning: true });
   else if (song && song.data.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', isWarning: true });
   if (isUnfamiliar(state)) list.push({ text: UNFAMILIAR, isWarning: true });

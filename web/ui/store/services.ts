@@ -2,11 +2,12 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { StorageUsage } from '../../offline/storage-usage';
 import type { Report } from '../../quality/client';
-import type { LeaderSource, LoadedLeader, LoadedSong } from './reaction';
+import type { LeaderSource, LoadedLeader, LoadedSong, Role } from './reaction';
 import type { ImportOptions } from '../../motion/retarget/options';
-import type { InputKind } from './state';
+import type { InputKind, Theme } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
@@ -45,6 +46,15 @@ export interface Files {
   readonly readLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
 }
 
+/** A dancer alone in one moment, seen from a direction (radians about y, 0 looks from +z). */
+export interface Figure {
+  readonly motion: SolvedMotion;
+  readonly seconds: number;
+  readonly role: Role;
+  readonly heading: number;
+  readonly theme: Theme;
+}
+
 /** Actions with effects that panels start. The state itself they change through the store. */
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
@@ -62,6 +72,8 @@ export interface Services {
   readonly cancel: () => void;
   /** Generates three reactions that differ in their seed; where there are three already, three others. */
   readonly makeVariations: () => void;
+  /** Draws a dancer into a canvas, or clears it, as soon as it can; null where the browser can draw no 3D picture. */
+  readonly drawFigure: ((canvas: HTMLCanvasElement, figure: Figure | null) => void) | null;
   /** Shows the one with this seed on the stage. */
   readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */

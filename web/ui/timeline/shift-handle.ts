@@ -32,7 +32,7 @@ export class ShiftHandle {
       role: 'slider',
       tabindex: 0,
       'aria-label': 'Song shift',
-      title: 'Drag to shift the song against the leader, double click to put it back; a click jumps here',
+      title: 'Drag to move the song in time, double click to move it back. A click jumps here',
     },
   });
   readonly text = el('div', { class: 'shift-text', attributes: { 'aria-hidden': 'true' } });

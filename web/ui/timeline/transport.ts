@@ -156,7 +156,7 @@ function createSpeedMenu(store: Store): Control {
 }
 
 function createLoopButton(store: Store): Control<HTMLButtonElement> {
-  const title = 'Start over at the end; drag on the ruler to loop a part (L)';
+  const title = 'Play again from the start at the end (L). Drag on the ruler to loop a part';
   const element = iconButton('icon', 'loop', { label: 'Loop', title }, () => {
     apply(store, playbackSet({ loop: !store.getState().playback.loop }));
   });

@@ -54,7 +54,7 @@ function filled(): change.Store {
     store,
     change.songLoaded({ ...song(4), file: new Blob(['ID3 song'], { type: 'audio/mpeg' }) }),
   );
-  change.apply(store, change.leaderLoaded(leader(60, 'lead_0412.bvh')));
+  change.apply(store, change.leaderLoaded(leader(60, 'leader_0412.bvh')));
   change.apply(store, change.guidanceSet('coarse', 1.2));
   react(2);
   change.apply(store, change.seedSet(99));
@@ -123,7 +123,7 @@ describe('a project', () => {
   it('holds files that other programs open', async () => {
     const files = unzipSync(await writeProject(storedProject(filled().getState())));
     expect(Object.keys(files).sort()).toEqual([
-      'leaders/1-lead-0412.bvh',
+      'leaders/1-leader-0412.bvh',
       'leaders/2-fruher.bvh',
       'project.json',
       'songs/1-descarga.mp3',
@@ -207,7 +207,7 @@ describe('a part that cannot be read any more', () => {
     });
     expect(content.takes?.map(takeTitle)).toEqual(['Take 3', 'Softer hands']);
     expect(losses).toEqual(['The leader früher.bvh could not be read again; its take is left out.']);
-    expect(content.leader?.name).toBe('lead_0412.bvh');
+    expect(content.leader?.name).toBe('leader_0412.bvh');
   });
 
   it('leaves its takes when it is a song', async () => {

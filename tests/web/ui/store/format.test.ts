@@ -51,7 +51,7 @@ describe('formatted numbers', () => {
 
   it('makes file names that every system takes', () => {
     expect(slug('Descarga en Ré.mp3', 'song')).toBe('descarga-en-re');
-    expect(slug('lead_0412.bvh', 'leader')).toBe('lead-0412');
+    expect(slug('leader_0412.bvh', 'leader')).toBe('leader-0412');
     expect(slug('../..\\evil:name?.wav', 'song')).toBe('evil-name');
     expect(slug('歌.mp3', 'song')).toBe('song');
     expect(slug(`${'a'.repeat(300)}.mp3`, 'song')).toHaveLength(40);

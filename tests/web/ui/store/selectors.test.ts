@@ -102,7 +102,7 @@ describe('notes', () => {
   it('on silent songs, missing beats, file warnings and notices', () => {
     const texts = (more: Partial<AppState>): string[] => select.notes(state(more)).map(({ text }) => text);
     expect(texts({ song: song(5, { silent: true, beats: [] }) })).toEqual([
-      'The song is silent: it carries no beat to dance to.',
+      'The song is silent: there is no beat to dance to.',
     ]);
     expect(texts({ song: song(5, { beats: [] }) })).toEqual(['No steady beat was found in the song.']);
     expect(texts({ leader: leader(30, 'a.bvh', ['The feet slide.']), song: song(1) })).toEqual([
@@ -130,13 +130,15 @@ describe('notes', () => {
     };
     const limit = small.leader.unfamiliar_from;
     expect(to(limit)).toEqual([]);
-    expect(to(limit + 0.1)).toEqual([expect.stringContaining('unlike all that the model has learned from')]);
+    expect(to(limit + 0.1)).toEqual([
+      expect.stringContaining('unlike the dancers that the model learned from'),
+    ]);
   });
 
   it('one of them where there is no room for more: what may affect the dance comes first', () => {
     const silent = song(3, { silent: true, beats: [] });
     expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
-      text: 'The song is silent: it carries no beat to dance to.',
+      text: 'The song is silent: there is no beat to dance to.',
       isWarning: true,
     });
     expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');

@@ -50,7 +50,7 @@ test.each<[string, Partial<Inputs>]>([
 
 test('the tooltip of a take names all inputs', () => {
   expect(fullTakeText(take({ shift: 51 }))).toBe(
-    `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
+    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, 1.00 variety, seed 1204`,
   );
 });

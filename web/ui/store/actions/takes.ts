@@ -49,6 +49,11 @@ export function takesSwapped(): Change {
   };
 }
 
+/** Whether there are two takes to swap. */
+export function canSwapTakes(state: AppState): boolean {
+  return takeOnStage(state) !== null && comparisonTake(state) !== null;
+}
+
 /** The other take of a comparison; before there is one, the newest that can be it. */
 function comparisonTake(state: AppState): Take | null {
   return otherTake(state) ?? state.takes.find((take) => comparable(take, state)) ?? null;
@@ -59,7 +64,7 @@ export function whyNoLetter(take: Take, letter: Letter, state: AppState): string
   if (letter === stageLetter(state)) return null;
   if (take.reaction !== state.reaction)
     return state.reaction && whyNotComparable(take.reaction, state.reaction);
-  return comparisonTake(state) ? null : 'There is no other take to compare it with.';
+  return comparisonTake(state) ? null : 'There is no other take to compare with.';
 }
 
 /** Gives a letter of the comparison to a take; given again to the compared take, ends the comparison. */
