@@ -178,12 +178,12 @@ test.describe('the model', () => {
       Object.assign(window, { killModel: () => opened.at(-1)?.terminate() });
     });
     const app = new App(page);
-    await app.openWithoutPicture(SHIPPED);
+    await app.openWithoutPicture();
     await app.settled();
-    await app.chooseLeader(bvh({ frames: 1200, name: 'patient.bvh' }));
-    await app.until(({ job }) => job?.stage === 'step');
     await page.evaluate('killModel()');
+    await app.chooseLeader(bvh({ frames: 60, name: 'patient.bvh' }));
     await page.getByRole('button', { name: /^Cancel/ }).click();
+    await app.until(({ job }) => !job);
     await page.getByRole('button', { name: 'Generate' }).click();
     await expectProblem(app, /no sign of life for 30 seconds/, HINT, () =>
       app.alert.getByRole('button', { name: 'Try again' }).click(),
