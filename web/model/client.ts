@@ -7,6 +7,7 @@ import type { ModelFolder } from './load/download';
 import {
   type CoarseRequest,
   type GenerateRequest,
+  HEIGHTS,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -83,7 +84,7 @@ export interface Generator {
   dispose(): void;
 }
 
-export { secondsNow };
+export { HEIGHTS, secondsNow };
 
 /** A worker with a loaded model. */
 interface LoadedWorker extends Loaded {

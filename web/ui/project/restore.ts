@@ -154,7 +154,9 @@ function restoredInputs(
   leader: LoadedLeader,
   song: LoadedSong | null,
 ): Inputs {
-  const present = currentInputs({ ...state, leader, song });
+  // In proportion, where a height is missing.
+  const settings = state.settings && { ...state.settings, height: null };
+  const present = currentInputs({ ...state, leader, song, settings });
   if (!present) throw new Error('Inputs are restored once the settings are there.');
   return { ...(conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>), leader, song };
 }
@@ -163,6 +165,8 @@ function restoredInputs(
 function conform(example: unknown, value: unknown): unknown {
   if (typeof example === 'number')
     return typeof value === 'number' && Number.isFinite(value) ? value : example;
+  // A number that need not be there.
+  if (example === null) return typeof value === 'number' && Number.isFinite(value) ? value : null;
   if (example === null || typeof example !== 'object')
     return typeof value === typeof example ? value : example;
   if (value === null || typeof value !== 'object') return example;

@@ -58,6 +58,7 @@ function filled(): change.Store {
   change.apply(store, change.guidanceSet('coarse', 1.2));
   react(2);
   change.apply(store, change.seedSet(99));
+  change.apply(store, change.heightSet(1.7));
   react(3);
   change.apply(store, takeStarred('t1'));
   change.apply(store, takeRenamed('t2', 'Softer hands'));
@@ -233,6 +234,7 @@ describe('a part that cannot be read any more', () => {
       steps: 10,
       seed: 5,
       role: 'reactor',
+      height: null,
     });
   });
 });
