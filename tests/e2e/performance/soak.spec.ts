@@ -1,6 +1,6 @@
 /**
  * The page used for long: memory stays as it is once the list of takes and the steps of undo are full. SOAK_MINUTES=60
- * goes on for an hour and at least 200 generations and 60 loads; docs/performance.md has its table.
+ * goes on for an hour, with at least 200 generations and 60 loads; docs/performance.md has its table.
  */
 import { App } from '../support/app-page';
 import { bvh, wav } from '../support/files';
@@ -8,9 +8,11 @@ import { expect, test } from '../support/fixtures';
 import { type Memory, MemoryMeter } from '../support/memory';
 
 const MINUTES = Number(process.env['SOAK_MINUTES'] ?? 0);
-/** As many fill the steps of undo. */
-const WARM_UP = { generations: 60, loads: 52 };
-const [GENERATIONS, LOADS] = MINUTES > 0 ? [200, 60] : [30, 15];
+/** As many fill the list of takes and the steps of undo. */
+const WARM_UP = { generations: 40, loads: 40 };
+/** What is done after it, and how often memory is measured meanwhile. */
+const REST =
+  MINUTES > 0 ? { generations: 200, loads: 60, parts: 4 } : { generations: 14, loads: 14, parts: 1 };
 
 /** Most that may be added after the warm-up, megabytes: what a few takes of other lengths can make. */
 const MORE: Memory = { heap: 1, buffers: 3, elements: 1, workers: 2, process: 60 };
@@ -52,30 +54,32 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
   const note = async (): Promise<void> => {
     rows.push([`${generations} generations, ${loads} loads`, await meter.measure()]);
   };
-  const alternate = async (more: { readonly generations: number; readonly loads: number }): Promise<void> => {
-    const [endGenerations, endLoads] = [generations + more.generations, loads + more.loads];
-    while (generations < endGenerations || loads < endLoads) {
-      if (loads < endLoads) await load();
-      if (generations < endGenerations) await generate();
+  /** Generations and loads, evenly mixed. */
+  const work = async (more: { readonly generations: number; readonly loads: number }): Promise<void> => {
+    const [madeBefore, loadedBefore] = [generations, loads];
+    for (;;) {
+      const [made, loaded] = [generations - madeBefore, loads - loadedBefore];
+      if (made >= more.generations && loaded >= more.loads) return;
+      await (loaded * more.generations <= made * more.loads && loaded < more.loads ? load() : generate());
     }
   };
 
   await note();
-  await alternate(WARM_UP);
+  await work(WARM_UP);
   await note();
   const end = Date.now() + MINUTES * 60_000;
-  const [firstGenerations, firstLoads] = [generations, loads];
-  do {
-    await alternate({ generations: GENERATIONS / 2, loads: LOADS / 2 });
+  const part = { generations: REST.generations / REST.parts, loads: REST.loads / REST.parts };
+  for (let parts = 0; parts < REST.parts || Date.now() < end; parts++) {
+    await work(part);
     await note();
-  } while (Date.now() < end || generations < firstGenerations + GENERATIONS || loads < firstLoads + LOADS);
+  }
 
   test.info().annotations.push({ type: 'measured', description: table(rows) });
   if (MINUTES > 0) console.log(table(rows));
   const warm = rows[1]![1];
   const last = rows.at(-1)![1];
-  for (const part of Object.keys(MORE) as (keyof Memory)[])
-    expect(last[part] - warm[part], `${part}, megabytes added\n${table(rows)}`).toBeLessThan(MORE[part]);
+  for (const kind of Object.keys(MORE) as (keyof Memory)[])
+    expect(last[kind] - warm[kind], `${kind}, megabytes added\n${table(rows)}`).toBeLessThan(MORE[kind]);
   expect(await app.read(({ takes }) => takes.length)).toBe(40);
   expect(await app.read(({ problem }) => problem)).toBeNull();
 });
