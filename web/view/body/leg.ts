@@ -1,5 +1,5 @@
 import { J } from '../../motion/skeleton/skeleton';
-import { FLOOR } from '../../motion/bvh/axes-and-units';
+import { FLOOR } from '../../motion/retarget/axes-and-units';
 import { blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
 import { add, dot, length, smoothUnion, smoothstep, scale, sub, unit, type Vec3 } from './field';
 import { ball, limbPart, type BodyPlan, type Part, type Side } from './part';
