@@ -169,7 +169,7 @@ test.describe('the model', () => {
     await page.addInitScript(() => {
       const opened: Worker[] = [];
       const Real = Worker;
-      const repeat = window.setInterval;
+      const repeat = window.setInterval.bind(window);
       window.Worker = class extends Real {
         constructor(...options: ConstructorParameters<typeof Worker>) {
           super(...options);

@@ -56,11 +56,11 @@ export async function measureSlider(folder, frames) {
  * @returns {Promise<Move>}
  */
 function watchOneMove() {
-  const { stage, store } = /** @type {{ stage: any, store: any }} */ (Reflect.get(window, 'reactdance'));
+  const { stage, store } = /** @type {{ stage: any, store: any }} */ (Reflect.get(globalThis, 'reactdance'));
   const before = store.getState();
   return new Promise((resolve) => {
     let asked = NaN;
-    addEventListener('input', () => (asked = performance.now()), { once: true, capture: true });
+    globalThis.addEventListener('input', () => (asked = performance.now()), { once: true, capture: true });
     /** Pictures drawn when the new frames, and the whole, came into the state. */
     let [pictureOfPart, pictureOfWhole, first] = [NaN, NaN, NaN];
     const drawnAtStart = stage.stats().frames;
