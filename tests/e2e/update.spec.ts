@@ -44,7 +44,7 @@ test.describe('without a service worker', () => {
     await page.getByRole('button', { name: 'Generate' }).click();
     await told();
     await page.getByRole('button', { name: 'Generate' }).click();
-    await app.alert.getByRole('button', { name: 'Reload' }).click();
+    await Promise.all([page.waitForEvent('load'), app.alert.getByRole('button', { name: 'Reload' }).click()]);
     await app.until(({ model, leader, takes }) => model.phase === 'ready' && leader && takes.length > 0);
     expect(await app.read(({ leader }) => leader?.name)).toBe('kept.bvh');
     await app.chooseLeader(bvh({ frames: 90, name: 'after.bvh' }));

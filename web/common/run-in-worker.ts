@@ -112,10 +112,10 @@ function handOver<T>(value: T): T {
 }
 
 /**
- * How long a worker with work may give no sign of life. No task holds its thread for more than a few seconds without
- * a report, so this leaves room for machines that are ten times slower; its script has to come first.
+ * How long a worker with work may give no sign of life. No task holds its thread for more than three seconds without a
+ * report (opening a graph is the longest), so this leaves room for machines that are twenty times slower.
  */
-const PATIENCE: Patience = { first: 60, next: 30 };
+const PATIENCE: Patience = { first: 60, next: 60 };
 
 interface ConnectionOptions {
   /** Makes the error of a crash, given its reason in the browser's words. */

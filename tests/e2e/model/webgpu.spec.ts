@@ -85,14 +85,14 @@ test('a device that is lost in the middle of a run moves the work to the process
   await page.goto('/');
   await page.evaluate(() => model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }));
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const asked = { frames: 250, steps: 8 };
+  const asked = { frames: 60, steps: 8 };
   const generating = page.evaluate((request) => model.generate(request), asked);
   await expect.poll(() => page.evaluate(() => model.done)).toBeGreaterThan(0);
   const [worker] = page.workers();
   await worker?.evaluate('device.destroy()');
   const { positions, error } = await generating;
   expect(error).toBeUndefined();
-  expect(positions).toHaveLength(250 * 66);
+  expect(positions).toHaveLength(60 * 66);
   expect(await page.evaluate(() => model.statuses)).toContainEqual(
     expect.objectContaining({ kind: 'notice', code: 'gpu-lost' }),
   );
