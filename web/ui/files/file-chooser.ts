@@ -3,8 +3,8 @@ import type { FileChoice } from '../store/services';
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
-  leader: '.bvh',
-  any: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,.bvh,.reactdance',
+  leader: '.bvh,video/*,.mov,.mkv',
+  any: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,.bvh,video/*,.mov,.mkv,.reactdance',
   project: '.reactdance,.zip',
 } as const;
 

@@ -29,7 +29,7 @@ interface Task<T> {
 }
 
 /**
- * Reads songs and leaders and puts them into the store. A newer file of a kind cancels the older one that is still
+ * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older one that is still
  * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
@@ -38,6 +38,7 @@ export class FileLoader implements Files {
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
+    private readonly openVideo: (file: File) => Promise<void>,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
@@ -107,6 +108,9 @@ export class FileLoader implements Files {
       case 'leader':
         apply(this.store, firstVisitEnded());
         await this.openLeader(await file.text(), file.name, null);
+        return;
+      case 'video':
+        await this.openVideo(file);
         return;
       case 'other-motion':
         apply(this.store, problemShown(otherMotionProblem(file.name)));

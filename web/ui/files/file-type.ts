@@ -1,10 +1,11 @@
 /** The type of a file, from its first bytes; from its name only where they do not tell. */
-type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
+type FileKind = 'song' | 'leader' | 'video' | 'other-motion' | 'unknown';
 
 /** Bytes that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
+const VIDEO_NAME = /\.(mp4|m4v|mov|webm|mkv)$/i;
 const BVH_NAME = /\.bvh$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
@@ -22,6 +23,8 @@ export function fileKind(head: Uint8Array, name: string, type: string): FileKind
   const text = String.fromCharCode(...head);
   if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
   if (isUnsupportedMotion(text)) return 'other-motion';
+  // The same containers hold songs: whether there are pictures in it is seen when it is opened.
+  if (isContainer(text) && (type.startsWith('video/') || VIDEO_NAME.test(name))) return 'video';
   if (isSound(text, head)) return 'song';
   // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
   if (BVH_NAME.test(name)) return 'leader';
@@ -37,7 +40,12 @@ function isSound(text: string, head: Uint8Array): boolean {
   if (/^(ID3|OggS|fLaC)/.test(text)) return true;
   if (text.startsWith('RIFF') && text.slice(8, 12) === 'WAVE') return true;
   if (text.startsWith('FORM') && text.slice(8, 11) === 'AIF') return true;
-  if (text.slice(4, 8) === 'ftyp' || text.startsWith('\u001aE\u00df\u00a3')) return true;
+  if (isContainer(text)) return true;
   // MPEG audio and ADTS start with eleven set bits; 0xff 0xfe is a UTF-16 byte order mark instead.
   return head[0] === 0xff && ((head[1] ?? 0) & 0xe0) === 0xe0 && (head[1] ?? 0) < 0xfe;
+}
+
+/** MP4 and MOV, or Matroska and WebM. */
+function isContainer(text: string): boolean {
+  return text.slice(4, 8) === 'ftyp' || text.startsWith('\u001aE\u00df\u00a3');
 }

@@ -159,7 +159,7 @@ export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
     title: 'There is no file in what was dropped.',
-    hint: 'Drop a song, a leader as BVH, or the folder of a model with its manifest.json.',
+    hint: 'Drop a song, a leader as video or BVH, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
   };
@@ -178,8 +178,8 @@ export function otherMotionProblem(name: string): Problem {
 export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
-    title: `${name} is neither a song nor a motion.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
+    title: `${name} is neither a song nor a motion or video.`,
+    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file or a video.',
     remedy: 'any-file',
     refused: { kind: null, name },
   };

@@ -53,6 +53,8 @@ export interface Services {
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
+  /** Records a leader with the webcam. */
+  readonly recordVideo: () => void;
   /** Reads the leader again at this frame rate; null is the file's own. */
   readonly rereadLeader: (fps: number | null) => void;
   /** Plays the demo from its start. */
