@@ -34,11 +34,7 @@ CHANNELS_LAST = [0, 2, 3, 1]
 # The graphs of the page: the file in the package, and the network's outputs by their names here.
 GRAPHS = {
     "detector": ("pose_solution_packed_assets.data", {"Identity": "boxes", "Identity_1": "scores"}),
-    "landmarks-lite": (
-        "pose_landmark_lite.tflite",
-        {"Identity": "landmarks", "Identity_1": "presence", "Identity_4": "world"},
-    ),
-    "landmarks-full": (
+    "landmarks": (
         "pose_landmark_full.tflite",
         {"Identity": "landmarks", "Identity_1": "presence", "Identity_4": "world"},
     ),

@@ -58,6 +58,7 @@ import { mountUndoKeys } from './ui/takes/undo';
 import { PlaybackControl } from './ui/timeline/playback';
 import { mountTimeline } from './ui/timeline/timeline';
 import { mountTransport } from './ui/timeline/transport';
+import { createVideoFeature } from './ui/video/open';
 
 // ---- the store and the features that change it ----
 
@@ -68,7 +69,13 @@ const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
 );
 const readers = { loadSong, readLeader, manifest: model.manifest };
-const files = new FileLoader(store, readers);
+const files = new FileLoader(store, readers, (file) => video.open(file));
+const video = createVideoFeature(
+  store,
+  () => files,
+  () => place('stage'),
+  { seek: (seconds) => playback.seek(seconds), togglePlay: () => playback.toggle() },
+);
 const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
@@ -96,6 +103,7 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
+  recordVideo: () => void video.record(),
   rereadLeader: (options) => void files.rereadLeader(options),
   readAgain: files.readAgain,
   playDemo: playback.playFromStart,

@@ -24,6 +24,7 @@ export type ErrorCode =
   | 'playback-refused'
   // A video of a leader, and the camera that films one.
   | 'not-a-video'
+  | 'sound-only'
   | 'video-codec'
   | 'video-too-long'
   | 'video-too-short'

@@ -27,7 +27,7 @@ export interface VideoFile {
 
 /**
  * Opens a video.
- * @throws {AppError} `not-a-video`, `video-codec`, `video-too-long`
+ * @throws {AppError} `not-a-video`, `sound-only`, `video-codec`, `video-too-long`
  */
 export async function openVideo(file: Blob): Promise<VideoFile> {
   const input = new Input({ formats: ALL_FORMATS, source: new BlobSource(file) });
@@ -59,7 +59,14 @@ async function videoTrack(input: Input): Promise<InputVideoTrack> {
   } catch (cause) {
     throw notAVideo({ cause });
   }
-  if (!track) throw notAVideo();
+  if (!track) {
+    if (!(await input.getPrimaryAudioTrack())) throw notAVideo();
+    throw new AppError(
+      'sound-only',
+      'This file holds sound and no pictures.',
+      'Choose a video of a dancer, or use the file as the song.',
+    );
+  }
   if (!(await track.canDecode().catch(() => false))) {
     const codec = (await track.getCodec()) ?? 'unknown';
     throw new AppError(

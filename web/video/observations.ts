@@ -18,11 +18,14 @@ export interface Observations {
   readonly visibility: Float32Array;
   /** rows x 2, the middle of what the network saw, pixels. */
   readonly centre: Float32Array;
+  /** Greatest mean brightness of a picture without the person, 0 to 1; 1 when they were always seen. */
+  readonly brightest: number;
 }
 
 /** Collects observations while a video is being read. */
 export class Recorder {
   readonly #rows: { readonly time: number; readonly tracked: Tracked }[] = [];
+  #brightest: number | null = null;
 
   constructor(
     private readonly width: number,
@@ -31,6 +34,7 @@ export class Recorder {
 
   add(time: number, tracked: Tracked): void {
     this.#rows.push({ time, tracked });
+    if (tracked.brightness !== null) this.#brightest = Math.max(this.#brightest ?? 0, tracked.brightness);
   }
 
   /** All that was seen so far. */
@@ -46,6 +50,7 @@ export class Recorder {
       world: numbers(3 * LANDMARK_COUNT),
       visibility: numbers(LANDMARK_COUNT),
       centre: numbers(2),
+      brightest: this.#brightest ?? 1,
     };
     this.#rows.forEach(({ tracked: { landmarks } }, row) => {
       if (!landmarks) return;

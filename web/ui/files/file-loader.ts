@@ -32,7 +32,7 @@ interface Task<T> {
 }
 
 /**
- * Reads songs and leaders and puts them into the store. A newer file of a kind cancels the older one that is still
+ * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older one that is still
  * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
@@ -43,6 +43,7 @@ export class FileLoader implements Files {
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
+    private readonly openVideo: (file: File) => Promise<void>,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
@@ -121,6 +122,9 @@ export class FileLoader implements Files {
           files: await Promise.all([file, ...companions].map(bytesOf)),
           options: {},
         });
+        return;
+      case 'video':
+        await this.openVideo(file);
         return;
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));

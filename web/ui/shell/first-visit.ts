@@ -37,7 +37,14 @@ export const mountFirstVisit: Mount = (root, store, services) => {
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
       fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
-      fileChoice(services, 'leader', 'Leader', 'one dancer’s motion as BVH', 'Choose a motion'),
+      fileChoice(
+        services,
+        'leader',
+        'Leader',
+        'a video of one dancer, or a motion file',
+        'Choose a motion',
+        cameraButton(services),
+      ),
     ),
     steps(opensHowItWorks('Where from?', 'link')),
     el(
@@ -83,12 +90,26 @@ function demoText(state: AppState): string {
   return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is being made`;
 }
 
+function cameraButton(services: Services): HTMLElement {
+  return el('button', {
+    class: 'btn ghost',
+    text: 'Use the camera',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        services.recordVideo();
+      },
+    },
+  });
+}
+
 function fileChoice(
   services: Services,
   side: InputKind,
   name: string,
   kinds: string,
   ask: string,
+  more: HTMLElement | null = null,
 ): HTMLElement {
   return el(
     'div',
@@ -105,5 +126,6 @@ function fileChoice(
         },
       },
     }),
+    more,
   );
 }

@@ -182,7 +182,7 @@ export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
     title: 'Nothing that was dropped is a file.',
-    hint: 'Drop a song, a leader’s motion file, or the folder of a model with its manifest.json.',
+    hint: 'Drop a song, a leader’s video or motion file, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
   };
@@ -191,8 +191,8 @@ export function emptyDropProblem(): Problem {
 export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
-    title: `${name} is neither a song nor a motion.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
+    title: `${name} is neither a song, a video nor a motion.`,
+    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
     remedy: 'any-file',
     refused: { kind: null, name },
   };

@@ -61,6 +61,8 @@ export interface Services {
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
+  /** Records a leader with the webcam. */
+  readonly recordVideo: () => void;
   /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */
   readonly rereadLeader: (options: ImportOptions) => void;
   /** Reads the song or leader again whose reading failed last. */

@@ -44,6 +44,8 @@ export class Cropper {
     readonly input: Float32Array;
     /** From shares of the detector's square to pixels of the picture. */
     readonly toPicture: { readonly x: number; readonly y: number; readonly scale: number };
+    /** Mean of the picture, 0 to 1. */
+    readonly brightness: number;
   } {
     const context = this.#blank(DETECTOR_SIDE);
     const side = Math.max(picture.width, picture.height);
@@ -51,7 +53,10 @@ export class Cropper {
     context.scale(DETECTOR_SIDE / side, DETECTOR_SIDE / side);
     context.translate(-toPicture.x, -toPicture.y);
     picture.draw(context);
-    return { input: channels(context, DETECTOR_SIDE, 2 / 255, -1), toPicture };
+    const input = channels(context, DETECTOR_SIDE, 2 / 255, -1);
+    const bars = (side * side) / (picture.width * picture.height);
+    const mean = input.reduce((sum, value) => sum + (value + 1) / 2, 0) / input.length;
+    return { input, toPicture, brightness: mean * bars };
   }
 
   #blank(side: number): OffscreenCanvasRenderingContext2D {

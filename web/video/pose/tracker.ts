@@ -23,6 +23,8 @@ export interface Tracked {
   readonly landmarks: Landmarks | null;
   /** The persons in the picture, where the detector was asked. */
   readonly persons: readonly Person[] | null;
+  /** Mean brightness of the picture, 0 to 1, where the detector was asked. */
+  readonly brightness: number | null;
 }
 
 /**
@@ -44,16 +46,17 @@ export class PersonTracker {
   }
 
   async next(picture: Picture): Promise<Tracked> {
-    let persons: readonly Person[] | null = null;
-    if (!this.#region) {
-      if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons };
-      const { input, toPicture } = this.#cropper.detectorInput(picture);
-      const { boxes, scores } = await this.graphs.detect(input);
-      persons = personsOf(boxes, scores, toPicture);
-      this.#region = nearest(persons, this.#last)?.region ?? null;
-      if (!this.#region) return { landmarks: null, persons };
-    }
-    const region = this.#region;
+    if (this.#region) return { ...(await this.#see(picture, this.#region)), persons: null, brightness: null };
+    if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons: null, brightness: null };
+    const { input, toPicture, brightness } = this.#cropper.detectorInput(picture);
+    const { boxes, scores } = await this.graphs.detect(input);
+    const persons = personsOf(boxes, scores, toPicture);
+    const found = nearest(persons, this.#last);
+    const seen = found ? await this.#see(picture, found.region) : { landmarks: null };
+    return { ...seen, persons, brightness };
+  }
+
+  async #see(picture: Picture, region: Region): Promise<Pick<Tracked, 'landmarks'>> {
     const landmarks = landmarksOf(
       await this.graphs.landmarks(this.#cropper.landmarkInput(picture, region)),
       region,
@@ -61,10 +64,10 @@ export class PersonTracker {
     const { next, presence } = landmarks;
     const seen = presence >= MIN_PRESENCE && isInside(next, picture);
     this.#region = seen ? next : null;
-    if (!seen) return { landmarks: null, persons };
+    if (!seen) return { landmarks: null };
     this.#undetected = 0;
     this.#last = next;
-    return { landmarks, persons };
+    return { landmarks };
   }
 }
 

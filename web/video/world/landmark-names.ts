@@ -29,3 +29,25 @@ export const OTHER_SIDE: readonly number[] = [
 
 /** Landmarks of trunk and limbs, which carry the pose; hands and face are of little use. */
 export const BODY: readonly number[] = [11, 12, 13, 14, 15, 16, 23, 24, 25, 26, 27, 28, 31, 32];
+
+/** Lines that draw a body: pairs of landmarks, and the side that they belong to. */
+export const BONES: readonly {
+  readonly from: number;
+  readonly to: number;
+  readonly side: 'left' | 'right' | 'middle';
+}[] = [
+  { from: L.left_shoulder, to: L.right_shoulder, side: 'middle' },
+  { from: L.left_hip, to: L.right_hip, side: 'middle' },
+  ...(['left', 'right'] as const).flatMap((side) =>
+    (
+      [
+        ['shoulder', 'elbow'],
+        ['elbow', 'wrist'],
+        ['shoulder', 'hip'],
+        ['hip', 'knee'],
+        ['knee', 'ankle'],
+        ['ankle', 'toe'],
+      ] as const
+    ).map(([from, to]) => ({ from: L[`${side}_${from}`], to: L[`${side}_${to}`], side })),
+  ),
+];

@@ -1,4 +1,5 @@
 /** From what was seen in the pictures to the dancer's motion in space. */
+import { AppError } from '../../common/error';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
 import { gaussianFilter } from '../../motion/math/statistics';
@@ -40,10 +41,18 @@ const POSE_FILTER = { minCutoff: 1.5, beta: 6 };
 const PLACE_DEVIATION = 0.06;
 const DEPTH_DEVIATION = 0.25;
 
-/** @returns null when the person is in fewer than two pictures */
-export function reconstruct(observations: Observations, options: WorldOptions): Reconstruction | null {
+/**
+ * The motion of the dancer who was seen, on a skeleton of constant bones.
+ * @throws {AppError} `video-too-short` when the person is in fewer than two pictures of the part that was asked for
+ */
+export function reconstruct(observations: Observations, options: WorldOptions): Reconstruction {
   const raw = seriesOf(observations, options.trim);
-  if (!raw) return null;
+  if (!raw)
+    throw new AppError(
+      'video-too-short',
+      'The dancer is not seen in this part of the video.',
+      'Choose a longer part, or another one.',
+    );
   const { series, changed } = undoFlips(raw);
   const focal = options.focal * Math.max(series.width, series.height);
   const smooth = { ...series, world: oneEuro(series.world, 3 * LANDMARK_COUNT, FPS, POSE_FILTER) };

@@ -16,6 +16,6 @@ export function motionOf(name: MotionName): SolvedMotion {
     case 'spinning':
       return walker({ seconds: 4, turn: 0.9, distance: 0 });
     case 'walking':
-      return walker({ seconds: 8, turn: 0, distance: 1.6 });
+      return walker({ seconds: 6, turn: 0, distance: 1.4 });
   }
 }

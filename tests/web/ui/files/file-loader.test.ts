@@ -20,6 +20,7 @@ const SONG = 'ID3 and so on';
 describe('reading files', () => {
   let store: change.Store;
   let files: FileLoader;
+  let videos: string[];
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
@@ -36,11 +37,25 @@ describe('reading files', () => {
       },
       manifest: () => Promise.resolve(small),
     };
-    files = new FileLoader(store, {
-      loadSong: (...all) => readers.loadSong(...all),
-      readLeader: (...all) => readers.readLeader(...all),
-      manifest: () => readers.manifest(),
-    });
+    videos = [];
+    files = new FileLoader(
+      store,
+      {
+        loadSong: (...all) => readers.loadSong(...all),
+        readLeader: (...all) => readers.readLeader(...all),
+        manifest: () => readers.manifest(),
+      },
+      ({ name }) => {
+        videos.push(name);
+        return Promise.resolve();
+      },
+    );
+  });
+
+  it('hands videos on', async () => {
+    await files.open([file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  '), file('b', SONG)]);
+    expect(videos).toEqual(['dance.mov']);
+    expect(store.getState().song?.name).toBe('b');
   });
 
   it('tells songs and leaders apart by content and reads them together', async () => {

@@ -27,6 +27,14 @@ describe('the type of a file', () => {
     expect(fileKind(head, 'dance.bvh', '')).toBe('song');
   });
 
+  it.each([
+    ['MP4', bytes('\u0000\u0000\u0000\u0020ftypisom'), 'dance.mp4', 'video/mp4'],
+    ['MOV', bytes('\u0000\u0000\u0000\u0014ftypqt  '), 'IMG_1.MOV', ''],
+    ['WebM', Uint8Array.of(0x1a, 0x45, 0xdf, 0xa3), 'camera', 'video/webm'],
+  ])('sees %s of the name or type of a video as one', (_, head, name, type) => {
+    expect(fileKind(head, name, type)).toBe('video');
+  });
+
   it('is that of the name where the bytes do not tell', () => {
     expect(fileKind(bytes('not a hierarchy'), 'dance.BVH', '')).toBe('leader');
     expect(fileKind(bytes('just words'), 'song.mp3', '')).toBe('song');
