@@ -1,5 +1,6 @@
 import { loadedRole, roleName } from '../store/roles';
-import { duration, tempo } from '../store/format';
+import { tempoText } from '../store/counting';
+import { duration } from '../store/format';
 import { jointCount } from './joint-text';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
@@ -62,7 +63,11 @@ export function mountFileChip(
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
   return combineDisposers(
-    watchAll(store, (state) => [state[side], state.reading[side], state.problem, state.settings?.role], show),
+    watchAll(
+      store,
+      (state) => [state[side], state.reading[side], state.countings, state.problem, state.settings?.role],
+      show,
+    ),
     () => {
       chip.remove();
     },
@@ -87,8 +92,8 @@ function describe(state: AppState, side: InputKind): ChipContent {
   const plain = { refused: false, fraction: null };
   if (side === 'song' && state.song) {
     const { name, label, data } = state.song;
-    const facts = `${duration(data.duration)} · ${tempo(data.tempo)}`;
-    return label ? { name, short: label, long: '', ...plain } : { name, short: facts, long: '', ...plain };
+    const tempo = tempoText(state.song, state.countings);
+    return { name, short: `${label ?? duration(data.duration)} · ${tempo}`, long: '', ...plain };
   }
   if (side === 'leader' && state.leader) {
     const { name, label, file } = state.leader;

@@ -24,6 +24,8 @@ export function initialState(theme: Theme): AppState {
     song: null,
     leader: null,
     shift: 0,
+    countings: [],
+    settingOne: false,
     reading: { song: null, leader: null },
     reaction: null,
     preview: null,
