@@ -58,6 +58,12 @@ export function accentsOf(features: Float32Array, recipe: AudioRecipe): Accents 
   return { framesPerSecond, onset: levelled(smoothed(sum), LEVELLING * framesPerSecond), bass, chroma };
 }
 
+/** The largest value within a frame of a moment, given in frames. */
+export function strongest(values: Float64Array, moment: number): number {
+  const frame = Math.round(moment);
+  return Math.max(...[frame - 1, frame, frame + 1].map((at) => values[at] ?? 0));
+}
+
 /** Decibels in the bands from a cepstrum: the inverse of the orthonormal cosine transform at the bands' middles. */
 function inverseTransform({ mfcc, mels }: AudioRecipe): (cepstrum: Float32Array) => Float64Array {
   const cosines = Float64Array.from({ length: BANDS * mfcc }, (_, index) => {

@@ -1,4 +1,4 @@
-import type { Accents } from './accents';
+import { type Accents, strongest } from './accents';
 
 /** Beats in a bar. */
 export type BeatsPerBar = 3 | 4;
@@ -38,12 +38,6 @@ export function metreOf(beats: readonly number[], accents: Accents): Metre {
   const phases = phaseMeans(accent, 2 * beatsPerBar);
   const later = phases[bar + beatsPerBar]! > phases[bar]! + LATER_MARGIN;
   return { beatsPerBar, first: later ? bar + beatsPerBar : bar };
-}
-
-/** The largest value within a frame of the beat. */
-function strongest(values: Float64Array, beat: number): number {
-  const frame = Math.round(beat);
-  return Math.max(...[frame - 1, frame, frame + 1].map((at) => values[at] ?? 0));
 }
 
 /** How much the pitch classes of each beat differ from those of the beat before: 1 less their cosine. */

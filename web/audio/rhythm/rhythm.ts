@@ -1,5 +1,5 @@
 import type { AudioRecipe } from '../recipe';
-import { accentsOf } from './accents';
+import { type Accents, accentsOf, strongest } from './accents';
 import { beatFrames } from './beat-times';
 import { metreOf, type Metre } from './metre';
 import { tempoCurve } from './tempo-curve';
@@ -21,6 +21,8 @@ export interface Rhythm extends Metre {
 const MIN_CLARITY = 0.15;
 /** Clarity from which the beat is sure: songs with a steady beat have 0.31 and more, strings in free time 0.21. */
 const SURE_CLARITY = 0.25;
+/** Ratio of the bass halfway between the beats to that on them from which those are the beats. */
+const CLEARLY_STRONGER = 1.6;
 /** With fewer beats than this nothing is counted. */
 const MIN_BEATS = 8;
 /** Intervals of a local tempo. */
@@ -38,11 +40,22 @@ export function rhythmOf(features: Float32Array, recipe: AudioRecipe): Rhythm {
   const accents = accentsOf(features, recipe);
   const { onset, framesPerSecond } = accents;
   const { periods, clarity } = tempoCurve(onset, framesPerSecond);
-  const frames = clarity < MIN_CLARITY ? [] : beatFrames(onset, periods);
+  const frames = clarity < MIN_CLARITY ? [] : onTheBass(beatFrames(onset, periods), accents);
   if (frames.length < MIN_BEATS) return NO_RHYTHM;
   const beats = frames.map((frame) => Math.max(0, (frame - LATENESS) / framesPerSecond));
   const sure = clarity >= SURE_CLARITY;
   return { beats, ...tempoOf(beats), sure, ...metreOf(frames, accents) };
+}
+
+/**
+ * The beats, or the moments halfway between them where the bass is clearly stronger: a bright offbeat, as the open
+ * hi-hat of house music, is as loud as the beat and sharper.
+ */
+function onTheBass(beats: readonly number[], { bass }: Accents): readonly number[] {
+  const halves = beats.slice(1).map((beat, index) => (beat + beats[index]!) / 2);
+  const mean = (frames: readonly number[]): number =>
+    frames.reduce((sum, frame) => sum + strongest(bass, frame), 0) / Math.max(1, frames.length);
+  return mean(halves) > CLEARLY_STRONGER * mean(beats) ? halves : beats;
 }
 
 /** No steady beat. */

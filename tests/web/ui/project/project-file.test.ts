@@ -101,6 +101,7 @@ const summary = (state: AppState) => ({
   })),
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
+  countings: state.countings,
   time: state.playback.time,
   takesMade: state.takesMade,
 });
