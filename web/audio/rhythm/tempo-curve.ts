@@ -12,7 +12,7 @@ const FASTEST = 220;
 /** Ratio of two neighbouring tempi. */
 const STEP = 1.015;
 /** Tempo that people most readily tap to, beats per minute, and how far they go from it, octaves. */
-const PREFERRED = 130;
+const PREFERRED = 136;
 const PREFERENCE_OCTAVES = 1.2;
 /** Length of a window and distance of two, seconds. */
 const WINDOW = 9;

@@ -64,7 +64,7 @@ describe('made music', () => {
 
   it('keeps its beats where the tempo changes', () => {
     const change = 20;
-    const rhythm = heard(make.joined(make.swung(100, 0.5, change), make.swung(135, 0.5, change)));
+    const rhythm = heard(make.joined(make.swung(100, 2 / 3, change), make.swung(135, 2 / 3, change)));
     expect(rhythm.slowest).toBeCloseTo(100, 0);
     expect(rhythm.fastest).toBeCloseTo(135, 0);
     const part = (from: number, to: number) => rhythm.beats.filter((beat) => beat > from && beat < to);
