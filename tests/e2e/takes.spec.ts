@@ -163,16 +163,18 @@ test('everything is restored after a reload, and from a project file after the p
   const app = await withTwoTakes(page);
   const [newer = '', older = ''] = await titles(page);
   const summary = () =>
-    app.read(({ takes, reaction, song, leader, settings, other, playback }) => ({
+    app.read(({ takes, reaction, song, leader, settings, other, countings, playback }) => ({
       takes: takes.map(({ id, name, starred, reaction: { inputs } }) => [id, name, starred, inputs.settings]),
-      files: [song?.name, song?.data.beats, leader?.name, leader?.files[0]?.bytes.length],
+      files: [song?.name, song?.data.rhythm.beats, leader?.name, leader?.files[0]?.bytes.length],
       settings,
       other,
+      countings,
       time: playback.time,
       answers: reaction?.inputs.leader === leader && reaction?.inputs.song === song,
     }));
   await page.getByRole('button', { name: `Star ${older}` }).click();
   await page.getByRole('button', { name: `Use ${older} as B` }).click();
+  await page.locator('.lane.ruler').click({ modifiers: ['Alt'], position: { x: 200, y: 12 } });
   await page.keyboard.press('End');
   await take(page, newer).dblclick();
   await page.keyboard.type('Softer hands');
@@ -182,6 +184,7 @@ test('everything is restored after a reload, and from a project file after the p
   const ghost = await coarseGhost(app);
   expect(maxDistance(ghost, motion)).toBeGreaterThan(1e-4);
   expect(before.takes).toHaveLength(2);
+  expect(before.countings).toHaveLength(1);
   expect(before.answers).toBe(true);
 
   await test.step('a reload', async () => {

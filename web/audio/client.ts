@@ -6,6 +6,7 @@ import { type AudioRecipe, readRecipe } from './recipe';
 import type { AudioTasks } from './worker';
 
 export { AudioPlayer, type Player } from './player';
+export type { BeatsPerBar } from './rhythm/metre';
 
 /** A loaded song. */
 export interface Song extends Analysis {

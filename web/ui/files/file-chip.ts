@@ -1,5 +1,6 @@
 import { loadedRole, roleName } from '../store/roles';
-import { duration, tempo } from '../store/format';
+import { tempoText } from '../store/counting';
+import { duration } from '../store/format';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { rateText } from '../store/selectors';
@@ -58,7 +59,11 @@ export function mountFileChip(
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
   return combineDisposers(
-    watchAll(store, (state) => [state[side], state.reading[side], state.problem, state.settings?.role], show),
+    watchAll(
+      store,
+      (state) => [state[side], state.reading[side], state.countings, state.problem, state.settings?.role],
+      show,
+    ),
     () => {
       chip.remove();
     },
@@ -81,7 +86,8 @@ function describe(state: AppState, side: InputKind): ChipContent {
   const plain = { refused: false, fraction: null };
   if (side === 'song' && state.song) {
     const { name, label, data } = state.song;
-    return { name, details: joined(duration(data.duration), tempo(data.tempo), label), ...plain };
+    const tempo = tempoText(state.song, state.countings);
+    return { name, details: joined(duration(data.duration), tempo, label), ...plain };
   }
   if (side === 'leader' && state.leader) {
     const { name, label, file } = state.leader;

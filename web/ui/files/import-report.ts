@@ -3,7 +3,8 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { standingHeight } from '../../motion/skeleton/kinematics';
 import { loadedRole, roleName } from '../store/roles';
 import { el, combineDisposers } from '../widgets/dom';
-import { centimetres, clockTime, rate, tempo } from '../store/format';
+import { countingOf, countedBeats, tempoText } from '../store/counting';
+import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joint-text';
 import { isReading, notes } from '../store/selectors';
@@ -50,6 +51,7 @@ export const mountImportReport: Mount = (root, store, services) => {
       store,
       (state) => [
         state.song,
+        state.countings,
         state.leader,
         ...isReading(state),
         state.reaction,
@@ -75,13 +77,16 @@ function fact(name: string, value: string | HTMLElement): HTMLElement[] {
   return [el('dt', { text: name }), el('dd', {}, value)];
 }
 
-function songFacts({ song, reading }: AppState): HTMLElement[] {
+function songFacts(state: AppState): HTMLElement[] {
+  const { song, reading, countings } = state;
   if (!song) return [group('', 'Song'), ...fact('File', reading.song ? 'being read' : 'none yet, silence')];
-  const { data } = song;
+  const beats = countedBeats(state).times.length;
+  const { beatsPerBar } = countingOf(song, countings);
   return [
     group('', 'Song'),
-    ...fact('Length', clockTime(data.duration)),
-    ...fact('Tempo', data.tempo > 0 ? `${tempo(data.tempo)}, ${data.beats.length} beats` : tempo(0)),
+    ...fact('Length', clockTime(song.data.duration)),
+    ...fact('Tempo', tempoText(song, countings)),
+    ...(beats > 0 ? fact('Beats', `${beats}, in bars of ${beatsPerBar}`) : []),
   ];
 }
 

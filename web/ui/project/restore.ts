@@ -64,7 +64,7 @@ export class Restorer {
     const onStage = takes.find(({ id }) => id === page.shown)?.reaction ?? null;
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
-    const { letter, takesMade, footLock, time } = page;
+    const { letter, takesMade, footLock, countings = [], time } = page;
     return {
       ...(leader && page.inputs ? restoredInputs(page.inputs, state, leader, song) : { leader, song }),
       takes,
@@ -74,6 +74,7 @@ export class Restorer {
       letter,
       compare: other === null ? 'off' : page.compare,
       footLock,
+      countings,
       playback: {
         ...state.playback,
         playing: false,

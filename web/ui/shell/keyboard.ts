@@ -1,5 +1,6 @@
 import { listen, combineDisposers } from '../widgets/dom';
 import { barBeside } from '../store/bars';
+import { countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS, toggleOverlay } from './overlay-menu';
@@ -10,6 +11,7 @@ import { problemClosed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
+import { settingOneSet } from '../store/actions/counting';
 import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
@@ -66,10 +68,11 @@ function flipsOnStage({ key, shiftKey }: KeyboardEvent, target: HTMLElement, sto
   return key === 'Tab' && !shiftKey && target.matches('.picture') && canSwapTakes(store.getState());
 }
 
-/** Closes the problem or panel in front, cancels the job, or removes the region; false if there is none of these. */
+/** Closes the problem or panel in front, or ends setting the "1", cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, openPanel, job, variations, playback } = store.getState();
+  const { problem, settingOne, openPanel, job, variations, playback } = store.getState();
   if (problem) apply(store, problemClosed());
+  else if (settingOne) apply(store, settingOneSet(false));
   else if (openPanel) apply(store, panelToggled(openPanel));
   else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));
@@ -95,8 +98,8 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   '0': ({ store }) => apply(store, zoomSet(null)),
   '?': ({ store }) => apply(store, panelToggled('keys')),
   l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
-  i: ({ store, time }) => apply(store, regionEndSet('from', time)),
-  o: ({ store, time }) => apply(store, regionEndSet('to', time)),
+  i: ({ store, state, time }) => apply(store, regionEndSet('from', snapped(countedBeats(state), time))),
+  o: ({ store, state, time }) => apply(store, regionEndSet('to', snapped(countedBeats(state), time))),
   c: () => focusFader('Coarse guidance'),
   v: () => focusFader('Fine guidance'),
   m: () => focusFader('Music guidance'),

@@ -1,5 +1,5 @@
-import { barAt, danceDuration } from './selectors';
-import { musicBeats } from './song-shift';
+import { accentOf, countedBeats } from './counting';
+import { danceDuration } from './selectors';
 import type { AppState } from './state';
 
 /** Two moments nearer than this are the same one, seconds. */
@@ -13,9 +13,9 @@ const WITHOUT_BEATS = 1;
  * the end of the dance. Without beats it is a second away.
  */
 export function barBeside(state: AppState, time: number, direction: 1 | -1): number {
-  const beats = musicBeats(state);
-  if (beats.length === 0) return time + direction * WITHOUT_BEATS;
-  const starts = beats.filter((beat) => barAt(beats, beat)?.count === 1);
+  const beats = countedBeats(state);
+  if (beats.times.length === 0) return time + direction * WITHOUT_BEATS;
+  const starts = beats.times.filter((_, index) => accentOf(beats, index) !== 'beat');
   return direction > 0
     ? (starts.find((start) => start > time + SAME_MOMENT) ?? danceDuration(state))
     : (starts.findLast((start) => start < time - SAME_MOMENT) ?? 0);

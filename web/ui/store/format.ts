@@ -32,11 +32,6 @@ export function rate(fps: number): string {
   return String(Math.round(fps * 100) / 100);
 }
 
-/** `175 BPM`, or words when no beat was found. */
-export function tempo(bpm: number): string {
-  return bpm > 0 ? `${Math.round(bpm)} BPM` : 'no beat found';
-}
-
 /** Rounds to a fader's step, without floating-point remainders (`0.15000000000000002`). */
 export function toStep(value: number, step: number, origin: number): number {
   return Number((origin + Math.round((value - origin) / step) * step).toFixed(6));

@@ -61,26 +61,6 @@ export function guidanceMatrix(
   );
 }
 
-/** Assumed length of a beat where only one was found, seconds. */
-const ONLY_BEAT_SECONDS = 0.5;
-
-/**
- * Bar and count, both from 1, counted in four from the first beat found; null before it, without beats, and once the
- * last one has lasted as long as the one before it.
- */
-export function barAt(beats: readonly number[], time: number): { bar: number; count: number } | null {
-  const [last = 0, before = last - ONLY_BEAT_SECONDS] = [beats.at(-1), beats.at(-2)];
-  if (time >= 2 * last - before) return null;
-  let low = 0;
-  let high = beats.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((beats[middle] ?? Infinity) <= time + 1e-6) low = middle + 1;
-    else high = middle;
-  }
-  return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
-}
-
 /** Whether the reaction on the stage is being replaced by one that is sampled, which takes seconds. */
 export function isSampling(state: AppState): boolean {
   return state.job !== null && state.job.fraction > 0 && !upToDate(state);
@@ -160,8 +140,10 @@ function fileNotes(state: AppState): Note[] {
   if (length) list.push({ text: length, isWarning: false });
   if (song?.data.silent)
     list.push({ text: 'The song is silent: there is no beat to dance to.', isWarning: true });
-  else if (song && song.data.beats.length === 0)
+  else if (song && song.data.rhythm.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', isWarning: true });
+  else if (song && !song.data.rhythm.sure)
+    list.push({ text: 'The beat of the song is hard to find: check the count.', isWarning: true });
   if (isUnfamiliar(state)) list.push({ text: UNFAMILIAR, isWarning: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, isWarning: true });
   for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, isWarning: false });

@@ -13,7 +13,7 @@ export function songStart({ leader, shift }: Pick<AppState, 'leader' | 'shift'>)
 /** Beats of the song in seconds of the dance; the first ones may be before its start. */
 export function musicBeats(parts: Parts): number[] {
   const start = songStart(parts);
-  return parts.song?.data.beats.map((beat) => beat + start) ?? [];
+  return parts.song?.data.rhythm.beats.map((beat) => beat + start) ?? [];
 }
 
 /** Range of shifts at which the song plays for at least a second of the dance, frames; 0 to 0 without song or leader. */

@@ -1,5 +1,6 @@
 /** The state of the page and the types of its parts. */
 import type { VisibleOverlays } from '../../common/visible-overlays';
+import type { BeatsPerBar } from '../../audio/client';
 import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
@@ -154,6 +155,21 @@ export interface Drag {
   readonly take: string | null;
 }
 
+/** How a song is counted. */
+export interface Counting {
+  readonly beatsPerBar: BeatsPerBar;
+  /** Counted beats to a beat that was found. */
+  readonly rate: 0.5 | 1 | 2;
+  /** The time of a "1", seconds of the song. */
+  readonly one: number;
+}
+
+/** How the visitor counts a song, which is known by its file's name and size. */
+export interface SongCounting extends Counting {
+  readonly song: string;
+  readonly bytes: number;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
@@ -162,7 +178,7 @@ export interface AppState {
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
+  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
   /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;
@@ -175,6 +191,10 @@ export interface AppState {
   readonly refusedLeader: LeaderSource | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
+  /** The songs that are counted otherwise than was found, the last one changed first. */
+  readonly countings: readonly SongCounting[];
+  /** The next click on ruler or song says where a "1" is. */
+  readonly settingOne: boolean;
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;

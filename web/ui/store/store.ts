@@ -25,6 +25,8 @@ export function initialState(theme: Theme): AppState {
     leader: null,
     refusedLeader: null,
     shift: 0,
+    countings: [],
+    settingOne: false,
     reading: { song: null, leader: null },
     reaction: null,
     preview: null,

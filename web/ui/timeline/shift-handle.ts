@@ -7,6 +7,7 @@ import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
 import type { TimeScale } from '../store/time-scale';
+import { timelineClicked } from './timeline-click';
 
 /** What the handle needs of the timeline. */
 export interface ShiftHandleOptions {
@@ -88,7 +89,7 @@ export class ShiftHandle {
       },
       click: (event) => {
         const { left } = this.handle.getBoundingClientRect();
-        services.seek(this.#options.scale().time(event.clientX - left));
+        timelineClicked(this.#store, services, this.#options.scale().time(event.clientX - left), event);
         // After a jump the arrow keys move the playhead.
         this.handle.blur();
       },

@@ -1,6 +1,7 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { oneSet } from '../../../../web/ui/store/actions/counting';
 import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import {
   decoderOf,
@@ -64,6 +65,7 @@ function filled(): change.Store {
   change.apply(store, takeRenamed('t2', 'Softer hands'));
   change.apply(store, letterGiven('t2', 'B'));
   change.apply(store, change.footLockSet(false));
+  change.apply(store, oneSet(1.1));
   change.apply(store, change.playbackSet({ time: 1.5 }));
   return store;
 }
@@ -100,6 +102,7 @@ const summary = (state: AppState) => ({
   })),
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
+  countings: state.countings,
   time: state.playback.time,
   takesMade: state.takesMade,
 });
