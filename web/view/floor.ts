@@ -8,7 +8,7 @@ import {
   UniformsUtils,
   Vector2,
 } from 'three';
-import { SOLE } from './body/leg';
+import { SOLE } from '../motion/skeleton/kinematics';
 import type { Look } from './theme';
 
 /** The floor: lit in the middle, with a grid that fades out and the shadows that fall on it, in one pass. */

@@ -1,3 +1,4 @@
+import { SOLE } from '../../motion/skeleton/kinematics';
 import { J } from '../../motion/skeleton/skeleton';
 import { add, dot, length, smoothUnion, smoothstep, scale, sub, unit, type Vec3 } from './field';
 import {
@@ -12,8 +13,6 @@ import {
   type Side,
 } from './part';
 
-/** How far the sole lies below the toe joint, metres. */
-export const SOLE = 0.018;
 /** Width over which the edge of the sole is rounded, metres. */
 const SOLE_EDGE = 0.012;
 

@@ -9,7 +9,7 @@ import {
   Shape,
   ShapeGeometry,
 } from 'three';
-import { SOLE } from '../body/leg';
+import { SOLE } from '../../motion/skeleton/kinematics';
 import { headingOf } from '../../motion/skeleton/heading';
 import { MAX_FIGURES, type Overlay } from './overlay';
 
