@@ -96,6 +96,7 @@ const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   rereadLeader: (fps) => void files.rereadLeader(fps),
+  readAgain: files.readAgain,
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {
@@ -125,6 +126,7 @@ const services: Services = {
       () => false,
     ),
   loadUpdate: () => offline?.activateUpdate(),
+  reload: () => location.reload(),
 };
 
 // ---- panels ----

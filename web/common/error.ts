@@ -27,10 +27,13 @@ export type ErrorCode =
   | 'model-corrupt'
   | 'model-mismatch'
   | 'download-failed'
+  | 'gpu-lost'
   | 'bad-request'
   | 'not-finite'
-  // A worker.
+  // A worker, or another part of the page.
   | 'worker-crashed'
+  | 'page-part-missing'
+  | 'newer-version'
   // The stage.
   | 'webgl-missing'
   | 'webgl-lost'

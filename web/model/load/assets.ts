@@ -1,6 +1,6 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
-import { download, folderFetch, type ModelFolder } from './download';
+import { download, folderFetch, type ModelFolder, patientFetch } from './download';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
 import type { Provider } from './session';
 import { fileStore, type CachedPart } from './cache';
@@ -61,7 +61,7 @@ export async function downloadParts(
   // A GPU that fails its check falls back to the processor at each visit, so files of both providers stay cached.
   const [[runtime], model] = await Promise.all([
     download(scope.location.href, [RUNTIME[provider]], {
-      fetch,
+      fetch: patientFetch(fetch),
       store: fileStore(scope, 'runtime', 'onnxruntime'),
       alsoKeep: Object.values(RUNTIME).map(({ sha256 }) => sha256),
       onProgress: report('runtime'),
@@ -71,7 +71,7 @@ export async function downloadParts(
       manifestUrl,
       graphs.map((files) => files[provider]),
       {
-        fetch: folder ? folderFetch(folder, manifestUrl) : fetch,
+        fetch: folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch),
         store: folder ? undefined : fileStore(scope, 'model', manifest.id),
         alsoKeep: graphs.flatMap((files) => Object.values(files).map(({ sha256 }) => sha256)),
         onProgress: report('model'),

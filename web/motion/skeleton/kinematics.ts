@@ -43,8 +43,8 @@ export function restPositions(offsets: Float32Array): Float32Array {
   return positions;
 }
 
-/** How far the sole lies below the toe joint, metres. */
-export const SOLE = 0.018;
+/** How far the sole lies below the toe joint (ball of the foot): its height in a standing foot, metres. */
+export const SOLE = 0.03;
 /** How far the crown of the head is above its joint, metres. */
 export const CROWN = 0.18;
 

@@ -34,6 +34,8 @@ interface Task<T> {
  */
 export class FileLoader implements Files {
   private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
+  /** Reads again what could not be read last. */
+  private readonly retry: Partial<Record<InputKind, () => void>> = {};
 
   constructor(
     private readonly store: Store,
@@ -75,6 +77,11 @@ export class FileLoader implements Files {
       this.putLeader(read);
     });
   }
+
+  /** Reads the file again whose reading failed last. */
+  readonly readAgain = (kind: InputKind): void => {
+    this.retry[kind]?.();
+  };
 
   readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
     return this.runSong(blob, name, label, () => {
@@ -150,8 +157,10 @@ export class FileLoader implements Files {
   }
 
   /** Runs a task with its progress in the store; null when it failed or a newer one cancelled it. */
-  private async run<T>({ side, name, read, done }: Task<T>): Promise<T | null> {
+  private async run<T>(task: Task<T>): Promise<T | null> {
     const { store, running } = this;
+    const { side, name, read, done } = task;
+    delete this.retry[side];
     running[side]?.abort();
     const controller = new AbortController();
     running[side] = controller;
@@ -172,6 +181,7 @@ export class FileLoader implements Files {
       if (controller.signal.aborted || isAbort(error)) return null;
       running[side] = null;
       this.endReading(side);
+      this.retry[side] = () => void this.run(task);
       apply(store, problemShown(fileProblem(error, side, name)));
       return null;
     }

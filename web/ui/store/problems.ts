@@ -22,9 +22,22 @@ export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
+/** The server has a newer version of the page, without which this one cannot go on; null for other failures. */
+function versionProblem(error: unknown): Problem | null {
+  if (!isExplained(error) || error.code !== 'newer-version') return null;
+  return { code: error.code, title: error.message, hint: error.hint, remedy: 'reload', refused: null };
+}
+
+/** Failures of the page that no other file would mend. */
+const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'page-part-missing'];
+
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
+  const newer = versionProblem(error);
+  if (newer) return newer;
   const refused = { kind, name };
+  if (isExplained(error) && NOT_OF_THE_FILE.includes(error.code))
+    return { code: error.code, title: error.message, hint: error.hint, remedy: 'read-again', refused };
   if (isExplained(error))
     return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
@@ -69,37 +82,43 @@ export function fullProblem(): Problem {
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'model-failed',
-    title: explained ? error.message : 'The model could not be started.',
-    hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
-    remedy: 'model',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'model-failed',
+      title: explained ? error.message : 'The model could not be started.',
+      hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
+      remedy: 'model',
+      refused: null,
+    }
+  );
 }
 
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'generation-failed',
-    title: explained ? error.message : 'The reactor could not be made.',
-    hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'generation-failed',
+      title: explained ? error.message : 'The reactor could not be made.',
+      hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'coarse-failed',
-    title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
-    hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'coarse-failed',
+      title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
+      hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to play. */
@@ -117,13 +136,17 @@ export function playbackProblem(error: unknown): Problem {
 /** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'saving-failed',
-    title: explained ? error.message : 'The file could not be written.',
-    hint: explained ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
-    remedy: 'none',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'saving-failed',
+      title: explained ? error.message : 'The file could not be written.',
+      hint: explained
+        ? error.hint
+        : 'Try again, or another format. The dance and your settings are unchanged.',
+      remedy: 'none',
+      refused: null,
+    }
+  );
 }
 
 /** A failure of the 3D picture; everything else goes on working. */

@@ -55,6 +55,8 @@ export interface Services {
   readonly choose: (what: FileChoice) => void;
   /** Reads the leader again at this frame rate; null is the file's own. */
   readonly rereadLeader: (fps: number | null) => void;
+  /** Reads the song or leader again whose reading failed last. */
+  readonly readAgain: (kind: InputKind) => void;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */
@@ -92,6 +94,8 @@ export interface Services {
   readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */
   readonly loadUpdate: () => void;
+  /** Loads the page again. */
+  readonly reload: () => void;
 }
 
 /** Builds a panel into its root; returns its removal. */

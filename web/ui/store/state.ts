@@ -89,7 +89,8 @@ export interface Problem {
   readonly title: string;
   readonly hint: string;
   /** What the dialog's first button offers. */
-  readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
+  readonly remedy:
+    'song' | 'leader' | 'any-file' | 'read-again' | 'model' | 'generate' | 'project' | 'reload' | 'none';
   /** The file that was refused, if it was a file. */
   readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }

@@ -1,6 +1,6 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
-import type { Files, FileReaders } from '../../../../web/ui/store/services';
+import type { FileReaders } from '../../../../web/ui/store/services';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { songData, leaderFile, still } from '../../support/made-state';
@@ -12,7 +12,7 @@ const SONG = 'ID3 and so on';
 
 describe('reading files', () => {
   let store: change.Store;
-  let files: Files;
+  let files: FileLoader;
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
@@ -60,6 +60,17 @@ describe('reading files', () => {
     });
     expect(store.getState().leader).toBe(before);
     expect(store.getState().reading.leader).toBeNull();
+  });
+
+  it('reads a file again where the page and not the file failed', async () => {
+    const { readLeader } = readers;
+    readers.readLeader = () =>
+      Promise.reject(new AppError('worker-crashed', 'The reading stopped.', 'Try again.'));
+    await files.open([file('good.bvh', BVH)]);
+    expect(store.getState().problem).toMatchObject({ title: 'The reading stopped.', remedy: 'read-again' });
+    readers.readLeader = readLeader;
+    files.readAgain('leader');
+    await vi.waitFor(() => expect(store.getState().leader?.name).toBe('good.bvh'));
   });
 
   it.each([
