@@ -54,9 +54,7 @@ export function mountFileChip(
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
     // Contains the visible text, so that speech control finds the button by it.
-    const what = content.name
-      ? `${title}: ${content.name} ${content.details}`
-      : `No ${side} yet`;
+    const what = content.name ? `${title}: ${content.name} ${content.details}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
   return combineDisposers(
@@ -76,8 +74,7 @@ interface ChipContent {
 
 function describe(state: AppState, side: InputKind): ChipContent {
   const reading = state.reading[side];
-  if (reading)
-    return { name: reading.name, details: 'reading', refused: false, fraction: reading.fraction };
+  if (reading) return { name: reading.name, details: 'reading', refused: false, fraction: reading.fraction };
   const refused = state.problem?.refused;
   if (refused?.kind === side)
     return { name: refused.name, details: 'not used', refused: true, fraction: null };

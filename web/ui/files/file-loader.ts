@@ -37,6 +37,9 @@ export class FileLoader implements Files {
   /** Reads again what could not be read last. */
   private readonly retry: Partial<Record<InputKind, () => void>> = {};
 
+  /** The leader of the visitor's that was read last: one that could not be read may be, at another frame rate. */
+  private lastLeader: { readonly text: string; readonly name: string } | null = null;
+
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
@@ -83,6 +86,14 @@ export class FileLoader implements Files {
     this.retry[kind]?.();
   };
 
+  async rereadRefused(fps: number): Promise<LoadedLeader | null> {
+    if (!this.lastLeader) return null;
+    const { text, name } = this.lastLeader;
+    return this.runLeader(text, name, null, fps, (read) => {
+      this.putLeader(read);
+    });
+  }
+
   readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
     return this.runSong(blob, name, label, () => {
       this.endReading('song');
@@ -118,6 +129,7 @@ export class FileLoader implements Files {
       case 'other-motion':
         apply(this.store, problemShown(otherMotionProblem(file.name)));
         return;
+      case 'picture':
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
@@ -149,6 +161,7 @@ export class FileLoader implements Files {
     fps: number | null,
     done: (leader: LoadedLeader) => void,
   ): Promise<LoadedLeader | null> {
+    if (label === null) this.lastLeader = { text, name };
     const read = async (signal: AbortSignal): Promise<LoadedLeader> => {
       const { file, motion } = await this.readers.readLeader({ text, fps }, signal);
       return { name, label, text, fps, file, motion };

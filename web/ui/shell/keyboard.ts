@@ -7,6 +7,7 @@ import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
+import { givenSet } from '../store/actions/files';
 import { problemClosed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
@@ -56,8 +57,9 @@ export function mountKeyboard(store: Store, services: Services): () => void {
 
 /** Closes the problem or panel in front, cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, openPanel, job, variations, playback } = store.getState();
+  const { problem, given, openPanel, job, variations, playback } = store.getState();
   if (problem) apply(store, problemClosed());
+  else if (given) apply(store, givenSet(null));
   else if (openPanel) apply(store, panelToggled(openPanel));
   else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));

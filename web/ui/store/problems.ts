@@ -208,6 +208,17 @@ export function unknownFileProblem(name: string): Problem {
   };
 }
 
+/** None of several files can be used. `sentences` say what they are. */
+export function noneUsableProblem(count: number, sentences: readonly string[]): Problem {
+  return {
+    code: 'none-usable',
+    title: `None of the ${count} files is a song or a leader.`,
+    hint: `${sentences.join(' ')} A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.`,
+    remedy: 'any-file',
+    refused: null,
+  };
+}
+
 export function emptyFileProblem(name: string): Problem {
   return {
     code: 'empty-file',

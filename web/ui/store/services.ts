@@ -36,6 +36,8 @@ export interface Files {
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
   readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
+  /** Reads the visitor's leader that could not be read once more, at this frame rate. */
+  readonly rereadRefused: (fps: number) => Promise<LoadedLeader | null>;
   /** Reads a song without putting it on the page; null when that failed or a newer song cancelled it. */
   readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   /** The same for a leader. */
@@ -51,10 +53,14 @@ export interface Files {
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
+  /** Reads these of the files that were given together. */
+  readonly useGiven: (files: readonly File[]) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
   /** Reads the leader again at this frame rate; null is the file's own. */
   readonly rereadLeader: (fps: number | null) => void;
+  /** Reads the leader that was refused once more, at this frame rate. */
+  readonly rereadRefused: (fps: number) => void;
   /** Reads the song or leader again whose reading failed last. */
   readonly readAgain: (kind: InputKind) => void;
   /** Plays the demo from its start. */

@@ -28,6 +28,14 @@ export interface Quality {
   readonly report: Report;
 }
 
+/** Files that were given together, of which some are to be used. */
+export interface GivenFiles {
+  readonly songs: readonly File[];
+  readonly leaders: readonly File[];
+  /** Sentences about those that can't be used. */
+  readonly unused: readonly string[];
+}
+
 export type ModelState =
   | {
       readonly phase: 'loading';
@@ -206,6 +214,8 @@ export interface AppState {
   readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;
+  /** Shown as a list to choose from. */
+  readonly given: GivenFiles | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was shown. */
   readonly queuedProblems: readonly Problem[];

@@ -48,6 +48,7 @@ export function initialState(theme: Theme): AppState {
     saved: null,
     problem: null,
     queuedProblems: [],
+    given: null,
     notices: [],
     toast: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },

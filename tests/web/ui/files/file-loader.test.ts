@@ -133,6 +133,19 @@ describe('reading files', () => {
     expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
   });
 
+  it('a leader that was refused is read again at the frame rate that is given by hand', async () => {
+    expect(await files.rereadRefused(60)).toBeNull();
+    const { readLeader } = readers;
+    readers.readLeader = (request, signal) =>
+      request.fps === null
+        ? Promise.reject(new AppError('bad-frame-time', 'It has no frame rate.', 'Set it by hand.'))
+        : readLeader(request, signal);
+    await files.open([file('a.bvh', BVH)]);
+    expect(store.getState().problem?.code).toBe('bad-frame-time');
+    await files.rereadRefused(60);
+    expect(store.getState().leader).toMatchObject({ name: 'a.bvh', label: null, fps: 60 });
+  });
+
   it('a leader is read again at another frame rate from its stored text', async () => {
     expect(await files.rereadLeader(60)).toBeNull();
     await files.openLeader(BVH, 'a.bvh', 'demo leader');

@@ -1,6 +1,6 @@
 /** Song and leader. */
 import type { LoadedLeader, LoadedSong } from '../reaction';
-import type { AppState, Reading, InputKind } from '../state';
+import type { AppState, GivenFiles, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
 export function readingSet(side: InputKind, reading: Reading | null): Change {
@@ -29,6 +29,11 @@ export function leaderLoaded(leader: LoadedLeader): Change {
     reading: { ...state.reading, leader: null },
     playback: { ...state.playback, time: 0, playing: false, region: null },
   });
+}
+
+/** Shows files that were given together as a list to choose from; null closes it. */
+export function givenSet(given: GivenFiles | null): Change {
+  return () => ({ given });
 }
 
 export function firstVisitEnded(): Change {
