@@ -127,6 +127,9 @@ export interface DownloadChoice {
   readonly who: DancerSelection;
   readonly format: MotionFormat;
   readonly size: VideoSize;
+  /** Written into the first seconds of a video, and below all of it; empty for none. */
+  readonly title: string;
+  readonly credit: string;
 }
 
 /** A video that is being written. */

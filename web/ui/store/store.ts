@@ -42,7 +42,7 @@ export function initialState(theme: Theme): AppState {
     quality: null,
     reference: null,
     job: null,
-    download: { who: 'reactor', format: 'bvh', size: '1080p' },
+    download: { who: 'reactor', format: 'bvh', size: '1080p', title: '', credit: '' },
     writing: null,
     videoProgress: null,
     saved: null,
