@@ -54,7 +54,7 @@ class Options(LoopOptions):
     steps: int = 6000
     batch: int = 32
     stride: int = 4
-    """Frames between training windows (the paper's Table 6)."""
+    """Frames between training windows, a multiple of 4 (the paper's Table 6)."""
     learning_rate: float = 5e-4
     weight_decay: float = 0.02
     synths: int = 3

@@ -98,8 +98,7 @@ const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
-  rereadLeader: (fps) => void files.rereadLeader(fps),
-  rereadRefused: (fps) => void files.rereadRefused(fps),
+  rereadLeader: (options) => void files.rereadLeader(options),
   readAgain: files.readAgain,
   playDemo: playback.playFromStart,
   generate: generation.generate,
@@ -208,7 +207,8 @@ async function saveProject(): Promise<void> {
 
 function openDemo(): Promise<void> {
   return loadDemo(store, files, new URL('demo/', document.baseURI), {
-    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
+    readReactor: async (bytes) =>
+      (await readLeader({ files: [{ name: 'reactor.bvh', bytes }], options: {} })).motion,
     manifest: model.manifest,
   });
 }

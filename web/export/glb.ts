@@ -12,7 +12,7 @@ import {
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh/conventions';
+import { BVH_NAMES } from '../motion/bvh/names';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { restRoot } from '../motion/skeleton/kinematics';
 import { JOINT_COUNT, SMPL22 } from '../motion/skeleton/skeleton';

@@ -1,13 +1,17 @@
 import { AppError } from '../common/error';
 import { runInWorker } from '../common/run-in-worker';
-import type { LeaderFile } from './bvh/read';
+import type { FileBytes } from './import/read';
+import type { LeaderFile } from './retarget/leader';
+import type { ImportOptions, RememberedJoints } from './retarget/options';
 import type { SolvedMotion } from './skeleton/clip';
 import type { MotionTasks } from './worker';
 
+/** A motion file, with the files that belong to it after it, and what is set by hand about it. */
 export interface LeaderRequest {
-  readonly text: string;
-  /** Frame rate instead of the file's own. */
-  readonly fps: number | null;
+  readonly files: readonly FileBytes[];
+  readonly options: ImportOptions;
+  /** Joints that were chosen for skeletons of earlier files. */
+  readonly remembered?: RememberedJoints;
 }
 
 export interface ReadLeader {
@@ -17,7 +21,7 @@ export interface ReadLeader {
 }
 
 /**
- * Reads a BVH in a worker of its own, which is ended at once when the signal is aborted.
+ * Reads a motion file in a worker of its own, which is ended at once when the signal is aborted.
  * @throws {AppError} what is wrong with the file; `worker-crashed`
  * @throws the signal's reason
  */

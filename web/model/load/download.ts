@@ -10,7 +10,7 @@ export interface FileStore {
   keepOnly(keys: readonly string[]): Promise<void>;
 }
 
-interface DownloadOptions {
+export interface DownloadOptions {
   readonly fetch: typeof fetch;
   /** Undefined where the browser has no storage for the page. */
   readonly store?: FileStore | undefined;

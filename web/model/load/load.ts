@@ -10,7 +10,8 @@ import { BranchSampler } from '../sample/branch-sampler';
 import { decodeClip } from '../sample/decoder';
 import { Pipeline } from '../sample/pipeline';
 import { secondsNow } from '../sample/playhead';
-import { type ModelSession, openSession, type Provider } from './session';
+import type { Provider } from './runtime';
+import { type ModelSession, openSession } from './session';
 import { type ResponseCache, responseCache } from './cache';
 
 export interface LoadOptions {

@@ -1,8 +1,8 @@
-/** The only module that uses onnxruntime: three graphs, one execution provider, one run at a time. */
+/** The three graphs of a model under onnxruntime: one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
 import { AppError } from '../../common/error';
-import { loadPart } from '../../common/page-part';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
+import { loadRuntime, type Provider, type Runtime } from './runtime';
 import type {
   ConditionInput,
   ConditionRunner,
@@ -11,8 +11,6 @@ import type {
   StepInput,
   StepRunner,
 } from '../sample/graphs';
-
-export type Provider = 'webgpu' | 'wasm';
 
 /** The three graphs of a model, ready to run. Calls may overlap; they are run one after the other. */
 export interface ModelSession {
@@ -44,43 +42,6 @@ function enqueue<T>(job: () => Promise<T>): Promise<T> {
   const result = lastJob.then(job);
   lastJob = result.catch(() => undefined);
   return result;
-}
-
-type Runtime = typeof ort;
-
-/** Longest time for the runtime's script to come, and for its threads to start, milliseconds. */
-const START_MS = 60_000;
-
-/**
- * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
- * as long there and is twice as large, so each provider has its own and only that one is downloaded.
- */
-async function loadRuntime(
-  provider: Provider,
-  threads: number,
-  wasm?: Uint8Array<ArrayBuffer>,
-): Promise<Runtime> {
-  const runtime = await loadPart(() =>
-    inTime(provider === 'wasm' ? import('onnxruntime-web/wasm') : import('onnxruntime-web/webgpu')),
-  );
-  // Read once, when the first graph is opened.
-  runtime.env.wasm.initTimeout = START_MS;
-  runtime.env.wasm.numThreads = threads;
-  if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
-  runtime.env.logLevel = 'error';
-  return runtime;
-}
-
-async function inTime<T>(work: Promise<T>): Promise<T> {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const late = new Promise<never>((_, reject) => {
-    timer = setTimeout(() => reject(new Error(`nothing for ${START_MS / 1000} seconds`)), START_MS);
-  });
-  try {
-    return await Promise.race([work, late]);
-  } finally {
-    clearTimeout(timer);
-  }
 }
 
 async function open(

@@ -1,5 +1,7 @@
+import { motionFormat } from '../../motion/import/format';
+
 /** The type of a file, from its first bytes; from its name only where they do not tell. */
-export type FileKind = 'song' | 'leader' | 'other-motion' | 'picture' | 'unknown';
+export type FileKind = 'song' | 'leader' | 'picture' | 'unknown';
 
 /** Bytes that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
@@ -14,22 +16,13 @@ export function isProject(name: string): boolean {
 /** How files of a kind are told from others: by their first bytes, as text and as numbers, or else by name or media type. */
 interface Signature {
   readonly kind: FileKind;
-  readonly head: (text: string, head: Uint8Array) => boolean;
+  readonly head: (text: string, head: Uint8Array, name: string) => boolean;
   readonly name?: RegExp;
   readonly type?: string;
 }
 
 /** The first one that fits counts. */
 const SIGNATURES: readonly Signature[] = [
-  {
-    kind: 'leader',
-    head: (text) => /^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text),
-    name: /\.bvh$/i,
-  },
-  {
-    kind: 'other-motion',
-    head: (text) => /^(Kaydara FBX Binary|glTF|; FBX)/.test(text),
-  },
   { kind: 'picture', head: isPicture, type: 'image/' },
   {
     kind: 'song',
@@ -37,6 +30,7 @@ const SIGNATURES: readonly Signature[] = [
     name: /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i,
     type: 'audio/',
   },
+  { kind: 'leader', head: (_, head, name) => motionFormat(head, name) !== null },
 ];
 
 /**
@@ -47,7 +41,7 @@ const SIGNATURES: readonly Signature[] = [
 export function fileKind(head: Uint8Array, name: string, type: string): FileKind {
   const text = String.fromCharCode(...head);
   const known =
-    SIGNATURES.find((signature) => signature.head(text, head)) ??
+    SIGNATURES.find((signature) => signature.head(text, head, name)) ??
     // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
     SIGNATURES.find(
       (signature) =>

@@ -1,7 +1,7 @@
 import { el, combineDisposers } from '../widgets/dom';
 import { givenSet } from '../store/actions/files';
 import type { Mount, Services } from '../store/services';
-import type { GivenFiles } from '../store/state';
+import type { FileGroup, GivenFiles } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
 
 /** The files that were given together: which song and which leader is used, and what the others are. */
@@ -43,8 +43,8 @@ function build({ songs, leaders, unused }: GivenFiles, store: Store, services: S
       on: {
         submit: (event) => {
           event.preventDefault();
-          const chosen = (name: string, files: readonly File[]): readonly File[] =>
-            files.slice(...only(Number(new FormData(form).get(name))));
+          const chosen = (name: string, groups: readonly FileGroup[]): FileGroup =>
+            groups[Number(new FormData(form).get(name))] ?? [];
           const files = [...chosen('song', songs), ...chosen('leader', leaders)];
           apply(store, givenSet(null));
           services.useGiven(files);
@@ -79,26 +79,23 @@ function build({ songs, leaders, unused }: GivenFiles, store: Store, services: S
   return form;
 }
 
-/** The part of a list that holds its item `index` alone. */
-const only = (index: number): [number, number] => [index, index + 1];
-
 /** The files of a kind, one of which is chosen; nothing without any. */
-function choices(title: string, name: string, files: readonly File[]): HTMLElement[] {
-  if (files.length === 0) return [];
-  const options = files.map((file, index) =>
+function choices(title: string, name: string, groups: readonly FileGroup[]): HTMLElement[] {
+  if (groups.length === 0) return [];
+  const options = groups.map(([file], index) =>
     el(
       'label',
       {},
       el('input', {
         attributes: { type: 'radio', name, value: index, ...(index === 0 && { checked: '' }) },
       }),
-      el('span', { text: file.name }),
+      el('span', { text: file?.name ?? '' }),
     ),
   );
   return [el('fieldset', {}, el('legend', { text: title }), el('div', { class: 'list' }, ...options))];
 }
 
-function useText(songs: readonly File[], leaders: readonly File[]): string {
+function useText(songs: readonly FileGroup[], leaders: readonly FileGroup[]): string {
   if (songs.length > 0 && leaders.length > 0) return 'Use song and leader';
   return songs.length > 0 ? 'Use the song' : 'Use the leader';
 }

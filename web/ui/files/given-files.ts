@@ -4,6 +4,7 @@ import { problemClosed, problemShown } from '../store/actions/notices';
 import type { Files } from '../store/services';
 import type { GivenFiles } from '../store/state';
 import { apply, type Store } from '../store/store';
+import { groupCompanions } from '../../motion/import/format';
 import { type FileKind, fileKind, HEAD_BYTES } from './file-type';
 
 /** What a file is that can't be used. */
@@ -16,10 +17,6 @@ const SENTENCES: Readonly<
   picture: {
     one: (name) => `${name} is a picture.`,
     many: (count) => `${count} files are pictures.`,
-  },
-  'other-motion': {
-    one: (name) => `${name} is a motion in a format that cannot be read here: export it as BVH.`,
-    many: (count) => `${count} motions are in formats that cannot be read here: export them as BVH.`,
   },
   empty: { one: (name) => `${name} is empty.`, many: (count) => `${count} files are empty.` },
   unreadable: {
@@ -54,13 +51,14 @@ export async function openGiven(
 
 /** Tells songs and leaders from the rest, of which it says in a sentence for each kind what it is. */
 export async function sortedFiles(files: readonly File[]): Promise<GivenFiles> {
-  const kinds = await Promise.all(files.map(kindOf));
-  const of = (kind: FileKind | Unusable): File[] => files.filter((_, i) => kinds[i] === kind);
+  const groups = groupCompanions(files);
+  const kinds = await Promise.all(groups.map(([file]) => kindOf(file!)));
+  const of = (kind: FileKind | Unusable): File[][] => groups.filter((_, i) => kinds[i] === kind);
   const unused = (Object.keys(SENTENCES) as Unusable[]).flatMap((kind) => {
     const [first, ...others] = of(kind);
     const { one, many } = SENTENCES[kind];
     if (!first) return [];
-    return others.length === 0 ? one(first.name) : many(1 + others.length);
+    return others.length === 0 ? one(first[0]!.name) : many(1 + others.length);
   });
   return { songs: of('song'), leaders: of('leader'), unused };
 }

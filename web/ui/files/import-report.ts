@@ -110,17 +110,19 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
       attributes: { id: 'leader-rate', 'aria-label': 'Frame rate of the leader file' },
       on: {
         change: () => {
-          services.rereadLeader(select.value === '' ? null : Number(select.value));
+          const fps = select.value === '' ? undefined : Number(select.value);
+          services.rereadLeader({ ...leader.options, fps });
         },
       },
     },
     el('option', {
-      text: leader.fps === null ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
+      text:
+        leader.options.fps === undefined ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
       attributes: { value: '' },
     }),
     ...RATES.map((fps) => el('option', { text: `${fps} fps`, attributes: { value: fps } })),
   );
-  select.value = leader.fps === null ? '' : String(leader.fps);
+  select.value = String(leader.options.fps ?? '');
   const rest = Math.abs(report.sourceFps - clip.fps) > 0.01 ? ` to ${rate(clip.fps)} fps` : '';
   return el('span', {}, select, rest);
 }

@@ -98,7 +98,7 @@ function rateRow(dismiss: () => void, services: Services): HTMLElement {
       on: {
         change: () => {
           dismiss();
-          services.rereadRefused(Number(select.value));
+          services.rereadLeader({ fps: Number(select.value) });
         },
       },
     },

@@ -182,27 +182,21 @@ export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
     title: 'There is no file in what was dropped.',
-    hint: 'Drop a song, a leader as BVH, or the folder of a model with its manifest.json.',
+    hint: 'Drop a song, a leader’s motion file, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
   };
 }
 
-export function otherMotionProblem(name: string): Problem {
-  return {
-    code: 'other-motion',
-    title: `${name} is a motion in a format that cannot be read here.`,
-    hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
-    remedy: 'leader',
-    refused: { kind: null, name },
-  };
-}
+const USABLE =
+  'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a motion file: BVH, FBX, glTF, VRMA, VMD, ' +
+  'AMC with ASF, C3D, NPZ, NPY, JSON or CSV.';
 
 export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
     title: `${name} is neither a song nor a motion.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
+    hint: USABLE,
     remedy: 'any-file',
     refused: { kind: null, name },
   };
@@ -213,7 +207,7 @@ export function noneUsableProblem(count: number, sentences: readonly string[]): 
   return {
     code: 'none-usable',
     title: `None of the ${count} files is a song or a leader.`,
-    hint: `${sentences.join(' ')} A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.`,
+    hint: `${sentences.join(' ')} ${USABLE}`,
     remedy: 'any-file',
     refused: null,
   };

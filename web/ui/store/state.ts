@@ -5,7 +5,7 @@ import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
 import type { History } from './history';
-import type { Inputs, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
+import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 
 export type Theme = 'dark' | 'light';
@@ -28,10 +28,13 @@ export interface Quality {
   readonly report: Report;
 }
 
+/** Files that belong together, the one that is named first: a song, or a leader with its skeleton. */
+export type FileGroup = readonly File[];
+
 /** Files that were given together, of which some are to be used. */
 export interface GivenFiles {
-  readonly songs: readonly File[];
-  readonly leaders: readonly File[];
+  readonly songs: readonly FileGroup[];
+  readonly leaders: readonly FileGroup[];
   /** Sentences about those that can't be used. */
   readonly unused: readonly string[];
 }
@@ -182,6 +185,8 @@ export interface AppState {
   readonly settings: Settings | null;
   readonly song: LoadedSong | null;
   readonly leader: LoadedLeader | null;
+  /** The last leader that could not be read, so that it can be read again in another way. */
+  readonly refusedLeader: LeaderSource | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
   readonly reading: Readonly<Record<InputKind, Reading | null>>;

@@ -1,7 +1,8 @@
 /** The model client without the app around it, for browser tests to call. */
 import { goldenError, readGolden } from '../../../../web/model/load/golden';
 import { GRAPHS, type GraphName, parseManifest } from '../../../../web/model/manifest';
-import { openSession, type Provider } from '../../../../web/model/load/session';
+import type { Provider } from '../../../../web/model/load/runtime';
+import { openSession } from '../../../../web/model/load/session';
 import { readNpz } from '../../../../web/model/load/npz';
 import {
   createGenerator,

@@ -32,8 +32,8 @@ describe('files that are given together', () => {
   it('are asked about when there are two songs or two leaders', async () => {
     const { read, given } = await opened(song('a.mp3'), leader('b.bvh'), song('c.mp3'), leader('d.bvh'));
     expect(read).toEqual([]);
-    expect(given?.songs.map(({ name }) => name)).toEqual(['a.mp3', 'c.mp3']);
-    expect(given?.leaders.map(({ name }) => name)).toEqual(['b.bvh', 'd.bvh']);
+    expect(given?.songs.map(([file]) => file?.name)).toEqual(['a.mp3', 'c.mp3']);
+    expect(given?.leaders.map(([file]) => file?.name)).toEqual(['b.bvh', 'd.bvh']);
   });
 
   it('are one list with a sentence for each kind that is of no use', async () => {

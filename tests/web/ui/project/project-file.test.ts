@@ -70,8 +70,8 @@ function filled(): change.Store {
 
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
-  leader: ({ name, label, text, fps }) =>
-    Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+  leader: ({ name, label, files, options }) =>
+    Promise.resolve({ name, label, files, options, file: leaderFile(60), motion: still(60) }),
 };
 
 function empty(): change.Store {
