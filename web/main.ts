@@ -19,6 +19,8 @@ import { openDropped } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
 import { isProject } from './ui/files/file-type';
+import { mountGivenDialog } from './ui/files/given-dialog';
+import { openGiven } from './ui/files/given-files';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
 import { readParameters } from './ui/files/parameters';
@@ -102,6 +104,7 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
+  useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   recordVideo: () => void video.record(),
   rereadLeader: (options) => void files.rereadLeader(options),
@@ -154,6 +157,7 @@ for (const mount of [
   mountToast,
   mountNewVersion,
   mountProblemDialog,
+  mountGivenDialog,
   mountDropTarget,
 ])
   mount(stageHost, store, services);
@@ -212,7 +216,7 @@ function openStage(host: HTMLElement): Stage | null {
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) await project.open(projectFile);
-  else await files.open(chosen);
+  else await openGiven(chosen, store, files);
 }
 
 async function saveProject(): Promise<void> {

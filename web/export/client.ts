@@ -10,6 +10,7 @@ import type { VideoPlan } from './video/plan';
 
 export type { About, Dance, MotionFormat } from './dance';
 export { estimateBytes } from './sizes';
+export { captioned } from './video/caption';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';
 export type { VideoPlan } from './video/plan';
 

@@ -1,3 +1,4 @@
+import type { SolvedMotion } from './clip';
 import { addScaled, multiplyRows, rotateRow } from '../math/rows';
 import { J, JOINT_COUNT, PARENTS } from './skeleton';
 
@@ -42,19 +43,23 @@ export function restPositions(offsets: Float32Array): Float32Array {
   return positions;
 }
 
-/** Height of the root of the rest pose standing on the floor, metres: its lowest joint is at height 0. */
-export function restRootHeight(offsets: Float32Array): number {
-  return -Math.min(...heightsOf(restPositions(offsets)));
-}
-
+/** How far the sole lies below the toe joint (ball of the foot): its height in a standing foot, metres. */
+export const SOLE = 0.03;
 /** How far the crown of the head is above its joint, metres. */
 export const CROWN = 0.18;
+
+/** Root of the rest pose that files hold: standing on the floor where the dance begins, metres. */
+export function restRoot({ offsets, root }: SolvedMotion): [number, number, number] {
+  return [root[0]!, restRootHeight(offsets), root[2]!];
+}
+
+/** Height of the root above the floor in the rest pose, metres. */
+function restRootHeight(offsets: Float32Array): number {
+  const heights = restPositions(offsets).filter((_, i) => i % 3 === 1);
+  return SOLE - Math.min(...heights);
+}
 
 /** Height of a dancer who stands straight, from the floor to the crown of the head, metres. */
 export function standingHeight(offsets: Float32Array): number {
   return restRootHeight(offsets) + restPositions(offsets)[J.head * 3 + 1]! + CROWN;
-}
-
-function heightsOf(positions: Float32Array): Float32Array {
-  return positions.filter((_, i) => i % 3 === 1);
 }

@@ -126,6 +126,7 @@ export class FileLoader implements Files {
       case 'video':
         await this.openVideo(file);
         return;
+      case 'picture':
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }

@@ -14,7 +14,7 @@ import type { AppState, ModelState } from '../store/state';
 import { watchAll } from '../store/store';
 
 /** Common frame rates of motion capture, for files whose own is wrong. */
-const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
+export const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
 
 /** The import report: what was read from the files, so that a wrong guess is noticed before a partner is generated. */
 export const mountImportReport: Mount = (root, store, services) => {

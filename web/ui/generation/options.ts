@@ -38,7 +38,7 @@ export const mountOptions: Mount = (root, store, services) => {
   const cards = mountVariationCards(section, store, services);
   const row = el('div', { class: 'option-row' }, ...steps.elements);
   const height = mountHeightBox(row, store, services);
-  row.append(el('span', { class: 'grow' }), ...swap.elements);
+  row.append(...swap.elements);
   section.append(el('div', { class: 'make' }, ...generate.elements, ...variations.elements), row);
   return combineDisposers(
     seed,

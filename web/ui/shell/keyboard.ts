@@ -7,6 +7,7 @@ import { OVERLAYS, toggleOverlay } from './overlay-menu';
 import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
+import { givenSet } from '../store/actions/files';
 import { problemClosed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
@@ -70,8 +71,9 @@ function flipsOnStage({ key, shiftKey }: KeyboardEvent, target: HTMLElement, sto
 
 /** Closes the problem or panel in front, or ends setting the "1", cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, settingOne, openPanel, job, variations, playback } = store.getState();
+  const { problem, given, settingOne, openPanel, job, variations, playback } = store.getState();
   if (problem) apply(store, problemClosed());
+  else if (given) apply(store, givenSet(null));
   else if (settingOne) apply(store, settingOneSet(false));
   else if (openPanel) apply(store, panelToggled(openPanel));
   else if (job || variations?.making) services.cancel();

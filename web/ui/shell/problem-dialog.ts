@@ -1,3 +1,4 @@
+import { RATES } from '../files/import-report';
 import { el, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
@@ -62,6 +63,7 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
     },
     el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
     el('p', { text: hintOf(problem, state), attributes: { id: 'problem-hint' } }),
+    NEEDS_RATE.has(problem.code) ? rateRow(dismiss, services) : null,
     el(
       'div',
       { class: 'actions' },
@@ -83,6 +85,27 @@ export function hintOf(problem: Problem, state: Pick<AppState, 'autosave'>): str
     ? 'Save your project first: this browser does not keep it.'
     : 'Song, leader, takes and settings stay.';
   return `${problem.hint} ${kept}`;
+}
+
+/** Failures to read a leader that another frame rate mends. */
+const NEEDS_RATE: ReadonlySet<string> = new Set(['bad-frame-time', 'too-few-frames']);
+
+/** The frame rate by hand; choosing one reads the file again. */
+function rateRow(dismiss: () => void, services: Services): HTMLElement {
+  const select = el(
+    'select',
+    {
+      on: {
+        change: () => {
+          dismiss();
+          services.rereadLeader({ fps: Number(select.value) });
+        },
+      },
+    },
+    el('option', { text: 'choose a frame rate', attributes: { value: '', disabled: '', selected: '' } }),
+    ...RATES.map((fps) => el('option', { text: `${fps} frames per second`, attributes: { value: fps } })),
+  );
+  return el('label', { class: 'rate' }, 'Read it again at ', select);
 }
 
 /** A sentence whose short quotations stay on one line. */

@@ -188,13 +188,28 @@ export function emptyDropProblem(): Problem {
   };
 }
 
+const USABLE =
+  'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, ' +
+  'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.';
+
 export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
     title: `${name} is neither a song, a video nor a motion.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
+    hint: USABLE,
     remedy: 'any-file',
     refused: { kind: null, name },
+  };
+}
+
+/** None of several files can be used. `sentences` say what they are. */
+export function noneUsableProblem(count: number, sentences: readonly string[]): Problem {
+  return {
+    code: 'none-usable',
+    title: `None of the ${count} files is a song or a leader.`,
+    hint: `${sentences.join(' ')} ${USABLE}`,
+    remedy: 'any-file',
+    refused: null,
   };
 }
 

@@ -59,6 +59,8 @@ export interface Figure {
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
+  /** Reads these of the files that were given together. */
+  readonly useGiven: (files: readonly File[]) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
   /** Records a leader with the webcam. */

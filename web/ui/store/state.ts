@@ -29,6 +29,17 @@ export interface Quality {
   readonly report: Report;
 }
 
+/** Files that belong together, the one that is named first: a song, or a leader with its skeleton. */
+export type FileGroup = readonly File[];
+
+/** Files that were given together, of which some are to be used. */
+export interface GivenFiles {
+  readonly songs: readonly FileGroup[];
+  readonly leaders: readonly FileGroup[];
+  /** Sentences about those that can't be used. */
+  readonly unused: readonly string[];
+}
+
 export type ModelState =
   | {
       readonly phase: 'loading';
@@ -120,6 +131,9 @@ export interface DownloadChoice {
   readonly who: DancerSelection;
   readonly format: MotionFormat;
   readonly size: VideoSize;
+  /** Written into the first seconds of a video, and below all of it; empty for none. */
+  readonly title: string;
+  readonly credit: string;
 }
 
 /** A video that is being written. */
@@ -228,6 +242,8 @@ export interface AppState {
   readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;
+  /** Shown as a list to choose from. */
+  readonly given: GivenFiles | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was shown. */
   readonly queuedProblems: readonly Problem[];

@@ -1,11 +1,9 @@
+import { SOLE } from '../../motion/skeleton/kinematics';
 import { J } from '../../motion/skeleton/skeleton';
-import { FLOOR } from '../../motion/retarget/axes-and-units';
 import { blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
 import { add, dot, length, smoothUnion, smoothstep, scale, sub, unit, type Vec3 } from './field';
 import { ball, limbPart, type BodyPlan, type Part, type Side } from './part';
 
-/** How far the sole lies below the toe joint, metres: a standing foot stands on the floor. */
-export const SOLE = FLOOR.toe_rest;
 /** Width over which the edge of the sole is rounded, metres. */
 const SOLE_EDGE = 0.012;
 

@@ -1,6 +1,6 @@
 import type { Matrix4 } from 'three';
 import { J } from '../../motion/skeleton/skeleton';
-import { SOLE } from '../body/leg';
+import { SOLE } from '../../motion/skeleton/kinematics';
 
 interface Foot {
   readonly ankle: number;

@@ -52,6 +52,15 @@ describe('the type of a file', () => {
     expect(fileKind(head, 'dance.bin', '')).toBe('leader');
   });
 
+  it.each([
+    ['PNG', bytes('\u0089PNG')],
+    ['JPEG', Uint8Array.of(0xff, 0xd8, 0xff, 0xe0)],
+    ['WebP', bytes('RIFF\u0001\u0002\u0003\u0004WEBPVP8')],
+    ['HEIC', bytes('\u0000\u0000\u0000\u0020ftypheic')],
+  ])('knows %s as a picture', (_, head) => {
+    expect(fileKind(head, 'song.mp3', 'audio/mpeg')).toBe('picture');
+  });
+
   it('is unknown for the rest', () => {
     expect(fileKind(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
     expect(fileKind(new Uint8Array(0), 'nothing', '')).toBe('unknown');

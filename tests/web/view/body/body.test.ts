@@ -2,7 +2,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { Line3, Matrix4, Vector3 } from 'three';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
 import { bindPose } from '../../../../web/view/body/bind-pose';
-import { SOLE } from '../../../../web/view/body/leg';
+import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import { buildBody, CELL, type BodyMesh } from '../../../../web/view/body/mesh';
 import { BUILDS } from '../../../../web/view/body/part';
 import { createPose } from '../../../../web/view/dancer/pose';
