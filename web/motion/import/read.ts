@@ -24,6 +24,22 @@ const READERS: Readonly<Partial<Record<MotionFormat, () => Promise<Reader>>>> = 
     const { readBvh } = await import('./bvh/read');
     return ([file], part) => readBvh(text(file), part);
   },
+  fbx: async () => {
+    const { readFbx } = await import('./fbx/read');
+    return ([file], part) => readFbx(file.bytes, part);
+  },
+  gltf: async () => {
+    const { readGltf } = await import('./gltf/read');
+    return readGltf;
+  },
+  amc: async () => {
+    const { readAmc } = await import('./amc/read');
+    return readAmc;
+  },
+  c3d: async () => {
+    const { readC3d } = await import('./c3d/read');
+    return ([file], part) => readC3d(file.bytes, part);
+  },
   numpy: async () => {
     const { readNumpy } = await import('./numpy/read');
     return ([file], part) => readNumpy(file.bytes, file.name, part);
