@@ -80,8 +80,7 @@ export function readAsf(text: string): Asf {
   const metres = length > 0 ? INCH / length : INCH;
   const root = sectionOf(text, 'root');
   const blocks = sectionOf(text, 'bonedata').match(/\bbegin\b[\s\S]*?\bend\b/gi) ?? [];
-  if (blocks.length === 0 || blocks.length > MAX_BONES)
-    throw damagedAsf(`it has ${blocks.length} bones`);
+  if (blocks.length === 0 || blocks.length > MAX_BONES) throw damagedAsf(`it has ${blocks.length} bones`);
   const found = new Map<string, Omit<Bone, 'parent'>>();
   found.set('root', {
     name: 'root',

@@ -116,7 +116,11 @@ export function readAmc(files: readonly FileBytes[]): MotionSource {
         const bone = bones[joint];
         const value = bone ? channelsOf(bone, row?.get(bone.name)) : () => 0;
         const place: Vec3 = parent < 0 ? [value('tx'), value('ty'), value('tz')] : bones[parent]!.vector;
-        writeQuat(rotations, frame * joints.length + joint, bone ? rotationOf(bone, value, radians) : [0, 0, 0, 1]);
+        writeQuat(
+          rotations,
+          frame * joints.length + joint,
+          bone ? rotationOf(bone, value, radians) : [0, 0, 0, 1],
+        );
         writeVec(translations, frame * joints.length + joint, place);
       });
     });

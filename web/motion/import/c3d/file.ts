@@ -87,16 +87,23 @@ function parametersOf(bytes: Uint8Array, start: number, numbers: Numbers): Map<s
     if (step === 0) break;
     at = link + step;
   }
-  return new Map(found.map(({ group, name, parameter }) => [`${groups.get(group) ?? ''}:${name}`, parameter]));
+  return new Map(
+    found.map(({ group, name, parameter }) => [`${groups.get(group) ?? ''}:${name}`, parameter]),
+  );
 }
 
 /** The texts of a parameter, without the spaces that fill them up. */
 function textsOf(bytes: Uint8Array, parameter: Parameter | undefined): string[] {
   if (!parameter || parameter.type !== -1) return [];
   const [width = 0, ...others] = parameter.sizes;
-  const count = Math.min(MAX_TEXTS, others.reduce((product, size) => product * size, 1));
+  const count = Math.min(
+    MAX_TEXTS,
+    others.reduce((product, size) => product * size, 1),
+  );
   return Array.from({ length: count }, (_, i) =>
-    String.fromCharCode(...bytes.subarray(parameter.data + i * width, parameter.data + (i + 1) * width)).trim(),
+    String.fromCharCode(
+      ...bytes.subarray(parameter.data + i * width, parameter.data + (i + 1) * width),
+    ).trim(),
   );
 }
 
@@ -156,5 +163,11 @@ function readMarkers(bytes: Uint8Array, start: number): C3d {
       for (let axis = 0; axis < 3; axis++)
         places[(frame * points + point) * 3 + axis] = seen ? value(axis) : NaN;
     }
-  return { labels: labels.slice(0, points), frames, rate, unit: textsOf(bytes, parameters.get('POINT:UNITS'))[0] ?? 'mm', places };
+  return {
+    labels: labels.slice(0, points),
+    frames,
+    rate,
+    unit: textsOf(bytes, parameters.get('POINT:UNITS'))[0] ?? 'mm',
+    places,
+  };
 }

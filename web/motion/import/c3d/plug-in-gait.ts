@@ -1,5 +1,18 @@
 import type { JointName } from '../../skeleton/skeleton';
-import { add, cross, direction, distance, dot, lerp, length, scale, sub, type Vec3, X_AXIS, Z_AXIS } from '../../math/vec3';
+import {
+  add,
+  cross,
+  direction,
+  distance,
+  dot,
+  lerp,
+  length,
+  scale,
+  sub,
+  type Vec3,
+  X_AXIS,
+  Z_AXIS,
+} from '../../math/vec3';
 
 /** A marker's place in a frame, by its label. */
 export type Markers = (label: string) => Vec3;
@@ -70,7 +83,10 @@ export function jointsOfMarkers(
       front,
       add(
         scale(ahead, -0.24 * depth - 9.9 * millimetre),
-        add(scale(up, -0.3 * width - 10.9 * millimetre), scale(left, sign * (0.33 * width + 7.3 * millimetre))),
+        add(
+          scale(up, -0.3 * width - 10.9 * millimetre),
+          scale(left, sign * (0.33 * width + 7.3 * millimetre)),
+        ),
       ),
     );
     const knee = inwards(marker('KNE'), hip, inner, HALF_KNEE / metres);

@@ -75,7 +75,9 @@ export function readC3d(bytes: Uint8Array, part: number): MotionSource {
   const names = [...(frames[0]?.keys() ?? [])];
   const places = new Float32Array(frames.length * names.length * 3);
   frames.forEach((joints, frame) =>
-    names.forEach((name: JointName, joint) => writeVec(places, frame * names.length + joint, joints.get(name)!)),
+    names.forEach((name: JointName, joint) =>
+      writeVec(places, frame * names.length + joint, joints.get(name)!),
+    ),
   );
   return sourceOfPositions(
     { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
