@@ -42,11 +42,14 @@ const HALF_ELBOW = 0.045;
 /** The shoulder's centre is below its marker, which lies on the acromion, metres. */
 const BELOW_ACROMION = 0.05;
 
-/** The point beside `place` by a distance along `towards`, which is made perpendicular to the bone from `from`. */
+/**
+ * The point beside `place` by a distance along the part of `towards` that is perpendicular to the bone from `from`: less
+ * where the bone itself lies along `towards`, as an arm held out to the side.
+ */
 function inwards(place: Vec3, from: Vec3, towards: Vec3, by: number): Vec3 {
   const bone = direction(sub(place, from), Z_AXIS);
   const across = sub(towards, scale(bone, dot(towards, bone)));
-  return add(place, scale(direction(across, X_AXIS), by));
+  return add(place, scale(across, by));
 }
 
 /**

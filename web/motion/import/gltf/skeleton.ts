@@ -29,7 +29,7 @@ function transformOf(node: Gltf['nodes'][number]): Transform {
     new Matrix4().fromArray(node.matrix).decompose(place, turn, size);
     return {
       place: place.toArray(),
-      turn: normaliseQuat(turn.toArray() as unknown as Quat),
+      turn: normaliseQuat(turn.toArray()),
       size: size.toArray(),
     };
   }

@@ -27,8 +27,8 @@ const BONE_BYTES = 111;
 const OTHER_BYTES = [23, 61, 28, 9];
 /** Largest number of keys of bones. */
 const MAX_KEYS = 1e6;
-/** Last frame that a key may have: half an hour at 30 frames per second. */
-const MAX_FRAME = 54_000;
+/** Last frame that a key may have: ten minutes at 30 frames per second. */
+const MAX_FRAME = 18_000;
 
 /** The error of a file that is not as VMD says. */
 function damagedVmd(what: string): AppError {
@@ -91,7 +91,7 @@ export function readVmdFile(bytes: Uint8Array): Vmd {
     if (key.frame > MAX_FRAME) {
       throw new AppError(
         'too-long',
-        `The VMD file has a key at frame ${key.frame}; up to ${MAX_FRAME} are read, half an hour.`,
+        `The VMD file has a key at frame ${key.frame}; up to ${MAX_FRAME} are read, ten minutes.`,
         'Cut the motion to the dance.',
       );
     }
