@@ -1,4 +1,5 @@
 import { runInWorker } from '../common/run-in-worker';
+import type { Inspection } from './import/inspect';
 import type { FileBytes } from './import/read';
 import type { LeaderFile } from './retarget/leader';
 import type { ImportOptions, RememberedJoints } from './retarget/options';
@@ -28,4 +29,13 @@ export async function readLeader(request: LeaderRequest, signal?: AbortSignal): 
   signal?.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
   return runInWorker<MotionTasks, 'read'>(worker, 'read', request, { signal });
+}
+
+/**
+ * Reads only the joints of a motion file, and which of the 22 they are taken for.
+ * @throws {AppError} what is wrong with the file itself
+ */
+export async function inspectLeader(request: LeaderRequest): Promise<Inspection> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
+  return runInWorker<MotionTasks, 'inspect'>(worker, 'inspect', request);
 }

@@ -2,6 +2,7 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
+import type { Inspection } from '../../motion/import/inspect';
 import type { StorageUsage } from '../../offline/storage-usage';
 import type { LeaderSource, LoadedLeader, LoadedSong } from './reaction';
 import type { ImportOptions } from '../../motion/retarget/options';
@@ -52,6 +53,8 @@ export interface Services {
   readonly choose: (what: FileChoice) => void;
   /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */
   readonly rereadLeader: (options: ImportOptions) => void;
+  /** The joints of the leader on the page, or of the one that was refused last; rejects where its file can't be read. */
+  readonly inspectLeader: () => Promise<Inspection>;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */

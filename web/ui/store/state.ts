@@ -161,7 +161,7 @@ export interface AppState {
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
+  readonly openPanel: 'import' | 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
   /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;

@@ -133,7 +133,7 @@ describe('FBX', () => {
     expect((await read({ part: 1 }, ['a.fbx', bytes])).report.part).toBe(1);
   });
 
-  test('three reads the same from the same file', async () => {
+  test('three reads the same from the same file', () => {
     const options = { preRotation: true, up: 'z' as const };
     const bytes = writeFbxBinary(dance, options);
     const group = new FBXLoader().parse(bytes.buffer, '');

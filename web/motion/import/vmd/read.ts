@@ -12,6 +12,15 @@ import { type LocalPoses, type MotionSource, restOf } from '../../retarget/sourc
 const FPS = 30;
 const SIDES = ['左', '右'] as const;
 
+/** Longest time without a key, frames: a minute. */
+const MAX_STILL = 1800;
+
+/** The longest way between two frames that have keys. */
+function longestStill(frames: readonly number[]): number {
+  const sorted = [0, ...frames].sort((a, b) => a - b);
+  return sorted.slice(1).reduce((most, frame, i) => Math.max(most, frame - sorted[i]!), 0);
+}
+
 /** Whether a leg follows its IK bone in a frame: as switched, else where that bone has keys. */
 function followsIk({ bones, switches }: Vmd, side: string, frame: number): boolean {
   const name = `${side}足ＩＫ`;
@@ -72,6 +81,13 @@ export function readVmd(bytes: Uint8Array): MotionSource {
     );
   }
   const frames = keys.reduce((last, { frame }) => Math.max(last, frame), 0) + 1;
+  if (longestStill(keys.map(({ frame }) => frame)) > MAX_STILL) {
+    throw new AppError(
+      'unreadable-file',
+      'In the VMD file nothing moves for more than a minute.',
+      'Cut the motion to the dance, or download it again: a key may be at a wrong frame.',
+    );
+  }
   const error = tooFew(frames);
   if (error) throw error;
   const count = MMD_JOINTS.length;
