@@ -192,7 +192,8 @@ export interface AppState {
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
+  readonly openPanel:
+    'import' | 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
   /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;
