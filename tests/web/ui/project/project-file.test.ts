@@ -1,6 +1,5 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import {
   decoderOf,
@@ -16,17 +15,8 @@ import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/
 import { redone, undone } from '../../../../web/ui/store/history';
 import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
-import { uniformGuidance, songData, leader, leaderFile, song, still } from '../../support/made-state';
+import { uniformGuidance, songData, leader, leaderFile, numbered, song, still } from '../../support/made-state';
 import { AppError } from '../../../../web/common/error';
-
-/** A motion in which every number is another one. */
-function numbered(frames: number, from: number): SolvedMotion {
-  const motion = still(frames);
-  let value = from;
-  for (const part of [motion.offsets, motion.root, motion.rotations, motion.positions])
-    for (let i = 0; i < part.length; i++) part[i] = Math.fround((value += 0.1));
-  return motion;
-}
 
 /** Latents of a dance, each of them another number; not all have a short form. */
 const latents = (frames: number, from: number): Float32Array =>
@@ -70,8 +60,9 @@ function filled(): change.Store {
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
   leader: ({ name, label, text, fps }) =>
-    Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+    Promise.resolve({ name, label, text, fps, file: leaderFile(frames(name)), motion: still(frames(name)) }),
 };
+const frames = (name: string): number => (name === 'früher.bvh' ? 30 : 60);
 
 function empty(): change.Store {
   const store = change.createAppStore('dark');
@@ -81,7 +72,8 @@ function empty(): change.Store {
 
 async function contentOf(kept: StoredProject, state: AppState, how = readers) {
   const restorer = new Restorer(kept);
-  await restorer.readPage(how);
+  await restorer.readPageLeader(how);
+  await restorer.readPageSong(how);
   await restorer.readRest(how);
   return { content: restorer.content(state), losses: restorer.losses() };
 }
@@ -106,7 +98,7 @@ const summary = (state: AppState) => ({
 describe('a project', () => {
   it('restores everything from its file, bit by bit', async () => {
     const before = filled().getState();
-    const kept = readProject(await writeProject(storedProject(before)));
+    const kept = readProject(await writeProject(storedProject(before))).project;
     const store = empty();
     const { content, losses } = await contentOf(kept, store.getState());
     change.apply(store, projectOpened(content));
@@ -137,7 +129,7 @@ describe('a project', () => {
   });
 
   it('replaces what is there, and undo brings that back', async () => {
-    const kept = readProject(await writeProject(storedProject(filled().getState())));
+    const kept = readProject(await writeProject(storedProject(filled().getState()))).project;
     const store = filled();
     const before = store.getState();
     const { content } = await contentOf(kept, before);
@@ -192,7 +184,7 @@ describe('latents', () => {
     };
     for (const motion of manifest.motions) delete motion['latents'];
     const bytes = zipSync({ ...files, 'project.json': strToU8(JSON.stringify(manifest)) });
-    expect(await latentsIn(readProject(bytes), empty().getState())).toEqual([null, null, null]);
+    expect(await latentsIn(readProject(bytes).project, empty().getState())).toEqual([null, null, null]);
   });
 });
 
