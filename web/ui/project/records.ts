@@ -140,6 +140,7 @@ export function checked(found: FoundProject): CheckedProject {
 
   const wholeTakes = takes
     .filter((one) => leaders.has(one.leader) && motions.has(one.motion))
+    .map((one) => (one.song === null || songs.has(one.song) ? one : { ...one, song: null }))
     .toSorted((a, b) => b.createdAt - a.createdAt);
   const there: StoredPage = {
     ...now,

@@ -152,7 +152,11 @@ export class Restorer {
         .filter(({ id }) => this.songs.get(id) === null)
         .map(({ name }) => `The song ${name} could not be read again; its takes are there without it.`),
       ...(shorter > 0
-        ? [`${shorter === 1 ? 'A take' : `${shorter} takes`} of another length than the leader left out.`]
+        ? [
+            shorter === 1
+              ? 'A take of another length than the leader is left out.'
+              : `${shorter} takes of another length than their leader are left out.`,
+          ]
         : []),
       ...(changed > 0
         ? [

@@ -1,4 +1,4 @@
-import { type DBSchema, type IDBPDatabase, openDB, type OpenDBCallbacks } from 'idb';
+import { type DBSchema, type IDBPDatabase, type IDBPTransaction, openDB, type OpenDBCallbacks } from 'idb';
 import type { FoundProject } from './records';
 import {
   type StoredProject,
@@ -120,13 +120,11 @@ export class ProjectDatabase implements ProjectStorage {
 
   async removeOwn(): Promise<void> {
     if (PARTS.every((part) => this.own[part].size === 0)) return;
-    const transaction = (await this.open()).transaction(STORES, 'readwrite');
-    const requests = PARTS.flatMap((part) =>
-      [...this.own[part]].map((id) => transaction.objectStore(part).delete(id)),
-    );
-    requests.push(transaction.objectStore('page').delete('now'));
-    transaction.commit();
-    await settled([transaction.done, ...requests]);
+    await this.atOnce((transaction, send) => {
+      for (const part of PARTS)
+        for (const id of this.own[part]) send(transaction.objectStore(part).delete(id));
+      send(transaction.objectStore('page').delete('now'));
+    });
     for (const part of PARTS) for (const id of this.own[part]) this.present[part].delete(id);
     for (const id of this.own.takes) this.storedTakes.delete(id);
     this.own = noIds();
@@ -134,10 +132,9 @@ export class ProjectDatabase implements ProjectStorage {
   }
 
   async clear(): Promise<void> {
-    const transaction = (await this.open()).transaction(STORES, 'readwrite');
-    const clears = STORES.map((part) => transaction.objectStore(part).clear());
-    transaction.commit();
-    await settled([transaction.done, ...clears]);
+    await this.atOnce((transaction, send) => {
+      for (const part of STORES) send(transaction.objectStore(part).clear());
+    });
     this.present = noIds();
     this.own = noIds();
     this.storedTakes = new Map();
@@ -195,23 +192,16 @@ export class ProjectDatabase implements ProjectStorage {
     return all.filter(({ id }) => !this.present[part].has(id));
   }
 
-  /**
-   * Makes all of a change in one transaction. Its requests and its commit are sent in the same task: a page that is
-   * reloaded or ends the next moment is sure of what was committed, and of nothing else.
-   */
   private async commit({ songs, leaders, motions, takes, page, removed }: Difference): Promise<void> {
     if (!page && [songs, leaders, motions, takes, removed].every(({ length }) => length === 0)) return;
-    const transaction = (await this.open()).transaction(STORES, 'readwrite');
-    const requests: Promise<unknown>[] = [
-      ...songs.map((song) => transaction.objectStore('songs').put(song)),
-      ...leaders.map((leader) => transaction.objectStore('leaders').put(leader)),
-      ...motions.map((motion) => transaction.objectStore('motions').put(motion)),
-      ...takes.map((take) => transaction.objectStore('takes').put(take)),
-      ...(page ? [transaction.objectStore('page').put(page, 'now')] : []),
-      ...removed.map(({ part, id }) => transaction.objectStore(part).delete(id)),
-    ];
-    transaction.commit();
-    await settled([transaction.done, ...requests]);
+    await this.atOnce((transaction, send) => {
+      for (const song of songs) send(transaction.objectStore('songs').put(song));
+      for (const leader of leaders) send(transaction.objectStore('leaders').put(leader));
+      for (const motion of motions) send(transaction.objectStore('motions').put(motion));
+      for (const take of takes) send(transaction.objectStore('takes').put(take));
+      if (page) send(transaction.objectStore('page').put(page, 'now'));
+      for (const { part, id } of removed) send(transaction.objectStore(part).delete(id));
+    });
     const added = idsOf({ songs, leaders, motions, takes });
     for (const part of PARTS) for (const id of added[part]) this.present[part].add(id);
     for (const take of takes) this.storedTakes.set(take.id, take);
@@ -221,6 +211,30 @@ export class ProjectDatabase implements ProjectStorage {
       this.present[part].delete(id);
       if (part === 'takes') this.storedTakes.delete(id);
     }
+  }
+
+  /**
+   * Makes all of a change or nothing, in one transaction. Its requests and its commit are sent in the same task: a page
+   * that is reloaded or ends the next moment is sure of what was committed, and of nothing else.
+   */
+  private async atOnce(
+    request: (
+      transaction: IDBPTransaction<Schema, typeof STORES, 'readwrite'>,
+      send: (request: Promise<unknown>) => void,
+    ) => void,
+  ): Promise<void> {
+    const transaction = (await this.open()).transaction(STORES, 'readwrite');
+    const sent: Promise<unknown>[] = [transaction.done];
+    try {
+      request(transaction, (one) => sent.push(one));
+      transaction.commit();
+    } catch (error) {
+      // Else what was sent before would be kept.
+      transaction.abort();
+      await settled(sent).catch(() => undefined);
+      throw error;
+    }
+    await settled(sent);
   }
 
   private async removeUnused(wanted: Ids): Promise<void> {
