@@ -143,11 +143,11 @@ export class Autosave {
         const isNew = ({ id, reaction }: Take): boolean =>
           reaction.label === null && !this.synced.some((take) => take.id === id);
         if (state.takes.some(isNew)) this.callbacks.takeStored();
-        this.synced = state.takes;
       } else if (this.anythingStored) {
         await (this.cleared ? this.storage.clear() : this.storage.removeOwn());
         this.anythingStored = false;
       } else return;
+      this.synced = state.takes;
       this.cleared = false;
       this.report('stored');
     } catch (error) {

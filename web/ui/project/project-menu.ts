@@ -105,7 +105,7 @@ function build(services: Services, toggle: () => void): Elements {
   const clear = entry(
     'remove',
     'Start afresh',
-    'Empties the page; undo brings it back',
+    'Empties the page; undo brings it back until you make a take',
     services.clearProject,
   );
   const head = el('h2');

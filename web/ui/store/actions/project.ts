@@ -3,7 +3,7 @@ import type { LoadedSong, Take } from '../reaction';
 import type { AppState, AutosaveStatus, Restoring } from '../state';
 import { manifestLoaded } from './model';
 import { type Change } from '../store';
-import { NO_HISTORY, withUndoOfAll } from '../history';
+import { NO_HISTORY, withUndoOfAll, withUndoOfClearing } from '../history';
 import { mergedTakes, withTake } from '../take';
 
 /** Whether autosave works has changed. */
@@ -83,10 +83,12 @@ export function projectOpened(content: Partial<AppState>): Change {
   return (state) => withUndoOfAll(state, { ...content, firstVisit: false });
 }
 
-/** The page is emptied, as if it were opened for the first time; undo brings everything back. */
+/**
+ * The page is emptied, as if it were opened for the first time; undo brings everything back until a take is made.
+ */
 export function projectCleared(manifest: Manifest | null, seed: number): Change {
   return (state) =>
-    withUndoOfAll(state, {
+    withUndoOfClearing(state, {
       ...(manifest && manifestLoaded(manifest, seed)(state)),
       song: null,
       leader: null,
