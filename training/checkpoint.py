@@ -114,11 +114,14 @@ def read_card(folder: Path) -> dict:
     return read_config(folder, "card")
 
 
-def write_first_card(folder: Path, reference_height: float, unfamiliar_from: float) -> None:
+def write_first_card(
+    folder: Path, reference_height: float, unfamiliar_from: float, reactor_height: float | None = None
+) -> None:
     """Writes a card.json to be filled in by hand; one that exists is kept.
 
     reference_height: metres, the mean `body_height` of the leaders it was trained on. unfamiliar_from: mean
     `ConditionEncoder.unfamiliarity` of a leader from which the page says that the model does not know such a dance.
+    reactor_height: metres, the mean `body_height` of the reactors beside those leaders.
     """
     if (folder / "card.json").exists():
         return
@@ -132,4 +135,6 @@ def write_first_card(folder: Path, reference_height: float, unfamiliar_from: flo
         "reference_height": round(reference_height, 4),
         "unfamiliar_from": round(unfamiliar_from, 2),
     }
+    if reactor_height is not None:
+        card["reactor_height"] = round(reactor_height, 4)
     write_json(folder / "card.json", card)

@@ -101,7 +101,8 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
-  rereadLeader: (fps) => void files.rereadLeader(fps),
+  rereadLeader: (options) => void files.rereadLeader(options),
+  readAgain: files.readAgain,
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {
@@ -132,6 +133,7 @@ const services: Services = {
       () => false,
     ),
   loadUpdate: () => offline?.activateUpdate(),
+  reload: () => location.reload(),
 };
 
 // ---- panels ----
@@ -209,7 +211,8 @@ async function saveProject(): Promise<void> {
 
 function openDemo(): Promise<void> {
   return loadDemo(store, files, new URL('demo/', document.baseURI), {
-    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
+    readReactor: async (bytes) =>
+      (await readLeader({ files: [{ name: 'reactor.bvh', bytes }], options: {} })).motion,
     manifest: model.manifest,
   });
 }

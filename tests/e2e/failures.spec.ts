@@ -2,14 +2,19 @@ import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './s
 import { App, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
-/** Expects the problem dialog with this title and hint, and closes it with Escape. */
-async function expectProblem(app: App, title: RegExp, hint: RegExp): Promise<void> {
+/** Expects the problem dialog with this title and hint, and closes it, by Escape if not otherwise said. */
+async function expectProblem(
+  app: App,
+  title: RegExp,
+  hint: RegExp,
+  close = (): Promise<void> => app.page.keyboard.press('Escape'),
+): Promise<void> {
   await expect(app.alert).toBeVisible({ timeout: 60_000 });
   await expect(app.alert.getByRole('heading')).toHaveText(title);
   await expect(app.alert.getByRole('paragraph')).toHaveText(hint);
   // The first button of the dialog has the focus.
   await expect(app.alert.getByRole('button').first()).toBeFocused();
-  await app.page.keyboard.press('Escape');
+  await close();
   await expect(app.alert).toBeHidden();
 }
 
@@ -155,6 +160,35 @@ test.describe('the model', () => {
     await expectProblem(app, /stopped unexpectedly/, HINT);
     await page.getByRole('button', { name: 'Generate' }).click();
     await app.reaction('unlucky.bvh');
+  });
+
+  test('falling silent is noticed, also after a cancelled request, and Try again starts afresh', async ({
+    page,
+  }) => {
+    // Ends a worker from outside, of which the page gets no word.
+    await page.addInitScript(() => {
+      const opened: Worker[] = [];
+      const Real = Worker;
+      window.Worker = class extends Real {
+        constructor(...options: ConstructorParameters<typeof Worker>) {
+          super(...options);
+          if (options[1]?.name === 'model') opened.push(this);
+        }
+      };
+      Object.assign(window, { killModel: () => opened.at(-1)?.terminate() });
+    });
+    const app = new App(page);
+    await app.openWithoutPicture(SHIPPED);
+    await app.settled();
+    await app.chooseLeader(bvh({ frames: 1200, name: 'patient.bvh' }));
+    await app.until(({ job }) => job?.stage === 'step');
+    await page.evaluate('killModel()');
+    await page.getByRole('button', { name: /^Cancel/ }).click();
+    await page.getByRole('button', { name: 'Generate' }).click();
+    await expectProblem(app, /no sign of life for 30 seconds/, HINT, () =>
+      app.alert.getByRole('button', { name: 'Try again' }).click(),
+    );
+    await app.reaction('patient.bvh');
   });
 });
 

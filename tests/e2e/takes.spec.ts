@@ -152,7 +152,7 @@ test('everything is restored after a reload, and from a project file after the p
   const summary = () =>
     app.read(({ takes, reaction, song, leader, settings, other, playback }) => ({
       takes: takes.map(({ id, name, starred, reaction: { inputs } }) => [id, name, starred, inputs.settings]),
-      files: [song?.name, song?.data.beats, leader?.name, leader?.text.length],
+      files: [song?.name, song?.data.beats, leader?.name, leader?.files[0]?.bytes.length],
       settings,
       other,
       time: playback.time,

@@ -88,7 +88,7 @@ function workerError(reason: string): AppError {
   return new AppError(
     'worker-crashed',
     `The analysis of the song stopped unexpectedly (${reason}).`,
-    'Load the song again. If it happens again, close other tabs or use a shorter song.',
+    'Try again. If it happens again, close other tabs or use a shorter song.',
   );
 }
 

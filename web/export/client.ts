@@ -1,3 +1,4 @@
+import { loadPart } from '../common/page-part';
 import { createBodyLibrary } from '../view/body/library';
 import type { Role, Theme } from '../view/theme';
 import { bvhExtension, writeBvhFile } from './bvh';
@@ -54,7 +55,7 @@ async function content(
       return writeJson(dance);
     case 'glb': {
       // Few visitors need the exporter: it is loaded on demand.
-      const { writeGlb } = await import('./glb');
+      const { writeGlb } = await loadPart(() => import('./glb'));
       const bodies = createBodyLibrary();
       try {
         return await writeGlb(dance, theme, bodies);
@@ -70,7 +71,7 @@ export async function planVideo(
   size: { readonly width: number; readonly height: number },
   withSound: boolean,
 ): Promise<VideoPlan | null> {
-  const { plan } = await import('./video/plan');
+  const { plan } = await loadPart(() => import('./video/plan'));
   return plan(size, withSound);
 }
 
@@ -80,7 +81,7 @@ export async function planVideo(
  * @throws {AppError} `video-failed`, `sound-failed`; the signal's reason when it is aborted
  */
 export async function writeVideo(source: VideoSource, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
-  const video = await import('./video/write');
+  const video = await loadPart(() => import('./video/write'));
   return video.writeVideo(source, plan, options);
 }
 

@@ -10,7 +10,7 @@ import {
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh/conventions';
+import { BVH_NAMES } from '../motion/bvh/names';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';

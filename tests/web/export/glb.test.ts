@@ -4,7 +4,7 @@ import { validateBytes } from 'gltf-validator';
 import { beforeAll, expect, test } from 'vitest';
 import { writeGlb } from '../../../web/export/glb';
 import { estimateBytes } from '../../../web/export/sizes';
-import { BVH_NAMES } from '../../../web/motion/bvh/conventions';
+import { BVH_NAMES } from '../../../web/motion/bvh/names';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { makeBody } from '../../../web/view/body/simplify';
 import { LOOKS } from '../../../web/view/theme';

@@ -1,5 +1,5 @@
 import type { Song } from '../../../web/audio/client';
-import type { LeaderFile } from '../../../web/motion/bvh/read';
+import type { LeaderFile } from '../../../web/motion/retarget/leader';
 import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
@@ -29,6 +29,13 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
   return {
     clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
     report: {
+      format: 'BVH',
+      parts: [],
+      part: 0,
+      mappedBy: 'names',
+      confidence: 1,
+      skeleton: '22-00000000',
+      floor: 0,
       convention: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
       estimated: [],
@@ -68,8 +75,8 @@ export function leader(
   return {
     name,
     label: null,
-    text: 'HIERARCHY',
-    fps: null,
+    files: [{ name, bytes: new TextEncoder().encode('HIERARCHY') }],
+    options: {},
     file: leaderFile(frames, warnings, remarks),
     motion: still(frames),
   };

@@ -1,8 +1,10 @@
 import { readFileSync } from 'node:fs';
 import { type Golden, readGolden } from '../../../web/model/load/golden';
 import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
-import { type NpzArray, readNpz } from '../../../web/model/load/npz';
-import { type ModelSession, openSession, type Provider } from '../../../web/model/load/session';
+import { readNpz } from '../../../web/model/load/npz';
+import type { NpzArray } from '../../../web/common/npz';
+import type { Provider } from '../../../web/model/load/runtime';
+import { type ModelSession, openSession } from '../../../web/model/load/session';
 
 /** A model folder, opened in Node on the wasm runtime with one thread. */
 export interface OpenedModel {

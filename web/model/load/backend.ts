@@ -1,4 +1,4 @@
-import type { Provider } from './session';
+import type { Provider } from './runtime';
 
 export type Preference = 'auto' | Provider;
 

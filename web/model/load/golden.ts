@@ -3,7 +3,8 @@ import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Manifest } from '../manifest';
 import { blend, layerGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
-import { type NpzArray, readNpz } from './npz';
+import { readNpz } from './npz';
+import type { NpzArray } from '../../common/npz';
 import type { ModelSession } from './session';
 
 /** One small sampling as Python computed it: its inputs and its result. */

@@ -1,4 +1,4 @@
-import { BVH_NAMES } from './conventions';
+import { BVH_NAMES } from './names';
 import type { SolvedMotion } from '../skeleton/clip';
 import { eulerZxy } from '../math/euler';
 import { readQuat } from '../math/quat';

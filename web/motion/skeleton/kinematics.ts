@@ -1,5 +1,5 @@
 import { addScaled, multiplyRows, rotateRow } from '../math/rows';
-import { JOINT_COUNT, PARENTS } from './skeleton';
+import { J, JOINT_COUNT, PARENTS } from './skeleton';
 
 /**
  * Forward kinematics: joint positions of a skeleton in motion.
@@ -32,4 +32,29 @@ export function forwardKinematics(
     positions.set(placed, frame * placed.length);
   }
   return positions;
+}
+
+/** The joints of the rest pose, 22 x 3 metres, with the root at the origin. @param offsets as in `forwardKinematics` */
+export function restPositions(offsets: Float32Array): Float32Array {
+  const positions = offsets.slice();
+  for (let i = 3; i < positions.length; i++)
+    positions[i]! += positions[PARENTS[Math.floor(i / 3)]! * 3 + (i % 3)]!;
+  return positions;
+}
+
+/** Height of the root of the rest pose standing on the floor, metres: its lowest joint is at height 0. */
+export function restRootHeight(offsets: Float32Array): number {
+  return -Math.min(...heightsOf(restPositions(offsets)));
+}
+
+/** How far the crown of the head is above its joint, metres. */
+export const CROWN = 0.18;
+
+/** Height of a dancer who stands straight, from the floor to the crown of the head, metres. */
+export function standingHeight(offsets: Float32Array): number {
+  return restRootHeight(offsets) + restPositions(offsets)[J.head * 3 + 1]! + CROWN;
+}
+
+function heightsOf(positions: Float32Array): Float32Array {
+  return positions.filter((_, i) => i % 3 === 1);
 }

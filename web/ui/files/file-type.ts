@@ -1,11 +1,12 @@
+import { motionFormat } from '../../motion/import/format';
+
 /** The type of a file, from its first bytes; from its name only where they do not tell. */
-type FileKind = 'song' | 'leader' | 'other-motion' | 'unknown';
+type FileKind = 'song' | 'leader' | 'unknown';
 
 /** Bytes that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
 const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
-const BVH_NAME = /\.bvh$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
 /** Whether a file is a project, from its name alone: other files are zip archives too. */
@@ -20,17 +21,11 @@ export function isProject(name: string): boolean {
  */
 export function fileKind(head: Uint8Array, name: string, type: string): FileKind {
   const text = String.fromCharCode(...head);
-  if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
-  if (isUnsupportedMotion(text)) return 'other-motion';
   if (isSound(text, head)) return 'song';
-  // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
-  if (BVH_NAME.test(name)) return 'leader';
+  // Where the bytes do not tell, the reader of the type that the name suggests reports what is wrong with them.
+  if (motionFormat(head, name)) return 'leader';
   if (type.startsWith('audio/') || AUDIO_NAME.test(name)) return 'song';
   return 'unknown';
-}
-
-function isUnsupportedMotion(text: string): boolean {
-  return text.startsWith('Kaydara FBX Binary') || text.startsWith('glTF') || text.startsWith('; FBX');
 }
 
 function isSound(text: string, head: Uint8Array): boolean {

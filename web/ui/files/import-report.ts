@@ -1,12 +1,14 @@
 import type { Manifest } from '../../model/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { standingHeight } from '../../motion/skeleton/kinematics';
 import { loadedRole, roleName } from '../store/roles';
 import { el, combineDisposers } from '../widgets/dom';
-import { clockTime, rate, tempo } from '../store/format';
+import { centimetres, clockTime, rate, tempo } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joint-text';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
-import type { LoadedLeader, Reaction } from '../store/reaction';
+import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
 import type { AppState, ModelState } from '../store/state';
 import { watchAll } from '../store/store';
 
@@ -108,17 +110,19 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
       attributes: { id: 'leader-rate', 'aria-label': 'Frame rate of the leader file' },
       on: {
         change: () => {
-          services.rereadLeader(select.value === '' ? null : Number(select.value));
+          const fps = select.value === '' ? undefined : Number(select.value);
+          services.rereadLeader({ ...leader.options, fps });
         },
       },
     },
     el('option', {
-      text: leader.fps === null ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
+      text:
+        leader.options.fps === undefined ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
       attributes: { value: '' },
     }),
     ...RATES.map((fps) => el('option', { text: `${fps} fps`, attributes: { value: fps } })),
   );
-  select.value = leader.fps === null ? '' : String(leader.fps);
+  select.value = String(leader.options.fps ?? '');
   const rest = Math.abs(report.sourceFps - clip.fps) > 0.01 ? ` to ${rate(clip.fps)} fps` : '';
   return el('span', {}, select, rest);
 }
@@ -129,11 +133,17 @@ function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElemen
     group(role, roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
     ...fact('Guidance', guidanceText(inputs.settings)),
+    ...fact('Height', heightText(motion, inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
       ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)
       : []),
   ];
+}
+
+/** `148 cm, in proportion`. */
+function heightText({ offsets }: SolvedMotion, { height }: Settings): string {
+  return `${centimetres(standingHeight(offsets))} cm, ${height === null ? 'in proportion' : 'as set'}`;
 }
 
 function millimetres(metres: number): string {

@@ -3,7 +3,7 @@ import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
 import { iconButton, textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { icon } from '../widgets/icons';
+import { mountHeightBox } from './height-box';
 import { mountSeedBox } from './seed-box';
 import { isReading, upToDate } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -17,7 +17,7 @@ interface Controls {
   readonly show: (state: AppState) => void;
 }
 
-/** The section of reactions: seed, variations to pick from, generate, number of steps and swapped roles. */
+/** The section of reactions: seed, variations to pick from, generate, number of steps, height and swapped roles. */
 export const mountOptions: Mount = (root, store, services) => {
   const steps = createStepControl(store);
   const swap = createSwapButton(store);
@@ -36,13 +36,14 @@ export const mountOptions: Mount = (root, store, services) => {
   root.append(section);
   const seed = mountSeedBox(head, store, services);
   const cards = mountVariationCards(section, store, services);
-  section.append(
-    el('div', { class: 'make' }, ...generate.elements, ...variations.elements),
-    el('div', { class: 'option-row' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
-  );
+  const row = el('div', { class: 'option-row' }, ...steps.elements);
+  const height = mountHeightBox(row, store, services);
+  row.append(el('span', { class: 'grow' }), ...swap.elements);
+  section.append(el('div', { class: 'make' }, ...generate.elements, ...variations.elements), row);
   return combineDisposers(
     seed,
     cards,
+    height,
     watchAll(
       store,
       (state) => [
@@ -99,10 +100,9 @@ function createStepControl(store: Store): Controls {
 }
 
 function createSwapButton(store: Store): Controls {
-  const swap = textButton('btn tint swap', 'Swap roles', () => {
+  const swap = iconButton('btn tint swap', 'swap', { label: 'Swap roles' }, () => {
     apply(store, rolesSwapped());
   });
-  swap.prepend(icon('swap'));
   return {
     elements: [swap],
     show: (state) => {

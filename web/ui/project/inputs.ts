@@ -1,4 +1,4 @@
-import type { Manifest } from '../../model/client';
+import { HEIGHTS, type Manifest } from '../../model/client';
 import { clampedTo, rangeOf } from '../store/guidance-matrix';
 import type { Inputs, LoadedLeader, LoadedSong, Settings } from '../store/reaction';
 import { sameSettings } from '../store/selectors';
@@ -25,7 +25,9 @@ export function restoredInputs(
   leader: LoadedLeader,
   song: LoadedSong | null,
 ): RestoredInputs {
-  const present = currentInputs({ ...state, leader, song });
+  // In proportion, where a height is missing.
+  const own = state.settings && { ...state.settings, height: null };
+  const present = currentInputs({ ...state, leader, song, settings: own });
   if (!present || !state.manifest) throw new Error('Inputs are restored once the settings are there.');
   const alike = conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>;
   const settings = fitted(alike.settings, state.manifest);
@@ -40,8 +42,9 @@ export function restoredInputs(
 function conform(example: unknown, value: unknown): unknown {
   if (typeof example === 'number')
     return typeof value === 'number' && Number.isFinite(value) ? value : example;
-  if (example === null || typeof example !== 'object')
-    return typeof value === typeof example ? value : example;
+  // A number that need not be there.
+  if (example === null) return typeof value === 'number' && Number.isFinite(value) ? value : null;
+  if (typeof example !== 'object') return typeof value === typeof example ? value : example;
   if (value === null || typeof value !== 'object') return example;
   const parts = Object.entries(example).map(([key, part]) => [
     key,
@@ -68,5 +71,6 @@ function fitted(settings: Settings, { guidance, diffusion }: Manifest): Settings
     steps: whole(settings.steps, diffusion.steps.min, diffusion.steps.max),
     seed: whole(settings.seed, 0, 0xffffffff),
     role: settings.role === 'leader' ? 'leader' : 'reactor',
+    height: settings.height === null ? null : clampedTo(settings.height, HEIGHTS),
   };
 }

@@ -28,8 +28,8 @@ const schema = v.object({
 type Manifest = v.InferOutput<typeof schema>;
 
 /**
- * Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, motion and latents
- * of takes as float32.
+ * Writes a project: a zip archive with project.json, songs and leaders as they were given, and motion and latents of
+ * takes as float32.
  */
 export async function writeProject(project: StoredProject): Promise<Uint8Array<ArrayBuffer>> {
   const files: Zippable = {};
@@ -45,10 +45,15 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
     const path = `songs/${index + 1}-${slug(name, 'song')}${ending}`;
     songs.push({ id, name, label, type: file.type, file: add(path, bytes, 0) });
   }
-  const leaders = project.leaders.map(({ id, name, label, fps, text }, index) => {
-    const path =
-      project.leaders.length === 1 ? 'leader.bvh' : `leaders/${index + 1}-${slug(name, 'leader')}.bvh`;
-    return { id, name, label, fps, file: add(path, strToU8(text), 1) };
+  const leaders = project.leaders.map(({ id, name, label, files: parts, options }, index) => {
+    const folder = project.leaders.length === 1 ? '' : 'leaders/';
+    const [file, ...companions] = parts.map((part, place) => {
+      const ending = /\.[a-z0-9]{1,5}$/i.exec(part.name)?.[0].toLowerCase() ?? '';
+      const stem = folder === '' ? 'leader' : `${index + 1}-${slug(name, 'leader')}`;
+      const path = `${folder}${stem}${place > 0 ? `-${place + 1}` : ''}${ending}`;
+      return { name: part.name, file: add(path, part.bytes, 1) };
+    });
+    return { id, name, label, file: file!.file, companions, options: { ...options }, fps: null };
   });
   const motions = project.motions.map(({ id, motion, latents }, index) => {
     const { fps, frames, fitError } = motion;
@@ -84,7 +89,9 @@ export function readProject(bytes: Uint8Array): ReturnType<typeof checked> {
   const { songs, leaders, motions, takes, page } = readManifest(files);
   const read = checked({
     songs: songs.map((entry) => withFile(entry, files, (content) => ({ bytes: content }))),
-    leaders: leaders.map((entry) => withFile(entry, files, (content) => ({ text: strFromU8(content) }))),
+    leaders: leaders.map((entry) =>
+      withFile(entry, files, (content) => leaderOf(entry as Entry, content, files)),
+    ),
     motions: motions.map((entry) =>
       withFile(entry, files, (content) => motionOf(entry as Entry, content, files)),
     ),
@@ -116,6 +123,18 @@ function withFile(
 
 function contentOf(files: Unzipped, file: unknown): Uint8Array<ArrayBuffer> | null {
   return typeof file === 'string' && Object.hasOwn(files, file) ? files[file]! : null;
+}
+
+/** Files of earlier pages have the frame rate alone, beside the file. */
+function leaderOf({ name, fps, companions, options }: Entry, content: Uint8Array, files: Unzipped): Entry {
+  const others = Array.isArray(companions) ? (companions as readonly unknown[]) : [];
+  return {
+    files: [
+      { name, bytes: content },
+      ...others.map((other) => withFile(other, files, (bytes) => ({ bytes }))),
+    ],
+    options: { ...(typeof fps === 'number' && { fps }), ...(options as object | null | undefined) },
+  };
 }
 
 function motionOf({ frames, fps, fitError, latents }: Entry, content: Uint8Array, files: Unzipped): Entry {

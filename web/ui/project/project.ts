@@ -55,7 +55,8 @@ export class Project {
     });
     this.foreground = {
       song: ({ file, name, label }) => files.readSong(file, name, label),
-      leader: ({ text, name, label, fps }) => files.readLeader(text, name, label, fps),
+      leader: ({ name, label, files: leader, options }) =>
+        files.readLeader({ name, label, files: leader, options }),
     };
     this.background = backgroundReaders(readers);
   }
@@ -198,9 +199,9 @@ function backgroundReaders(readers: FileReaders): StoredFileReaders {
         () => null,
       );
     },
-    leader: ({ text, name, label, fps }) =>
-      readers.readLeader({ text, fps }, new AbortController().signal).then(
-        ({ file, motion }) => ({ name, label, text, fps, file, motion }),
+    leader: ({ name, label, files, options }) =>
+      readers.readLeader({ files, options }, new AbortController().signal).then(
+        ({ file, motion }) => ({ name, label, files, options, file, motion }),
         () => null,
       ),
   };

@@ -1,7 +1,8 @@
 import * as v from 'valibot';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { ALL_UNITS, UP_AXES } from '../../motion/retarget/axes-and-units';
 import { checkPlausible } from '../../motion/skeleton/plausible';
-import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
+import { J, JOINT_COUNT, SMPL22 } from '../../motion/skeleton/skeleton';
 import { MAX_TAKE_NAME_LENGTH } from '../store/actions/takes';
 import type { StoredInputs, StoredPage, StoredProject, StoredTake } from './schema';
 
@@ -23,6 +24,8 @@ interface CheckedProject {
 /** Most songs, and most leaders, that are read again: each takes a worker of its own for a while. */
 const MAX_FILES = 100;
 const MAX_NAME_LENGTH = 1000;
+/** Most files that a leader is read from, with those that belong to it. */
+const MAX_LEADER_FILES = 10;
 /** Largest rest offset of a joint from its parent, metres. */
 const MAX_BONE = 2;
 /** Largest distance between the root and the pelvis that follows from it, metres. */
@@ -53,12 +56,34 @@ const song = v.pipe(
   v.transform(({ bytes, type, ...rest }) => ({ ...rest, file: new Blob([bytes], { type }) })),
 );
 
+const leaderFile = v.object({
+  name: text,
+  bytes: v.pipe(
+    v.instance(Uint8Array<ArrayBuffer>),
+    v.check(({ byteLength }) => byteLength > 0),
+  ),
+});
+
+const degrees = v.pipe(v.number(), v.minValue(-360), v.maxValue(360));
+const metres = v.pipe(v.number(), v.minValue(-1000), v.maxValue(1000));
+
+/** See `ImportOptions`; what does not fit is found in the file instead, as if it had not been set. */
+const options = v.object({
+  fps: v.fallback(v.optional(v.pipe(amount, v.gtValue(0))), undefined),
+  unit: v.fallback(v.optional(v.picklist(ALL_UNITS.map((unit) => unit.name))), undefined),
+  up: v.fallback(v.optional(v.picklist(UP_AXES.map((axis) => axis.name))), undefined),
+  turn: v.fallback(v.optional(degrees), undefined),
+  floor: v.fallback(v.optional(metres), undefined),
+  part: v.fallback(v.optional(count), undefined),
+  joints: v.fallback(v.optional(v.record(v.picklist(SMPL22), v.nullable(text))), undefined),
+});
+
 const leader = v.object({
   id,
   name: text,
   label,
-  text: v.pipe(v.string(), v.minLength(1)),
-  fps: v.nullable(v.pipe(amount, v.gtValue(0))),
+  files: v.pipe(v.array(leaderFile), v.minLength(1), v.maxLength(MAX_LEADER_FILES)),
+  options,
 });
 
 const floats = v.instance(Float32Array);

@@ -1,6 +1,6 @@
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Inputs, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
+import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
 import type { AppState, Compare, Letter } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 
@@ -8,7 +8,7 @@ import { currentInputs, takeOnStage } from '../store/take';
  * Version of the records, in the database and in project files. Raised when pages of the version before can't read
  * them any more, or would leave out something when they write them again.
  */
-export const VERSION = 1;
+export const VERSION = 2;
 
 /** A song: the file that it was read from. */
 export interface StoredSong {
@@ -18,12 +18,8 @@ export interface StoredSong {
   readonly file: Blob;
 }
 
-export interface StoredLeader {
+export interface StoredLeader extends LeaderSource {
   readonly id: string;
-  readonly name: string;
-  readonly label: string | null;
-  readonly text: string;
-  readonly fps: number | null;
 }
 
 export interface StoredMotion {
@@ -137,9 +133,9 @@ export function storedProject(state: AppState): StoredProject {
     return id;
   };
   const leader = (part: LoadedLeader): string => {
-    const { name, label, text, fps } = part;
+    const { name, label, files, options } = part;
     const id = idOf(part);
-    leaders.set(id, { id, name, label, text, fps });
+    leaders.set(id, { id, name, label, files, options });
     return id;
   };
   const motion = ({ motion: part, latents: values }: Reaction): string => {

@@ -1,4 +1,4 @@
-import { combineDisposers } from '../widgets/dom';
+import { combineDisposers, listen } from '../widgets/dom';
 import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LaneContent, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
@@ -57,6 +57,7 @@ export function mountQualityStrip(
   });
   sizes.observe(root);
   return combineDisposers(
+    markWhileLookedAt(root, lanes),
     watchAll(
       store,
       (state) => {
@@ -88,6 +89,25 @@ function isStale(state: AppState): boolean {
   const { quality } = state;
   const ofAnother = quality !== null && quality.reactor !== reactorMotion(state);
   return ofAnother || isSampling(state);
+}
+
+/**
+ * Marks `root` as `looked-at` while the pointer or the focus is in one of the lanes, and after a tap until the next one
+ * elsewhere; returns a function that stops it.
+ */
+function markWhileLookedAt(root: HTMLElement, lanes: readonly QualityLane[]): () => void {
+  const parts = lanes.flatMap(({ label, lane }) => [label, lane]);
+  const isInside = (target: EventTarget | null): boolean =>
+    target instanceof Node && parts.some((part) => part.contains(target));
+  const follow = ({ target, type }: Event): void => {
+    const focused = type === 'pointerover' && isInside(document.activeElement);
+    root.classList.toggle('looked-at', focused || isInside(target));
+  };
+  return combineDisposers(
+    listen(window, 'pointerover', follow),
+    listen(window, 'pointerdown', follow),
+    listen(window, 'focusin', follow),
+  );
 }
 
 function drawLanes(

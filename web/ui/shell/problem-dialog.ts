@@ -61,14 +61,28 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
       },
     },
     el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
-    el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
+    el('p', { text: hintOf(problem, state), attributes: { id: 'problem-hint' } }),
     el(
       'div',
       { class: 'actions' },
       remedy && action(remedy.text, 'primary', remedy.run),
+      losesWork(problem, state) ? action('Save project', 'tint', services.saveProject) : null,
       action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
     ),
   );
+}
+
+/** Whether the remedy takes away what the browser does not keep. */
+const losesWork = ({ remedy }: Problem, { autosave }: Pick<AppState, 'autosave'>): boolean =>
+  remedy === 'reload' && autosave !== 'stored';
+
+/** The hint; before a reload also what becomes of the visitor's work. */
+export function hintOf(problem: Problem, state: Pick<AppState, 'autosave'>): string {
+  if (problem.remedy !== 'reload') return problem.hint;
+  const kept = losesWork(problem, state)
+    ? 'Save your project first: this browser does not keep it.'
+    : 'Song, leader, takes and settings stay.';
+  return `${problem.hint} ${kept}`;
 }
 
 /** A sentence whose short quotations stay on one line. */
@@ -91,12 +105,18 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
         },
       };
     }
+    case 'read-again': {
+      const kind = problem.refused?.kind;
+      return kind ? { text: 'Try again', run: () => services.readAgain(kind) } : null;
+    }
     case 'model':
       return { text: 'Try again', run: services.retryModel };
     case 'generate':
       return { text: 'Try again', run: services.generate };
     case 'project':
       return { text: 'Save project', run: services.saveProject };
+    case 'reload':
+      return { text: 'Reload', run: services.reload };
     case 'none':
       return null;
   }

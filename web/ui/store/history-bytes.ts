@@ -49,8 +49,9 @@ function songBytes({ file, data }: LoadedSong): number {
   return file.size + data.sound.size + data.features.byteLength + data.pcm.byteLength;
 }
 
-function leaderBytes({ text, file, motion }: LoadedLeader): number {
-  return 2 * text.length + file.clip.positions.byteLength + motionBytes(motion);
+function leaderBytes({ files, file, motion }: LoadedLeader): number {
+  const read = files.reduce((sum, { bytes }) => sum + bytes.byteLength, 0);
+  return read + file.clip.positions.byteLength + motionBytes(motion);
 }
 
 function motionBytes({ root, rotations, positions }: SolvedMotion): number {

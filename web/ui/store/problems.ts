@@ -22,9 +22,22 @@ export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
+/** The server has a newer version of the page, without which this one cannot go on; null for other failures. */
+function versionProblem(error: unknown): Problem | null {
+  if (!isExplained(error) || error.code !== 'newer-version') return null;
+  return { code: error.code, title: error.message, hint: error.hint, remedy: 'reload', refused: null };
+}
+
+/** Failures of the page that no other file would mend. */
+const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'page-part-missing'];
+
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
+  const newer = versionProblem(error);
+  if (newer) return newer;
   const refused = { kind, name };
+  if (isExplained(error) && NOT_OF_THE_FILE.includes(error.code))
+    return { code: error.code, title: error.message, hint: error.hint, remedy: 'read-again', refused };
   if (isExplained(error))
     return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
@@ -80,37 +93,43 @@ export function fullProblem(): Problem {
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'model-failed',
-    title: explained ? error.message : 'The model could not be started.',
-    hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
-    remedy: 'model',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'model-failed',
+      title: explained ? error.message : 'The model could not be started.',
+      hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
+      remedy: 'model',
+      refused: null,
+    }
+  );
 }
 
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'generation-failed',
-    title: explained ? error.message : 'The reactor could not be made.',
-    hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'generation-failed',
+      title: explained ? error.message : 'The reactor could not be made.',
+      hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'coarse-failed',
-    title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
-    hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'coarse-failed',
+      title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
+      hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to play. */
@@ -128,13 +147,17 @@ export function playbackProblem(error: unknown): Problem {
 /** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'saving-failed',
-    title: explained ? error.message : 'The file could not be written.',
-    hint: explained ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
-    remedy: 'none',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'saving-failed',
+      title: explained ? error.message : 'The file could not be written.',
+      hint: explained
+        ? error.hint
+        : 'Try again, or another format. The dance and your settings are unchanged.',
+      remedy: 'none',
+      refused: null,
+    }
+  );
 }
 
 /** A failure of the 3D picture; everything else goes on working. */
@@ -170,19 +193,9 @@ export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
     title: 'There is no file in what was dropped.',
-    hint: 'Drop a song, a leader as BVH, or the folder of a model with its manifest.json.',
+    hint: 'Drop a song, a leader’s motion file, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
-  };
-}
-
-export function otherMotionProblem(name: string): Problem {
-  return {
-    code: 'other-motion',
-    title: `${name} is a motion in a format that cannot be read here.`,
-    hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
-    remedy: 'leader',
-    refused: { kind: null, name },
   };
 }
 
@@ -190,7 +203,7 @@ export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
     title: `${name} is neither a song nor a motion.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file.',
+    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
     remedy: 'any-file',
     refused: { kind: null, name },
   };

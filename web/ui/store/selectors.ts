@@ -28,6 +28,7 @@ export function sameSettings(a: Settings, b: Settings): boolean {
     a.role === b.role &&
     a.music === b.music &&
     a.variety === b.variety &&
+    a.height === b.height &&
     sameGuidance(a.guidance, b.guidance)
   );
 }
@@ -38,10 +39,10 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   return sameFiles && sameSettings(a.settings, b.settings);
 }
 
-/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance differ. */
+/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance or height differ. */
 export function differOnlyInWeights(a: Inputs, b: Inputs): boolean {
-  const { guidance, music, variety } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety } }, b);
+  const { guidance, music, variety, height } = b.settings;
+  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety, height } }, b);
 }
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */

@@ -3,7 +3,8 @@ import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
 import type { StorageUsage } from '../../offline/storage-usage';
-import type { LoadedLeader, LoadedSong } from './reaction';
+import type { LeaderSource, LoadedLeader, LoadedSong } from './reaction';
+import type { ImportOptions } from '../../motion/retarget/options';
 import type { InputKind } from './state';
 import type { Store } from './store';
 
@@ -34,17 +35,13 @@ export interface Files {
   readonly open: (files: readonly File[]) => Promise<void>;
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
-  readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
-  readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
+  readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
+  /** Reads the leader on the page, or the one that was refused last, again with these options. */
+  readonly rereadLeader: (options: ImportOptions) => Promise<LoadedLeader | null>;
   /** Reads a song without putting it on the page; null when that failed or a newer song cancelled it. */
   readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   /** The same for a leader. */
-  readonly readLeader: (
-    text: string,
-    name: string,
-    label: string | null,
-    fps: number | null,
-  ) => Promise<LoadedLeader | null>;
+  readonly readLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
 }
 
 /** Actions with effects that panels start. The state itself they change through the store. */
@@ -53,8 +50,10 @@ export interface Services {
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
-  /** Reads the leader again at this frame rate; null is the file's own. */
-  readonly rereadLeader: (fps: number | null) => void;
+  /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */
+  readonly rereadLeader: (options: ImportOptions) => void;
+  /** Reads the song or leader again whose reading failed last. */
+  readonly readAgain: (kind: InputKind) => void;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */
@@ -94,6 +93,8 @@ export interface Services {
   readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */
   readonly loadUpdate: () => void;
+  /** Loads the page again. */
+  readonly reload: () => void;
 }
 
 /** Builds a panel into its root; returns its removal. */

@@ -5,7 +5,7 @@ import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
 import type { History } from './history';
-import type { Inputs, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
+import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 
 export type Theme = 'dark' | 'light';
@@ -106,7 +106,8 @@ export interface Problem {
   readonly title: string;
   readonly hint: string;
   /** What the dialog's first button offers. */
-  readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
+  readonly remedy:
+    'song' | 'leader' | 'any-file' | 'read-again' | 'model' | 'generate' | 'project' | 'reload' | 'none';
   /** The file that was refused, if it was a file. */
   readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }
@@ -187,6 +188,8 @@ export interface AppState {
   readonly settings: Settings | null;
   readonly song: LoadedSong | null;
   readonly leader: LoadedLeader | null;
+  /** The last leader that could not be read, so that it can be read again in another way. */
+  readonly refusedLeader: LeaderSource | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
   readonly reading: Readonly<Record<InputKind, Reading | null>>;

@@ -23,6 +23,7 @@ export function initialState(theme: Theme): AppState {
     settings: null,
     song: null,
     leader: null,
+    refusedLeader: null,
     shift: 0,
     reading: { song: null, leader: null },
     reaction: null,

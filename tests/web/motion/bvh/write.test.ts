@@ -1,8 +1,8 @@
 import { Vector3 } from 'three';
 import { BVHLoader } from 'three/addons/loaders/BVHLoader.js';
 import { describe, expect, test } from 'vitest';
-import { readBvh } from '../../../../web/motion/bvh/read';
-import { BVH_NAMES } from '../../../../web/motion/bvh/conventions';
+import { leaderBvh } from '../../support/leader-bvh';
+import { BVH_NAMES } from '../../../../web/motion/bvh/names';
 import { writeBvh } from '../../../../web/motion/bvh/write';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
@@ -33,7 +33,7 @@ const text = writeBvh(solved);
 
 describe('what is written is what was solved', () => {
   test('readBvh reads the same motion', () => {
-    const { clip, report } = readBvh(text);
+    const { clip, report } = leaderBvh(text);
     expect(clip).toMatchObject({ fps: 30, frames: 200 });
     expect(farthest(clip.positions, solved.positions)).toBeLessThan(MILLIMETRE / 50);
     expect(report).toMatchObject({
@@ -52,7 +52,7 @@ describe('what is written is what was solved', () => {
     ['a giant', 1.35],
   ])('the unit is found again for %s', (_, size) => {
     const motion = solve(madeDancer({ frames: 30, size }));
-    const { clip, report } = readBvh(writeBvh(motion));
+    const { clip, report } = leaderBvh(writeBvh(motion));
     expect(report.unit).toBe('centimetres');
     expect(farthest(clip.positions, motion.positions)).toBeLessThan(MILLIMETRE / 50);
   });
@@ -60,7 +60,7 @@ describe('what is written is what was solved', () => {
   test('a dancer who never touches the floor keeps their height', () => {
     const high = solved.positions.map((value, i) => (i % 3 === 1 ? value + 0.05 : value));
     const motion = solve({ ...solved, positions: high });
-    expect(farthest(readBvh(writeBvh(motion)).clip.positions, motion.positions)).toBeLessThan(
+    expect(farthest(leaderBvh(writeBvh(motion)).clip.positions, motion.positions)).toBeLessThan(
       MILLIMETRE / 50,
     );
   });
@@ -144,7 +144,7 @@ describe('what other programs need', () => {
       }
     }
     const positions = forwardKinematics(made.offsets, made.root, rotations);
-    const { clip } = readBvh(writeBvh({ ...made, rotations, positions }));
+    const { clip } = leaderBvh(writeBvh({ ...made, rotations, positions }));
     expect(farthest(clip.positions, positions)).toBeLessThan(MILLIMETRE);
   });
 

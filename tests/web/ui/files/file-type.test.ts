@@ -40,8 +40,8 @@ describe('the type of a file', () => {
   it.each([
     ['FBX', bytes('Kaydara FBX Binary  ')],
     ['GLB', bytes('glTF\u0002')],
-  ])('knows %s as motion of another format', (_, head) => {
-    expect(fileKind(head, 'dance.bin', '')).toBe('other-motion');
+  ])('knows %s as a leader', (_, head) => {
+    expect(fileKind(head, 'dance.bin', '')).toBe('leader');
   });
 
   it('is unknown for the rest', () => {

@@ -57,6 +57,7 @@ function filled(): change.Store {
   change.apply(store, change.guidanceSet('coarse', 1.2));
   react(2);
   change.apply(store, change.seedSet(99));
+  change.apply(store, change.heightSet(1.7));
   react(3);
   change.apply(store, takeStarred('t1'));
   change.apply(store, takeRenamed('t2', 'Softer hands'));
@@ -68,8 +69,8 @@ function filled(): change.Store {
 
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
-  leader: ({ name, label, text, fps }) =>
-    Promise.resolve({ name, label, text, fps, file: leaderFile(frames(name)), motion: still(frames(name)) }),
+  leader: (one) =>
+    Promise.resolve({ ...one, file: leaderFile(frames(one.name)), motion: still(frames(one.name)) }),
 };
 const frames = (name: string): number => (name === 'früher.bvh' ? 30 : 60);
 
@@ -234,6 +235,7 @@ describe('a part that cannot be read any more', () => {
       steps: 10,
       seed: 5,
       role: 'reactor',
+      height: null,
     });
   });
 });
@@ -332,8 +334,7 @@ describe('what does not fit', () => {
   it('is a motion of another length than its leader', async () => {
     const { content, losses } = await contentOf(readProject(await whole).project, empty().getState(), {
       ...readers,
-      leader: ({ name, label, text, fps }) =>
-        Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+      leader: (one) => Promise.resolve({ ...one, file: leaderFile(60), motion: still(60) }),
     });
     expect(content.takes?.map(({ number }) => number)).toEqual([3, 2]);
     expect(losses).toEqual(['A take of another length than the leader is left out.']);
@@ -349,12 +350,12 @@ describe('what does not fit', () => {
   });
 
   it('is a leader beyond the hundredth', () => {
-    const text = 'HIERARCHY';
+    const files = [{ name: 'a.bvh', bytes: new Uint8Array(3) }];
     const ids = Array.from({ length: 1000 }, (_, i) => `${i}`);
     const kept = storedProject(filled().getState());
     const { project, losses } = checked({
       ...kept,
-      leaders: ids.map((id) => ({ id, name: id, label: null, text, fps: null })),
+      leaders: ids.map((id) => ({ id, name: id, label: null, files, options: {} })),
       takes: ids.map((id) => ({ ...kept.takes[0]!, id, leader: id, createdAt: Number(id) })),
     });
     expect(project.leaders).toHaveLength(100);
@@ -387,7 +388,7 @@ describe('a broken project', () => {
     ],
     [
       'from a newer page',
-      () => json((manifest) => void Object.assign(manifest, { version: 2 })),
+      () => json((manifest) => void Object.assign(manifest, { version: 3 })),
       'newer-project',
       /newer version/,
     ],

@@ -16,6 +16,7 @@ const settings = {
   steps: 10,
   seed: 1,
   role: 'reactor' as const,
+  height: null,
 };
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });

@@ -8,7 +8,10 @@ import { leader, still } from '../../support/made-state';
 import { small } from '../../support/small-manifest';
 
 /** A leader that takes so many megabytes. */
-const large = (megabytes: number): LoadedLeader => ({ ...leader(30), text: 'x'.repeat(megabytes * 5e5) });
+const large = (megabytes: number): LoadedLeader => ({
+  ...leader(30),
+  files: [{ name: 'large.bvh', bytes: new Uint8Array(megabytes * 1e6) }],
+});
 
 function page(): change.Store {
   const store = change.createAppStore('dark');
@@ -54,7 +57,7 @@ describe('the history of undo', () => {
     load(store, 1, 0);
     expect(steps(store)).toBe(1);
     change.apply(store, undone());
-    expect(store.getState().leader?.text).toHaveLength(1e8);
+    expect(store.getState().leader?.files[0]?.bytes).toHaveLength(200e6);
   });
 
   it('counts what the page holds anyway as nothing', () => {

@@ -13,6 +13,7 @@ const settings: Settings = {
   steps: 10,
   seed: 1204,
   role: 'reactor',
+  height: null,
 };
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),

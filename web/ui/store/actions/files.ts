@@ -1,5 +1,5 @@
 /** Song and leader. */
-import type { LoadedLeader, LoadedSong } from '../reaction';
+import type { LeaderSource, LoadedLeader, LoadedSong } from '../reaction';
 import type { AppState, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
@@ -26,9 +26,15 @@ export function leaderLoaded(leader: LoadedLeader): Change {
     zoom: null,
     reaction: null,
     preview: null,
+    refusedLeader: null,
     reading: { ...state.reading, leader: null },
     playback: { ...state.playback, time: 0, playing: false, region: null },
   });
+}
+
+/** Keeps a leader that could not be read, so that it can be read again in another way; null forgets it. */
+export function leaderRefused(refusedLeader: LeaderSource | null): Change {
+  return () => ({ refusedLeader });
 }
 
 export function firstVisitEnded(): Change {

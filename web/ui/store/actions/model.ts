@@ -17,6 +17,7 @@ export function manifestLoaded(manifest: Manifest, seed: number): Change {
       steps: manifest.diffusion.steps.default,
       seed,
       role: 'reactor',
+      height: null,
     },
   });
 }
