@@ -2,7 +2,7 @@ import 'fake-indexeddb/auto';
 import { openDB } from 'idb';
 import { expect, it } from 'vitest';
 import { checked } from '../../../../web/ui/project/records';
-import { storedProject } from '../../../../web/ui/project/schema';
+import { storedProject, VERSION } from '../../../../web/ui/project/schema';
 import { isNewer, ProjectDatabase } from '../../../../web/ui/project/storage';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
@@ -54,7 +54,9 @@ it('a write that fails in the middle changes nothing', async () => {
 });
 
 it('leaves what a newer page has written alone', async () => {
-  const newer = await openDB('newer', 2, { upgrade: (database) => void database.createObjectStore('takes') });
+  const newer = await openDB('newer', VERSION + 1, {
+    upgrade: (database) => void database.createObjectStore('takes'),
+  });
   await newer.put('takes', 'of tomorrow', 'a');
   newer.close();
   const database = new ProjectDatabase('newer');
@@ -63,6 +65,22 @@ it('leaves what a newer page has written alone', async () => {
   await expect(database.clear()).rejects.toSatisfy(isNewer);
   const again = await openDB('newer');
   expect(await again.getAll('takes')).toEqual(['of tomorrow']);
+});
+
+it('converts the leaders that the first version of the page stored', async () => {
+  const first = await openDB('first', 1, {
+    upgrade: (database) => {
+      for (const part of ['songs', 'leaders', 'motions', 'takes'])
+        database.createObjectStore(part, { keyPath: 'id' });
+      database.createObjectStore('page');
+    },
+  });
+  await first.put('leaders', { id: 'a', name: 'old.bvh', label: null, text: 'HIERARCHY', fps: 60 });
+  await first.put('page', { leader: 'a' }, 'now');
+  first.close();
+  const { leaders } = await read('first');
+  expect(leaders).toMatchObject([{ name: 'old.bvh', options: { fps: 60 } }]);
+  expect(new TextDecoder().decode(leaders[0]?.files[0]?.bytes)).toBe('HIERARCHY');
 });
 
 it('removes its own records, and leaves what it could not restore until everything is cleared', async () => {
