@@ -34,6 +34,8 @@ import { mountOptions } from './ui/generation/options';
 import { mountProgress } from './ui/generation/progress';
 import { VariationMaker } from './ui/generation/variations';
 import { mountGuidance } from './ui/guidance/guidance';
+import { tabMeans } from './ui/project/editing-right';
+import { mountKeptNote } from './ui/project/kept-note';
 import { Project } from './ui/project/project';
 import { ProjectDatabase } from './ui/project/storage';
 import { createQuality } from './ui/quality/quality';
@@ -86,7 +88,11 @@ const video = createVideoFeature(
   () => place('stage'),
   { seek: (seconds) => playback.seek(seconds), togglePlay: () => playback.toggle() },
 );
-const project = new Project(store, files, readers, new ProjectDatabase());
+const project = new Project(store, files, readers, {
+  storage: new ProjectDatabase(),
+  tabs: tabMeans(globalThis),
+  persistence: navigator.storage,
+});
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
@@ -144,6 +150,7 @@ const services: Services = {
     stageSize: () => stage?.pictureSize() ?? null,
   }),
   saveProject: () => void saveProject(),
+  storeHere: project.takeOver,
   clearProject: () => {
     generation.cancel();
     project.clear();
@@ -169,6 +176,7 @@ for (const mount of [
   mountProgress,
   mountToast,
   mountNewVersion,
+  mountKeptNote,
   mountProblemDialog,
   mountGivenDialog,
   mountDropTarget,

@@ -105,6 +105,8 @@ export interface Services {
   readonly stageSize: () => { readonly width: number; readonly height: number } | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
+  /** Stores the work of this tab from now on, no longer that of another tab. */
+  readonly storeHere: () => void;
   /** Empties the page and loads the demo; undo brings back what was there. */
   readonly clearProject: () => void;
   /** Bytes of the page that are cached on this device; null where the browser gives no storage. */
