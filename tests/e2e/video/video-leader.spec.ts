@@ -1,4 +1,5 @@
 import { fileURLToPath } from 'node:url';
+import type { Browser } from '@playwright/test';
 import { servePage } from '../../../tools/bench/built-page.mjs';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
@@ -16,7 +17,7 @@ const SHOT: Shot = {
 };
 
 /** A video that the page of the tests films. */
-async function filmed(browser: import('@playwright/test').Browser): Promise<Buffer> {
+async function filmed(browser: Browser): Promise<Buffer> {
   const folder = fileURLToPath(new URL('../support/video-page', import.meta.url));
   const site = await servePage(folder, {});
   const page = await browser.newPage();
