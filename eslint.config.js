@@ -11,19 +11,22 @@ const everywhere = towards(
 );
 
 /**
- * One direction of imports: ui sees the clients and motion, export sees view and motion, view, model and quality see
- * motion, audio, motion and offline see nobody, common is seen by all, and only main.ts and stage-binding.ts know
+ * One direction of imports: ui sees the clients and motion, export sees view and motion, video sees model and motion,
+ * view, model and quality see motion, audio, motion and offline see nobody, common is seen by all, and only main.ts and stage-binding.ts know
  * everyone.
  */
 const directions = {
-  common: [towards('audio|model|motion|quality|offline|view|export|ui', 'common imports nothing of ours')],
-  offline: [towards('audio|model|motion|quality|view|export|ui', 'offline imports nothing of ours')],
-  motion: [towards('audio|model|quality|view|export|ui', 'motion imports nothing of ours')],
-  audio: [towards('motion|model|quality|view|export|ui', 'audio imports nothing of ours')],
-  model: [towards('audio|quality|view|export|ui', 'model imports motion only')],
-  quality: [towards('audio|model|view|export|ui', 'quality imports motion only')],
-  view: [towards('audio|model|quality|export|ui', 'view imports motion only')],
-  export: [towards('audio|model|quality|ui', 'export imports motion and view only')],
+  common: [
+    towards('audio|model|motion|quality|offline|view|export|ui|video', 'common imports nothing of ours'),
+  ],
+  offline: [towards('audio|model|motion|quality|view|export|ui|video', 'offline imports nothing of ours')],
+  motion: [towards('audio|model|quality|view|export|ui|video', 'motion imports nothing of ours')],
+  audio: [towards('motion|model|quality|view|export|ui|video', 'audio imports nothing of ours')],
+  model: [towards('audio|quality|view|export|ui|video', 'model imports motion only')],
+  quality: [towards('audio|model|view|export|ui|video', 'quality imports motion only')],
+  view: [towards('audio|model|quality|export|ui|video', 'view imports motion only')],
+  export: [towards('audio|model|quality|ui|video', 'export imports motion and view only')],
+  video: [towards('audio|quality|view|export|ui', 'video imports motion and the loading of models only')],
 };
 
 /** Inside motion: math below skeleton below the rest, which the client and the worker put together. */
@@ -56,7 +59,10 @@ directions['audio/dsp'] = [
  * Inside ui: the store imports nothing of ui, widgets import the store's types, a feature imports store and widgets but
  * no other feature, and the shell imports them all.
  */
-const features = ['files', 'generation', 'guidance', 'timeline', 'takes', 'quality', 'project', 'download'];
+const features = [
+  ...['files', 'generation', 'guidance', 'timeline', 'takes', 'quality', 'project', 'download'],
+  'video',
+];
 const uiFolders = {
   store: [...features, 'widgets', 'shell'],
   widgets: [...features, 'shell'],
@@ -69,8 +75,8 @@ const uiFolders = {
 const outsideUi = (up) => [
   towards('view', 'main.ts hands the stage to ui', up),
   {
-    regex: `^${up}(audio|model|quality|export)(?!/client(\\.ts)?$)(/|$)`,
-    message: 'ui sees the clients of audio, model, quality and export only',
+    regex: `^${up}(audio|model|quality|export|video)(?!/client(\\.ts)?$)(/|$)`,
+    message: 'ui sees the clients of audio, model, quality, export and video only',
   },
 ];
 const toFolder = '\\.\\./';

@@ -9,6 +9,7 @@ import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, shiftForFirstVisit } from './stage-binding';
+import { createFigures } from './view/figures';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
@@ -20,6 +21,8 @@ import { FileLoader } from './ui/files/file-loader';
 import { isProject } from './ui/files/file-type';
 import { mountImportPanel } from './ui/files/joints/import-panel';
 import { RememberedJointsStorage } from './ui/files/joints/remembered';
+import { mountGivenDialog } from './ui/files/given-dialog';
+import { openGiven } from './ui/files/given-files';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
 import { readParameters } from './ui/files/parameters';
@@ -59,6 +62,7 @@ import { mountUndoKeys } from './ui/takes/undo';
 import { PlaybackControl } from './ui/timeline/playback';
 import { mountTimeline } from './ui/timeline/timeline';
 import { mountTransport } from './ui/timeline/transport';
+import { createVideoFeature } from './ui/video/open';
 
 // ---- the store and the features that change it ----
 
@@ -75,7 +79,13 @@ const readers = {
     readLeader({ ...request, remembered: rememberedJoints.read() }, signal),
   manifest: model.manifest,
 };
-const files = new FileLoader(store, readers);
+const files = new FileLoader(store, readers, (file) => video.open(file));
+const video = createVideoFeature(
+  store,
+  () => files,
+  () => place('stage'),
+  { seek: (seconds) => playback.seek(seconds), togglePlay: () => playback.toggle() },
+);
 const project = new Project(store, files, readers, new ProjectDatabase());
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
@@ -102,13 +112,16 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
+  useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
+  recordVideo: () => void video.record(),
   rereadLeader: (options) => void files.rereadLeader(options),
   inspectLeader: async () => {
     const { refusedLeader, leader } = store.getState();
     const { files, options } = refusedLeader ?? leader ?? { files: [], options: {} };
     return inspectLeader({ files, options, remembered: rememberedJoints.read() });
   },
+  readAgain: files.readAgain,
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {
@@ -116,10 +129,15 @@ const services: Services = {
     variations.cancel();
   },
   makeVariations: variations.make,
+  drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
+  showMoment: (measure, seconds) => {
+    playback.loopAround(seconds);
+    stage?.focusOn(MEASURED[measure], seconds);
+  },
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
     openVideoStage: stage && ((size) => openCamera(stage, store, size)),
@@ -138,6 +156,7 @@ const services: Services = {
       () => false,
     ),
   loadUpdate: () => offline?.activateUpdate(),
+  reload: () => location.reload(),
 };
 
 // ---- panels ----
@@ -151,6 +170,7 @@ for (const mount of [
   mountToast,
   mountNewVersion,
   mountProblemDialog,
+  mountGivenDialog,
   mountDropTarget,
 ])
   mount(stageHost, store, services);
@@ -179,6 +199,9 @@ void model
     () => undefined,
   );
 
+/** Where on the stage a moment of each measure is seen. */
+const MEASURED = { feet: 'feet', closeness: 'trunks', beats: 'couple', seams: 'couple' } as const;
+
 /** An element of index.html that panels are mounted in. */
 function place(id: string): HTMLElement {
   const element = document.getElementById(id);
@@ -191,6 +214,8 @@ function openStage(host: HTMLElement): Stage | null {
   const picture = document.createElement('div');
   picture.className = 'picture';
   picture.setAttribute('role', 'img');
+  // A click gives it the focus, so that keys go to the stage; Tab passes it by.
+  picture.tabIndex = -1;
   picture.setAttribute('aria-label', 'Leader in blue and reactor in orange, dancing');
   host.append(picture);
   try {
@@ -205,7 +230,7 @@ function openStage(host: HTMLElement): Stage | null {
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) await project.open(projectFile);
-  else await files.open(chosen);
+  else await openGiven(chosen, store, files);
 }
 
 async function saveProject(): Promise<void> {

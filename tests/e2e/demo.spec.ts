@@ -102,7 +102,7 @@ test('a page without its demo says so and works', async ({ page }) => {
   await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
   await app.openWithoutPicture();
-  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo is not here');
+  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo could not be loaded');
   await expect(page.getByRole('button', { name: 'Play the demo' })).toBeHidden();
   await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
   await app.reaction('mine.bvh');

@@ -218,7 +218,7 @@ test.describe('real files', () => {
     const song = songs.find((name) => name.endsWith('.opus')) ?? songs[0] ?? '';
     await app.drop(file(song), file(leaders[0] ?? ''));
     await app.reaction(path.basename(leaders[0] ?? ''));
-    expect(await app.read((state) => state.song?.data.beats.length)).toBeGreaterThan(8);
+    expect(await app.read((state) => state.song?.data.rhythm.beats.length)).toBeGreaterThan(8);
   });
 });
 

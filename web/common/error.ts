@@ -22,6 +22,16 @@ export type ErrorCode =
   | 'no-sound'
   | 'bad-recipe'
   | 'playback-refused'
+  // A video of a leader, and the camera that films one.
+  | 'not-a-video'
+  | 'sound-only'
+  | 'video-codec'
+  | 'video-too-long'
+  | 'video-too-short'
+  | 'video-black'
+  | 'no-person'
+  | 'half-a-body'
+  | 'camera-refused'
   // The model, and what is asked of it.
   | 'model-missing'
   | 'manifest-invalid'
@@ -29,10 +39,13 @@ export type ErrorCode =
   | 'model-corrupt'
   | 'model-mismatch'
   | 'download-failed'
+  | 'gpu-lost'
   | 'bad-request'
   | 'not-finite'
-  // A worker.
+  // A worker, or another part of the page.
   | 'worker-crashed'
+  | 'page-part-missing'
+  | 'newer-version'
   // The stage.
   | 'webgl-missing'
   | 'webgl-lost'

@@ -66,6 +66,8 @@ const schema = v.object({
     feet: v.array(joint),
     /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
     reference_height: height,
+    /** Metres; body height of the reactors of the training beside leaders of that height. Left out, it is as decoded. */
+    reactor_height: v.optional(height),
     /** See FLOOR in motion/retarget/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),

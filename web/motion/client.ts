@@ -1,3 +1,4 @@
+import { AppError } from '../common/error';
 import { runInWorker } from '../common/run-in-worker';
 import type { Inspection } from './import/inspect';
 import type { FileBytes } from './import/read';
@@ -22,13 +23,21 @@ export interface ReadLeader {
 
 /**
  * Reads a motion file in a worker of its own, which is ended at once when the signal is aborted.
- * @throws {AppError} what is wrong with the file
+ * @throws {AppError} what is wrong with the file; `worker-crashed`
  * @throws the signal's reason
  */
 export async function readLeader(request: LeaderRequest, signal?: AbortSignal): Promise<ReadLeader> {
   signal?.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
-  return runInWorker<MotionTasks, 'read'>(worker, 'read', request, { signal });
+  return runInWorker<MotionTasks, 'read'>(worker, 'read', request, { signal, toError: workerError });
+}
+
+function workerError(reason: string): AppError {
+  return new AppError(
+    'worker-crashed',
+    `The reading of the motion stopped unexpectedly (${reason}).`,
+    'Try again. If it happens again, close other tabs or use a shorter motion.',
+  );
 }
 
 /**

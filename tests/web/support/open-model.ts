@@ -3,7 +3,8 @@ import { type Golden, readGolden } from '../../../web/model/load/golden';
 import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
 import { readNpz } from '../../../web/model/load/npz';
 import type { NpzArray } from '../../../web/common/npz';
-import { type ModelSession, openSession, type Provider } from '../../../web/model/load/session';
+import type { Provider } from '../../../web/model/load/runtime';
+import { type ModelSession, openSession } from '../../../web/model/load/session';
 
 /** A model folder, opened in Node on the wasm runtime with one thread. */
 export interface OpenedModel {

@@ -1,8 +1,8 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
-import { download, folderFetch, type ModelFolder } from './download';
+import { download, type DownloadOptions, folderFetch, type ModelFolder, patientFetch } from './download';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
-import type { Provider } from './session';
+import type { Provider } from './runtime';
 import { fileStore, type CachedPart } from './cache';
 
 /**
@@ -10,6 +10,27 @@ import { fileStore, type CachedPart } from './cache';
  * loads, so it is fetched, reported and cached as a model is.
  */
 const RUNTIME: Readonly<Record<Provider, ManifestFile>> = { wasm: processor, webgpu: gpu };
+
+/**
+ * Gets onnxruntime's WebAssembly, from the cache where it is there.
+ * @param scope the worker's global scope
+ * @throws {AppError} as `download`
+ */
+export async function downloadRuntime(
+  provider: Provider,
+  scope: typeof globalThis,
+  options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure'> = {},
+): Promise<Uint8Array<ArrayBuffer>> {
+  const [runtime] = await download(scope.location.href, [RUNTIME[provider]], {
+    fetch: patientFetch(fetch),
+    store: fileStore(scope, 'runtime', 'onnxruntime'),
+    // A GPU that fails its check falls back to the processor at each visit, so files of both providers stay cached.
+    alsoKeep: Object.values(RUNTIME).map(({ sha256 }) => sha256),
+    ...options,
+  });
+  if (runtime === undefined) throw new Error('The download gave no runtime.');
+  return runtime;
+}
 
 /** Progress of one part of the download, bytes. */
 export interface DownloadPart {
@@ -58,20 +79,13 @@ export async function downloadParts(
     reported = true;
   };
   const graphs = GRAPHS.map((name) => manifest.graphs[name].files);
-  // A GPU that fails its check falls back to the processor at each visit, so files of both providers stay cached.
-  const [[runtime], model] = await Promise.all([
-    download(scope.location.href, [RUNTIME[provider]], {
-      fetch,
-      store: fileStore(scope, 'runtime', 'onnxruntime'),
-      alsoKeep: Object.values(RUNTIME).map(({ sha256 }) => sha256),
-      onProgress: report('runtime'),
-      onCacheFailure: reportOnce,
-    }),
+  const [runtime, model] = await Promise.all([
+    downloadRuntime(provider, scope, { onProgress: report('runtime'), onCacheFailure: reportOnce }),
     download(
       manifestUrl,
       graphs.map((files) => files[provider]),
       {
-        fetch: folder ? folderFetch(folder, manifestUrl) : fetch,
+        fetch: folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch),
         store: folder ? undefined : fileStore(scope, 'model', manifest.id),
         alsoKeep: graphs.flatMap((files) => Object.values(files).map(({ sha256 }) => sha256)),
         onProgress: report('model'),
@@ -79,7 +93,6 @@ export async function downloadParts(
       },
     ),
   ]);
-  if (runtime === undefined) throw new Error('The download gave no runtime.');
   return {
     graphs: Object.fromEntries(GRAPHS.map((name, i) => [name, model[i]])) as Record<GraphName, Uint8Array>,
     runtime,

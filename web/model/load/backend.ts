@@ -1,4 +1,4 @@
-import type { Provider } from './session';
+import type { Provider } from './runtime';
 
 export type Preference = 'auto' | Provider;
 
@@ -76,7 +76,8 @@ export async function chooseBackend(
 ): Promise<Backend> {
   const threads = wasmThreads(environment, asked);
   const onProcessor = threads === 1 ? 'Processor, one thread' : `Processor, ${threads} threads`;
-  if (preference === 'wasm') return { name: 'wasm', reason: `${onProcessor}: chosen by hand.`, threads };
+  if (preference === 'wasm')
+    return { name: 'wasm', reason: `${onProcessor}: chosen in the address of the page.`, threads };
   const probed = await probe(environment.gpu, preference === 'webgpu');
   if ('without' in probed) return { name: 'wasm', reason: `${onProcessor}: ${probed.without}.`, threads };
   return { name: 'webgpu', reason: `WebGPU on ${describe(probed.adapter.info)}.`, threads };

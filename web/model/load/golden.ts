@@ -75,7 +75,7 @@ export function readGolden(bytes: Uint8Array): Golden {
 function invalid(what: string): AppError {
   return new AppError(
     'model-corrupt',
-    `The model's golden sampling ${what}.`,
+    `The example dance that the model is checked with ${what}.`,
     'Export the model again and copy its whole folder.',
   );
 }

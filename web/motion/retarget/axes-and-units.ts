@@ -1,6 +1,7 @@
 import { aboutAxis, IDENTITY, type Quat } from '../math/quat';
 import { percentile } from '../math/statistics';
 import { dot, length, type Vec3, X_AXIS, Z_AXIS } from '../math/vec3';
+import { SOLE } from '../skeleton/kinematics';
 
 const QUARTER_TURN = Math.PI / 2;
 
@@ -87,7 +88,7 @@ export function findUnit(size: number, stated: Unit | null): Unit & { known: boo
 /** How the floor is found; a model whose training data stood on another floor is refused (model/manifest.ts). */
 export const FLOOR = {
   /** Height of the toe joint (ball of the foot) of a standing foot, metres. */
-  toe_rest: 0.03,
+  toe_rest: SOLE,
   /** Share of frames whose lower toe may lie below that of a standing foot, in percent: noise and glitches. */
   percentile: 10,
 } as const;

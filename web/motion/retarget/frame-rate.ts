@@ -21,7 +21,7 @@ export function frameRate(frameTime: string): number {
   if (frameTime === '' || !(seconds > 0) || 1 / seconds > MAX_FPS || 1 / seconds < MIN_FPS) {
     throw new AppError(
       'bad-frame-time',
-      `The file states a frame time of "${frameTime.slice(0, 24)}" seconds, which no dance is recorded with.`,
+      `The file states a frame time of "${frameTime.slice(0, 24)}" seconds, which cannot be right for a dance.`,
       `Set the frame rate by hand, or correct the line "Frame Time:" in the file (30 frames per second: 0.033333).`,
     );
   }
@@ -48,7 +48,7 @@ export function checkedRate(fps: number): number {
   if (fps >= MIN_FPS && fps <= MAX_FPS) return fps;
   throw new AppError(
     'bad-frame-time',
-    `${fps} frames per second is no frame rate of a dance.`,
+    `${fps} frames per second cannot be right for a dance.`,
     `Choose a rate between ${MIN_FPS} and ${MAX_FPS}; most recordings have 30, 60 or 120.`,
   );
 }

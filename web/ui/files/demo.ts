@@ -71,7 +71,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
         const motion = await readers.readReactor(reactorBytes);
         await showReaction(
           store,
-          { motion, leader, label: reactor.label, settings: reactor.settings },
+          { motion, leader, label: reactor.label, settings: { ...reactor.settings, height: null } },
           songLoading,
           readers,
         );

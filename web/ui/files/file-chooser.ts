@@ -4,8 +4,8 @@ import type { FileChoice } from '../store/services';
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
-  leader: MOTION_ENDINGS,
-  any: `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,${MOTION_ENDINGS},.reactdance`,
+  leader: `${MOTION_ENDINGS},video/*,.mov,.mkv`,
+  any: `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv,${MOTION_ENDINGS},.reactdance`,
   project: '.reactdance,.zip',
 } as const;
 

@@ -32,15 +32,18 @@ interface Task<T> {
 }
 
 /**
- * Reads songs and leaders and puts them into the store. A newer file of a kind cancels the older one that is still
+ * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older one that is still
  * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
   private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
+  /** Reads again what could not be read last. */
+  private readonly retry: Partial<Record<InputKind, () => void>> = {};
 
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
+    private readonly openVideo: (file: File) => Promise<void>,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
@@ -82,6 +85,11 @@ export class FileLoader implements Files {
     });
   }
 
+  /** Reads the file again whose reading failed last. */
+  readonly readAgain = (kind: InputKind): void => {
+    this.retry[kind]?.();
+  };
+
   readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
     return this.runSong(blob, name, label, () => {
       this.endReading('song');
@@ -115,6 +123,10 @@ export class FileLoader implements Files {
           options: {},
         });
         return;
+      case 'video':
+        await this.openVideo(file);
+        return;
+      case 'picture':
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
@@ -155,8 +167,10 @@ export class FileLoader implements Files {
   }
 
   /** Runs a task with its progress in the store; null when it failed or a newer one cancelled it. */
-  private async run<T>({ side, name, read, done, refused }: Task<T>): Promise<T | null> {
+  private async run<T>(task: Task<T>): Promise<T | null> {
     const { store, running } = this;
+    const { side, name, read, done, refused } = task;
+    delete this.retry[side];
     running[side]?.abort();
     const controller = new AbortController();
     running[side] = controller;
@@ -177,6 +191,7 @@ export class FileLoader implements Files {
       if (controller.signal.aborted || isAbort(error)) return null;
       running[side] = null;
       this.endReading(side);
+      this.retry[side] = () => void this.run(task);
       refused?.();
       apply(store, problemShown(fileProblem(error, side, name)));
       return null;

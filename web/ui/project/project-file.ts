@@ -31,6 +31,15 @@ const companions = v.optional(v.array(v.object({ name: text, file: text })), [])
 /** The latents of a motion, in a file of their own. */
 const latents = v.object({ decoder: text, count, file: text });
 
+/** How a song is counted. */
+const counting = v.object({
+  song: text,
+  bytes: count,
+  beatsPerBar: v.picklist([3, 4]),
+  rate: v.picklist([0.5, 1, 2]),
+  one: v.pipe(v.number(), v.finite()),
+});
+
 /** project.json: the page, the takes, and which file of the archive holds what. */
 const schema = v.object({
   format: v.literal(FORMAT),
@@ -63,6 +72,7 @@ const schema = v.object({
     compare: v.picklist(['off', 'side', 'ghost']),
     takesMade: count,
     footLock: v.boolean(),
+    countings: v.optional(v.array(counting), []),
     time: v.number(),
   }),
 });

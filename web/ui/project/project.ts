@@ -133,13 +133,13 @@ function backgroundReaders(readers: FileReaders): StoredFileReaders {
   };
 }
 
-/** `descarga_lead-0412.reactdance`. */
+/** `descarga_leader-0412.reactdance`. */
 function projectName({ song, leader }: AppState): string {
   const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
   return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
 }
 
-/** `Opened: descarga.mp3, lead_0412.bvh, 3 takes`. */
+/** `Opened: descarga.mp3, leader_0412.bvh, 3 takes`. */
 export function openedText({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
   const count = takes.length === 1 ? '1 take' : `${takes.length || 'no'} takes`;
   return `Opened: ${[song?.name ?? 'no song', leader?.name ?? 'no leader', count].join(', ')}`;

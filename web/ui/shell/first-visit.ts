@@ -30,14 +30,21 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
     el('p', {
       class: 'intro',
-      text: 'Your browser dances the reacting partner and shows both in 3D.',
+      text: 'Your browser makes the dance partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
       fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
-      fileChoice(services, 'leader', 'Leader', 'BVH of one whole body', 'Choose a motion'),
+      fileChoice(
+        services,
+        'leader',
+        'Leader',
+        'a video of one dancer, or a motion file',
+        'Choose a motion',
+        cameraButton(services),
+      ),
     ),
     steps(opensHowItWorks('Where from?', 'link')),
     el(
@@ -78,9 +85,22 @@ export const mountFirstVisit: Mount = (root, store, services) => {
 
 function demoText(state: AppState): string {
   if (state.demo === 'loading') return 'Loading the demo';
-  if (state.demo === 'missing') return 'The demo is not here. Your own files work.';
+  if (state.demo === 'missing') return 'The demo could not be loaded. Your own files work.';
   const length = duration(danceDuration(state));
-  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
+  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is being made`;
+}
+
+function cameraButton(services: Services): HTMLElement {
+  return el('button', {
+    class: 'btn ghost',
+    text: 'Use the camera',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        services.recordVideo();
+      },
+    },
+  });
 }
 
 function fileChoice(
@@ -89,6 +109,7 @@ function fileChoice(
   name: string,
   kinds: string,
   ask: string,
+  more: HTMLElement | null = null,
 ): HTMLElement {
   return el(
     'div',
@@ -105,5 +126,6 @@ function fileChoice(
         },
       },
     }),
+    more,
   );
 }

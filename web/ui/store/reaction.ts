@@ -48,6 +48,8 @@ export interface Settings {
   readonly seed: number;
   /** The role that the model generates; the loaded dancer has the other one. */
   readonly role: Role;
+  /** Height of the generated dancer, from the floor to the crown, metres; null in proportion to the loaded one. */
+  readonly height: number | null;
 }
 
 /** Everything that determines a reaction. Songs and leaders are compared by identity. */

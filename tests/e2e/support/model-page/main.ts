@@ -1,13 +1,15 @@
 /** The model client without the app around it, for browser tests to call. */
 import { goldenError, readGolden } from '../../../../web/model/load/golden';
 import { GRAPHS, type GraphName, parseManifest } from '../../../../web/model/manifest';
-import { openSession, type Provider } from '../../../../web/model/load/session';
+import type { Provider } from '../../../../web/model/load/runtime';
+import { openSession } from '../../../../web/model/load/session';
 import { readNpz } from '../../../../web/model/load/npz';
 import {
   createGenerator,
   type Generator,
   type GenerateRequest,
   type GeneratorOptions,
+  type ReloadFailure,
   type Status,
 } from '../../../../web/model/client';
 
@@ -57,7 +59,7 @@ let generator: Generator | undefined;
 let golden: ReturnType<typeof readNpz> | undefined;
 
 export const page = {
-  statuses: [] as Status[],
+  statuses: [] as (Status | ReloadFailure)[],
   /** Block computations of the generation under way. */
   done: 0,
 

@@ -1,6 +1,6 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
-import type { Files, FileReaders } from '../../../../web/ui/store/services';
+import type { FileReaders } from '../../../../web/ui/store/services';
 import type { LeaderSource } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
@@ -19,7 +19,8 @@ const SONG = 'ID3 and so on';
 
 describe('reading files', () => {
   let store: change.Store;
-  let files: Files;
+  let files: FileLoader;
+  let videos: string[];
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
@@ -36,11 +37,25 @@ describe('reading files', () => {
       },
       manifest: () => Promise.resolve(small),
     };
-    files = new FileLoader(store, {
-      loadSong: (...all) => readers.loadSong(...all),
-      readLeader: (...all) => readers.readLeader(...all),
-      manifest: () => readers.manifest(),
-    });
+    videos = [];
+    files = new FileLoader(
+      store,
+      {
+        loadSong: (...all) => readers.loadSong(...all),
+        readLeader: (...all) => readers.readLeader(...all),
+        manifest: () => readers.manifest(),
+      },
+      ({ name }) => {
+        videos.push(name);
+        return Promise.resolve();
+      },
+    );
+  });
+
+  it('hands videos on', async () => {
+    await files.open([file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  '), file('b', SONG)]);
+    expect(videos).toEqual(['dance.mov']);
+    expect(store.getState().song?.name).toBe('b');
   });
 
   it('tells songs and leaders apart by content and reads them together', async () => {
@@ -67,6 +82,17 @@ describe('reading files', () => {
     });
     expect(store.getState().leader).toBe(before);
     expect(store.getState().reading.leader).toBeNull();
+  });
+
+  it('reads a file again where the page and not the file failed', async () => {
+    const { readLeader } = readers;
+    readers.readLeader = () =>
+      Promise.reject(new AppError('worker-crashed', 'The reading stopped.', 'Try again.'));
+    await files.open([file('good.bvh', BVH)]);
+    expect(store.getState().problem).toMatchObject({ title: 'The reading stopped.', remedy: 'read-again' });
+    readers.readLeader = readLeader;
+    files.readAgain('leader');
+    await vi.waitFor(() => expect(store.getState().leader?.name).toBe('good.bvh'));
   });
 
   it.each([

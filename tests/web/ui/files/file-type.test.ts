@@ -27,6 +27,14 @@ describe('the type of a file', () => {
     expect(fileKind(head, 'dance.bvh', '')).toBe('song');
   });
 
+  it.each([
+    ['MP4', bytes('\u0000\u0000\u0000\u0020ftypisom'), 'dance.mp4', 'video/mp4'],
+    ['MOV', bytes('\u0000\u0000\u0000\u0014ftypqt  '), 'IMG_1.MOV', ''],
+    ['WebM', Uint8Array.of(0x1a, 0x45, 0xdf, 0xa3), 'camera', 'video/webm'],
+  ])('sees %s of the name or type of a video as one', (_, head, name, type) => {
+    expect(fileKind(head, name, type)).toBe('video');
+  });
+
   it('is that of the name where the bytes do not tell', () => {
     expect(fileKind(bytes('not a hierarchy'), 'dance.BVH', '')).toBe('leader');
     expect(fileKind(bytes('just words'), 'song.mp3', '')).toBe('song');
@@ -42,6 +50,15 @@ describe('the type of a file', () => {
     ['GLB', bytes('glTF\u0002')],
   ])('knows %s as a leader', (_, head) => {
     expect(fileKind(head, 'dance.bin', '')).toBe('leader');
+  });
+
+  it.each([
+    ['PNG', bytes('\u0089PNG')],
+    ['JPEG', Uint8Array.of(0xff, 0xd8, 0xff, 0xe0)],
+    ['WebP', bytes('RIFF\u0001\u0002\u0003\u0004WEBPVP8')],
+    ['HEIC', bytes('\u0000\u0000\u0000\u0020ftypheic')],
+  ])('knows %s as a picture', (_, head) => {
+    expect(fileKind(head, 'song.mp3', 'audio/mpeg')).toBe('picture');
   });
 
   it('is unknown for the rest', () => {

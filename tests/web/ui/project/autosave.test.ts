@@ -38,7 +38,7 @@ describe('autosave', () => {
     store = change.createAppStore('dark');
     change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
-    project = new Project(store, new FileLoader(store, readers), readers, {
+    project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
       read: () => Promise.resolve(null),
       write: ({ takes }: StoredProject) => {
         if (takes.length > room) return Promise.reject(failure);

@@ -10,7 +10,7 @@ export function numberProblem(token: string | undefined): string | null {
   const value = Number(token);
   if (Number.isFinite(value)) return Math.abs(value) < MAX_VALUE ? null : `${token} is too large a number`;
   return /^[+-]?(nan|inf|infinity|1\.#.*)$/i.test(token)
-    ? `"${token}" is no finite number`
+    ? `"${token}" is not a number`
     : `"${token.slice(0, 24)}" is not a number`;
 }
 

@@ -69,9 +69,10 @@ export function readPoses(file: BvhFile, wanted: readonly number[]): LocalPoses 
         writeVec(translations, at, node.offset);
         rotations[4 * at + 3] = 1;
       }
-    } else if (node.parent >= 0 && node.channels.some((channel) => channel.endsWith('position'))) {
+    } else if (node.channels.some((channel) => channel.endsWith('position'))) {
       const values = all.map((at) => sub(readVec(translations, at), node.offset));
-      if (includesOffset(node.offset, values))
+      // The place of a root is the channels' own.
+      if (node.parent < 0 || includesOffset(node.offset, values))
         all.forEach((at, frame) => writeVec(translations, at, values[frame]!));
     }
   });

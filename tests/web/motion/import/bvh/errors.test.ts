@@ -134,9 +134,9 @@ describe('invalid numbers', () => {
   test.each([
     ['12.3.4', '"12.3.4" is not a number'],
     ['abc', '"abc" is not a number'],
-    ['NaN', '"NaN" is no finite number'],
+    ['NaN', '"NaN" is not a number'],
     ['-1.#IND', 'is no(t| finite)'],
-    ['Infinity', '"Infinity" is no finite number'],
+    ['Infinity', '"Infinity" is not a number'],
     ['1e30', '1e30 is too large'],
   ])('%s in a frame', (word, message) => {
     const text = withLine(at, (line) => line.replace(/^(\S+ \S+ \S+ \S+) \S+/, `$1 ${word}`));

@@ -1,0 +1,52 @@
+/** Films mannequins and reads the videos, for tests and measurements. */
+import { type Cast, film, type Shot } from './film';
+import { motionOf, type MotionName } from './motions';
+import { openVideo } from '../../../../web/video/frames';
+import { Recorder } from '../../../../web/video/observations';
+import { loadPoseGraphs } from '../../../../web/video/pose/graphs';
+import { PersonTracker } from '../../../../web/video/pose/tracker';
+
+const plain = (array: ArrayLike<number>): number[] => Array.from(array);
+
+const page = {
+  /** A video, as base64. */
+  async film(motion: MotionName, shot: Shot, seconds: number): Promise<string> {
+    const cast: Cast[] = [{ motion: motionOf(motion) }];
+    const bytes = new Uint8Array(await (await film(cast, shot, seconds)).arrayBuffer());
+    let text = '';
+    for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+    return btoa(text);
+  },
+  truth: (motion: MotionName) => plain(motionOf(motion).positions),
+  async read(base64: string) {
+    const file = new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]);
+    const graphs = await loadPoseGraphs(
+      new URL('/models/pose/pose.json', location.href).href,
+      globalThis,
+      () => undefined,
+    );
+    const video = await openVideo(file);
+    const tracker = new PersonTracker(graphs, null);
+    const recorder = new Recorder(video.width, video.height);
+    const begin = performance.now();
+    for await (const { time, picture } of video.pictures(0, Infinity))
+      recorder.add(time, await tracker.next(picture));
+    const seconds = (performance.now() - begin) / 1000;
+    video.close();
+    const o = recorder.observations();
+    return {
+      seconds,
+      width: o.width,
+      height: o.height,
+      times: plain(o.times),
+      presence: plain(o.presence),
+      image: plain(o.image),
+      world: plain(o.world),
+      visibility: plain(o.visibility),
+      centre: plain(o.centre),
+    };
+  },
+};
+
+export type Page = typeof page;
+Object.assign(globalThis, { video: page });

@@ -1,0 +1,150 @@
+import { AppError } from '../../common/error';
+import type { Services } from '../store/services';
+import type { Store } from '../store/store';
+import { textButton } from '../widgets/button';
+import { closeButton } from '../widgets/close-button';
+import { el, setText } from '../widgets/dom';
+
+/** Seconds between the click and the recording: time to walk to one's place. */
+const COUNTDOWN = 5;
+/** Longest recording, seconds. */
+const MAX_SECONDS = 120;
+/** In order of preference; without a type the browser takes one of its own. */
+const TYPES = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/mp4'];
+
+/**
+ * Records a dancer with the webcam: preview, countdown, at most two minutes. The dance of the page plays from its start
+ * meanwhile, with its song, if there is one.
+ * @returns the video; null when the visitor closes the dialog
+ * @throws {AppError} `camera-refused`
+ */
+export async function recordCamera(
+  host: HTMLElement,
+  store: Store,
+  playback: Pick<Services, 'seek' | 'togglePlay'>,
+): Promise<File | null> {
+  const stream = await openCamera();
+  const video = el('video', { attributes: { playsinline: true, 'aria-label': 'Picture of the camera' } });
+  video.muted = true;
+  video.srcObject = stream;
+  const status = el('p', {
+    class: 'status',
+    text: 'Stand so that your whole body is in the picture, with some floor below the feet.',
+    attributes: { role: 'status' },
+  });
+  const cancelled = new AbortController();
+  const done = new AbortController();
+  let begin: () => void = () => undefined;
+  const started = new Promise<void>((resolve) => (begin = resolve));
+  const start = textButton('btn primary', 'Record', () => {
+    start.hidden = true;
+    begin();
+  });
+  const stop = textButton('btn primary', 'Stop', () => {
+    done.abort();
+  });
+  stop.hidden = true;
+  const close = (): void => {
+    cancelled.abort();
+    begin();
+  };
+  const dialog = el(
+    'section',
+    {
+      class: 'float video-panel camera',
+      attributes: { role: 'dialog', 'aria-label': 'Record with the camera' },
+    },
+    el('div', { class: 'head' }, el('h2', { text: 'Record a leader' }), closeButton(close)),
+    el('div', { class: 'frame' }, video),
+    status,
+    el('div', { class: 'reading' }, start, stop),
+  );
+  host.append(dialog);
+  start.focus();
+  try {
+    await video.play();
+    await started;
+    for (let left = COUNTDOWN; left > 0 && !cancelled.signal.aborted; left--) {
+      setText(status, `${left}`);
+      await wait(1, cancelled.signal);
+    }
+    if (cancelled.signal.aborted) return null;
+    stop.hidden = false;
+    stop.focus();
+    return await record(stream, { store, playback, status, done: done.signal, cancelled: cancelled.signal });
+  } finally {
+    for (const track of stream.getTracks()) track.stop();
+    dialog.remove();
+  }
+}
+
+async function openCamera(): Promise<MediaStream> {
+  // Missing on insecure origins.
+  const devices = navigator.mediaDevices as MediaDevices | undefined;
+  try {
+    if (!devices) throw new DOMException('no media devices', 'SecurityError');
+    return await devices.getUserMedia({
+      video: { width: { ideal: 1280 }, height: { ideal: 720 }, frameRate: { ideal: 30 } },
+    });
+  } catch (cause) {
+    const name = cause instanceof DOMException ? cause.name : '';
+    throw new AppError(
+      'camera-refused',
+      name === 'NotFoundError' ? 'No camera was found.' : 'The camera may not be used by this page.',
+      name === 'NotFoundError'
+        ? 'Connect a camera, or film with a phone and drop the video here.'
+        : 'Allow the camera in the browser’s address bar and try again, or film with a phone and drop the video here.',
+      { cause },
+    );
+  }
+}
+
+interface Recording {
+  readonly store: Store;
+  readonly playback: Pick<Services, 'seek' | 'togglePlay'>;
+  readonly status: HTMLElement;
+  /** Aborted when the recording is to end. */
+  readonly done: AbortSignal;
+  readonly cancelled: AbortSignal;
+}
+
+async function record(
+  stream: MediaStream,
+  { store, playback, status, done, cancelled }: Recording,
+): Promise<File | null> {
+  const type = TYPES.find((one) => MediaRecorder.isTypeSupported(one));
+  const recorder = new MediaRecorder(stream, type === undefined ? {} : { mimeType: type });
+  const parts: Blob[] = [];
+  recorder.ondataavailable = ({ data }) => parts.push(data);
+  const stopped = new Promise((resolve) => (recorder.onstop = resolve));
+  const play = (on: boolean): void => {
+    if (store.getState().playback.playing !== on) playback.togglePlay();
+  };
+  recorder.start(1000);
+  if (store.getState().song) {
+    playback.seek(0);
+    play(true);
+  }
+  const end = AbortSignal.any([done, cancelled]);
+  for (let second = 0; second < MAX_SECONDS && !end.aborted; second++) {
+    setText(status, `Recording, ${second} of at most ${MAX_SECONDS} s`);
+    await wait(1, end);
+  }
+  recorder.stop();
+  play(false);
+  await stopped;
+  if (cancelled.aborted) return null;
+  const kind = recorder.mimeType.startsWith('video/mp4') ? 'mp4' : 'webm';
+  return new File(parts, `camera.${kind}`, { type: `video/${kind}` });
+}
+
+/** Resolves after some seconds, or at once when the signal is aborted. */
+function wait(seconds: number, signal: AbortSignal): Promise<void> {
+  return new Promise((resolve) => {
+    const timer = setTimeout(resolve, seconds * 1000);
+    signal.addEventListener('abort', () => {
+      clearTimeout(timer);
+      resolve();
+    });
+  });
+}

@@ -1,0 +1,168 @@
+import {
+  createVideoReader,
+  DEFAULT_FOCAL,
+  FPS,
+  type Observations,
+  type Point,
+  type ReadReport,
+  type VideoMotion,
+  type VideoReader,
+  type WorldOptions,
+} from '../../video/client';
+import { AppError } from '../../common/error';
+import { problemShown } from '../store/actions/notices';
+import { shiftSet } from '../store/actions/timeline';
+import { firstVisitEnded } from '../store/actions/files';
+import { fileProblem, isAbort } from '../store/problems';
+import type { Files } from '../store/services';
+import { apply, watch, watchAll, type Store } from '../store/store';
+import { combineDisposers } from '../widgets/dom';
+import { VideoPanel } from './video-panel';
+
+/** Height of a dancer until it is told, metres. */
+const DEFAULT_HEIGHT = 1.7;
+
+/** A video that is open. */
+interface Session {
+  readonly file: File;
+  readonly reader: VideoReader;
+  readonly panel: VideoPanel;
+  readonly ended: AbortController;
+  /** Whether the song starts with the video: it played while that was recorded, or is its sound. */
+  songOfVideo: boolean;
+  observations: Observations | null;
+  options: WorldOptions;
+  motion: VideoMotion | null;
+}
+
+/**
+ * Reads a video, makes its dancer the leader, and shows the video in step with the dance. One video at a time; what was
+ * loaded before stays until a motion is there.
+ */
+export class VideoLeader {
+  #session: Session | null = null;
+  #reading: AbortController | null = null;
+
+  constructor(
+    private readonly store: Store,
+    private readonly files: Pick<Files, 'openLeader' | 'openSong'>,
+    private readonly host: HTMLElement,
+  ) {}
+
+  /** @param songOfVideo whether the page's song played while the video was recorded */
+  async open(file: File, songOfVideo: boolean): Promise<void> {
+    this.#close();
+    apply(this.store, firstVisitEnded());
+    const ended = new AbortController();
+    const session: Session = {
+      file,
+      reader: createVideoReader(),
+      ended,
+      songOfVideo,
+      observations: null,
+      options: { height: DEFAULT_HEIGHT, focal: DEFAULT_FOCAL, trim: null },
+      motion: null,
+      panel: new VideoPanel(this.host, file, {
+        close: () => {
+          this.#close();
+        },
+        pick: (point) => void this.#read(session, point),
+        change: (options) => void this.#solve(session, { ...session.options, ...options }),
+        useSound: () => void this.#useSound(session),
+      }),
+    };
+    this.#session = session;
+    ended.signal.addEventListener('abort', this.#follow(session));
+    await this.#read(session, null);
+  }
+
+  async #read(session: Session, pick: Point | null): Promise<void> {
+    const { file, reader, panel, ended } = session;
+    this.#reading?.abort();
+    const reading = new AbortController();
+    this.#reading = reading;
+    const signal = AbortSignal.any([reading.signal, ended.signal]);
+    try {
+      panel.showReading();
+      const onReport = (report: ReadReport): void => {
+        panel.showReport(report);
+      };
+      const observations = await reader.read(file, pick, signal, onReport);
+      session.observations = observations;
+      await this.#solve(session, session.options);
+    } catch (error) {
+      if (signal.aborted || isAbort(error)) return;
+      this.#close();
+      if (error instanceof AppError && error.code === 'sound-only')
+        await this.files.openSong(file, file.name, null);
+      else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+    }
+  }
+
+  /** Makes the motion with these options and puts it on the page as the leader. */
+  async #solve(session: Session, options: WorldOptions): Promise<void> {
+    const { observations, reader, file, panel, ended, motion: before } = session;
+    session.options = options;
+    if (!observations) return;
+    try {
+      const motion = await reader.solve(observations, options, ended.signal);
+      // A newer choice is being computed.
+      if (session.options !== options) return;
+      session.motion = motion;
+      panel.showMotion(observations, motion);
+      const { shift } = this.store.getState();
+      await this.files.openLeader({
+        name: file.name,
+        label: null,
+        files: [{ name: 'leader.bvh', bytes: new TextEncoder().encode(motion.bvh) }],
+        options: {},
+      });
+      const moved = before ? shift + (before.start - motion.start) * FPS : -motion.start * FPS;
+      if (before ? shift !== 0 || session.songOfVideo : session.songOfVideo)
+        apply(this.store, shiftSet(moved));
+    } catch (error) {
+      if (ended.signal.aborted || isAbort(error)) return;
+      apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+    }
+  }
+
+  async #useSound(session: Session): Promise<void> {
+    const song = await this.files.openSong(session.file, session.file.name, null);
+    if (!song) return;
+    session.songOfVideo = true;
+    session.panel.showSoundUsed();
+    if (session.motion) apply(this.store, shiftSet(-session.motion.start * FPS));
+  }
+
+  /** Keeps the video in step with the dance; closes it when another leader takes the place of its dancer. */
+  #follow(session: Session): () => void {
+    const { store } = this;
+    const before = store.getState().leader;
+    return combineDisposers(
+      watchAll(
+        store,
+        ({ playback }) => [playback.time, playback.playing, playback.speed],
+        ({ playback }) => {
+          if (session.motion) session.panel.showTime(playback, session.motion.start);
+        },
+      ),
+      watch(
+        store,
+        ({ leader }) => leader,
+        (leader) => {
+          const own = leader?.name === session.file.name && leader.label === null;
+          if (leader !== before && !own) this.#close();
+        },
+      ),
+    );
+  }
+
+  #close(): void {
+    const session = this.#session;
+    if (!session) return;
+    this.#session = null;
+    session.ended.abort();
+    session.reader.dispose();
+    session.panel.dispose();
+  }
+}

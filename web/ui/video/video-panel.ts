@@ -1,0 +1,156 @@
+import type { Observations, Point, ReadReport, VideoMotion, WorldOptions } from '../../video/client';
+import { closeButton } from '../widgets/close-button';
+import { el, setText, setVariable } from '../widgets/dom';
+import { textButton } from '../widgets/button';
+import { ConfidenceStrip } from './confidence-strip';
+import { createControls, type Controls } from './controls';
+import { VideoPicture } from './video-picture';
+
+/** What the visitor does on the panel. */
+export interface PanelActions {
+  readonly close: () => void;
+  /** Another person is to be followed. */
+  readonly pick: (point: Point) => void;
+  readonly change: (options: Partial<WorldOptions>) => void;
+  readonly useSound: () => void;
+}
+
+/** The video beside the stage: its picture, progress while it is read, then confidence, advice and corrections. */
+export class VideoPanel {
+  readonly #root: HTMLElement;
+  readonly #picture: VideoPicture;
+  readonly #strip = new ConfidenceStrip();
+  readonly #status = el('p', { class: 'status', attributes: { role: 'status' } });
+  readonly #fill = el('i');
+  readonly #meter: HTMLElement;
+  readonly #cancel: HTMLButtonElement;
+  readonly #sound: HTMLElement;
+  readonly #advice = el('ul', { class: 'notes', attributes: { 'aria-label': 'What to film better' } });
+  readonly #controls: Controls;
+  #duration = 0;
+  #begun = 0;
+  #hasSound = false;
+
+  constructor(host: HTMLElement, file: File, actions: PanelActions) {
+    this.#picture = new VideoPicture(file, actions.pick);
+    this.#meter = el(
+      'span',
+      {
+        class: 'meter',
+        attributes: {
+          role: 'progressbar',
+          'aria-label': 'Reading the video',
+          'aria-valuemin': 0,
+          'aria-valuemax': 100,
+        },
+      },
+      this.#fill,
+    );
+    this.#cancel = textButton('btn tint', 'Cancel', actions.close);
+    this.#sound = textButton('btn tint', 'Use its sound as the song', actions.useSound);
+    this.#controls = createControls(actions.change);
+    this.#root = el(
+      'section',
+      { class: 'float video-panel', attributes: { 'aria-label': 'Video of the leader' } },
+      el('div', { class: 'head' }, el('h2', { text: file.name }), closeButton(actions.close)),
+      this.#picture.root,
+      this.#strip.root,
+      this.#status,
+      el('div', { class: 'reading' }, this.#meter, this.#cancel),
+      this.#advice,
+      this.#sound,
+      this.#controls.root,
+    );
+    host.append(this.#root);
+    this.showReading();
+  }
+
+  showReading(): void {
+    this.#reading(true);
+    this.#begun = 0;
+    setText(this.#status, 'Opening the video');
+    this.#progress(0);
+  }
+
+  showReport(report: ReadReport): void {
+    switch (report.kind) {
+      case 'opened':
+        this.#duration = report.duration;
+        this.#hasSound = report.hasSound;
+        this.#picture.setSize(report.width, report.height);
+        this.#controls.setDuration(report.duration);
+        return;
+      case 'networks':
+        setText(this.#status, `Loading what finds the dancer, ${Math.round(100 * report.fraction)} %`);
+        return;
+      case 'persons':
+        this.#picture.showPersons(report.time, report.boxes);
+        setText(this.#status, 'Several people: the largest is followed. Click another one to follow them.');
+        return;
+      case 'picture':
+        this.#showPicture(report.time, report.landmarks);
+    }
+  }
+
+  #showPicture(time: number, landmarks: Float32Array | null): void {
+    const now = performance.now();
+    if (this.#begun === 0) this.#begun = now;
+    this.#picture.showRead(time, landmarks);
+    const share = this.#duration > 0 ? Math.min(1, time / this.#duration) : 0;
+    this.#progress(share);
+    if (this.#picture.choosing) return;
+    const left = share > 0.02 ? ((now - this.#begun) / 1000) * (1 / share - 1) : null;
+    const seen = `${time.toFixed(0)} of ${this.#duration.toFixed(0)} s`;
+    setText(this.#status, left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`);
+  }
+
+  /** The video has been read, and this is what became of it. */
+  showMotion(observations: Observations, motion: VideoMotion): void {
+    this.#reading(false);
+    this.#picture.showObservations(observations);
+    this.#strip.show(motion.confidence);
+    const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= 0.5), 0);
+    const share = Math.round((100 * sure) / Math.max(1, motion.confidence.length));
+    setText(
+      this.#status,
+      `The dancer is the leader now; ${share} % of the frames are clearly seen.` +
+        (this.#hasSound ? '' : ' The video has no sound.'),
+    );
+    this.#advice.replaceChildren(...motion.advice.map((text) => el('li', { text, class: 'warning' })));
+  }
+
+  showSoundUsed(): void {
+    this.#sound.hidden = true;
+  }
+
+  /** Shows the moment of the dance that is played. @param start moment of the video at which the dance begins */
+  showTime(
+    playback: { readonly time: number; readonly playing: boolean; readonly speed: number },
+    start: number,
+  ): void {
+    this.#picture.showTime(playback, start);
+    this.#strip.showTime(playback.time);
+  }
+
+  dispose(): void {
+    this.#picture.dispose();
+    this.#root.remove();
+  }
+
+  #reading(on: boolean): void {
+    this.#root.classList.toggle('is-reading', on);
+    this.#meter.hidden = this.#cancel.hidden = !on;
+    this.#strip.root.hidden = this.#controls.root.hidden = on;
+    this.#sound.hidden = on || !this.#hasSound;
+  }
+
+  #progress(share: number): void {
+    setVariable(this.#fill, '--part', share);
+    this.#meter.setAttribute('aria-valuenow', String(Math.round(100 * share)));
+  }
+}
+
+function timeLeft(seconds: number): string {
+  if (seconds < 60) return `${Math.max(1, Math.round(seconds))} s left`;
+  return `${Math.ceil(seconds / 60)} min left`;
+}

@@ -1,0 +1,129 @@
+import { type Observations, type Point } from '../../video/client';
+import { el } from '../widgets/dom';
+import { drawSkeleton } from './skeleton-overlay';
+
+/** How far the video may be from the dance before it is set right, seconds. */
+const MAX_DRIFT = 0.12;
+
+/** The picture of a video with the skeleton that was found over it. */
+export class VideoPicture {
+  readonly root: HTMLElement;
+  readonly #video: HTMLVideoElement;
+  readonly #canvas = el('canvas', { attributes: { 'aria-hidden': 'true' } });
+  readonly #persons = el('div', { class: 'persons' });
+  readonly #address: string;
+  readonly #skeleton = el('input', { attributes: { type: 'checkbox', checked: true } });
+  #size = { width: 1, height: 1 };
+  #observations: Observations | null = null;
+
+  /** @param pick is called with the place of a person that was clicked, pixels of the picture */
+  constructor(
+    file: Blob,
+    private readonly pick: (point: Point) => void,
+  ) {
+    this.#address = URL.createObjectURL(file);
+    this.#video = el('video', { attributes: { src: this.#address, playsinline: true, preload: 'auto' } });
+    this.#video.muted = true;
+    this.#video.setAttribute('aria-label', 'The video');
+    // What the page can read its player may still refuse, such as MOV: the skeleton is shown alone then.
+    this.#video.addEventListener('error', () => {
+      this.#video.hidden = true;
+    });
+    this.#video.addEventListener('timeupdate', () => {
+      if (this.#observations) this.#drawAt(this.#video.currentTime);
+    });
+    this.#skeleton.addEventListener('change', () => {
+      this.#canvas.hidden = !this.#skeleton.checked;
+    });
+    this.root = el(
+      'div',
+      { class: 'picture-of-video' },
+      el('div', { class: 'frame' }, this.#video, this.#canvas, this.#persons),
+      el('label', {}, this.#skeleton, ' Skeleton over the video'),
+    );
+  }
+
+  /** Whether persons to choose from are shown. */
+  get choosing(): boolean {
+    return this.#persons.childElementCount > 0;
+  }
+
+  setSize(width: number, height: number): void {
+    this.#size = { width, height };
+    this.#canvas.width = width;
+    this.#canvas.height = height;
+    this.root.style.setProperty('--aspect', String(width / height));
+  }
+
+  /** Boxes that can be clicked, over the picture of this time. */
+  showPersons(time: number, boxes: readonly (readonly [number, number, number, number])[]): void {
+    const { width, height } = this.#size;
+    this.#video.currentTime = time;
+    this.#persons.replaceChildren(
+      ...boxes.map(([left, top, right, bottom], i) => {
+        const button = el('button', {
+          attributes: { type: 'button', 'aria-label': `Follow person ${i + 1} from the largest` },
+          on: {
+            click: () => {
+              this.#persons.replaceChildren();
+              this.pick({ x: (left + right) / 2, y: (top + bottom) / 2 });
+            },
+          },
+        });
+        Object.assign(button.style, {
+          left: `${(100 * left) / width}%`,
+          top: `${(100 * top) / height}%`,
+          width: `${(100 * (right - left)) / width}%`,
+          height: `${(100 * (bottom - top)) / height}%`,
+        });
+        return button;
+      }),
+    );
+  }
+
+  /** The picture that was read last; while persons can be chosen theirs stays. */
+  showRead(time: number, landmarks: Float32Array | null): void {
+    if (this.choosing) return;
+    this.#video.currentTime = time;
+    drawSkeleton(this.#canvas, landmarks);
+  }
+
+  /** The whole video has been read. */
+  showObservations(observations: Observations): void {
+    this.#observations = observations;
+    this.#persons.replaceChildren();
+  }
+
+  showTime(
+    { time, playing, speed }: { readonly time: number; readonly playing: boolean; readonly speed: number },
+    start: number,
+  ): void {
+    const video = this.#video;
+    const wanted = start + time;
+    video.playbackRate = speed;
+    if (playing && video.paused) void video.play().catch(() => undefined);
+    if (!playing && !video.paused) video.pause();
+    if (Math.abs(video.currentTime - wanted) > (playing ? MAX_DRIFT : 0.01)) video.currentTime = wanted;
+    this.#drawAt(wanted);
+  }
+
+  #drawAt(time: number): void {
+    const { times, presence, image } = this.#observations ?? {};
+    if (!times || !presence || !image || this.#canvas.hidden) return;
+    let low = 0;
+    let high = times.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (times[middle]! <= time + 1e-3) low = middle;
+      else high = middle - 1;
+    }
+    const size = image.length / Math.max(1, times.length);
+    drawSkeleton(this.#canvas, presence[low]! > 0 ? image.subarray(low * size, (low + 1) * size) : null);
+  }
+
+  dispose(): void {
+    this.#video.pause();
+    this.#video.removeAttribute('src');
+    URL.revokeObjectURL(this.#address);
+  }
+}

@@ -1,0 +1,58 @@
+import { AppError } from '../common/error';
+import { median } from '../motion/math/statistics';
+import type { Observations } from './observations';
+import { LANDMARK_COUNT } from './pose/landmarks';
+import { L } from './world/landmark-names';
+
+/** Mean brightness below which a picture counts as black. */
+const BLACK = 0.03;
+/** Visibility of the ankles below which the legs are not in the picture. */
+const MIN_ANKLES = 0.3;
+/** Shortest dance, seconds. */
+const MIN_SECONDS = 1;
+
+/**
+ * Checks that one whole dancer was seen long enough to make a motion of.
+ * @throws {AppError} `video-black`, `no-person`, `video-too-short`, `half-a-body`
+ */
+export function checkSeen(observations: Observations): void {
+  const { times, presence } = observations;
+  const rows = [...presence.keys()].filter((row) => presence[row]! > 0);
+  if (rows.length === 0) {
+    if (observations.brightest < BLACK)
+      throw new AppError(
+        'video-black',
+        'The video is black.',
+        'Check that the camera was not covered and that the video plays elsewhere, then choose it again.',
+      );
+    throw new AppError(
+      'no-person',
+      'No person was found in the video.',
+      'Film one dancer from head to feet, in light, with a camera that stands still.',
+    );
+  }
+  const seconds = times[rows.at(-1)!]! - times[rows[0]!]!;
+  if (seconds < MIN_SECONDS)
+    throw new AppError(
+      'video-too-short',
+      `The dancer is seen for ${seconds.toFixed(1)} s only.`,
+      'Choose a video in which one dancer is seen for at least a second, better for ten.',
+    );
+  if (median(rows.map((row) => ankleVisibility(observations, row))) < MIN_ANKLES)
+    throw new AppError(
+      'half-a-body',
+      'The dancer’s legs are not in the picture for most of the video.',
+      'Step back or turn the phone upright, so that the whole body is seen from head to feet.',
+    );
+}
+
+/** Visibility of the better ankle; 0 where it is outside the picture. */
+function ankleVisibility({ image, visibility, width, height }: Observations, row: number): number {
+  return Math.max(
+    ...[L.left_ankle, L.right_ankle].map((landmark) => {
+      const i = row * LANDMARK_COUNT + landmark;
+      const [x, y] = [image[2 * i]!, image[2 * i + 1]!];
+      return x >= 0 && y >= 0 && x <= width && y <= height ? visibility[i]! : 0;
+    }),
+  );
+}

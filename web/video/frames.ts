@@ -1,0 +1,116 @@
+/** Decodes the pictures of a video with their exact times. The only module that reads videos with mediabunny. */
+import { ALL_FORMATS, BlobSource, Input, type InputVideoTrack, VideoSampleSink } from 'mediabunny';
+import { AppError } from '../common/error';
+import { type Picture, pictureOf } from './pose/picture';
+
+/** Pictures a second that are read of a faster video. */
+const MAX_RATE = 30;
+/** A picture is read this share of 1 / MAX_RATE after the one before it, at the earliest: rates vary a little. */
+const MIN_SPACING = 0.75;
+/** Longest video, seconds. */
+export const MAX_DURATION = 600;
+
+export interface VideoFile {
+  /** Seconds. */
+  readonly duration: number;
+  readonly width: number;
+  readonly height: number;
+  readonly hasSound: boolean;
+  /**
+   * The pictures between two moments in order, at most 30 a second. Each is valid until the next one is asked for.
+   * @param from first moment, seconds from the first picture; `to`: last one
+   */
+  pictures(from: number, to: number): AsyncGenerator<{ readonly time: number; readonly picture: Picture }>;
+  /** Ends decoding. */
+  close(): void;
+}
+
+/**
+ * Opens a video.
+ * @throws {AppError} `not-a-video`, `sound-only`, `video-codec`, `video-too-long`
+ */
+export async function openVideo(file: Blob): Promise<VideoFile> {
+  const input = new Input({ formats: ALL_FORMATS, source: new BlobSource(file) });
+  try {
+    const track = await videoTrack(input);
+    const start = await track.getFirstTimestamp();
+    const duration = (await track.computeDuration()) - start;
+    if (duration > MAX_DURATION) throw tooLong(duration);
+    return {
+      duration,
+      width: await track.getDisplayWidth(),
+      height: await track.getDisplayHeight(),
+      hasSound: (await input.getPrimaryAudioTrack()) !== null,
+      pictures: (from, to) => pictures(track, start, from, to),
+      close: () => {
+        input.dispose();
+      },
+    };
+  } catch (error) {
+    input.dispose();
+    throw error;
+  }
+}
+
+async function videoTrack(input: Input): Promise<InputVideoTrack> {
+  let track: InputVideoTrack | null;
+  try {
+    track = await input.getPrimaryVideoTrack();
+  } catch (cause) {
+    throw notAVideo({ cause });
+  }
+  if (!track) {
+    if (!(await input.getPrimaryAudioTrack())) throw notAVideo();
+    throw new AppError(
+      'sound-only',
+      'This file holds sound and no pictures.',
+      'Choose a video of a dancer, or use the file as the song.',
+    );
+  }
+  if (!(await track.canDecode().catch(() => false))) {
+    const codec = (await track.getCodec()) ?? 'unknown';
+    throw new AppError(
+      'video-codec',
+      `This browser cannot decode the video's codec (${codec}).`,
+      'Save the video as H.264 MP4 or as VP9 WebM, or open the page in another browser.',
+    );
+  }
+  return track;
+}
+
+async function* pictures(
+  track: InputVideoTrack,
+  start: number,
+  from: number,
+  to: number,
+): AsyncGenerator<{ readonly time: number; readonly picture: Picture }> {
+  const sink = new VideoSampleSink(track);
+  let last = -Infinity;
+  for await (const sample of sink.samples(start + from, start + to)) {
+    try {
+      const time = sample.timestamp - start;
+      if (time - last < MIN_SPACING / MAX_RATE) continue;
+      last = time;
+      yield { time, picture: pictureOf(sample) };
+    } finally {
+      sample.close();
+    }
+  }
+}
+
+function notAVideo(options?: ErrorOptions): AppError {
+  return new AppError(
+    'not-a-video',
+    'This file holds no video that could be read.',
+    'Choose an MP4, MOV or WebM file, as phones and webcams write them.',
+    options,
+  );
+}
+
+function tooLong(duration: number): AppError {
+  return new AppError(
+    'video-too-long',
+    `The video lasts ${Math.round(duration / 60)} minutes; at most ${MAX_DURATION / 60} can be read.`,
+    'Cut out the dance in your phone or computer first, then choose the shorter video.',
+  );
+}

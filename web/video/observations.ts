@@ -1,0 +1,65 @@
+import { LANDMARK_COUNT } from './pose/landmarks';
+import type { Tracked } from './pose/tracker';
+
+/** What was seen in the pictures of a video, one row a picture that was read. */
+export interface Observations {
+  /** Size of the pictures, pixels. */
+  readonly width: number;
+  readonly height: number;
+  /** Seconds from the first picture, ascending. */
+  readonly times: Float64Array;
+  /** Presence of the person, 0 where they are not seen: their other numbers are 0 then. */
+  readonly presence: Float32Array;
+  /** rows x 33 x 2, pixels. */
+  readonly image: Float32Array;
+  /** rows x 33 x 3, metres, as the network gives them: see `Landmarks`. */
+  readonly world: Float32Array;
+  /** rows x 33, 0 to 1. */
+  readonly visibility: Float32Array;
+  /** rows x 2, the middle of what the network saw, pixels. */
+  readonly centre: Float32Array;
+  /** Greatest mean brightness of a picture without the person, 0 to 1; 1 when they were always seen. */
+  readonly brightest: number;
+}
+
+/** Collects observations while a video is being read. */
+export class Recorder {
+  readonly #rows: { readonly time: number; readonly tracked: Tracked }[] = [];
+  #brightest: number | null = null;
+
+  constructor(
+    private readonly width: number,
+    private readonly height: number,
+  ) {}
+
+  add(time: number, tracked: Tracked): void {
+    this.#rows.push({ time, tracked });
+    if (tracked.brightness !== null) this.#brightest = Math.max(this.#brightest ?? 0, tracked.brightness);
+  }
+
+  /** All that was seen so far. */
+  observations(): Observations {
+    const rows = this.#rows.length;
+    const numbers = (columns: number): Float32Array => new Float32Array(rows * columns);
+    const out = {
+      width: this.width,
+      height: this.height,
+      times: Float64Array.from(this.#rows, ({ time }) => time),
+      presence: numbers(1),
+      image: numbers(2 * LANDMARK_COUNT),
+      world: numbers(3 * LANDMARK_COUNT),
+      visibility: numbers(LANDMARK_COUNT),
+      centre: numbers(2),
+      brightest: this.#brightest ?? 1,
+    };
+    this.#rows.forEach(({ tracked: { landmarks } }, row) => {
+      if (!landmarks) return;
+      out.presence[row] = landmarks.presence;
+      out.image.set(landmarks.image, row * 2 * LANDMARK_COUNT);
+      out.world.set(landmarks.world, row * 3 * LANDMARK_COUNT);
+      out.visibility.set(landmarks.visibility, row * LANDMARK_COUNT);
+      out.centre.set([landmarks.region.x, landmarks.region.y], row * 2);
+    });
+    return out;
+  }
+}

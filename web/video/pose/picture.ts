@@ -1,0 +1,91 @@
+import type { VideoSample } from 'mediabunny';
+import { DETECTOR_SIDE } from './detector';
+import { LANDMARK_SIDE } from './landmarks';
+import type { Region } from './region';
+
+/** A picture of a video, upright as it is shown. */
+export interface Picture {
+  readonly width: number;
+  readonly height: number;
+  /** Draws the whole picture at its own size. */
+  draw(context: OffscreenCanvasRenderingContext2D): void;
+}
+
+/** The picture of a decoded sample; rotation metadata and pixels that are not square are taken into account. */
+export function pictureOf(sample: VideoSample): Picture {
+  const { displayWidth: width, displayHeight: height } = sample;
+  return {
+    width,
+    height,
+    draw: (context) => {
+      sample.draw(context, 0, 0, width, height);
+    },
+  };
+}
+
+/** Cuts what a network sees out of pictures. */
+export class Cropper {
+  readonly #canvases = new Map<number, OffscreenCanvasRenderingContext2D>();
+
+  /** A region of the picture as the landmark network takes it: 3 x 256 x 256, 0 to 1; black outside the picture. */
+  landmarkInput(picture: Picture, { x, y, size, angle }: Region): Float32Array {
+    const context = this.#blank(LANDMARK_SIDE);
+    const scale = LANDMARK_SIDE / size;
+    context.translate(LANDMARK_SIDE / 2, LANDMARK_SIDE / 2);
+    context.rotate(-angle);
+    context.scale(scale, scale);
+    context.translate(-x, -y);
+    picture.draw(context);
+    return channels(context, LANDMARK_SIDE, 1 / 255, 0);
+  }
+
+  /** The whole picture as the detector takes it: 3 x 224 x 224, -1 to 1, with black bars. */
+  detectorInput(picture: Picture): {
+    readonly input: Float32Array;
+    /** From shares of the detector's square to pixels of the picture. */
+    readonly toPicture: { readonly x: number; readonly y: number; readonly scale: number };
+    /** Mean of the picture, 0 to 1. */
+    readonly brightness: number;
+  } {
+    const context = this.#blank(DETECTOR_SIDE);
+    const side = Math.max(picture.width, picture.height);
+    const toPicture = { x: (picture.width - side) / 2, y: (picture.height - side) / 2, scale: side };
+    context.scale(DETECTOR_SIDE / side, DETECTOR_SIDE / side);
+    context.translate(-toPicture.x, -toPicture.y);
+    picture.draw(context);
+    const input = channels(context, DETECTOR_SIDE, 2 / 255, -1);
+    const bars = (side * side) / (picture.width * picture.height);
+    const mean = input.reduce((sum, value) => sum + (value + 1) / 2, 0) / input.length;
+    return { input, toPicture, brightness: mean * bars };
+  }
+
+  #blank(side: number): OffscreenCanvasRenderingContext2D {
+    let context = this.#canvases.get(side);
+    if (!context) {
+      // Read back at each picture: a canvas on a graphics card would be copied each time.
+      context = new OffscreenCanvas(side, side).getContext('2d', { willReadFrequently: true })!;
+      context.imageSmoothingQuality = 'medium';
+      this.#canvases.set(side, context);
+    }
+    context.resetTransform();
+    context.fillStyle = '#000';
+    context.fillRect(0, 0, side, side);
+    return context;
+  }
+}
+
+/** RGB of a canvas, channel by channel, each value times `scale` plus `offset`. */
+function channels(
+  context: OffscreenCanvasRenderingContext2D,
+  side: number,
+  scale: number,
+  offset: number,
+): Float32Array {
+  const { data } = context.getImageData(0, 0, side, side);
+  const pixels = side * side;
+  const out = new Float32Array(3 * pixels);
+  for (let i = 0; i < pixels; i++)
+    for (let channel = 0; channel < 3; channel++)
+      out[channel * pixels + i] = data[4 * i + channel]! * scale + offset;
+  return out;
+}

@@ -1,0 +1,42 @@
+/** The square part of a picture that the landmark network sees, turned so that the person stands upright in it. */
+export interface Region {
+  /** Middle, pixels of the picture. */
+  readonly x: number;
+  readonly y: number;
+  /** Side, pixels. */
+  readonly size: number;
+  /** Angle of the person to the vertical of the picture, radians, clockwise. */
+  readonly angle: number;
+}
+
+/** A circle about a whole person is this much smaller than the region's side. */
+const MARGIN = 1.25;
+
+/**
+ * The region of a person from two alignment points, as MediaPipe's AlignmentPointsRectsCalculator does it.
+ * @param centre middle of the hips, pixels
+ * @param edge a point above the head, on the circle about the whole person
+ */
+export function regionAround(
+  centre: { readonly x: number; readonly y: number },
+  edge: { readonly x: number; readonly y: number },
+): Region {
+  const [dx, dy] = [edge.x - centre.x, edge.y - centre.y];
+  return { ...centre, size: 2 * Math.hypot(dx, dy) * MARGIN, angle: Math.atan2(dx, -dy) };
+}
+
+/** The point of the picture, in pixels, at a place in the region; both coordinates are shares of its side. */
+export function pointInPicture(
+  { x, y, size, angle }: Region,
+  across: number,
+  down: number,
+): { x: number; y: number } {
+  const [dx, dy] = [(across - 0.5) * size, (down - 0.5) * size];
+  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+  return { x: x + dx * cos - dy * sin, y: y + dx * sin + dy * cos };
+}
+
+/** Whether the two cover each other so much that they are about the same person. */
+export function samePerson(a: Region, b: Region): boolean {
+  return Math.hypot(a.x - b.x, a.y - b.y) < 0.3 * Math.min(a.size, b.size);
+}

@@ -1,0 +1,85 @@
+import { personsOf, type Person } from './detector';
+import { type Landmarks, landmarksOf } from './landmarks';
+import { Cropper, type Picture } from './picture';
+import type { PoseGraphs } from './graphs';
+import type { Region } from './region';
+
+/** Presence below which the person counts as lost. */
+const MIN_PRESENCE = 0.5;
+/** While nobody is seen the detector, which takes as long as three poses, looks at every third picture. */
+const DETECT_EVERY = 3;
+/** A region smaller than this share of the picture's longer side holds nobody whose pose could be seen. */
+const MIN_REGION = 0.06;
+
+/** A point of the picture, pixels. */
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What was found in one picture. */
+export interface Tracked {
+  /** Null where the person is not seen. */
+  readonly landmarks: Landmarks | null;
+  /** The persons in the picture, where the detector was asked. */
+  readonly persons: readonly Person[] | null;
+  /** Mean brightness of the picture, 0 to 1, where the detector was asked. */
+  readonly brightness: number | null;
+}
+
+/**
+ * Follows one person through the pictures of a video: the detector finds them, then each picture's landmarks say where
+ * to look in the next one. Who was lost is looked for near the place where they were seen last.
+ */
+export class PersonTracker {
+  readonly #cropper = new Cropper();
+  #region: Region | null = null;
+  #last: Point | null;
+  #undetected = 0;
+
+  /** @param pick where the person stands who is to be followed; null takes the largest */
+  constructor(
+    private readonly graphs: PoseGraphs,
+    pick: Point | null,
+  ) {
+    this.#last = pick;
+  }
+
+  async next(picture: Picture): Promise<Tracked> {
+    if (this.#region) return { ...(await this.#see(picture, this.#region)), persons: null, brightness: null };
+    if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons: null, brightness: null };
+    const { input, toPicture, brightness } = this.#cropper.detectorInput(picture);
+    const { boxes, scores } = await this.graphs.detect(input);
+    const persons = personsOf(boxes, scores, toPicture);
+    const found = nearest(persons, this.#last);
+    const seen = found ? await this.#see(picture, found.region) : { landmarks: null };
+    return { ...seen, persons, brightness };
+  }
+
+  async #see(picture: Picture, region: Region): Promise<Pick<Tracked, 'landmarks'>> {
+    const landmarks = landmarksOf(
+      await this.graphs.landmarks(this.#cropper.landmarkInput(picture, region)),
+      region,
+    );
+    const { next, presence } = landmarks;
+    const seen = presence >= MIN_PRESENCE && isInside(next, picture);
+    this.#region = seen ? next : null;
+    if (!seen) return { landmarks: null };
+    this.#undetected = 0;
+    this.#last = next;
+    return { landmarks };
+  }
+}
+
+/** The person nearest to a point, or the largest without one. */
+function nearest(persons: readonly Person[], point: Point | null): Person | undefined {
+  if (!point) return persons[0];
+  const distance = ({ region }: Person): number => Math.hypot(region.x - point.x, region.y - point.y);
+  return [...persons].sort((a, b) => distance(a) - distance(b))[0];
+}
+
+function isInside({ x, y, size }: Region, { width, height }: Picture): boolean {
+  return (
+    x > 0 && y > 0 && x < width && y < height && size > MIN_REGION * Math.max(width, height) && size < 1e5
+  );
+}

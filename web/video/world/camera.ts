@@ -1,0 +1,72 @@
+import { LANDMARK_COUNT } from '../pose/landmarks';
+import type { Series } from './series';
+
+/** Focal length of a phone's main camera, relative to the longer side of its pictures. */
+export const DEFAULT_FOCAL = 0.9;
+/** Landmarks that place the body: those of trunk and legs move least against each other. */
+const PLACING: readonly number[] = [11, 12, 23, 24, 25, 26, 27, 28];
+/** Visibility below which a landmark does not count. */
+const MIN_VISIBILITY = 0.3;
+
+/**
+ * Turns the landmarks from the axes of what the network saw, which looks straight at the person, to those of the
+ * camera, which looks past them. In place.
+ * @param focal focal length, pixels
+ */
+export function toCameraAxes({ world, centre, frames, width, height }: Series, focal: number): Float64Array {
+  const out = new Float64Array(world.length);
+  for (let frame = 0; frame < frames; frame++) {
+    const x = (centre[2 * frame]! - width / 2) / focal;
+    const y = (centre[2 * frame + 1]! - height / 2) / focal;
+    const [yaw, pitch] = [Math.atan(x), Math.atan2(y, Math.hypot(1, x))];
+    const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
+    for (let i = frame * LANDMARK_COUNT; i < (frame + 1) * LANDMARK_COUNT; i++) {
+      const [a, b, c] = [world[3 * i]!, world[3 * i + 1]!, world[3 * i + 2]!];
+      // First about x, downwards, then about y, to the right.
+      const [down, away] = [b * cp + c * sp, -b * sp + c * cp];
+      out[3 * i] = a * cy + away * sy;
+      out[3 * i + 1] = down;
+      out[3 * i + 2] = -a * sy + away * cy;
+    }
+  }
+  return out;
+}
+
+/**
+ * Where the middle of the hips is in each frame, in the camera's axes: the translation t that brings the landmarks X
+ * nearest to their pictures (u, v) by linear least squares, u (Z + t_z) = f (X + t_x) and the same for v.
+ * @param world frames x 33 x 3 in the camera's axes, metres at the body's true size
+ * @param focal pixels
+ * @returns frames x 3, metres
+ */
+export function placeInSpace(
+  { image, visibility, frames, width, height }: Series,
+  world: Float64Array,
+  focal: number,
+): Float64Array {
+  const out = new Float64Array(frames * 3);
+  for (let frame = 0; frame < frames; frame++) {
+    // Normal equations of f t_x - u t_z = u Z - f X and f t_y - v t_z = v Z - f Y, of which f is divided out.
+    let [n, su, sv, suv, bx, by, bz] = [0, 0, 0, 0, 0, 0, 0];
+    for (const landmark of PLACING) {
+      const i = frame * LANDMARK_COUNT + landmark;
+      const weight = Math.max(0.01, visibility[i]! - MIN_VISIBILITY);
+      const u = (image[2 * i]! - width / 2) / focal;
+      const v = (image[2 * i + 1]! - height / 2) / focal;
+      const [x, y, z] = [world[3 * i]!, world[3 * i + 1]!, world[3 * i + 2]!];
+      const [p, q] = [u * z - x, v * z - y];
+      n += weight;
+      su += weight * u;
+      sv += weight * v;
+      suv += weight * (u * u + v * v);
+      bx += weight * p;
+      by += weight * q;
+      bz -= weight * (u * p + v * q);
+    }
+    // t_x = (bx + su t_z) / n and t_y = (by + sv t_z) / n leave one equation for t_z.
+    const pivot = suv - (su * su + sv * sv) / n;
+    const tz = (bz + (su * bx + sv * by) / n) / Math.max(pivot, 1e-9);
+    out.set([(bx + su * tz) / n, (by + sv * tz) / n, tz], 3 * frame);
+  }
+  return out;
+}
