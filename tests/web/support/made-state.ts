@@ -61,7 +61,10 @@ export function numbered(frames: number, from: number): SolvedMotion {
   const rotations = new Float32Array(frames * 88);
   for (let at = 0; at < rotations.length; at += 4) {
     const quaternion = [next(1), next(1), next(1), next(1)];
-    rotations.set(quaternion.map((part) => part / Math.hypot(...quaternion)), at);
+    rotations.set(
+      quaternion.map((part) => part / Math.hypot(...quaternion)),
+      at,
+    );
   }
   const positions = forwardKinematics(offsets, root, rotations);
   return { fps: 30, frames, offsets, root, rotations, positions, fitError: 0.002 };

@@ -19,10 +19,7 @@ export const mountTakes: Mount = (root, store, services) => {
   });
   const coming = createComingList();
   const count = el('span', { class: 'muted' });
-  const close = closeButton(() => {
-    apply(store, panelToggled('takes'));
-  });
-  close.classList.add('phone-only');
+  const close = createPhoneClose(store);
   const clear = createClearButton(store);
   const head = el(
     'div',
@@ -93,6 +90,15 @@ export const mountTakes: Mount = (root, store, services) => {
     },
   );
 };
+
+/** Closes the sheet of the phone. */
+function createPhoneClose(store: Store): HTMLButtonElement {
+  const button = closeButton(() => {
+    apply(store, panelToggled('takes'));
+  });
+  button.classList.add('phone-only');
+  return button;
+}
 
 /** Removes all takes without a star. */
 function createClearButton(store: Store): HTMLButtonElement {
