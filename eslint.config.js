@@ -31,12 +31,14 @@ const directions = {
 
 /** Inside motion: math below skeleton below the rest, which the client and the worker put together. */
 const motionFolders = {
-  math: 'skeleton|bvh|fit|contact|beats|client|worker',
-  skeleton: 'bvh|fit|contact|beats|client|worker',
-  bvh: 'fit|contact|beats|client|worker',
-  fit: 'bvh|contact|beats|client|worker',
-  contact: 'bvh|fit|beats|client|worker',
-  beats: 'bvh|fit|contact|client|worker',
+  math: 'skeleton|bvh|retarget|import|fit|contact|beats|client|worker',
+  skeleton: 'bvh|retarget|import|fit|contact|beats|client|worker',
+  bvh: 'retarget|import|fit|contact|beats|client|worker',
+  retarget: 'import|fit|contact|beats|client|worker',
+  import: 'fit|contact|beats|client|worker',
+  fit: 'bvh|retarget|import|contact|beats|client|worker',
+  contact: 'bvh|retarget|import|fit|beats|client|worker',
+  beats: 'bvh|retarget|import|fit|contact|client|worker',
 };
 for (const [folder, above] of Object.entries(motionFolders))
   directions[`motion/${folder}`] = [

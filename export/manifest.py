@@ -32,6 +32,7 @@ class Card:
     notes: tuple[str, ...]
     reference_height: float  # metres, `body_height` of the leaders it was trained on
     unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
+    reactor_height: float | None = None  # metres, `body_height` of the reactors beside those leaders
 
 
 def layer_names(layers: int) -> list[str]:
@@ -86,6 +87,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "lower": list(LOWER),
             "feet": list(FEET),
             "reference_height": round(card.reference_height, 4),
+            **({} if card.reactor_height is None else {"reactor_height": round(card.reactor_height, 4)}),
             "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },
         "fps": FPS,

@@ -61,6 +61,10 @@ def read_config(folder: Path, name: str) -> dict:
         return config
 
 
+UNBOUNDED = ("lowest", "highest")
+"""The denoiser's range of latents, infinite where nothing quantises them."""
+
+
 def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:
     """The stage-1 model, frozen and in evaluation mode."""
     config = read_config(folder, "hfsq")
@@ -82,7 +86,8 @@ def start_from(module: nn.Module, folder: Path, name: str) -> None:
     with naming(path):
         load_weights(module, str(path), strict=True)
         for key, value in module.state_dict().items():
-            if not value.isfinite().all():
+            bad = value.isnan() if key in UNBOUNDED else ~value.isfinite()
+            if bad.any():
                 raise ValueError(f"the weights {key} are not finite")
 
 
@@ -109,11 +114,14 @@ def read_card(folder: Path) -> dict:
     return read_config(folder, "card")
 
 
-def write_first_card(folder: Path, reference_height: float, unfamiliar_from: float) -> None:
+def write_first_card(
+    folder: Path, reference_height: float, unfamiliar_from: float, reactor_height: float | None = None
+) -> None:
     """Writes a card.json to be filled in by hand; one that exists is kept.
 
     reference_height: metres, the mean `body_height` of the leaders it was trained on. unfamiliar_from: mean
     `ConditionEncoder.unfamiliarity` of a leader from which the page says that the model does not know such a dance.
+    reactor_height: metres, the mean `body_height` of the reactors beside those leaders.
     """
     if (folder / "card.json").exists():
         return
@@ -127,4 +135,6 @@ def write_first_card(folder: Path, reference_height: float, unfamiliar_from: flo
         "reference_height": round(reference_height, 4),
         "unfamiliar_from": round(unfamiliar_from, 2),
     }
+    if reactor_height is not None:
+        card["reactor_height"] = round(reactor_height, 4)
     write_json(folder / "card.json", card)

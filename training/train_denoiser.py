@@ -54,7 +54,7 @@ class Options(LoopOptions):
     steps: int = 6000
     batch: int = 32
     stride: int = 4
-    """Frames between training windows (the paper's Table 6)."""
+    """Frames between training windows, a multiple of 4 (the paper's Table 6)."""
     learning_rate: float = 5e-4
     weight_decay: float = 0.02
     synths: int = 3
@@ -88,7 +88,9 @@ def main(options: Options) -> None:
     )
     stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
     run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", warmup=200)
-    height = float(np.mean([body_height(d.leader) for d in duets.train]))
+    height, reactor_height = (
+        float(np.mean([body_height(getattr(d, role)) for d in duets.train])) for role in ("leader", "reactor")
+    )
 
     def finish() -> None:
         """Measure and save the averaged denoiser."""
@@ -100,7 +102,7 @@ def main(options: Options) -> None:
             provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
             save_denoiser(options.out, averaged, options.diffusion, provenance | {"validation": report})
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
-            write_first_card(options.out, height, UNFAMILIAR_RATIO * known)
+            write_first_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
         hfsq.to(fabric.device)
 
     run.train(lambda: windows.batch(options.batch), finish)

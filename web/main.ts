@@ -9,6 +9,7 @@ import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, shiftForFirstVisit } from './stage-binding';
+import { createFigures } from './view/figures';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
@@ -18,6 +19,8 @@ import { openDropped } from './ui/files/dropped';
 import { createFileChooser } from './ui/files/file-chooser';
 import { FileLoader } from './ui/files/file-loader';
 import { isProject } from './ui/files/file-type';
+import { mountGivenDialog } from './ui/files/given-dialog';
+import { openGiven } from './ui/files/given-files';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
 import { readParameters } from './ui/files/parameters';
@@ -101,9 +104,11 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
+  useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   recordVideo: () => void video.record(),
-  rereadLeader: (fps) => void files.rereadLeader(fps),
+  rereadLeader: (options) => void files.rereadLeader(options),
+  readAgain: files.readAgain,
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {
@@ -111,10 +116,15 @@ const services: Services = {
     variations.cancel();
   },
   makeVariations: variations.make,
+  drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
   retryModel: model.retry,
   togglePlay: playback.toggle,
   seek: playback.seek,
+  showMoment: (measure, seconds) => {
+    playback.loopAround(seconds);
+    stage?.focusOn(MEASURED[measure], seconds);
+  },
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
     openVideoStage: stage && ((size) => openCamera(stage, store, size)),
@@ -133,6 +143,7 @@ const services: Services = {
       () => false,
     ),
   loadUpdate: () => offline?.activateUpdate(),
+  reload: () => location.reload(),
 };
 
 // ---- panels ----
@@ -146,6 +157,7 @@ for (const mount of [
   mountToast,
   mountNewVersion,
   mountProblemDialog,
+  mountGivenDialog,
   mountDropTarget,
 ])
   mount(stageHost, store, services);
@@ -173,6 +185,9 @@ void model
     () => undefined,
   );
 
+/** Where on the stage a moment of each measure is seen. */
+const MEASURED = { feet: 'feet', closeness: 'trunks', beats: 'couple', seams: 'couple' } as const;
+
 /** An element of index.html that panels are mounted in. */
 function place(id: string): HTMLElement {
   const element = document.getElementById(id);
@@ -185,6 +200,8 @@ function openStage(host: HTMLElement): Stage | null {
   const picture = document.createElement('div');
   picture.className = 'picture';
   picture.setAttribute('role', 'img');
+  // A click gives it the focus, so that keys go to the stage; Tab passes it by.
+  picture.tabIndex = -1;
   picture.setAttribute('aria-label', 'Leader in blue and reactor in orange, dancing');
   host.append(picture);
   try {
@@ -199,7 +216,7 @@ function openStage(host: HTMLElement): Stage | null {
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) await project.open(projectFile);
-  else await files.open(chosen);
+  else await openGiven(chosen, store, files);
 }
 
 async function saveProject(): Promise<void> {
@@ -209,7 +226,8 @@ async function saveProject(): Promise<void> {
 
 function openDemo(): Promise<void> {
   return loadDemo(store, files, new URL('demo/', document.baseURI), {
-    readReactor: async (bvh) => (await readLeader({ text: bvh, fps: null })).motion,
+    readReactor: async (bytes) =>
+      (await readLeader({ files: [{ name: 'reactor.bvh', bytes }], options: {} })).motion,
     manifest: model.manifest,
   });
 }

@@ -50,6 +50,12 @@ export function bindStage(stage: Stage, store: Store): () => void {
       (state) => state.camera,
       (camera) => stage.setCamera(camera),
     ),
+    // A detail is shown while its seconds are looped.
+    watch(
+      store,
+      (state) => state.playback.region,
+      () => stage.endFocus(),
+    ),
   );
 }
 
@@ -89,16 +95,23 @@ function bindBusy(stage: Stage, store: Store): () => void {
   );
 }
 
-/** Windows that are wide enough for the dancers beside the first-visit block. */
+/** Windows that are wide enough for the dancers beside the first-visit block, and low ones, where it is narrower. */
 const WIDE = matchMedia('(min-width: 761px)');
-const FIRST_VISIT_SHIFT_PX = 200;
+const LOW = matchMedia('(max-height: 500px)');
+const FIRST_VISIT_SHIFT_PX = { low: 135, high: 200 };
 
 /** Shifts the dancers beside the first-visit block, where there is room; returns a function that stops it. */
 export function shiftForFirstVisit(stage: Stage, store: Store): () => void {
-  return watch(
-    store,
-    (state) => state.firstVisit,
-    (firstVisit) => stage.shiftRight(firstVisit && WIDE.matches ? FIRST_VISIT_SHIFT_PX : 0),
+  const shift = (): void => {
+    const beside = store.getState().firstVisit && WIDE.matches;
+    stage.shiftRight(beside ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0);
+  };
+  for (const query of [WIDE, LOW]) query.addEventListener('change', shift);
+  return combineDisposers(
+    watch(store, (state) => state.firstVisit, shift),
+    () => {
+      for (const query of [WIDE, LOW]) query.removeEventListener('change', shift);
+    },
   );
 }
 

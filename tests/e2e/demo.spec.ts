@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { readBvh } from '../../web/motion/bvh/read';
+import { leaderBvh } from '../web/support/leader-bvh';
 import { bvhText } from './support/files';
 import { App, maxDistance, meanSpeed } from './support/app-page';
 import { expect, test } from './support/fixtures';
@@ -39,7 +39,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
     const coming = page.waitForEvent('download');
     await page.getByRole('button', { name: 'Download', exact: true }).click();
     await page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }).click();
-    const { clip } = readBvh(readFileSync(await (await coming).path(), 'utf8'));
+    const { clip } = leaderBvh(readFileSync(await (await coming).path(), 'utf8'));
     const saved = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
     expect(maxDistance(shown, saved)).toBeLessThan(0.001);
     await lock.click();
@@ -102,7 +102,7 @@ test('a page without its demo says so and works', async ({ page }) => {
   await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
   await app.openWithoutPicture();
-  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo is not here');
+  await expect(page.getByRole('region', { name: 'Start' })).toContainText('The demo could not be loaded');
   await expect(page.getByRole('button', { name: 'Play the demo' })).toBeHidden();
   await app.drop({ name: 'mine.bvh', mimeType: '', buffer: Buffer.from(bvhText({ frames: 60 })) });
   await app.reaction('mine.bvh');

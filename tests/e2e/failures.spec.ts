@@ -2,14 +2,19 @@ import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './s
 import { App, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
-/** Expects the problem dialog with this title and hint, and closes it with Escape. */
-async function expectProblem(app: App, title: RegExp, hint: RegExp): Promise<void> {
+/** Expects the problem dialog with this title and hint, and closes it, by Escape if not otherwise said. */
+async function expectProblem(
+  app: App,
+  title: RegExp,
+  hint: RegExp,
+  close = (): Promise<void> => app.page.keyboard.press('Escape'),
+): Promise<void> {
   await expect(app.alert).toBeVisible({ timeout: 60_000 });
   await expect(app.alert.getByRole('heading')).toHaveText(title);
   await expect(app.alert.getByRole('paragraph')).toHaveText(hint);
   // The first button of the dialog has the focus.
   await expect(app.alert.getByRole('button').first()).toBeFocused();
-  await app.page.keyboard.press('Escape');
+  await close();
   await expect(app.alert).toBeHidden();
 }
 
@@ -138,7 +143,7 @@ test.describe('the model', () => {
     await app.openWithoutPicture('/?model=/models/tiny/manifest.json');
     await app.until(({ model }) => model.phase === 'ready');
     expect(await app.read(({ model }) => model.phase === 'ready' && model.backend)).toBe('wasm');
-    await expect(page.getByRole('banner')).toContainText('WebAssembly');
+    await expect(page.getByRole('banner')).toContainText('Processor');
     await expect(page.getByRole('complementary')).toContainText(/WebGPU/);
     await expectStillGenerates(app);
   });
@@ -155,6 +160,43 @@ test.describe('the model', () => {
     await expectProblem(app, /stopped unexpectedly/, HINT);
     await page.getByRole('button', { name: 'Generate' }).click();
     await app.reaction('unlucky.bvh');
+  });
+
+  test('falling silent is noticed, also after a cancelled request, and Try again starts afresh', async ({
+    page,
+  }) => {
+    // Ends the model's worker from outside, of which the page gets no word, and lets the minutes pass faster.
+    await page.addInitScript(() => {
+      const opened: Worker[] = [];
+      const Real = Worker;
+      const repeat = window.setInterval.bind(window);
+      window.Worker = class extends Real {
+        constructor(...options: ConstructorParameters<typeof Worker>) {
+          super(...options);
+          if (options[1]?.name === 'model') opened.push(this);
+        }
+      };
+      Object.assign(window, {
+        killModel: () => {
+          opened.at(-1)?.terminate();
+          Object.assign(window, { setInterval: (run: () => void, ms: number) => repeat(run, ms / 10) });
+        },
+        slowDown: () => Object.assign(window, { setInterval: repeat }),
+      });
+    });
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.settled();
+    await page.evaluate('killModel()');
+    await app.chooseLeader(bvh({ frames: 60, name: 'patient.bvh' }));
+    await page.getByRole('button', { name: /^Cancel/ }).click();
+    await app.until(({ job }) => !job);
+    await page.getByRole('button', { name: 'Generate' }).click();
+    await expectProblem(app, /no sign of life for 60 seconds/, HINT, async () => {
+      await page.evaluate('void slowDown()');
+      await app.alert.getByRole('button', { name: 'Try again' }).click();
+    });
+    await app.reaction('patient.bvh');
   });
 });
 

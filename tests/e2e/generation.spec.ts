@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Manifest } from '../../web/model/manifest';
-import { readBvh } from '../../web/motion/bvh/read';
+import { leaderBvh } from '../web/support/leader-bvh';
 import { bvh, wav } from './support/files';
 import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
@@ -103,7 +103,7 @@ test('from a song and a leader to a partner that can be steered and downloaded',
         `^my-song_my-leader_take-\\d+_s${seed}_c0.50-f0.00-m${music.toFixed(2)}_footlock_reactor.bvh$`,
       ),
     );
-    const { clip, report } = readBvh(readFileSync(await download.path(), 'utf8'));
+    const { clip, report } = leaderBvh(readFileSync(await download.path(), 'utf8'));
     await page.keyboard.press('Escape');
     expect(report.warnings).toEqual([]);
     expect(clip.frames).toBe(120);
@@ -218,7 +218,7 @@ test.describe('real files', () => {
     const song = songs.find((name) => name.endsWith('.opus')) ?? songs[0] ?? '';
     await app.drop(file(song), file(leaders[0] ?? ''));
     await app.reaction(path.basename(leaders[0] ?? ''));
-    expect(await app.read((state) => state.song?.data.beats.length)).toBeGreaterThan(8);
+    expect(await app.read((state) => state.song?.data.rhythm.beats.length)).toBeGreaterThan(8);
   });
 });
 

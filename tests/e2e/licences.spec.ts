@@ -37,6 +37,12 @@ test('the page has the licences of packages inside other packages', () => {
   for (const tool of ['vite', 'rolldown']) expect(section(tool)).toContain('VoidZero Inc.');
 });
 
+test('WebAssembly has the licences of the libraries that it was linked with', () => {
+  for (const name of ['onnxruntime-web', '@mediabunny/aac-encoder'])
+    for (const library of ['Emscripten authors', 'Rich Felker', 'LLVM Exceptions'])
+      expect(section(name), name).toContain(library);
+});
+
 test('all that meyda has bundled is named', () => {
   const { sources } = JSON.parse(read('node_modules/meyda/dist/web/meyda.min.js.map')) as {
     sources: string[];

@@ -1,55 +1,11 @@
 /** The page offline: the second visit works without the server, and the visitor can clear the caches. */
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
 import { writeServiceWorker } from '../../tools/vite/service-worker.mjs';
-import { createSite, listen } from '../../tools/serve.mjs';
 import { App } from './support/app-page';
-import { expect, test as base } from './support/fixtures';
-
-const project = path.resolve(import.meta.dirname, '../..');
-
-/** A server of the built page that a test can stop and change. */
-interface Host {
-  readonly root: string;
-  readonly stop: () => Promise<void>;
-  readonly start: () => Promise<string>;
-}
-
-const test = base.extend<object, { host: Host; site: string }>({
-  serviceWorkers: 'allow',
-  host: [
-    // eslint-disable-next-line no-empty-pattern -- Playwright reads the wanted fixtures from this pattern
-    async ({}, use) => {
-      const root = mkdtempSync(path.join(tmpdir(), 'reactdance-offline-'));
-      cpSync(path.join(project, 'dist'), root, {
-        recursive: true,
-        filter: (file) => !/\.br$|models.salsa/.test(file),
-      });
-      const mounts = { '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model') };
-      const server = createSite({ root, mounts });
-      let port = 0;
-      const start = async (): Promise<string> => {
-        const address = await listen(server, { port });
-        port = Number(new URL(address).port);
-        return address;
-      };
-      const stop = (): Promise<void> =>
-        new Promise((resolve) => {
-          server.close(() => {
-            resolve();
-          });
-          server.closeAllConnections();
-        });
-      await use({ root, start, stop });
-      await stop();
-      rmSync(root, { recursive: true });
-    },
-    { scope: 'worker' },
-  ],
-  site: [async ({ host }, use) => use(await host.start()), { scope: 'worker' }],
-});
+import { expect } from './support/fixtures';
+import { test } from './support/host';
 
 /** Waits until the service worker has cached the page. */
 async function serviceWorkerReady(page: Page): Promise<void> {
@@ -57,7 +13,7 @@ async function serviceWorkerReady(page: Page): Promise<void> {
 }
 
 async function openCard(page: Page): Promise<Locator> {
-  await page.getByRole('banner').getByRole('button', { name: 'WebAssembly' }).click();
+  await page.getByRole('banner').getByRole('button', { name: 'Processor' }).click();
   return page.getByRole('dialog', { name: 'On this device' });
 }
 

@@ -23,10 +23,20 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
 
   const mark = timeline.getByRole('button', { name: /^1\. .* (at|around) 0:\d\d\.\d$/ });
   await expect(mark).toHaveText('1');
+  // No alarm before someone looks at the strip.
+  await expect(mark).toHaveCSS('opacity', '0');
+  await feet.hover();
+  await expect(mark).toHaveCSS('opacity', '1');
+  await page.mouse.move(400, 5);
+  await expect(mark).toHaveCSS('opacity', '0');
   const [, seconds = ''] = /0:(\d\d\.\d)$/.exec((await mark.getAttribute('aria-label')) ?? '') ?? [];
   expect(await app.read(({ playback }) => playback.time)).not.toBeCloseTo(Number(seconds), 0);
   await mark.click();
-  expect(Math.abs((await app.read(({ playback }) => playback.time)) - Number(seconds))).toBeLessThan(0.11);
+  const { region, loop, playing } = await app.read(({ playback }) => playback);
+  expect([loop, playing]).toEqual([true, true]);
+  expect(Math.abs((region?.from ?? 0) + 0.5 - Number(seconds))).toBeLessThan(0.11);
+  expect((region?.to ?? 0) - (region?.from ?? 0)).toBeCloseTo(2, 1);
+  await page.keyboard.press('Space');
   await expect(page.getByRole('slider', { name: 'Playhead' })).toHaveAttribute('aria-valuetext', /./);
 
   // What a mark means is seen under the pointer, with the focus and after a tap, and nothing moves for it.

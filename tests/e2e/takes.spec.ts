@@ -110,6 +110,19 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
     await compare.getByRole('radio', { name: 'A' }).click();
     await expect(take(page, 'Softer hands')).toHaveAttribute('aria-selected', 'true');
+    // Tab flips only after a click on the stage, and with Shift leaves it.
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    const picture = page.locator('.picture');
+    await picture.focus();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'B' })).toBeChecked();
+    await page.keyboard.press('Tab');
+    await expect(compare.getByRole('radio', { name: 'A' })).toBeChecked();
+    await expect(picture).toBeFocused();
+    await page.keyboard.press('Shift+Tab');
+    await expect(picture).not.toBeFocused();
+    await page.evaluate('document.activeElement.blur()');
   });
 
   await test.step('delete, undo and redo', async () => {
@@ -131,7 +144,7 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(page.getByRole('radiogroup', { name: 'Compare takes' })).toBeHidden();
     const letter = page.getByRole('button', { name: `Use ${older} as B` });
     await expect(letter).toBeDisabled();
-    await expect(letter).toHaveAccessibleDescription('Dances the other part.');
+    await expect(letter).toHaveAccessibleDescription('This take dances the other role.');
     await page.getByRole('spinbutton', { name: 'Seed' }).fill('78');
     await page.keyboard.press('Enter');
     await app.until(({ takes, job }) => takes.length === 4 && !job);
@@ -150,16 +163,18 @@ test('everything is restored after a reload, and from a project file after the p
   const app = await withTwoTakes(page);
   const [newer = '', older = ''] = await titles(page);
   const summary = () =>
-    app.read(({ takes, reaction, song, leader, settings, other, playback }) => ({
+    app.read(({ takes, reaction, song, leader, settings, other, countings, playback }) => ({
       takes: takes.map(({ id, name, starred, reaction: { inputs } }) => [id, name, starred, inputs.settings]),
-      files: [song?.name, song?.data.beats, leader?.name, leader?.text.length],
+      files: [song?.name, song?.data.rhythm.beats, leader?.name, leader?.files[0]?.bytes.length],
       settings,
       other,
+      countings,
       time: playback.time,
       answers: reaction?.inputs.leader === leader && reaction?.inputs.song === song,
     }));
   await page.getByRole('button', { name: `Star ${older}` }).click();
   await page.getByRole('button', { name: `Use ${older} as B` }).click();
+  await page.locator('.lane.ruler').click({ modifiers: ['Alt'], position: { x: 200, y: 12 } });
   await page.keyboard.press('End');
   await take(page, newer).dblclick();
   await page.keyboard.type('Softer hands');
@@ -169,6 +184,7 @@ test('everything is restored after a reload, and from a project file after the p
   const ghost = await coarseGhost(app);
   expect(maxDistance(ghost, motion)).toBeGreaterThan(1e-4);
   expect(before.takes).toHaveLength(2);
+  expect(before.countings).toHaveLength(1);
   expect(before.answers).toBe(true);
 
   await test.step('a reload', async () => {

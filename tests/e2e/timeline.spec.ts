@@ -54,9 +54,9 @@ test('a part is looped: drawn on the ruler, changed by its handles and by keys',
   await page.getByRole('slider', { name: 'Loop end' }).focus();
   await page.keyboard.press('ArrowLeft');
   expect((await region())?.to).toBeCloseTo((drawn?.to ?? 0) - 1 / 30, 3);
-  await drag(page, await place(page, /^Leader/, 0.2, RULER), await place(page, /^Leader/, 0.22, RULER));
+  await drag(page, await place(page, /^Leader/, 0.2, RULER), await place(page, /^Leader/, 0.24, RULER));
   await page.mouse.up();
-  expect((await region())?.from).toBeCloseTo(2.2, 1);
+  expect((await region())?.from, 'the nearest beat').toBeCloseTo(2.5, 1);
 
   await page.evaluate('document.activeElement.blur()');
   await page.keyboard.press('Home');
@@ -80,16 +80,67 @@ test('a part is looped: drawn on the ruler, changed by its handles and by keys',
   expect(await app.read(({ playback }) => [playback.region, playback.loop])).toEqual([null, false]);
 
   await page.keyboard.press('Home');
-  await page.keyboard.press('Shift+ArrowRight');
-  await page.keyboard.press('i');
-  await page.keyboard.press('Shift+ArrowRight');
-  await page.keyboard.press('o');
-  expect(await region()).toEqual({ from: 1, to: 2 });
+  const ends: number[] = [];
+  for (const key of ['i', 'o']) {
+    await page.keyboard.press('Shift+ArrowRight');
+    ends.push(await app.read(({ playback }) => playback.time));
+    await page.keyboard.press(key);
+  }
+  expect(await region()).toEqual({ from: ends[0], to: ends[1] });
+  expect(ends[0]).toBeLessThan(ends[1] ?? 0);
   await page.keyboard.press('l');
   expect(await app.read(({ playback }) => [playback.region !== null, playback.loop])).toEqual([true, false]);
 
   await page.mouse.dblclick(...(await place(page, /^Leader/, 0.6, RULER)));
   expect(await region()).toBeNull();
+});
+
+test('the “1” is set by a click, the count is halved and undone, and loops go from beat to beat', async ({
+  page,
+}) => {
+  const app = await tenSeconds(page);
+  const counting = () => app.read(({ countings }) => countings[0]);
+  const count = page.getByRole('button', { name: /^Bar .* Count/ });
+  const dialog = page.getByRole('dialog', { name: 'How the song is counted' });
+
+  await test.step('the tempo is that of the beats', async () => {
+    await expect(page.getByRole('button', { name: /^Song: mine.wav/ })).toHaveText(/ 120 BPM/);
+  });
+
+  await test.step('a click on the ruler sets the "1", and does not jump', async () => {
+    await count.click();
+    await dialog.getByRole('button', { name: 'Click a beat' }).click();
+    await page.mouse.click(...(await place(page, /^Leader/, 0.352, RULER)));
+    expect((await counting())?.one).toBeCloseTo(3.5, 1);
+    expect(await app.read(({ playback }) => playback.time)).toBe(0);
+    await page.mouse.click(...(await place(page, /^Leader/, 0.352, RULER)));
+    await expect(count).toHaveText(/Count 1$/);
+  });
+
+  await test.step('half the tempo, which undo takes back', async () => {
+    await count.click();
+    await dialog.getByRole('radio', { name: 'Half' }).click();
+    await expect(page.getByRole('button', { name: /^Song: mine.wav/ })).toHaveText(/ 60 BPM/);
+    await page.keyboard.press('Control+z');
+    await expect(page.getByRole('button', { name: /^Song: mine.wav/ })).toHaveText(/ 120 BPM/);
+    await page.keyboard.press('Escape');
+  });
+
+  await test.step('a loop is drawn from beat to beat, with Alt from any time', async () => {
+    const [from, to] = [await place(page, /^Leader/, 0.21, RULER), await place(page, /^Leader/, 0.39, RULER)];
+    await drag(page, from, to);
+    await page.mouse.up();
+    const beats = (await app.read(({ song }) => song?.data.rhythm.beats)) ?? [];
+    const region = await app.read(({ playback }) => playback.region);
+    expect(beats).toContain(region?.from);
+    expect(beats).toContain(region?.to);
+    await page.keyboard.down('Alt');
+    await drag(page, from, to);
+    await page.mouse.up();
+    await page.keyboard.up('Alt');
+    const free = await app.read(({ playback }) => playback.region);
+    expect([free?.from, free?.to].map((time) => time?.toFixed(1))).toEqual(['2.1', '3.9']);
+  });
 });
 
 test('the lanes zoom around the pointer, scroll, and follow the playhead', async ({ page }) => {
@@ -152,9 +203,9 @@ test('the song is shifted by dragging, by keys and by the suggestion, and the re
     await align.click();
     expect(await shift()).toBe(frames);
     await expect(align).toBeHidden();
-    await expect(page.getByText('no better shift')).toBeVisible();
+    await expect(page.getByText('timing fits')).toBeVisible();
     await app.until(({ reaction, shift }) => reaction?.inputs.shift === shift);
-    await page.getByRole('button', { name: /^Song shift .*put it back/ }).click();
+    await page.getByRole('button', { name: /^Song shift .*move it back/ }).click();
     expect(await shift()).toBe(0);
   });
 

@@ -206,6 +206,11 @@ def test_the_no_latent_baseline_is_lossless_and_trains(data: Path, tmp_path: Pat
     assert load_model(tmp_path).denoiser.layers == 1
 
 
+def test_the_stride_of_training_windows_is_handed_on(data: Path, trained: Path) -> None:
+    with pytest.raises(ValueError, match="stride of 6 frames"):
+        train_denoiser.main(stage2(data, trained, stride=6))
+
+
 def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:
     hfsq, _ = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)

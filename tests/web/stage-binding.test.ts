@@ -24,6 +24,7 @@ const take = (id: string): Take => {
     steps: 5,
     seed: 1,
     role: 'reactor' as Role,
+    height: null,
   };
   const inputs: Inputs = { leader: dancer, song: null, shift: 0, settings };
   const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };

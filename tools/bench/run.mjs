@@ -1,8 +1,9 @@
 /**
  * `npm run bench`: how long a dance takes, stage by stage, in this machine's browser, against onnxruntime native and
- * PyTorch eager in the same run. Prints a table and writes bench.json.
+ * PyTorch eager in the same run, and what a visitor waits for in the built app. Prints tables, writes bench.json and
+ * docs/lengths.svg.
  *
- *     npm run bench -- --frames 2066 --steps 3 --threads 1,2 --repeats 5
+ *     npm run bench -- --frames 2066 --steps 3 --threads 1,2 --repeats 5 --minutes 1,2.5,5,10 --only app
  */
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -14,6 +15,7 @@ import { chromium } from '@playwright/test';
 import { findBrowser } from '../browser.mjs';
 import { installPythonPackages } from '../install.mjs';
 import { runOrThrow, python, root, runMain } from '../run.mjs';
+import { appTables, measureApp } from './app/measure.mjs';
 import { servePage } from './built-page.mjs';
 import { STAGES, table, withRatios } from './table.mjs';
 
@@ -27,6 +29,8 @@ const { values: options } = parseArgs({
     repeats: { type: 'string', default: '5' },
     model: { type: 'string', default: 'web/public/models/salsa' },
     checkpoint: { type: 'string', default: 'training/checkpoints/salsa' },
+    minutes: { type: 'string', default: '1,2.5,5,10' },
+    only: { type: 'string' },
     out: { type: 'string', default: 'bench.json' },
   },
 });
@@ -80,13 +84,28 @@ async function measureBrowser(folder, threadCounts) {
   }
 }
 
-await runMain(async () => {
+/**
+ * The stages of a dance.
+ *
+ * @param {string} folder
+ */
+async function measureStages(folder) {
   await installPythonPackages();
+  const threadCounts = options.threads.split(',').map(Number);
+  const references = await measurePython(folder, Math.max(...threadCounts));
+  return withRatios([...(await measureBrowser(folder, threadCounts)), ...references]);
+}
+
+await runMain(async () => {
   const folder = await mkdtemp(path.join(os.tmpdir(), 'reactdance-bench-'));
   try {
-    const threadCounts = options.threads.split(',').map(Number);
-    const references = await measurePython(folder, Math.max(...threadCounts));
-    const rows = withRatios([...(await measureBrowser(folder, threadCounts)), ...references]);
+    /** @param {'stages' | 'app'} part */
+    const wanted = (part) => (options.only ?? part) === part;
+    const frames = Number(options.frames);
+    const rows = wanted('stages') ? await measureStages(folder) : [];
+    const app = wanted('app')
+      ? await measureApp(folder, { frames, minutes: options.minutes.split(',').map(Number) })
+      : null;
     const [processor] = os.cpus();
     const { stdout: commit } = await promisify(execFile)('git', ['rev-parse', '--short', 'HEAD'], {
       cwd: root,
@@ -101,14 +120,16 @@ await runMain(async () => {
       },
       commit: commit.trim(),
       model: options.model,
-      frames: Number(options.frames),
+      frames,
       steps: Number(options.steps),
       stages: STAGES,
       rows,
+      app,
     };
     await writeFile(path.resolve(root, options.out), `${JSON.stringify(report, null, 2)}\n`);
-    console.log(`\n${report.frames} frames, ${report.steps} steps, seconds (${report.machine.processor}):\n`);
-    console.log(table(rows));
+    console.log(`\n${report.frames} frames, ${report.steps} steps, seconds (${report.machine.processor}):`);
+    if (rows.length > 0) console.log(`\n${table(rows)}`);
+    if (app) console.log(`\n${appTables(app)}`);
     console.log(`\nWritten to ${options.out}.`);
   } finally {
     await rm(folder, { recursive: true, force: true });

@@ -15,6 +15,9 @@ const BUNDLED = new Map([
   ['onnxruntime-web', ['onnxruntime-common']],
 ]);
 
+/** Packages with WebAssembly that Emscripten compiled: it contains parts of Emscripten's libraries. */
+const EMSCRIPTEN = new Set(['onnxruntime-web', '@mediabunny/aac-encoder']);
+
 /** Texts that packages lack: `licence-texts/NAME/*.txt` are added to those that the package NAME brings. */
 const OWN_TEXTS = fileURLToPath(new URL('licence-texts', import.meta.url));
 
@@ -119,6 +122,7 @@ async function packageSection(folder) {
   const texts = [
     ...(await textsIn(folder, LICENCE_FILE)),
     ...(await textsIn(path.join(OWN_TEXTS, name), /\.txt$/)),
+    ...(EMSCRIPTEN.has(name) ? await textsIn(path.join(OWN_TEXTS, 'emscripten'), /\.txt$/) : []),
   ];
   if (texts.length === 0)
     throw new Error(

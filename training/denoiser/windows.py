@@ -48,11 +48,14 @@ class Windows:
     def __init__(
         self, clips: Sequence[Clip], block: int, margin: int, stride: int, config: ConditionConfig, seed: int
     ) -> None:
+        """Raises ValueError where the stride, in frames, is not a multiple of a latent frame's 4."""
+        if stride <= 0 or stride % STRIDE:
+            raise ValueError(f"a stride of {stride} frames is not a multiple of {STRIDE}, a latent frame")
         self.clips, self.block, self.margin, self.config = clips, block, margin, config
         self.starts: list[tuple[int, int]] = [
             (i, s)
             for i, clip in enumerate(clips)
-            for s in range(0, max(len(clip) - block, 0) + 1, max(stride // STRIDE, 1))
+            for s in range(0, max(len(clip) - block, 0) + 1, stride // STRIDE)
         ]
         # Few windows have a couple that comes together or parts, so they are drawn more often.
         self.ends = [(i, s) for i, clip in enumerate(clips) for s in (0, max(len(clip) - block, 0))]

@@ -2,10 +2,13 @@ import { AppError } from '../common/error';
 import { musicFeatures, type MusicFeatures } from './features';
 import type { AudioRecipe } from './recipe';
 import { resample } from './dsp/resample';
+import { type Rhythm, rhythmOf } from './rhythm/rhythm';
 import { encodeWav } from './wav';
 
 /** What is computed from the samples of a song. */
-export interface Analysis extends MusicFeatures {
+export interface Analysis extends Pick<MusicFeatures, 'frames' | 'features'> {
+  /** What the page shows and counts; the model hears the beats that are among its features. */
+  readonly rhythm: Rhythm;
   /** Mean of the channels at the recipe's rate. */
   readonly pcm: Float32Array;
   /** The decoded sound as a WAV file, for playing. */
@@ -40,11 +43,13 @@ export function analyse(
   const pcm = resample(mixDown(channels), sampleRate, recipe.sample_rate, (fraction) =>
     onProgress(RESAMPLING_SHARE * fraction),
   );
-  const music = musicFeatures(pcm, recipe, (fraction) =>
+  const { frames, features } = musicFeatures(pcm, recipe, (fraction) =>
     onProgress(RESAMPLING_SHARE + (1 - RESAMPLING_SHARE) * fraction),
   );
   return {
-    ...music,
+    frames,
+    features,
+    rhythm: rhythmOf(features, recipe),
     pcm,
     sound: encodeWav(channels, sampleRate),
     silent: pcm.every((sample) => Math.abs(sample) <= MAX_SILENT_AMPLITUDE),
@@ -58,7 +63,7 @@ function checkSamples(samples: Float32Array, sampleRate: number): void {
   if (wrong < 0) return;
   throw new AppError(
     'not-audio',
-    `The song is damaged at ${(wrong / sampleRate).toFixed(2)} seconds: a sample there is no loudness of a sound.`,
+    `The song is damaged at ${(wrong / sampleRate).toFixed(2)} seconds: what is there is not sound.`,
     'Open it in a sound editor and save it again, or choose another file.',
   );
 }

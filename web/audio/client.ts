@@ -6,6 +6,7 @@ import { type AudioRecipe, readRecipe } from './recipe';
 import type { AudioTasks } from './worker';
 
 export { AudioPlayer, type Player } from './player';
+export type { BeatsPerBar } from './rhythm/metre';
 
 /** A loaded song. */
 export interface Song extends Analysis {
@@ -88,7 +89,7 @@ function workerError(reason: string): AppError {
   return new AppError(
     'worker-crashed',
     `The analysis of the song stopped unexpectedly (${reason}).`,
-    'Load the song again. If it happens again, close other tabs or use a shorter song.',
+    'Try again. If it happens again, close other tabs or use a shorter song.',
   );
 }
 

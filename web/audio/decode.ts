@@ -43,7 +43,7 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
   if (isPlaylist(new Uint8Array(await readBytes(file.slice(0, PLAYLIST_HEAD_BYTES))))) {
     throw new AppError(
       'not-audio',
-      'The file is a playlist: it names songs and holds none.',
+      'The file is a playlist: it names songs, but contains none.',
       'Choose the file of the song itself.',
     );
   }

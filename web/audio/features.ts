@@ -15,9 +15,9 @@ export interface MusicFeatures {
   readonly frames: number;
   /** frames x recipe.features: MFCC, their deltas, chroma, onset strength, beat */
   readonly features: Float32Array;
-  /** Beats per minute; 0 when the song has no onset. */
+  /** Beats per minute as the model's beats were tracked, in whole frames a beat; 0 when the song has no onset. */
   readonly tempo: number;
-  /** Seconds of the beats, ascending. */
+  /** Seconds of the model's beats, ascending. */
   readonly beats: number[];
 }
 

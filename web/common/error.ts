@@ -6,13 +6,15 @@ export type ErrorCode =
   | 'too-long'
   // A motion.
   | 'not-bvh'
+  | 'not-motion'
+  | 'no-motion'
+  | 'missing-file'
   | 'truncated'
   | 'bad-hierarchy'
   | 'bad-number'
   | 'wrong-columns'
   | 'bad-frame-time'
   | 'too-few-frames'
-  | 'several-roots'
   | 'missing-joints'
   | 'not-a-body'
   // A song.
@@ -37,10 +39,13 @@ export type ErrorCode =
   | 'model-corrupt'
   | 'model-mismatch'
   | 'download-failed'
+  | 'gpu-lost'
   | 'bad-request'
   | 'not-finite'
-  // A worker.
+  // A worker, or another part of the page.
   | 'worker-crashed'
+  | 'page-part-missing'
+  | 'newer-version'
   // The stage.
   | 'webgl-missing'
   | 'webgl-lost'

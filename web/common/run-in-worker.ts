@@ -2,8 +2,10 @@
  * Calls between the page and its workers, over comlink. A worker offers tasks by name with `serve`; the page calls them
  * through a `WorkerConnection`, or with `runInWorker` where each call gets a worker of its own.
  */
-import { type Endpoint, expose, proxy, type Remote, transfer, wrap } from 'comlink';
+import { type Endpoint, expose, proxy, releaseProxy, type Remote, transfer, wrap } from 'comlink';
 import { AppError } from './error';
+import { explainedByVersion, pagePartMissing } from './page-part';
+import { type Patience, SilenceWatch } from './silence-watch';
 
 export interface TaskContext<Report> {
   /** Aborted when the page cancels this call. */
@@ -40,14 +42,13 @@ type Outcome =
   /** Anything unforeseen, out of memory or a lost GPU for example; the worker is not to be used again. */
   | { readonly kind: 'crashed'; readonly reason: string };
 
+type Reporter = (report: unknown) => void | Promise<void>;
+
 interface TaskRunner {
-  call(
-    id: number,
-    name: string,
-    input: unknown,
-    report: (report: unknown) => void | Promise<void>,
-  ): Promise<Outcome>;
+  call(id: number, name: string, input: unknown, report: Reporter): Promise<Outcome>;
   cancel(id: number): void;
+  /** Answered as soon as the worker's work lets messages in. */
+  answer(): void;
 }
 
 /** In a worker: answers the page's calls, which come through `port`, with these tasks. */
@@ -77,11 +78,14 @@ export function serve(tasks: Tasks, port?: Endpoint): void {
       }
       // Reports go through a port of their own, which the outcome would overtake.
       await lastReport;
+      // Its port would stay open until both threads have collected their garbage.
+      (report as Remote<Reporter>)[releaseProxy]();
       return outcome;
     },
     cancel(id) {
       running.get(id)?.abort();
     },
+    answer: () => undefined,
   };
   expose(runner, port);
 }
@@ -107,40 +111,61 @@ function handOver<T>(value: T): T {
   return buffers.size > 0 ? transfer(value, [...buffers]) : value;
 }
 
-/** A worker that answers many calls, until it crashes or is disposed of. */
+/**
+ * How long a worker with work may give no sign of life. No task holds its thread for more than three seconds without a
+ * report (opening a graph is the longest), so this leaves room for machines that are twenty times slower.
+ */
+const PATIENCE: Patience = { first: 60, next: 60 };
+
+interface ConnectionOptions {
+  /** Makes the error of a crash, given its reason in the browser's words. */
+  readonly toError?: ((reason: string) => Error) | undefined;
+  readonly patience?: Patience | undefined;
+}
+
+/** A worker that answers many calls, until it crashes, falls silent or is disposed of. */
 export class WorkerConnection<T extends Tasks> {
   readonly #worker: Worker;
   readonly #remote: Remote<TaskRunner>;
   readonly #toError: (reason: string) => Error;
-  /** Rejected when the worker ends, so that no call waits for its answer for ever. */
-  readonly #end: Promise<never>;
-  #reject: (error: Error) => void = () => undefined;
-  #ended = false;
+  /** Fail the calls under way when the worker ends, so that none waits for its answer for ever. */
+  readonly #failures = new Set<(error: Error) => void>();
+  /** Why the worker ended; null while it has not. */
+  #end: Error | null = null;
   #calls = 0;
+  /** Calls that the worker has not answered, cancelled ones among them. */
+  #unanswered = 0;
+  readonly #watch: SilenceWatch;
 
-  /** @param toError makes the error of a crash, given its reason in the browser's words */
-  constructor(worker: Worker, toError: (reason: string) => Error = (reason) => new Error(reason)) {
+  constructor(
+    worker: Worker,
+    { toError = (reason) => new Error(reason), patience = PATIENCE }: ConnectionOptions = {},
+  ) {
     this.#worker = worker;
     this.#remote = wrap<TaskRunner>(worker);
     this.#toError = toError;
-    this.#end = new Promise((_, reject) => (this.#reject = reject));
-    // Nobody may be waiting when it ends.
-    this.#end.catch(() => undefined);
+    this.#watch = new SilenceWatch(
+      patience,
+      () => this.#remote.answer(),
+      (seconds) => this.dispose(toError(`no sign of life for ${seconds} seconds`)),
+    );
     worker.addEventListener('error', (event) => {
       event.preventDefault();
-      this.dispose(toError(event.message || 'its script could not be loaded'));
+      if (event.message) this.dispose(toError(event.message));
+      // Only a script that could not be loaded gives no reason.
+      else void explainedByVersion(pagePartMissing()).then((error) => this.dispose(error));
     });
     worker.addEventListener('messageerror', () => this.dispose(toError('a message could not be read')));
   }
 
-  /** True after a crash or `dispose`: calls fail. */
+  /** True after a crash, silence or `dispose`: calls fail. */
   get ended(): boolean {
-    return this.#ended;
+    return this.#end !== null;
   }
 
   /**
    * Has the worker do a task.
-   * @throws the task's {AppError}; the error of a crash; the signal's reason, at once, while the worker hears of it when
+   * @throws the task's {AppError}, or `newer-version` where that explains it; the error of a crash; the signal's reason, at once, while the worker hears of it when
    * its task next lets messages in
    */
   async call<K extends keyof T & string>(
@@ -149,28 +174,47 @@ export class WorkerConnection<T extends Tasks> {
     { signal, onReport, transfers = [] }: CallOptions<ReportOf<T[K]>> = {},
   ): Promise<OutputOf<T[K]>> {
     signal?.throwIfAborted();
+    if (this.#end) throw this.#end;
     const id = ++this.#calls;
     let over = false;
     const report = proxy((value: unknown): void => {
+      this.#watch.hear();
       if (!over) onReport?.(value as ReportOf<T[K]>);
     });
     let cancel: () => void = () => undefined;
-    const cancelled = new Promise<never>((_, reject) => {
-      cancel = () => {
-        void this.#remote.cancel(id);
-        reject(signal?.reason as Error);
-      };
-    });
-    signal?.addEventListener('abort', cancel);
+    let fail: (error: Error) => void = () => undefined;
     try {
-      const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
-      const outcome = await Promise.race([call, this.#end, cancelled]);
+      // Not a race with a promise that lives as long as the worker: it would hold on to the output of every call.
+      const outcome = await new Promise<Outcome>((resolve, reject) => {
+        fail = reject;
+        cancel = () => {
+          void this.#remote.cancel(id);
+          reject(signal?.reason as Error);
+        };
+        this.#failures.add(fail);
+        signal?.addEventListener('abort', cancel);
+        const call = this.#remote.call(id, name, transfer(input, [...transfers] as ArrayBuffer[]), report);
+        this.#watchUntil(call);
+        call.then(resolve, reject);
+      });
       if (outcome.kind === 'done') return outcome.output as OutputOf<T[K]>;
-      throw this.#errorOf(outcome);
+      throw await explainedByVersion(this.#errorOf(outcome));
     } finally {
       over = true;
+      this.#failures.delete(fail);
       signal?.removeEventListener('abort', cancel);
     }
+  }
+
+  /** Expects signs of life until the worker has answered, also where a cancelled call is no longer waited for. */
+  #watchUntil(call: Promise<unknown>): void {
+    this.#unanswered++;
+    this.#watch.start();
+    const answered = (): void => {
+      this.#watch.hear();
+      if (--this.#unanswered === 0) this.#watch.stop();
+    };
+    call.then(answered, answered);
   }
 
   #errorOf(outcome: Exclude<Outcome, { kind: 'done' }>): Error {
@@ -189,9 +233,10 @@ export class WorkerConnection<T extends Tasks> {
 
   /** Ends the worker; calls under way are rejected with `reason`. */
   dispose(reason: Error = new DOMException('The worker was ended.', 'AbortError')): void {
-    this.#ended = true;
+    this.#end ??= reason;
+    this.#watch.stop();
     this.#worker.terminate();
-    this.#reject(reason);
+    for (const fail of this.#failures) fail(this.#end);
   }
 }
 
@@ -203,9 +248,9 @@ export async function runInWorker<T extends Tasks, K extends keyof T & string>(
   worker: Worker,
   name: K,
   input: InputOf<T[K]>,
-  options: CallOptions<ReportOf<T[K]>> & { readonly toError?: (reason: string) => Error } = {},
+  options: CallOptions<ReportOf<T[K]>> & ConnectionOptions = {},
 ): Promise<OutputOf<T[K]>> {
-  const connection = new WorkerConnection<T>(worker, options.toError);
+  const connection = new WorkerConnection<T>(worker, options);
   try {
     return await connection.call(name, input, options);
   } finally {

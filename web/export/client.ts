@@ -1,3 +1,4 @@
+import { loadPart } from '../common/page-part';
 import { createBodyLibrary } from '../view/body/library';
 import type { Role, Theme } from '../view/theme';
 import { bvhExtension, writeBvhFile } from './bvh';
@@ -9,6 +10,7 @@ import type { VideoPlan } from './video/plan';
 
 export type { About, Dance, MotionFormat } from './dance';
 export { estimateBytes } from './sizes';
+export { captioned } from './video/caption';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';
 export type { VideoPlan } from './video/plan';
 
@@ -54,7 +56,7 @@ async function content(
       return writeJson(dance);
     case 'glb': {
       // Few visitors need the exporter: it is loaded on demand.
-      const { writeGlb } = await import('./glb');
+      const { writeGlb } = await loadPart(() => import('./glb'));
       const bodies = createBodyLibrary();
       try {
         return await writeGlb(dance, theme, bodies);
@@ -70,7 +72,7 @@ export async function planVideo(
   size: { readonly width: number; readonly height: number },
   withSound: boolean,
 ): Promise<VideoPlan | null> {
-  const { plan } = await import('./video/plan');
+  const { plan } = await loadPart(() => import('./video/plan'));
   return plan(size, withSound);
 }
 
@@ -80,7 +82,7 @@ export async function planVideo(
  * @throws {AppError} `video-failed`, `sound-failed`; the signal's reason when it is aborted
  */
 export async function writeVideo(source: VideoSource, plan: VideoPlan, options: VideoOptions): Promise<Blob> {
-  const video = await import('./video/write');
+  const video = await loadPart(() => import('./video/write'));
   return video.writeVideo(source, plan, options);
 }
 

@@ -38,7 +38,7 @@ export function metadataOf(dance: Dance): object {
     format: 'reactdance-motion',
     version: 1,
     units: { position: 'metres', time: 'seconds' },
-    axes: 'y up, right-handed; standing toes are at height 0',
+    axes: 'y up, right-handed; the floor is at height 0',
     fps,
     frames,
     dancers: dance.dancers.map(({ role }) => role),

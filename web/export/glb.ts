@@ -1,5 +1,6 @@
 import {
   AnimationClip,
+  type BufferGeometry,
   Group,
   type KeyframeTrack,
   Matrix4,
@@ -7,12 +8,14 @@ import {
   QuaternionKeyframeTrack,
   Scene,
   SkinnedMesh,
+  Vector3,
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh/conventions';
+import { BVH_NAMES } from '../motion/bvh/names';
 import type { SolvedMotion } from '../motion/skeleton/clip';
-import { JOINT_COUNT, PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
+import { restRoot } from '../motion/skeleton/kinematics';
+import { JOINT_COUNT, SMPL22 } from '../motion/skeleton/skeleton';
 import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
@@ -40,7 +43,8 @@ export async function writeGlb(
   const tracks: KeyframeTrack[] = [];
   for (const { role, motion } of dance.dancers) {
     const body = await bodies.request(motion.offsets, BUILDS[role]);
-    const rig = rigAtRest(motion, body.offsets);
+    const rig = createRig();
+    const geometry = geometryAtRest(toFullGeometry(body).clone(), rig, motion, body.offsets);
     const material = new MeshStandardMaterial({
       name: NAMES[role],
       color: LOOKS[theme][role],
@@ -48,7 +52,7 @@ export async function writeGlb(
       metalness: 0,
       vertexColors: true,
     });
-    const mesh = new SkinnedMesh(toFullGeometry(body), material);
+    const mesh = new SkinnedMesh(geometry, material);
     mesh.name = `${NAMES[role]} body`;
     mesh.bind(rig.skeleton, new Matrix4());
     const armature = new Group();
@@ -66,17 +70,47 @@ export async function writeGlb(
   return glb;
 }
 
-/** A dancer's bones in the T-pose, on the floor where the dance begins, bound to the skin for these offsets. */
-function rigAtRest(motion: SolvedMotion, bound: Float32Array): Rig {
-  const rig = createRig();
+/**
+ * Puts the bones into the rest pose of our BVH, a T-pose on the floor where the dance begins, and binds them there:
+ * Blender takes the pose in which a skin is bound for the bones' rest.
+ *
+ * @param geometry the skin as it was made; its vertices are moved to the rest pose
+ * @param bound offsets that the skin was made for
+ */
+function geometryAtRest(
+  geometry: BufferGeometry,
+  rig: Rig,
+  motion: SolvedMotion,
+  bound: Float32Array,
+): BufferGeometry {
   rig.fit(motion.offsets);
   rig.bind(bound);
-  const heights: number[] = [];
-  for (let joint = 0; joint < JOINT_COUNT; joint++)
-    heights.push((heights[PARENTS[joint] ?? -1] ?? 0) + (motion.offsets[joint * 3 + 1] ?? 0));
-  rig.root.position.set(motion.root[0] ?? 0, -Math.min(...heights), motion.root[2] ?? 0);
+  rig.root.position.set(...restRoot(motion));
+  rig.root.updateMatrixWorld(true);
   rig.bones.forEach((bone, joint) => (bone.name = BVH_NAMES[SMPL22[joint] ?? 'pelvis']));
-  return rig;
+
+  const turns = rig.bones.map((bone, joint) =>
+    new Matrix4().multiplyMatrices(bone.matrixWorld, rig.skeleton.boneInverses[joint]!),
+  );
+  const [position, normal] = [geometry.getAttribute('position'), geometry.getAttribute('normal')];
+  const [joints, weights] = [geometry.getAttribute('skinIndex'), geometry.getAttribute('skinWeight')];
+  const [point, direction, turned] = [new Vector3(), new Vector3(), new Vector3()];
+  for (let vertex = 0; vertex < position.count; vertex++) {
+    point.set(0, 0, 0);
+    direction.set(0, 0, 0);
+    for (let i = 0; i < 4; i++) {
+      const weight = weights.getComponent(vertex, i);
+      if (weight === 0) continue;
+      const turn = turns[joints.getComponent(vertex, i)]!;
+      point.addScaledVector(turned.fromBufferAttribute(position, vertex).applyMatrix4(turn), weight);
+      direction.addScaledVector(turned.fromBufferAttribute(normal, vertex).transformDirection(turn), weight);
+    }
+    position.setXYZ(vertex, point.x, point.y, point.z);
+    direction.normalize();
+    normal.setXYZ(vertex, direction.x, direction.y, direction.z);
+  }
+  rig.skeleton.calculateInverses();
+  return geometry;
 }
 
 /** Keyframe tracks of a motion. They refer to bones by UUID: the bones of two dancers have the same names. */

@@ -1,4 +1,5 @@
 import { AppError } from '../common/error';
+import { newerVersion } from '../common/page-part';
 import { WorkerConnection } from '../common/run-in-worker';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
@@ -6,6 +7,7 @@ import type { ModelFolder } from './load/download';
 import {
   type CoarseRequest,
   type GenerateRequest,
+  HEIGHTS,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -45,7 +47,14 @@ export interface GeneratorOptions {
   readonly backend?: Preference | undefined;
   /** Number of wasm threads, for measurements; by default as many as suit the machine. */
   readonly threads?: number | undefined;
-  readonly onStatus?: ((status: Status) => void) | undefined;
+  /** Called while a model is loaded, which is also done again after a crash. */
+  readonly onStatus?: ((status: Status | ReloadFailure) => void) | undefined;
+}
+
+/** A model that was there could not be loaded again. */
+export interface ReloadFailure {
+  readonly kind: 'failed';
+  readonly error: unknown;
 }
 
 /** Generates reactions for the page in a worker of its own, which is replaced after a crash. */
@@ -75,7 +84,7 @@ export interface Generator {
   dispose(): void;
 }
 
-export { secondsNow };
+export { HEIGHTS, secondsNow };
 
 /** A worker with a loaded model. */
 interface LoadedWorker extends Loaded {
@@ -92,15 +101,20 @@ function crashed(message: string): AppError {
   );
 }
 
-async function start(options: GeneratorOptions): Promise<LoadedWorker> {
+interface StartOptions extends GeneratorOptions {
+  /** As in `LoadOptions`. */
+  readonly processorBecause?: string;
+}
+
+async function start(options: StartOptions): Promise<LoadedWorker> {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'model' });
-  const connection = new WorkerConnection<ModelTasks>(worker, crashed);
-  const { folder, backend = 'auto', threads } = options;
+  const connection = new WorkerConnection<ModelTasks>(worker, { toError: crashed });
+  const { folder, backend = 'auto', threads, processorBecause } = options;
   const manifestUrl = new URL(options.manifestUrl, document.baseURI).href;
   try {
     const loaded = await connection.call(
       'load',
-      { manifestUrl, folder, backend, threads },
+      { manifestUrl, folder, backend, threads, processorBecause },
       { onReport: options.onStatus },
     );
     return { connection, source: null, ...loaded };
@@ -116,12 +130,11 @@ class WorkerGenerator implements Generator {
   /** Its replacement while that is being loaded. */
   #next: Promise<LoadedWorker> | undefined;
   #disposed = false;
+  #options: StartOptions;
 
-  constructor(
-    first: LoadedWorker,
-    readonly options: GeneratorOptions,
-  ) {
+  constructor(first: LoadedWorker, options: GeneratorOptions) {
     this.#latest = first;
+    this.#options = options;
   }
 
   get manifest(): Manifest {
@@ -136,21 +149,22 @@ class WorkerGenerator implements Generator {
     { leader, music, role, ...settings }: GenerateRequest,
     { signal, playhead, onProgress, onPreview }: GenerateOptions = {},
   ): Promise<GenerateResult> {
-    const worker = await this.#ready(signal);
-    return worker.connection.call(
-      'generate',
-      {
-        source: newSource(worker, { leader, music, role }),
-        settings,
-        playhead: onPreview && playhead,
-      },
-      {
-        signal,
-        onReport: (report) => {
-          if (report.kind === 'progress') onProgress?.(report.progress);
-          else void onPreview?.(report.preview);
+    return this.#onWorker(signal, (worker) =>
+      worker.connection.call(
+        'generate',
+        {
+          source: newSource(worker, { leader, music, role }),
+          settings,
+          playhead: onPreview && playhead,
         },
-      },
+        {
+          signal,
+          onReport: (report) => {
+            if (report.kind === 'progress') onProgress?.(report.progress);
+            else void onPreview?.(report.preview);
+          },
+        },
+      ),
     );
   }
 
@@ -159,12 +173,12 @@ class WorkerGenerator implements Generator {
     { signal, onProgress }: SeedsOptions = {},
   ): Promise<number[]> {
     const { leader, music, role, ...settings } = request;
-    const worker = await this.#ready(signal);
-    const source = newSource(worker, { leader, music, role });
-    return worker.connection.call(
-      'differingSeeds',
-      { source, settings, seeds },
-      { signal, onReport: onProgress },
+    return this.#onWorker(signal, (worker) =>
+      worker.connection.call(
+        'differingSeeds',
+        { source: newSource(worker, { leader, music, role }), settings, seeds },
+        { signal, onReport: onProgress },
+      ),
     );
   }
 
@@ -172,8 +186,36 @@ class WorkerGenerator implements Generator {
     request: CoarseRequest,
     { signal }: Pick<GenerateOptions, 'signal'> = {},
   ): Promise<SolvedMotion> {
-    const { connection } = await this.#ready(signal);
-    return connection.call('coarse', request, { signal });
+    return this.#onWorker(signal, ({ connection }) => connection.call('coarse', request, { signal }));
+  }
+
+  /** Makes a call on the current worker; where that loses its GPU, again on one that computes on the processor. */
+  async #onWorker<T>(
+    signal: AbortSignal | undefined,
+    call: (worker: LoadedWorker) => Promise<T>,
+  ): Promise<T> {
+    const worker = await this.#ready(signal);
+    try {
+      return await call(worker);
+    } catch (error) {
+      if (!(error instanceof AppError && error.code === 'gpu-lost')) throw error;
+      this.#leaveGpu(worker, error);
+      return call(await this.#ready(signal));
+    }
+  }
+
+  /** Ends a worker that has lost its GPU; its calls under way are rejected with the same error and made again. */
+  #leaveGpu({ connection }: LoadedWorker, loss: AppError): void {
+    if (connection.ended) return;
+    connection.dispose(loss);
+    const processorBecause = loss.message.replace(/\.$/, '');
+    this.#options = { ...this.#options, backend: 'wasm', processorBecause };
+    this.#options.onStatus?.({
+      kind: 'notice',
+      code: 'gpu-lost',
+      message: loss.message,
+      hint: 'The dance is computed on the processor from now on. Reload the page to try the graphics card again.',
+    });
   }
 
   /** The current worker, or a new one after a crash. */
@@ -181,12 +223,25 @@ class WorkerGenerator implements Generator {
     if (this.#disposed) throw disposal();
     signal?.throwIfAborted();
     if (this.#latest.connection.ended) {
-      this.#next ??= start(this.options).finally(() => (this.#next = undefined));
+      this.#next ??= this.#restart().finally(() => (this.#next = undefined));
       this.#latest = await this.#next;
       if (this.#disposed) this.dispose();
       signal?.throwIfAborted();
     }
     return this.#latest;
+  }
+
+  /** @throws {AppError} `newer-version` where the server has another model by now: settings and takes are of this one */
+  async #restart(): Promise<LoadedWorker> {
+    try {
+      const worker = await start(this.#options);
+      if (JSON.stringify(worker.manifest) === JSON.stringify(this.manifest)) return worker;
+      worker.connection.dispose();
+      throw newerVersion();
+    } catch (error) {
+      this.#options.onStatus?.({ kind: 'failed', error });
+      throw error;
+    }
   }
 
   dispose(): void {

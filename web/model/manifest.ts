@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { FLOOR } from '../motion/bvh/axes-and-units';
+import { FLOOR } from '../motion/retarget/axes-and-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { AppError } from '../common/error';
 
@@ -66,7 +66,9 @@ const schema = v.object({
     feet: v.array(joint),
     /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
     reference_height: height,
-    /** See FLOOR in motion/bvh/axes-and-units.ts. */
+    /** Metres; body height of the reactors of the training beside leaders of that height. Left out, it is as decoded. */
+    reactor_height: v.optional(height),
+    /** See FLOOR in motion/retarget/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   /** That of every clip on the page. */

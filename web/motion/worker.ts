@@ -1,12 +1,12 @@
 /** Reads and solves one motion file off the main thread, so that a long one does not freeze the page. */
 import { serve } from '../common/run-in-worker';
-import { readBvh } from './bvh/read';
 import type { LeaderRequest, ReadLeader } from './client';
 import { solve } from './fit/ik';
+import { readLeaderFile } from './import/read';
 
 const tasks = {
-  read({ text, fps }: LeaderRequest): ReadLeader {
-    const file = readBvh(text, fps === null ? {} : { fps });
+  async read({ files, options, remembered }: LeaderRequest): Promise<ReadLeader> {
+    const file = await readLeaderFile(files, options, remembered);
     return { file, motion: solve(file.clip) };
   },
 };

@@ -41,7 +41,7 @@ function crashed(reason: string): AppError {
 
 export function createVideoReader(): VideoReader {
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'video' });
-  const connection = new WorkerConnection<VideoTasks>(worker, crashed);
+  const connection = new WorkerConnection<VideoTasks>(worker, { toError: crashed });
   const graphs = new URL('models/pose/pose.json', document.baseURI).href;
   return {
     read: (file, pick, signal, onReport) =>

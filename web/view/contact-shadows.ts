@@ -5,26 +5,30 @@ import {
   Matrix4,
   PlaneGeometry,
   ShaderMaterial,
+  Vector3,
 } from 'three';
 import { smoothstep } from './body/field';
-import { FEET, footMatrix } from './dancer/foot-placement';
+import { ballHeight, FEET, footMatrix, heelHeight } from './dancer/foot-placement';
+import { MAX_FIGURES, type Figure } from './overlays/overlay';
 import type { Look } from './theme';
 
-/** Dark spots under feet that are close to the floor, which make them look as if they stood on it. */
+/** Dark spots under balls and heels that are close to the floor, which make feet look as if they stood on it. */
 interface ContactShadows {
   readonly object: InstancedMesh;
-  /** @param dancers joint positions (22 x 3, metres), at most two dancers. */
-  update(dancers: readonly Float32Array[]): void;
+  update(figures: readonly Figure[]): void;
   setLook(look: Look): void;
   dispose(): void;
 }
 
-const MAX_FEET = 4;
-/** Size of a shadow, metres. */
-const LENGTH = 0.4;
-const WIDTH = 0.24;
-/** Height of a foot from which on it has no shadow, metres. */
-const MAX_HEIGHT = 0.16;
+/** Size of the shadow of a part of a foot that touches the floor, metres. */
+const LENGTH = 0.25;
+const WIDTH = 0.2;
+/** Places of the shadows, as shares of the way from the ankle to the toe joint. */
+const BALL = 1.05;
+const HEEL = -0.05;
+/** Height of a sole from which on it has no shadow, metres, and how much larger its shadow is there. */
+const MAX_HEIGHT = 0.1;
+const GROWTH = 0.6;
 
 const VERTEX = /* glsl */ `
 attribute float strength;
@@ -45,8 +49,9 @@ void main() {
 }`;
 
 export function createContactShadows(): ContactShadows {
+  const capacity = MAX_FIGURES * FEET.length * 2;
   const plane = new PlaneGeometry(WIDTH, LENGTH).rotateX(-Math.PI / 2);
-  const strength = new InstancedBufferAttribute(new Float32Array(MAX_FEET), 1).setUsage(DynamicDrawUsage);
+  const strength = new InstancedBufferAttribute(new Float32Array(capacity), 1).setUsage(DynamicDrawUsage);
   plane.setAttribute('strength', strength);
   const material = new ShaderMaterial({
     vertexShader: VERTEX,
@@ -55,25 +60,29 @@ export function createContactShadows(): ContactShadows {
     transparent: true,
     depthWrite: false,
   });
-  const object = new InstancedMesh(plane, material, MAX_FEET);
+  const object = new InstancedMesh(plane, material, capacity);
   object.instanceMatrix.setUsage(DynamicDrawUsage);
   object.frustumCulled = false;
   object.count = 0;
   object.renderOrder = 1;
   const place = new Matrix4();
+  const size = new Vector3();
   return {
     object,
-    update(dancers) {
+    update(figures) {
       let count = 0;
-      for (const joints of dancers)
+      const add = (height: number): void => {
+        const lifted = smoothstep(0, MAX_HEIGHT, height);
+        place.scale(size.setScalar(1 + GROWTH * lifted));
+        object.setMatrixAt(count, place);
+        strength.setX(count++, (1 - lifted) ** 2);
+      };
+      for (const { joints, motion } of figures)
         for (const foot of FEET) {
-          object.setMatrixAt(count, footMatrix(joints, foot, 0.003, place));
-          const height = (joint: number): number => joints[joint * 3 + 1]!;
-          strength.setX(
-            count,
-            1 - smoothstep(0, MAX_HEIGHT, Math.min(height(foot.toe), height(foot.ankle) - 0.05)),
-          );
-          count++;
+          footMatrix(joints, foot, BALL, 0.003, place);
+          add(ballHeight(joints, foot));
+          footMatrix(joints, foot, HEEL, 0.003, place);
+          add(heelHeight(joints, motion.offsets, foot));
         }
       object.count = count;
       object.instanceMatrix.needsUpdate = true;

@@ -8,7 +8,6 @@ import {
   UniformsUtils,
   Vector2,
 } from 'three';
-import { SOLE } from './body/leg';
 import type { Look } from './theme';
 
 /** The floor: lit in the middle, with a grid that fades out and the shadows that fall on it, in one pass. */
@@ -99,13 +98,11 @@ export function createFloor(): Floor {
   });
   const object = new Mesh(circle, material);
   object.receiveShadow = true;
-  // Toe joints rest at height 0; the sole is a little below them.
-  object.position.y = -SOLE;
   return {
     object,
     setCentre(x, z) {
       own.centre.value.set(x, z);
-      object.position.set(x, -SOLE, z);
+      object.position.set(x, 0, z);
     },
     setLook(look) {
       own.background.value.setHex(look.background, LinearSRGBColorSpace);

@@ -46,7 +46,7 @@ export class StageScene {
    */
   arrange(viewport: Viewport, seconds: number): number {
     const figures = this.dancers.arrange(viewport);
-    this.contactShadows.update(figures.map(({ joints }) => joints));
+    this.contactShadows.update(figures);
     this.overlays.update(figures, seconds);
     return figures.length;
   }

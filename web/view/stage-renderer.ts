@@ -1,6 +1,7 @@
 import type { BodyLibrary } from './body/library';
 import { CameraRig } from './camera/camera-rig';
 import { easing, isFar, measureCouple, nearestAngle, type Couple } from './camera/framing';
+import { planHeading } from './camera/heading-plan';
 import { Canvas, type PictureSize, type Viewport } from './canvas';
 import { perVertexMaterial, perPixelMaterial } from './dancer/body-material';
 import { Dancers } from './dancer/dancers';
@@ -38,6 +39,8 @@ export class StageRenderer {
   private seconds = 0;
   private poseStale = true;
   private couple: Couple = measureCouple([]);
+  /** Motions of the couple that the camera's headings are planned for. */
+  private planned: Dancers['couple'] = null;
   private lightHeading: number;
   /** Whether the shadow map holds a dancer's shadow, or nothing yet. */
   private shadowsStale = true;
@@ -87,6 +90,24 @@ export class StageRenderer {
     return this.couple;
   }
 
+  /** Moment of the dance that is shown, seconds. */
+  get time(): number {
+    return this.seconds;
+  }
+
+  /**
+   * Plans how the camera turns with the couple on the stage.
+   *
+   * @param passing whether the dance is one of many that pass by, for which a camera that has a plan keeps it
+   */
+  planCamera(passing: boolean): void {
+    const { couple } = this.contents.dancers;
+    const same = couple?.filter((motion, i) => motion === this.planned?.[i]).length ?? 0;
+    if (same === 2 || (same === 1 && passing)) return;
+    this.planned = couple;
+    this.rig.setPlan(couple && planHeading(...couple));
+  }
+
   /** Turns the lights to the camera at once. */
   alignLights(): void {
     this.lightHeading = this.rig.heading;
@@ -117,7 +138,7 @@ export class StageRenderer {
     if (crossfading) this.invalidatePose();
     const danced = this.poseStale;
     const couple = this.pose();
-    const cameraMoves = rig.update(dt, couple, danced);
+    const cameraMoves = rig.update(dt, { couple, seconds: this.seconds, danced });
     const lightsTurn = this.turnLights(dt, danced);
     contents.centreOn(couple, this.lightHeading);
     dancers.setLowDetail(isFar(rig.camera.position, couple, canvas.renderer.domElement.height));

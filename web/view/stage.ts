@@ -1,5 +1,6 @@
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
+import type { Detail } from './camera/focus';
 import type { Framing, View } from './camera/framing';
 import type { PictureSize } from './canvas';
 import type { DancerName, OtherMode } from './dancer/dancers';
@@ -97,9 +98,11 @@ export class Stage {
       if (motion !== undefined) dancers.setMotion(role, motion, crossfade);
     }
     this.view.invalidatePose();
+    // Only the dancer moves while the settings do, never the camera.
+    this.view.planCamera(!crossfade);
     const couple = this.view.pose();
     if (dancers.present > before) {
-      this.view.rig.frameNewcomers(couple, before === 0);
+      this.view.rig.frameNewcomers(couple, this.view.time, before === 0);
       if (before === 0) this.view.alignLights();
     }
     this.loop.invalidate();
@@ -159,7 +162,7 @@ export class Stage {
   }
 
   setCamera(view: View): void {
-    this.view.rig.setView(view, this.view.pose());
+    this.view.rig.setView(view, this.view.pose(), this.view.time);
   }
 
   /** Moves the couple to the right by CSS pixels, beside what lies over the picture. */
@@ -177,7 +180,19 @@ export class Stage {
 
   /** Brings both dancers into the picture. */
   frameBoth(): void {
-    this.view.rig.frame(this.view.pose());
+    this.view.rig.frame(this.view.pose(), this.view.time);
+  }
+
+  /** Shows a detail of the moment `seconds` from where it is seen, until the camera is moved in another way. */
+  focusOn(detail: Detail, seconds: number): void {
+    const { rig, contents } = this.view;
+    const made = contents.dancers.madeAt(seconds);
+    if (made) rig.focusOn(detail, made, seconds, this.view.pose());
+  }
+
+  /** Frames both dancers again if the camera still shows a detail. */
+  endFocus(): void {
+    this.view.rig.endFocus(this.view.pose());
   }
 
   /** How the couple is framed now, for another stage to frame it alike. */
@@ -186,7 +201,7 @@ export class Stage {
   }
 
   frameAs(framing: Framing): void {
-    this.view.rig.frameAs(framing, this.view.pose());
+    this.view.rig.frameAs(framing, this.view.pose(), this.view.time);
     this.view.alignLights();
   }
 

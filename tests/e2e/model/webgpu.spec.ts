@@ -67,3 +67,40 @@ test('the worker computes on WebGPU when it is asked to', async ({ page }) => {
   const { positions } = await page.evaluate(() => model.generate({ frames: 250, steps: 1 }));
   expect(positions).toHaveLength(250 * 66);
 });
+
+test('a device that is lost in the middle of a run moves the work to the processor, with the reason', async ({
+  page,
+}) => {
+  // The worker's own script, with a note of the device that it asks for.
+  await page.route('**/assets/worker-*.js', async (route) => {
+    const response = await route.fetch();
+    const noteDevice = `{
+      const { requestDevice } = GPUAdapter.prototype;
+      GPUAdapter.prototype.requestDevice = async function (...options) {
+        return (globalThis.device = await requestDevice.apply(this, options));
+      };
+    }`;
+    await route.fulfill({ response, body: noteDevice + (await response.text()) });
+  });
+  await page.goto('/');
+  await page.evaluate(() => model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }));
+  await page.evaluate(() => model.readGolden('tiny/golden.npz'));
+  const asked = { frames: 60, steps: 8 };
+  const generating = page.evaluate((request) => model.generate(request), asked);
+  await expect.poll(() => page.evaluate(() => model.done)).toBeGreaterThan(0);
+  const [worker] = page.workers();
+  await worker?.evaluate('device.destroy()');
+  const { positions, error } = await generating;
+  expect(error).toBeUndefined();
+  expect(positions).toHaveLength(60 * 66);
+  expect(await page.evaluate(() => model.statuses)).toContainEqual(
+    expect.objectContaining({ kind: 'notice', code: 'gpu-lost' }),
+  );
+  expect(await page.evaluate(() => model.statuses.at(-1))).toMatchObject({
+    kind: 'ready',
+    backend: {
+      name: 'wasm',
+      reason: expect.stringMatching(/^The graphics card stopped .* the processor is used/),
+    },
+  });
+});

@@ -104,6 +104,16 @@ test('every overlay is switched on and off in the picture, by key and by button'
   await page.keyboard.press('Escape');
   await expect(menu).toBeHidden();
   await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeFocused();
+
+  // A wide stage has them without a menu.
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await expect(page.getByRole('button', { name: 'Show, 6 on' })).toBeHidden();
+  const row = page.getByRole('group', { name: 'Shown on the stage' });
+  for (const [name] of OVERLAYS) {
+    const toggle = row.getByRole('button', { name });
+    await toggle.click();
+    await expect(toggle).toHaveAttribute('aria-pressed', 'false');
+  }
 });
 
 test('the camera has a key for every view, and one that brings both dancers into the picture', async ({

@@ -10,8 +10,10 @@ import { loadWeb } from '../../../tools/load-web.mjs';
 const [folder] = process.argv.slice(2);
 if (!folder) throw new Error('Usage: node tests/python/support/write_downloads.mjs folder');
 
-/** @type {typeof import('../../../web/motion/bvh/read')} */
-const { readBvh } = await loadWeb('motion/bvh/read.ts');
+/** @type {typeof import('../../../web/motion/import/bvh/read')} */
+const { readBvh } = await loadWeb('motion/import/bvh/read.ts');
+/** @type {typeof import('../../../web/motion/retarget/leader')} */
+const { leaderOf } = await loadWeb('motion/retarget/leader.ts');
 /** @type {typeof import('../../../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../../../web/export/client')} */
@@ -20,7 +22,7 @@ const { writeMotion } = await loadWeb('export/client.ts');
 /** @type {(role: 'leader' | 'reactor') => Promise<{ role: 'leader' | 'reactor', motion: import('../../../web/motion/skeleton/clip').SolvedMotion }>} */
 const dancer = async (role) => {
   const text = await readFile(new URL(`../../../web/public/demo/${role}.bvh`, import.meta.url), 'utf8');
-  return { role, motion: solve(readBvh(text).clip) };
+  return { role, motion: solve(leaderOf(readBvh(text)).clip) };
 };
 const dancers = [await dancer('leader'), await dancer('reactor')];
 const about = {

@@ -46,19 +46,21 @@ type Tested = typeof tasks;
 class LocalWorker extends EventTarget {
   readonly #channel = new MessageChannel();
   terminated = false;
+  /** Neither hears nor says anything, like a worker in an endless loop or one that was killed. */
+  silent = false;
 
   constructor() {
     super();
     serve(tasks, this.#channel.port2);
-    this.#channel.port1.addEventListener('message', ({ data }: MessageEvent<unknown>) =>
-      this.dispatchEvent(new MessageEvent('message', { data })),
-    );
+    this.#channel.port1.addEventListener('message', ({ data }: MessageEvent<unknown>) => {
+      if (!this.silent) this.dispatchEvent(new MessageEvent('message', { data }));
+    });
     this.#channel.port1.start();
     opened.push(this);
   }
 
   postMessage(message: unknown, transfers: Transferable[] = []): void {
-    this.#channel.port1.postMessage(message, transfers);
+    if (!this.silent) this.#channel.port1.postMessage(message, transfers);
   }
 
   terminate(): void {
@@ -151,7 +153,9 @@ describe('a connection to a worker', () => {
 
   it('ends with an unforeseen error, which `toError` makes', async () => {
     const worker = open();
-    const connection = new WorkerConnection<Tested>(worker, (reason) => new Error(`Stopped: ${reason}`));
+    const connection = new WorkerConnection<Tested>(worker, {
+      toError: (reason) => new Error(`Stopped: ${reason}`),
+    });
     const waiting = connection.call('wait', {});
     const both = Promise.allSettled([waiting, connection.call('crash', {})]);
     expect(await both).toMatchObject([
@@ -165,7 +169,7 @@ describe('a connection to a worker', () => {
 
   it.each([
     ['an error of its script', 'the roof fell in', 'the roof fell in'],
-    ['a script that is not there', '', 'its script could not be loaded'],
+    ['a script that is not there', '', 'A part of this page could not be loaded.'],
   ])('ends with %s', async (_, message, reason) => {
     const worker = open();
     const connection = new WorkerConnection<Tested>(worker);
@@ -180,6 +184,61 @@ describe('a connection to a worker', () => {
     const waiting = connection.call('wait', {});
     connection.dispose();
     await expect(waiting).rejects.toMatchObject({ name: 'AbortError' });
+  });
+});
+
+describe('a worker that falls silent', () => {
+  const patience = { first: 0.3, next: 0.15 };
+  const silenced = (): LocalWorker => Object.assign(new LocalWorker(), { silent: true });
+
+  it('in the middle of a task ends, and the call fails with the time waited', async () => {
+    const worker = new LocalWorker();
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    await connection.call('double', { values: Float32Array.of(1) });
+    const waiting = connection.call('wait', {});
+    worker.silent = true;
+    await expect(waiting).rejects.toThrow('no sign of life for 0.15 seconds');
+    expect(connection.ended).toBe(true);
+    expect(worker.terminated).toBe(true);
+  });
+
+  it('before its script has come is given more time', async () => {
+    const connection = new WorkerConnection<Tested>(silenced() as unknown as Worker, { patience });
+    await expect(connection.call('wait', {})).rejects.toThrow('no sign of life for 0.3 seconds');
+  });
+
+  it('after its call was cancelled ends as well, so that the next call can have a new one', async () => {
+    const worker = new LocalWorker();
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    const controller = new AbortController();
+    const waiting = connection.call('wait', {}, { signal: controller.signal });
+    worker.silent = true;
+    controller.abort();
+    await expect(waiting).rejects.toBe(controller.signal.reason);
+    expect(connection.ended).toBe(false);
+    await vi.waitFor(() => expect(connection.ended).toBe(true));
+  });
+
+  /** Three times the wait. */
+  const longTime = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 3000 * patience.first));
+
+  it('is not one that takes long but lets messages in', async () => {
+    const connection = new WorkerConnection<Tested>(open(), { patience });
+    const controller = new AbortController();
+    const waiting = connection.call('wait', {}, { signal: controller.signal });
+    await longTime();
+    expect(connection.ended).toBe(false);
+    controller.abort();
+    await expect(waiting).rejects.toThrow(/abort/i);
+  });
+
+  it('is not one that has nothing to do', async () => {
+    const worker = new LocalWorker();
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    await connection.call('count', { to: 1 });
+    worker.silent = true;
+    await longTime();
+    expect(connection.ended).toBe(false);
   });
 });
 

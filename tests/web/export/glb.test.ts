@@ -1,17 +1,30 @@
-import { type AnimationClip, AnimationMixer, type Object3D, SkinnedMesh, Vector3 } from 'three';
+import { type AnimationClip, AnimationMixer, Matrix4, type Object3D, SkinnedMesh, Vector3 } from 'three';
+import { BVHLoader } from 'three/addons/loaders/BVHLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { validateBytes } from 'gltf-validator';
 import { beforeAll, expect, test } from 'vitest';
 import { writeGlb } from '../../../web/export/glb';
 import { estimateBytes } from '../../../web/export/sizes';
-import { BVH_NAMES } from '../../../web/motion/bvh/conventions';
+import { BVH_NAMES } from '../../../web/motion/bvh/names';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { writeBvh } from '../../../web/motion/bvh/write';
+import { toFullGeometry } from '../../../web/view/body/geometry';
+import { BUILDS } from '../../../web/view/body/part';
 import { makeBody } from '../../../web/view/body/simplify';
+import { createRig } from '../../../web/view/dancer/rig';
 import { LOOKS } from '../../../web/view/theme';
 import { madeDance } from '../support/made-dance';
 
-/** Meshes bodies on this thread. */
-const bodies = { request: makeBody };
+/** Meshes bodies on this thread, each once: as the library does. */
+const made = new Map<string, ReturnType<typeof makeBody>>();
+const bodies = {
+  request(...[offsets, build]: Parameters<typeof makeBody>): ReturnType<typeof makeBody> {
+    const key = JSON.stringify([Array.from(offsets), build]);
+    const body = made.get(key) ?? makeBody(offsets, build);
+    made.set(key, body);
+    return body;
+  },
+};
 
 beforeAll(() => {
   // three.js reads its blobs with a FileReader, which Node does not have.
@@ -44,6 +57,67 @@ test.each([60, 930])('the size of %i frames is estimated before they are written
   const long = madeDance(frames, 'leader', 'reactor');
   const { byteLength } = await writeGlb(long, 'dark', bodies);
   expect(Math.abs(estimateBytes('glb', long) / byteLength - 1)).toBeLessThan(0.05);
+});
+
+test('the skin is bound in the rest pose of the BVH, with the soles on the floor', async () => {
+  const { scene } = await new GLTFLoader().parseAsync(await writeGlb(dance, 'dark', bodies), '');
+  for (const { role, motion } of dance.dancers) {
+    const skin = scene.getObjectByName(`${role === 'leader' ? 'Leader' : 'Reactor'}_body`) as SkinnedMesh;
+    const { bones, boneInverses } = skin.skeleton;
+    const bound = (name: string): Vector3 => {
+      const bone = bones.findIndex((each) => each.name.replace(/_\d+$/, '') === name);
+      return new Vector3().setFromMatrixPosition(boneInverses[bone]!.clone().invert());
+    };
+    const inFile = new BVHLoader().parse(writeBvh(motion)).skeleton.bones;
+    inFile[0]!.updateMatrixWorld(true);
+    for (const bone of inFile.filter(({ name }) => name !== 'ENDSITE')) {
+      const there = bone.getWorldPosition(new Vector3()).divideScalar(100);
+      expect(bound(bone.name).distanceTo(there), bone.name).toBeLessThan(1e-4);
+    }
+    skin.geometry.computeBoundingBox();
+    expect(Math.abs(skin.geometry.boundingBox!.min.y)).toBeLessThan(0.004);
+    // Arms are level, as in a T-pose.
+    const hand = skin.geometry.boundingBox!.max.x - bound('Hips').x;
+    expect(hand).toBeGreaterThan(bound('LeftHand').x - bound('Hips').x);
+  }
+});
+
+test('played back, the skin is where the stage draws it, to a centimetre', async () => {
+  const { scene, animations } = await new GLTFLoader().parseAsync(await writeGlb(dance, 'dark', bodies), '');
+  const mixer = new AnimationMixer(scene);
+  mixer.clipAction(animations[0]!).play();
+  mixer.setTime(17 / 30);
+  scene.updateMatrixWorld(true);
+  const { motion } = dance.dancers[0]!;
+  const body = await bodies.request(motion.offsets, BUILDS.leader);
+  const rig = createRig();
+  rig.fit(motion.offsets);
+  rig.bind(body.offsets);
+  rig.root.position.fromArray(motion.root, 17 * 3);
+  rig.bones.forEach((bone, joint) =>
+    bone.quaternion.fromArray(motion.rotations, (17 * JOINT_COUNT + joint) * 4),
+  );
+  const drawn = new SkinnedMesh(toFullGeometry(body));
+  drawn.bind(rig.skeleton, new Matrix4());
+  rig.root.updateMatrixWorld(true);
+  rig.skeleton.update();
+  const inFile = scene.getObjectByName('Leader_body') as SkinnedMesh;
+  inFile.skeleton.update();
+  const gaps = [];
+  for (let vertex = 0; vertex < drawn.geometry.getAttribute('position').count; vertex++) {
+    const [a, b] = [drawn, inFile].map((mesh) => mesh.getVertexPosition(vertex, new Vector3()));
+    gaps.push(a!.distanceTo(b!));
+  }
+  gaps.sort((a, b) => a - b);
+  expect(gaps[Math.floor(0.95 * gaps.length)]).toBeLessThan(0.01);
+});
+
+test('keys lie on the frames: from 0, a thirtieth of a second apart', async () => {
+  const { animations } = await new GLTFLoader().parseAsync(await writeGlb(dance, 'dark', bodies), '');
+  for (const { times } of animations[0]!.tracks) {
+    expect(times[0]).toBe(0);
+    for (const time of times) expect(time).toBe(Math.fround(Math.round(time * 30) / 30));
+  }
 });
 
 test('played back, the bones are where the motion has the joints, in the colours of the roles', async () => {

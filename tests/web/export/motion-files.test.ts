@@ -2,7 +2,7 @@ import { unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
 import { estimateBytes, type MotionFormat, motionExtension, writeMotion } from '../../../web/export/client';
 import { writeNpz } from '../../../web/export/npz';
-import { readBvh } from '../../../web/motion/bvh/read';
+import { leaderBvh } from '../support/leader-bvh';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { madeDance } from '../support/made-dance';
 
@@ -16,7 +16,7 @@ test('one dancer is a BVH file, two are an archive with one each', async () => {
   const archive = unzipSync(await bytes(writeMotion('bvh', dance, 'dark', nameOf)));
   expect(Object.keys(archive)).toEqual(['salsa_leader.bvh', 'salsa_reactor.bvh']);
   for (const { role, motion } of dance.dancers) {
-    const { clip } = readBvh(new TextDecoder().decode(archive[nameOf(role)]));
+    const { clip } = leaderBvh(new TextDecoder().decode(archive[nameOf(role)]));
     clip.positions.forEach((value, i) => expect(value).toBeCloseTo(motion.positions[i]!, 4));
   }
   const one = await bytes(writeMotion('bvh', madeDance(40, 'reactor'), 'dark'));

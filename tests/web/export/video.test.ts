@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { planVideo, secondsLeft } from '../../../web/export/client';
+import { fitted, titleOpacity } from '../../../web/export/video/caption';
 import { videoPixels } from '../../../web/export/video/size';
 import { songSamples } from '../../../web/export/video/song';
 
@@ -35,6 +36,17 @@ test('width and height are even, as encoders need them', () => {
   expect(videoPixels('stage', stage)).toEqual({ width: 952, height: 450 });
   expect(videoPixels('720p', stage)).toEqual({ width: 1280, height: 720 });
   expect(videoPixels('1080p', stage)).toEqual({ width: 1920, height: 1080 });
+  expect(videoPixels('1x1', stage)).toEqual({ width: 1080, height: 1080 });
+  expect(videoPixels('9x16', stage)).toEqual({ width: 1080, height: 1920 });
+});
+
+test('a title is whole at first, fades and is gone; a line that is too wide is cut', () => {
+  expect([0, 3.3, 3.7, 4, 60].map((seconds) => Number(titleOpacity(seconds).toFixed(2)))).toEqual([
+    1, 1, 0.5, 0, 0,
+  ]);
+  const widthOf = (text: string): number => text.length;
+  expect(fitted('Patio Clave', 11, widthOf)).toBe('Patio Clave');
+  expect(fitted('Patio Clave', 7, widthOf)).toBe('Patio…');
 });
 
 test('a browser that can neither encode nor record writes no video', async () => {

@@ -8,7 +8,7 @@ export function madeDance(frames: number, ...roles: ('leader' | 'reactor')[]): D
     dancers: roles.map((role) => ({ role, motion: madeDancer({ frames, seed: seeds[role], spin: 0.3 }) })),
     about: {
       song: 'Señor “Patio” 舞.mp3',
-      leader: 'lead_0412.bvh',
+      leader: 'leader_0412.bvh',
       take: 'Softer hands',
       model: { id: 'salsa', name: 'Salsa' },
       settings: { guidance: { coarse: 1.2, fine: 0.6 }, steps: 5, seed: 1204 },

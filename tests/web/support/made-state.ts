@@ -1,5 +1,6 @@
 import type { Song } from '../../../web/audio/client';
-import type { LeaderFile } from '../../../web/motion/bvh/read';
+import { NO_RHYTHM, type Rhythm } from '../../../web/audio/rhythm/rhythm';
+import type { LeaderFile } from '../../../web/motion/retarget/leader';
 import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { uniform } from '../../../web/ui/store/guidance-matrix';
@@ -28,6 +29,13 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
   return {
     clip: { fps: 30, frames, positions: new Float32Array(frames * 66) },
     report: {
+      format: 'BVH',
+      parts: [],
+      part: 0,
+      mappedBy: 'names',
+      confidence: 1,
+      skeleton: '22-00000000',
+      floor: 0,
       convention: 'Mixamo',
       joints: Object.fromEntries(SMPL22.map((joint) => [joint, joint])),
       estimated: [],
@@ -45,18 +53,25 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
 
 export function leader(
   frames: number,
-  name = 'lead_0412.bvh',
+  name = 'leader_0412.bvh',
   warnings: string[] = [],
   remarks: string[] = [],
 ): LoadedLeader {
   return {
     name,
     label: null,
-    text: 'HIERARCHY',
-    fps: null,
+    files: [{ name, bytes: new TextEncoder().encode('HIERARCHY') }],
+    options: {},
     file: leaderFile(frames, warnings, remarks),
     motion: still(frames),
   };
+}
+
+/** The rhythm of beats at these seconds, in bars of four from the first one. */
+export function rhythm(beats: readonly number[], more: Partial<Rhythm> = {}): Rhythm {
+  const [first = 0, last = 0] = [beats[0], beats.at(-1)];
+  const tempo = last > first ? (60 * (beats.length - 1)) / (last - first) : 0;
+  return { ...NO_RHYTHM, beats, tempo, slowest: tempo, fastest: tempo, sure: true, ...more };
 }
 
 /** A song with a beat each half second. */
@@ -69,8 +84,7 @@ export function songData(seconds: number, more: Partial<Song> = {}): Song {
     sound: new Blob(),
     features: new Float32Array(frames * 54),
     frames,
-    tempo: 120,
-    beats: Array.from({ length: Math.floor(seconds * 2) }, (_, index) => index / 2),
+    rhythm: rhythm(Array.from({ length: Math.floor(seconds * 2) }, (_, index) => index / 2)),
     silent: false,
     ...more,
   };

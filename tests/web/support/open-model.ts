@@ -1,7 +1,8 @@
 import { readFileSync } from 'node:fs';
 import { type Golden, readGolden } from '../../../web/model/load/golden';
 import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
-import { type NpzArray, readNpz } from '../../../web/model/load/npz';
+import { readNpz } from '../../../web/model/load/npz';
+import type { NpzArray } from '../../../web/common/npz';
 import type { Provider } from '../../../web/model/load/runtime';
 import { type ModelSession, openSession } from '../../../web/model/load/session';
 

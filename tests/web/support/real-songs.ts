@@ -25,6 +25,25 @@ export const absence: string | null =
       ? null
       : 'Python environment not present';
 
+/** Decodes real songs to mono samples at the recipe's rate: about a second for a minute of music. */
+export function decodeRealSongs(names: readonly string[]): Float32Array[] {
+  const out = mkdtempSync(join(tmpdir(), 'songs-'));
+  const decode = [
+    'import sys',
+    'from training.music.features import load_audio',
+    'from training.music.recipe import AudioRecipe',
+    'for index, name in enumerate(sys.argv[2:]):',
+    '    load_audio(name, AudioRecipe()).astype("<f4").tofile(f"{sys.argv[1]}/{index}.pcm")',
+  ].join('\n');
+  try {
+    const files = names.map((name) => join(realSongFolder, name));
+    execFileSync(python, ['-c', decode, out, ...files], { cwd: repository });
+    return names.map((_, index) => readFloats(join(out, `${index}.pcm`)));
+  } finally {
+    rmSync(out, { recursive: true });
+  }
+}
+
 /** Decodes real songs and computes their features with Python: about five seconds for a minute of music. */
 export function loadRealSongs(names: readonly string[]): ReferenceSong[] {
   const out = mkdtempSync(join(tmpdir(), 'songs-'));

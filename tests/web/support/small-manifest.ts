@@ -1,4 +1,4 @@
-import { FLOOR } from '../../../web/motion/bvh/axes-and-units';
+import { FLOOR } from '../../../web/motion/retarget/axes-and-units';
 import { PARENTS, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { type Manifest, parseManifest } from '../../../web/model/manifest';
 

@@ -1,6 +1,6 @@
 """Retargets the motion of a BVH file to the 22 joints: those that it has, and estimates of the others.
 
-The rules and their numbers are those of the page (web/motion/bvh/retarget.ts and axes-and-units.ts).
+The rules and their numbers are those of the page (web/motion/retarget/retarget.ts and axes-and-units.ts).
 """
 
 from __future__ import annotations

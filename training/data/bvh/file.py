@@ -164,8 +164,9 @@ def _translations(node: Node, values: np.ndarray) -> np.ndarray:
     for k in moving:
         given[:, "xyz".index(node.channels[k][0])] = values[:, k]
     # Programs disagree whether position channels hold the whole translation or what is added to OFFSET. A joint hardly
-    # moves against its parent, so the reading that stays nearer to OFFSET is taken.
-    if node.parent >= 0 and np.sum((given - offset) ** 2) < np.sum(given**2):
+    # moves against its parent, so the reading that stays nearer to OFFSET is taken. The place of a root is the
+    # channels' own.
+    if node.parent < 0 or np.sum((given - offset) ** 2) < np.sum(given**2):
         return given
     return offset + given
 

@@ -1,6 +1,6 @@
 """Finds the 22 joints among the nodes of a BVH file, by skeleton convention: the joint names of a family of programs.
 
-The rules are those of the page (web/motion/bvh/conventions.ts and joint-map.ts), without its
+The rules are those of the page (web/motion/retarget/conventions.ts and joint-map.ts), without its
 last convention, which tries generic names.
 """
 

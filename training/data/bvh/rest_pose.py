@@ -1,6 +1,6 @@
 """Finds the rest pose that many programs write before the dance.
 
-The rule and its numbers are those of the page (web/motion/bvh/t-pose.ts).
+The rule and its numbers are those of the page (web/motion/retarget/t-pose.ts).
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-/** Sizes of a video: two common ones, and that of the picture on the stage. */
-export const VIDEO_SIZES = ['720p', '1080p', 'stage'] as const;
+/** Sizes of a video: two common ones of 16:9, a square, an upright one for phones, and that of the picture on the stage. */
+export const VIDEO_SIZES = ['720p', '1080p', '1x1', '9x16', 'stage'] as const;
 export type VideoSize = (typeof VIDEO_SIZES)[number];
 
 interface Pixels {
@@ -21,6 +21,10 @@ export function videoPixels(size: VideoSize, stage: Pixels): Pixels {
       return { width: 1280, height: 720 };
     case '1080p':
       return { width: 1920, height: 1080 };
+    case '1x1':
+      return { width: 1080, height: 1080 };
+    case '9x16':
+      return { width: 1080, height: 1920 };
     case 'stage':
       return { width: even(stage.width), height: even(stage.height) };
   }

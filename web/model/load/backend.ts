@@ -76,7 +76,8 @@ export async function chooseBackend(
 ): Promise<Backend> {
   const threads = wasmThreads(environment, asked);
   const onProcessor = threads === 1 ? 'Processor, one thread' : `Processor, ${threads} threads`;
-  if (preference === 'wasm') return { name: 'wasm', reason: `${onProcessor}: chosen by hand.`, threads };
+  if (preference === 'wasm')
+    return { name: 'wasm', reason: `${onProcessor}: chosen in the address of the page.`, threads };
   const probed = await probe(environment.gpu, preference === 'webgpu');
   if ('without' in probed) return { name: 'wasm', reason: `${onProcessor}: ${probed.without}.`, threads };
   return { name: 'webgpu', reason: `WebGPU on ${describe(probed.adapter.info)}.`, threads };

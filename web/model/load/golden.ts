@@ -3,7 +3,8 @@ import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Manifest } from '../manifest';
 import { blend, layerGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
-import { type NpzArray, readNpz } from './npz';
+import { readNpz } from './npz';
+import type { NpzArray } from '../../common/npz';
 import type { ModelSession } from './session';
 
 /** One small sampling as Python computed it: its inputs and its result. */
@@ -74,7 +75,7 @@ export function readGolden(bytes: Uint8Array): Golden {
 function invalid(what: string): AppError {
   return new AppError(
     'model-corrupt',
-    `The model's golden sampling ${what}.`,
+    `The example dance that the model is checked with ${what}.`,
     'Export the model again and copy its whole folder.',
   );
 }

@@ -1,7 +1,7 @@
 import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
 import { AppError } from '../../common/error';
 import { goldenError, readGolden } from './golden';
-import { folderFetch, type ModelFolder } from './download';
+import { folderFetch, type ModelFolder, patientFetch } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { type DownloadPart, downloadParts } from './assets';
@@ -22,6 +22,8 @@ export interface LoadOptions {
   readonly backend: Preference;
   /** Number of wasm threads; by default as many as suit the machine. */
   readonly threads?: number | undefined;
+  /** Why it is the processor although another backend was asked for first: a main clause. */
+  readonly processorBecause?: string | undefined;
 }
 
 /** What happens while a model is being loaded. */
@@ -32,7 +34,12 @@ export type Status =
   | { readonly kind: 'open' | 'check' | 'warm-up' }
   /** On WebGPU: metres between its golden sampling and Python's. */
   | { readonly kind: 'checked'; readonly error: number }
-  | { readonly kind: 'notice'; readonly code: 'not-cached'; readonly message: string; readonly hint: string }
+  | {
+      readonly kind: 'notice';
+      readonly code: 'not-cached' | 'gpu-lost';
+      readonly message: string;
+      readonly hint: string;
+    }
   | { readonly kind: 'ready'; readonly backend: Backend };
 
 export interface LoadedModel {
@@ -94,15 +101,16 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
  * @throws {AppError}
  */
 export async function loadModel(
-  { manifestUrl, folder, backend: preference, threads }: LoadOptions,
+  { manifestUrl, folder, backend: preference, threads, processorBecause }: LoadOptions,
   scope: typeof globalThis,
   onStatus: (status: Status) => void,
 ): Promise<LoadedModel> {
-  const get = folder ? folderFetch(folder, manifestUrl) : fetch;
+  const get = folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch);
   const cache = folder ? undefined : responseCache(scope);
   const manifest = await fetchManifest(manifestUrl, get, cache);
   onStatus({ kind: 'manifest', manifest });
   let backend = await chooseBackend(preference, environment(scope), threads);
+  if (processorBecause !== undefined) backend = fallBackToWasm(backend, processorBecause);
 
   const open = async (provider: Provider): Promise<ModelSession> => {
     const { graphs, runtime } = await downloadParts(manifest, provider, {
@@ -128,6 +136,7 @@ export async function loadModel(
   let session: ModelSession | undefined;
   if (backend.name === 'webgpu') {
     let failure: string | undefined;
+    let lost = false;
     try {
       session = await open('webgpu');
       onStatus({ kind: 'check' });
@@ -138,12 +147,14 @@ export async function loadModel(
         failure = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
       }
     } catch (error) {
-      if (error instanceof AppError) throw error;
+      lost = error instanceof AppError && error.code === 'gpu-lost';
+      if (error instanceof AppError && !lost) throw error;
       failure = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
     }
     if (failure !== undefined) {
       backend = fallBackToWasm(backend, failure);
-      await session?.release();
+      // Releasing what was on a lost GPU might never end.
+      if (!lost) await session?.release();
       session = undefined;
     }
   }

@@ -37,6 +37,7 @@ async function body(response: Response, url: string): Promise<Uint8Array<ArrayBu
   try {
     return new Uint8Array(await response.arrayBuffer());
   } catch (error) {
+    if (error instanceof AppError) throw error;
     throw new AppError(
       'download-failed',
       `The download of the model file ${url} broke off.`,

@@ -1,8 +1,12 @@
 /** onnxruntime, and which of its builds is loaded. */
 import type * as ort from 'onnxruntime-web/wasm';
+import { loadPart } from '../../common/page-part';
 
 export type Provider = 'webgpu' | 'wasm';
 export type Runtime = typeof ort;
+
+/** Longest time for the runtime's script to come, and for its threads to start, milliseconds. */
+const START_MS = 60_000;
 
 /**
  * The build of onnxruntime for a provider. The one with WebGPU can compute on the processor too, but takes five times
@@ -15,12 +19,25 @@ export async function loadRuntime(
   threads: number,
   wasm?: Uint8Array<ArrayBuffer>,
 ): Promise<Runtime> {
-  const runtime = await (provider === 'wasm'
-    ? import('onnxruntime-web/wasm')
-    : import('onnxruntime-web/webgpu'));
+  const runtime = await loadPart(() =>
+    inTime(provider === 'wasm' ? import('onnxruntime-web/wasm') : import('onnxruntime-web/webgpu')),
+  );
   // Read once, when the first graph is opened.
+  runtime.env.wasm.initTimeout = START_MS;
   runtime.env.wasm.numThreads = threads;
   if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
   runtime.env.logLevel = 'error';
   return runtime;
+}
+
+async function inTime<T>(work: Promise<T>): Promise<T> {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const late = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`nothing for ${START_MS / 1000} seconds`)), START_MS);
+  });
+  try {
+    return await Promise.race([work, late]);
+  } finally {
+    clearTimeout(timer);
+  }
 }

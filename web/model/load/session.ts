@@ -68,6 +68,45 @@ async function open(
   );
 }
 
+/** Tells the runs on a GPU when that is lost: they would never end, or end without the reason. */
+class GpuLoss {
+  readonly #failures = new Set<(error: AppError) => void>();
+  #error: AppError | null = null;
+
+  /** @param device of the runtime, or its promise; there when a graph is open */
+  constructor(device: GPUDevice | Promise<GPUDevice>) {
+    void Promise.resolve(device)
+      .then(({ lost }) => lost)
+      .then(({ message, reason }) => {
+        this.#error = new AppError(
+          'gpu-lost',
+          `The graphics card stopped working for this page (${message || reason}).`,
+          'Reload the page to try it again, or choose the processor.',
+        );
+        for (const fail of this.#failures) fail(this.#error);
+      });
+  }
+
+  /** The result of a run. @throws {AppError} `gpu-lost` */
+  async unlessLost<T>(run: () => Promise<T>): Promise<T> {
+    let fail: (error: AppError) => void = () => undefined;
+    try {
+      return await new Promise<T>((resolve, reject) => {
+        fail = reject;
+        this.#failures.add(fail);
+        if (this.#error) reject(this.#error);
+        // A run may fail a moment before its GPU is known to be lost.
+        else run().then(resolve, (error: Error) => setTimeout(() => reject(error), LOSS_MS));
+      });
+    } finally {
+      this.#failures.delete(fail);
+    }
+  }
+}
+
+/** How long after a failed run the loss of the GPU is waited for, which would explain it, milliseconds. */
+const LOSS_MS = 500;
+
 async function run(session: ort.InferenceSession, feeds: Tensors): Promise<Arrays> {
   const results = await session.run(feeds);
   const arrays: Arrays = {};
@@ -90,7 +129,8 @@ function output(arrays: Arrays, name: string): Float32Array {
  * @param graphs the ONNX files
  * @param threads of the wasm runtime; the first session of a worker decides for all
  * @param wasm the runtime's WebAssembly; without it onnxruntime fetches its own
- * @throws {AppError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads
+ * @throws {AppError} `model-mismatch` when a graph has not the inputs and outputs this page feeds and reads; its runs
+ * throw `gpu-lost`
  */
 export async function openSession(
   manifest: Manifest,
@@ -114,6 +154,12 @@ export async function openSession(
   // Compiled by now: its bytes need not stay in memory.
   delete runtime.env.wasm.wasmBinary;
   const { condition, step, decode } = sessions as Record<GraphName, ort.InferenceSession>;
+  const loss = provider === 'webgpu' ? new GpuLoss(runtime.env.webgpu.device) : null;
+  const runNext = (graph: ort.InferenceSession, feeds: () => Tensors): Promise<Arrays> =>
+    enqueue(() => {
+      const start = (): Promise<Arrays> => run(graph, feeds());
+      return loss ? loss.unlessLost(start) : start();
+    });
   const { latent, audio } = manifest;
   const joints = manifest.skeleton.joints.length;
   const tensor = (data: Float32Array | readonly number[], dims: readonly number[]): ort.Tensor =>
@@ -121,39 +167,36 @@ export async function openSession(
   const [layers, streams] = [latent.layers.length, latent.streams.length];
 
   return {
-    condition: ({ leader, music, musicValid, role }: ConditionInput) =>
-      enqueue(async () => {
-        const frames = musicValid.length;
-        const results = await run(condition, {
-          leader: tensor(leader, [frames, joints, 3]),
-          music: tensor(music, [frames, audio.features]),
-          music_valid: tensor(musicValid, [frames]),
-          role: tensor([role], [1]),
-        });
-        return { memory: output(results, 'memory'), unfamiliarity: output(results, 'unfamiliarity') };
-      }),
-    step: ({ blocks, x, memory, valid, keep, time }: StepInput) =>
-      enqueue(async () => {
-        const state = [blocks, latent.block, layers, latent.channels];
-        const results = await run(step, {
-          x: tensor(x, state),
-          memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
-          valid: tensor(valid, [blocks, latent.block]),
-          keep: tensor([keep], [1]),
-          time: tensor([time], [1]),
-        });
-        return output(results, 'x0');
-      }),
-    decode: ({ latents, leader, gains, bones }: DecodeInput) =>
-      enqueue(async () => {
-        const results = await run(decode, {
-          latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
-          leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
-          gains: tensor(gains, [streams, layers]),
-          bones: tensor(bones, [joints]),
-        });
-        return { reactor: output(results, 'reactor'), lengths: output(results, 'lengths') };
-      }),
+    condition: async ({ leader, music, musicValid, role }: ConditionInput) => {
+      const frames = musicValid.length;
+      const results = await runNext(condition, () => ({
+        leader: tensor(leader, [frames, joints, 3]),
+        music: tensor(music, [frames, audio.features]),
+        music_valid: tensor(musicValid, [frames]),
+        role: tensor([role], [1]),
+      }));
+      return { memory: output(results, 'memory'), unfamiliarity: output(results, 'unfamiliarity') };
+    },
+    step: async ({ blocks, x, memory, valid, keep, time }: StepInput) => {
+      const state = [blocks, latent.block, layers, latent.channels];
+      const results = await runNext(step, () => ({
+        x: tensor(x, state),
+        memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
+        valid: tensor(valid, [blocks, latent.block]),
+        keep: tensor([keep], [1]),
+        time: tensor([time], [1]),
+      }));
+      return output(results, 'x0');
+    },
+    decode: async ({ latents, leader, gains, bones }: DecodeInput) => {
+      const results = await runNext(decode, () => ({
+        latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
+        leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
+        gains: tensor(gains, [streams, layers]),
+        bones: tensor(bones, [joints]),
+      }));
+      return { reactor: output(results, 'reactor'), lengths: output(results, 'lengths') };
+    },
     release: () => enqueue(release),
   };
 }

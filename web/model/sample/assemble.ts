@@ -1,6 +1,7 @@
 /** From blended latents to the solved dancer: a whole dance, or a part of it as it is in the whole. */
 import { yieldToEvents } from '../../common/yield-to-events';
 import { avoidCollisions, sampleStep } from '../../motion/contact/collision-avoidance';
+import { resized } from '../../motion/contact/body-size';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { limitRootSpeed } from '../../motion/contact/root-speed';
 import { solve } from '../../motion/fit/ik';
@@ -8,8 +9,9 @@ import { restOffsets, trunkRotations } from '../../motion/fit/rest-pose';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
+import { bodyFactor } from './body-factor';
 import { decodeClip, type DecodeOptions, meanLengths } from './decoder';
-import type { ModelInput } from './inputs';
+import type { ModelInput, Size, Source } from './inputs';
 import type { GeneratedMotion } from './results';
 
 /**
@@ -31,13 +33,16 @@ export interface Latents {
   readonly leader: MotionClip;
 }
 
-/** Latents and whose body dances them. */
-export interface Dance extends Latents {
+/** Latents and whose body dances them, at which height. */
+export interface Dance extends Latents, Size, Pick<Source, 'role'> {
   readonly body: Body;
 }
 
 /** Decodes and solves dances on a session. */
 export class Assembler {
+  /** The whole dance that was decoded last: of the same latents another size needs no pass of the network. */
+  #decoded: { readonly latents: Float32Array; readonly clip: MotionClip } | undefined;
+
   constructor(
     readonly manifest: Manifest,
     readonly session: ModelSession,
@@ -57,10 +62,12 @@ export class Assembler {
 
   /** The whole dance. `onDecoded` is called between decoding and solving. */
   async whole(dance: Dance, signal?: AbortSignal, onDecoded?: () => void): Promise<GeneratedMotion> {
-    const clip = await this.decode(dance, { signal });
+    const clip =
+      this.#decoded?.latents === dance.latents ? this.#decoded.clip : await this.decode(dance, { signal });
+    this.#decoded = { latents: dance.latents, clip };
     onDecoded?.();
     await yieldToEvents(signal);
-    const motion = this.#solve(clip, dance);
+    const motion = this.#solve(clip, dance, dance.leader);
     await yieldToEvents(signal);
     return { motion, locked: lockFeet(motion) };
   }
@@ -77,7 +84,7 @@ export class Assembler {
     from: number,
     length: number,
   ): Promise<GeneratedMotion & { readonly from: number }> {
-    const { leader, body } = dance;
+    const { leader } = dance;
     const { stride, receptive_field } = this.manifest.latent;
     const grid = stride * sampleStep(leader.fps);
     const down = (frame: number): number => Math.max(0, Math.floor(frame / grid) * grid);
@@ -87,7 +94,7 @@ export class Assembler {
     const begin = down(first - margin);
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
     const clip = await this.decode(dance, { range, overlap: 0 });
-    const motion = this.#solve(clip, { body, leader: partOfClip(leader, begin, clip.frames) });
+    const motion = this.#solve(clip, dance, partOfClip(leader, begin, clip.frames));
     const locked = lockFeet(motion);
     const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
     return { from: first, motion: inner(motion), locked: inner(locked) };
@@ -110,11 +117,20 @@ export class Assembler {
     return { fps: leader.fps, frames, positions };
   }
 
-  /** Fits the body to decoded joints, moves it out of the other dancer's and limits the root's speed. */
-  #solve(clip: MotionClip, { body, leader }: Pick<Dance, 'body' | 'leader'>): SolvedMotion {
-    // A result's arrays are given away, the body is kept.
-    const solved = solve(clip, body.offsets.slice());
-    return limitRootSpeed(avoidCollisions(solved, leader, this.manifest.quality.penetration), leader);
+  /**
+   * Gives the dancer their size, fits the body to the joints, moves it out of the other dancer's and limits the root's
+   * speed.
+   * @param leader the frames of the loaded dancer that belong to the clip's
+   */
+  #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
+    const { offsets } = dance.body;
+    const { skeleton, quality } = this.manifest;
+    const factor = bodyFactor(offsets, dance.leader, dance, skeleton);
+    const solved = solve(
+      resized(clip, factor, leader, skeleton.floor.toe_rest),
+      offsets.map((value) => value * factor),
+    );
+    return limitRootSpeed(avoidCollisions(solved, leader, quality.penetration), leader);
   }
 }
 

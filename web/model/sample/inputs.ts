@@ -32,8 +32,17 @@ export function sameSource(a: Source, b: Source): boolean {
   );
 }
 
+/** How tall the dancer is who is generated. */
+export interface Size {
+  /** From the floor to the crown of the head, metres; in proportion to the loaded dancer when not given. */
+  readonly height?: number | undefined;
+}
+
+/** Least and greatest height that can be asked for, metres. */
+export const HEIGHTS = { min: 0.5, max: 2.5 };
+
 /** How it is danced. */
-export interface DanceSettings extends Weights {
+export interface DanceSettings extends Weights, Size {
   readonly steps: number;
   /** Its lowest 32 bits count. */
   readonly seed: number;
@@ -41,6 +50,19 @@ export interface DanceSettings extends Weights {
 
 /** What to generate, and from what. */
 export interface GenerateRequest extends Source, DanceSettings {}
+
+/** Whether two requests ask for the same dance, at whatever height. */
+export function sameButHeight(a: GenerateRequest, b: GenerateRequest): boolean {
+  return (
+    sameSource(a, b) &&
+    a.steps === b.steps &&
+    a.seed === b.seed &&
+    a.musicGuidance === b.musicGuidance &&
+    a.variety === b.variety &&
+    a.guidance.length === b.guidance.length &&
+    a.guidance.every((weight, i) => weight === b.guidance[i])
+  );
+}
 
 /** Seeds of which those are wanted whose dances differ most. */
 export interface SeedsRequest {
@@ -54,7 +76,7 @@ export interface SeedsRequest {
 }
 
 /** A reaction that was generated before, of which the coarse layer is to be decoded alone. */
-export interface CoarseRequest {
+export interface CoarseRequest extends Size, Pick<Source, 'role'> {
   /** The leader that it was generated for, at the size of their file. */
   readonly leader: MotionClip;
   /** latents x layers x channels, normalised, as this model generated them. */
@@ -100,7 +122,7 @@ export function checkSource({ leader, music }: Source, { skeleton, fps, audio }:
 
 /** @throws {AppError} as `checkSource` */
 export function checkSettings(
-  { guidance, musicGuidance, variety, steps, seed }: DanceSettings,
+  { guidance, musicGuidance, variety, steps, seed, height }: DanceSettings,
   { diffusion, latent }: Manifest,
 ): void {
   if (!Number.isInteger(steps) || steps < diffusion.steps.min || steps > diffusion.steps.max) {
@@ -120,6 +142,12 @@ export function checkSettings(
   }
   if (!Number.isFinite(variety)) refuse('The variety is not a number.', 'Set the variety slider again.');
   if (!Number.isInteger(seed)) refuse(`The seed ${seed} is not a whole number.`, 'Choose a whole number.');
+  if (height !== undefined && !(height >= HEIGHTS.min && height <= HEIGHTS.max)) {
+    refuse(
+      `A height of ${height} m is not between ${HEIGHTS.min} and ${HEIGHTS.max} m.`,
+      'Set another height, or the one in proportion.',
+    );
+  }
 }
 
 /** @throws {AppError} `bad-request` when the latents are not those of a dance as long as the leader's */

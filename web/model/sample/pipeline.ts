@@ -14,6 +14,7 @@ import {
   type GenerateRequest,
   type ModelInput,
   prepareInput,
+  sameButHeight,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -26,6 +27,11 @@ const PREVIEW = { length: 2.5, before: 0.3 };
 /** A clip that is not longer than this many parts is made at once. */
 const PREVIEW_WORTH = 2;
 
+/** A dance, and how far its leader is from those of training. */
+interface SampledDance extends Dance {
+  readonly unfamiliarity: number;
+}
+
 /** From a leader and a song to the solved motion of the other dancer, on an open session. */
 export class Pipeline {
   readonly #branches: BranchSampler;
@@ -34,6 +40,8 @@ export class Pipeline {
   #prepared: { readonly source: Source; readonly input: ModelInput } | undefined;
   /** Bodies by the conditional latents that they were measured on. */
   readonly #bodies = new WeakMap<Float32Array, Body>();
+  /** The request that was answered last, and its dance. */
+  #last: { readonly request: GenerateRequest; readonly dance: SampledDance } | undefined;
 
   /** `now` gives seconds since 1970. */
   constructor(
@@ -46,17 +54,20 @@ export class Pipeline {
   }
 
   /**
-   * Samples the branches that the weights need and are not there yet, blends, decodes and solves. With
-   * `options.playhead` the part that is on view is handed over first.
+   * Samples the branches that the weights need and are not there yet, blends, decodes and solves; where only the height
+   * differs from the request before, it only solves. With `options.playhead` the part that is on view is handed over
+   * first.
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
   async generate(request: GenerateRequest, options: GenerateOptions = {}): Promise<GenerateResult> {
     const { signal, playhead, onPreview } = options;
     const lap = lapTimer(this.now);
-    const dance = await this.#blend(request, options);
+    const known = this.#sampled(request);
+    const dance = known ?? (await this.#blend(request, options));
+    this.#last = { request, dance };
     const seconds = { steps: lap(), decode: 0, solve: 0 };
-    if (onPreview && playhead) {
+    if (onPreview && playhead && !known) {
       const part = await this.#preview(dance, playhead);
       if (part) await onPreview(part);
       signal?.throwIfAborted();
@@ -66,7 +77,8 @@ export class Pipeline {
       seconds.decode = lap();
     });
     seconds.solve = lap();
-    return { motion, locked, latents: dance.latents, unfamiliarity: dance.unfamiliarity, seconds };
+    // A result's arrays are given away, the dance is kept.
+    return { motion, locked, latents: dance.latents.slice(), unfamiliarity: dance.unfamiliarity, seconds };
   }
 
   /**
@@ -76,9 +88,8 @@ export class Pipeline {
    */
   async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
     checkCoarse(request, this.manifest);
-    const { leader, latents } = request;
-    const input = prepareInput({ leader, music: null }, this.manifest);
-    const dance = { latents, gains: coarseAlone(this.manifest.latent), input, leader };
+    const input = prepareInput({ leader: request.leader, music: null }, this.manifest);
+    const dance = { ...request, gains: coarseAlone(this.manifest.latent), input };
     const body = await this.#assembler.measureBody(dance, signal);
     const { motion } = await this.#assembler.whole({ ...dance, body }, signal);
     return motion;
@@ -111,10 +122,7 @@ export class Pipeline {
     return mostDifferent(dances, count).map((index) => seeds[index]!);
   }
 
-  async #blend(
-    request: GenerateRequest,
-    { signal, onProgress }: GenerateOptions,
-  ): Promise<Dance & { readonly unfamiliarity: number }> {
+  async #blend(request: GenerateRequest, { signal, onProgress }: GenerateOptions): Promise<SampledDance> {
     const { latent } = this.manifest;
     checkSettings(request, this.manifest);
     const input = this.#inputOf(request);
@@ -124,18 +132,27 @@ export class Pipeline {
       onCondition: stageProgress(onProgress, 'condition'),
       onStep: stageProgress(onProgress, 'step'),
     });
-    const { leader } = request;
+    const { leader, role, height } = request;
     const { conditional, unfamiliarity } = branches;
     const plain = { latents: conditional, gains: unitGains(latent), input, leader };
     const body = this.#bodies.get(conditional) ?? (await this.#assembler.measureBody(plain, signal));
     this.#bodies.set(conditional, body);
     return {
       ...plain,
+      role,
+      height,
       latents: blend(branches, request, latent),
       gains: layerGains(request.guidance, latent),
       body,
       unfamiliarity,
     };
+  }
+
+  /** The dance that was answered last at the height that is asked for, where nothing else has changed. */
+  #sampled(request: GenerateRequest): SampledDance | null {
+    if (!this.#last || !sameButHeight(this.#last.request, request)) return null;
+    checkSettings(request, this.manifest);
+    return { ...this.#last.dance, height: request.height };
   }
 
   /** The source as the graphs take it; made once while the same objects are asked for. */

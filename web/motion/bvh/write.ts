@@ -1,7 +1,8 @@
-import { BVH_NAMES } from './conventions';
+import { BVH_NAMES } from './names';
 import type { SolvedMotion } from '../skeleton/clip';
 import { eulerZxy } from '../math/euler';
 import { readQuat } from '../math/quat';
+import { CROWN, restRoot } from '../skeleton/kinematics';
 import { CHILDREN, J, JOINT_COUNT, SMPL22 } from '../skeleton/skeleton';
 import { readVec, scale, type Vec3, ZERO } from '../math/vec3';
 
@@ -13,7 +14,7 @@ const DEGREES_PER_RADIAN = 180 / Math.PI;
 
 /** Offsets of the end sites from the last joints, metres: crown, finger knuckles and tips of the toes. */
 const END_SITES: ReadonlyMap<number, Vec3> = new Map([
-  [J.head, [0, 0.18, 0]],
+  [J.head, [0, CROWN, 0]],
   [J.left_wrist, [0.09, 0, 0]],
   [J.right_wrist, [-0.09, 0, 0]],
   [J.left_foot, [0, 0, 0.06]],
@@ -35,7 +36,7 @@ function formatVec(v: Vec3): string {
 }
 
 /** The lines of a joint and everything below it. */
-function hierarchy(offsets: Float32Array, joint: number, indent: string): string[] {
+function hierarchy(motion: SolvedMotion, joint: number, indent: string): string[] {
   const childIndent = `${indent}\t`;
   const head = joint === 0 ? 'ROOT' : 'JOINT';
   const position = joint === 0 ? '6 Xposition Yposition Zposition' : '3';
@@ -52,9 +53,9 @@ function hierarchy(offsets: Float32Array, joint: number, indent: string): string
   return [
     `${indent}${head} ${BVH_NAMES[SMPL22[joint]!]}`,
     `${indent}{`,
-    `${childIndent}OFFSET ${formatVec(joint === 0 ? ZERO : scale(readVec(offsets, joint), UNITS_PER_METRE))}`,
+    `${childIndent}OFFSET ${formatVec(scale(joint === 0 ? restRoot(motion) : readVec(motion.offsets, joint), UNITS_PER_METRE))}`,
     `${childIndent}CHANNELS ${position} Zrotation Xrotation Yrotation`,
-    ...CHILDREN[joint]!.flatMap((child) => hierarchy(offsets, child, childIndent)),
+    ...CHILDREN[joint]!.flatMap((child) => hierarchy(motion, child, childIndent)),
     ...end,
     `${indent}}`,
   ];
@@ -63,8 +64,9 @@ function hierarchy(offsets: Float32Array, joint: number, indent: string): string
 /**
  * A motion as the text of a BVH file.
  *
- * The rest pose is the solved skeleton's T-pose facing +z, y up, in centimetres; the root's offset is zero, so that
- * tools that add it to the root channels and tools that do not agree. Angles are degrees in the order Z X Y, unwrapped
+ * The rest pose is the solved skeleton's T-pose facing +z, y up, in centimetres, standing on the floor where the dance
+ * begins, as in GLB. The root's position channels are its place itself, as Blender, MotionBuilder and Maya take them, not
+ * what is added to its offset. Angles are degrees in the order Z X Y, unwrapped
  * over time. Lines end with a line feed.
  *
  * @throws RangeError when the motion has no frames
@@ -75,7 +77,7 @@ export function writeBvh(motion: SolvedMotion): string {
   const previous: Vec3[] = new Array<Vec3>(JOINT_COUNT).fill(ZERO);
   const lines = [
     'HIERARCHY',
-    ...hierarchy(motion.offsets, 0, ''),
+    ...hierarchy(motion, 0, ''),
     'MOTION',
     `Frames: ${motion.frames}`,
     `Frame Time: ${(1 / motion.fps).toFixed(8)}`,

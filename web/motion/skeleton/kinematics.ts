@@ -1,5 +1,6 @@
+import type { SolvedMotion } from './clip';
 import { addScaled, multiplyRows, rotateRow } from '../math/rows';
-import { JOINT_COUNT, PARENTS } from './skeleton';
+import { J, JOINT_COUNT, PARENTS } from './skeleton';
 
 /**
  * Forward kinematics: joint positions of a skeleton in motion.
@@ -32,4 +33,33 @@ export function forwardKinematics(
     positions.set(placed, frame * placed.length);
   }
   return positions;
+}
+
+/** The joints of the rest pose, 22 x 3 metres, with the root at the origin. @param offsets as in `forwardKinematics` */
+export function restPositions(offsets: Float32Array): Float32Array {
+  const positions = offsets.slice();
+  for (let i = 3; i < positions.length; i++)
+    positions[i]! += positions[PARENTS[Math.floor(i / 3)]! * 3 + (i % 3)]!;
+  return positions;
+}
+
+/** How far the sole lies below the toe joint (ball of the foot): its height in a standing foot, metres. */
+export const SOLE = 0.03;
+/** How far the crown of the head is above its joint, metres. */
+export const CROWN = 0.18;
+
+/** Root of the rest pose that files hold: standing on the floor where the dance begins, metres. */
+export function restRoot({ offsets, root }: SolvedMotion): [number, number, number] {
+  return [root[0]!, restRootHeight(offsets), root[2]!];
+}
+
+/** Height of the root above the floor in the rest pose, metres. */
+function restRootHeight(offsets: Float32Array): number {
+  const heights = restPositions(offsets).filter((_, i) => i % 3 === 1);
+  return SOLE - Math.min(...heights);
+}
+
+/** Height of a dancer who stands straight, from the floor to the crown of the head, metres. */
+export function standingHeight(offsets: Float32Array): number {
+  return restRootHeight(offsets) + restPositions(offsets)[J.head * 3 + 1]! + CROWN;
 }

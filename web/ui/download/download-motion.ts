@@ -15,7 +15,7 @@ const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
   ['bvh', 'BVH', 'Skeleton with rest pose, for Blender, Maya, MotionBuilder'],
   ['glb', 'GLB', 'Skinned mannequin with the animation, for 3D tools and web pages'],
   ['npz', 'NPZ', '22 joints in metres, 30 fps, for Python'],
-  ['json', 'JSON', 'Joints with all settings, readable'],
+  ['json', 'JSON', 'Joints and all settings, as text'],
 ];
 
 /** What must be set by hand when a tool reads a format, because the file cannot say it. */

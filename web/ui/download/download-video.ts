@@ -20,26 +20,31 @@ export function createDownloadVideo(
   let plan: Plan;
   const sizes = radioGroup(
     'Size of the video',
-    VIDEO_SIZES.map((size) => [size, size] as const),
+    VIDEO_SIZES.map((size) => [size, size.replace('x', ':')] as const),
     (size) => {
       apply(store, downloadChosen({ size }));
     },
   );
   const head = createHead(services);
   const sizeRow = el('div', { class: 'row' }, el('span', { class: 'soft', text: 'Size' }), sizes.element);
+  const captions = [
+    captionField(store, 'title', 'Title', 'In the first seconds'),
+    captionField(store, 'credit', 'Credit', 'Below the whole video'),
+  ];
   const progress = createProgress();
   const part = el(
     'section',
     { class: 'video', attributes: { 'aria-label': 'Video' } },
     head.root,
     sizeRow,
+    ...captions,
     progress.root,
   );
 
   const show = (state: AppState): void => {
     const focused = part.contains(document.activeElement) ? document.activeElement : null;
     head.show(state, plan);
-    sizeRow.hidden = state.videoProgress !== null;
+    for (const row of [sizeRow, ...captions]) row.hidden = state.videoProgress !== null;
     sizes.show(state.download.size);
     progress.show(state.videoProgress);
     if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
@@ -72,6 +77,25 @@ export function createDownloadVideo(
       ),
     ),
   };
+}
+
+/** A line of text that is written into the video. */
+function captionField(
+  store: Store,
+  which: 'title' | 'credit',
+  name: string,
+  placeholder: string,
+): HTMLElement {
+  const input = el('input', {
+    class: 'caption',
+    attributes: { type: 'text', maxlength: 120, placeholder, 'aria-label': `${name} of the video` },
+    on: {
+      input: () => {
+        apply(store, downloadChosen({ [which]: input.value }));
+      },
+    },
+  });
+  return el('div', { class: 'row' }, el('span', { class: 'soft', text: name }), input);
 }
 
 type Plan = VideoPlan | null | undefined;
@@ -145,7 +169,7 @@ function videoText(plan: Plan, state: AppState): string {
   const saved = savedVideo(plan, state);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
-  const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as framed';
+  const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as you see it';
   return `${container}${pace}`;
 }
 

@@ -1,4 +1,5 @@
 import {
+  captioned,
   type MotionFormat,
   planVideo,
   secondsLeft,
@@ -149,15 +150,18 @@ async function writeDance(
   if (!plan) throw unsupported();
   const stage = await tools.openVideoStage(size);
   try {
+    const { theme, download } = state;
+    const picture = captioned(stage.canvas, download, theme);
     const draw = (frame: number): void => {
       stage.drawAt(frame / fps);
+      picture.draw(frame / fps);
     };
     const file = await writeVideo(
       {
         ...size,
         fps,
         frames,
-        canvas: stage.canvas,
+        canvas: picture.canvas,
         draw,
         sound: sound && { file: sound, start: songStart(named.inputs) },
       },

@@ -38,7 +38,7 @@ const schema = v.object({
 
 interface DemoReaders {
   /** The motion in a BVH file that this page wrote. */
-  readonly readReactor: (bvh: string) => Promise<SolvedMotion>;
+  readonly readReactor: (bvh: Uint8Array) => Promise<SolvedMotion>;
   /** Resolves when the manifest has given the settings their defaults. */
   readonly manifest: () => Promise<unknown>;
 }
@@ -52,21 +52,26 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
   try {
     const demo = v.parse(schema, await (await get('demo.json', folder)).json());
     const { reactor } = demo;
-    const [songFile, leaderText, reactorText] = await Promise.all([
+    const [songFile, leaderBytes, reactorBytes] = await Promise.all([
       get(demo.song.file, folder).then((response) => response.blob()),
-      get(demo.leader.file, folder).then((response) => response.text()),
-      reactor ? get(reactor.file, folder).then((response) => response.text()) : null,
+      get(demo.leader.file, folder).then(bytesOf),
+      reactor ? get(reactor.file, folder).then(bytesOf) : null,
     ]);
     if (isUntouched(store)) {
       const songLoading = files.openSong(songFile, demo.song.name, demo.song.label);
-      const leader = await files.openLeader(leaderText, demo.leader.name, demo.leader.label);
+      const leader = await files.openLeader({
+        name: demo.leader.name,
+        label: demo.leader.label,
+        files: [{ name: demo.leader.name, bytes: leaderBytes }],
+        options: {},
+      });
       if (leader && store.getState().leader === leader) apply(store, playbackSet({ time: demo.poster }));
       apply(store, demoChanged('ready'));
-      if (reactor && reactorText !== null && leader) {
-        const motion = await readers.readReactor(reactorText);
+      if (reactor && reactorBytes && leader) {
+        const motion = await readers.readReactor(reactorBytes);
         await showReaction(
           store,
-          { motion, leader, label: reactor.label, settings: reactor.settings },
+          { motion, leader, label: reactor.label, settings: { ...reactor.settings, height: null } },
           songLoading,
           readers,
         );
@@ -101,6 +106,10 @@ async function showReaction(
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await songLoading;
   if (song && store.getState().leader === leader) apply(store, reactionAdded(shown(song)));
+}
+
+async function bytesOf(response: Response): Promise<Uint8Array> {
+  return new Uint8Array(await response.arrayBuffer());
 }
 
 function isUntouched(store: Store): boolean {

@@ -8,7 +8,7 @@ export const mountDropTarget: Mount = (root, _store, services) => {
     'div',
     { class: 'drop-overlay', attributes: { 'aria-hidden': 'true' } },
     el('b', { text: 'Drop it anywhere' }),
-    el('span', { text: 'A leader as video or BVH, a song, or both at once; a project; a model as a folder' }),
+    el('span', { text: 'A leader as video or motion file, a song, or both; a project; a model as a folder' }),
   );
   overlay.hidden = true;
   root.append(overlay);

@@ -1,6 +1,6 @@
 import { loadedRole, roleName } from '../store/roles';
-import { duration, tempo } from '../store/format';
-import { jointCount } from './joint-text';
+import { tempoText } from '../store/counting';
+import { duration } from '../store/format';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { rateText } from '../store/selectors';
@@ -10,7 +10,10 @@ import { watchAll, type Store } from '../store/store';
 
 const ASK = { song: 'Choose a song', leader: 'Choose a leader' } as const;
 
-/** The song's or the leader's chip in the bar: its name, what it is, and a click chooses another one. */
+/** Which files can be chosen. */
+const KINDS = { song: 'mp3, wav, ogg, flac, m4a', leader: 'a motion file' } as const;
+
+/** The song's or the leader's chip in the bar: its name, below it what it is, and a click chooses another one. */
 export function mountFileChip(
   root: HTMLElement,
   store: Store,
@@ -18,8 +21,7 @@ export function mountFileChip(
   side: InputKind,
 ): () => void {
   const name = el('b');
-  const short = el('span');
-  const long = el('span', { class: 'long' });
+  const details = el('small');
   const progress = el('span', { class: 'reading-progress', attributes: { 'aria-hidden': 'true' } });
   const sign = el('span', { class: 'sign' }, icon(side));
   const chip = el(
@@ -34,10 +36,8 @@ export function mountFileChip(
       },
     },
     sign,
-    name,
     // A space, so that screen readers do not join name and details.
-    ' ',
-    el('span', { class: 'details' }, short, long),
+    el('span', { class: 'lines' }, name, ' ', details),
     progress,
   );
   root.append(chip);
@@ -47,22 +47,23 @@ export function mountFileChip(
     chip.classList.toggle('refused', content.refused);
     chip.classList.toggle('empty', content.name === null);
     setText(name, content.name ?? ASK[side]);
-    setText(short, content.short);
-    setText(long, content.long);
+    setText(details, content.details);
     progress.hidden = content.fraction === null;
     setVariable(progress, '--part', content.fraction ?? 0);
-    chip.title = content.name ?? '';
+    chip.title = content.name ? `${content.name}, ${content.details}` : '';
     const role = loadedRole(state);
     sign.className = `sign ${side === 'song' ? '' : role}`;
     const title = side === 'song' ? 'Song' : roleName(role);
     // Contains the visible text, so that speech control finds the button by it.
-    const what = content.name
-      ? `${title}: ${content.name} ${content.short}${content.long}`
-      : `No ${side} yet`;
+    const what = content.name ? `${title}: ${content.name} ${content.details}` : `No ${side} yet`;
     chip.setAttribute('aria-label', `${what}. Choose ${content.name ? 'another' : 'one'}`);
   };
   return combineDisposers(
-    watchAll(store, (state) => [state[side], state.reading[side], state.problem, state.settings?.role], show),
+    watchAll(
+      store,
+      (state) => [state[side], state.reading[side], state.countings, state.problem, state.settings?.role],
+      show,
+    ),
     () => {
       chip.remove();
     },
@@ -71,31 +72,32 @@ export function mountFileChip(
 
 interface ChipContent {
   readonly name: string | null;
-  readonly short: string;
-  readonly long: string;
+  readonly details: string;
   readonly refused: boolean;
   readonly fraction: number | null;
 }
 
 function describe(state: AppState, side: InputKind): ChipContent {
   const reading = state.reading[side];
-  if (reading)
-    return { name: reading.name, short: 'reading', long: '', refused: false, fraction: reading.fraction };
+  if (reading) return { name: reading.name, details: 'reading', refused: false, fraction: reading.fraction };
   const refused = state.problem?.refused;
   if (refused?.kind === side)
-    return { name: refused.name, short: 'not used', long: '', refused: true, fraction: null };
+    return { name: refused.name, details: 'not used', refused: true, fraction: null };
   const plain = { refused: false, fraction: null };
   if (side === 'song' && state.song) {
     const { name, label, data } = state.song;
-    const facts = `${duration(data.duration)} · ${tempo(data.tempo)}`;
-    return label ? { name, short: label, long: '', ...plain } : { name, short: facts, long: '', ...plain };
+    const tempo = tempoText(state.song, state.countings);
+    return { name, details: joined(duration(data.duration), tempo, label), ...plain };
   }
   if (side === 'leader' && state.leader) {
     const { name, label, file } = state.leader;
-    if (label) return { name, short: label, long: '', ...plain };
     const { clip, report } = file;
-    const long = ` · ${jointCount(report)} joints · ${rateText(report.sourceFps, clip.fps)}`;
-    return { name, short: duration(clip.frames / clip.fps), long, ...plain };
+    const facts = [duration(clip.frames / clip.fps), rateText(report.sourceFps, clip.fps)];
+    return { name, details: joined(...facts, label), ...plain };
   }
-  return { name: null, short: '', long: '', ...plain };
+  return { name: null, details: KINDS[side], ...plain };
+}
+
+function joined(...facts: readonly (string | null)[]): string {
+  return facts.filter((fact) => fact !== null).join(' · ');
 }

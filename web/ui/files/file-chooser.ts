@@ -1,10 +1,11 @@
+import { MOTION_ENDINGS } from '../../motion/import/format';
 import type { FileChoice } from '../store/services';
 
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
   song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
-  leader: '.bvh,video/*,.mov,.mkv',
-  any: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,.bvh,video/*,.mov,.mkv,.reactdance',
+  leader: `${MOTION_ENDINGS},video/*,.mov,.mkv`,
+  any: `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv,${MOTION_ENDINGS},.reactdance`,
   project: '.reactdance,.zip',
 } as const;
 
@@ -20,7 +21,8 @@ export function createFileChooser(
     input.id = `choose-${side}`;
     input.hidden = true;
     input.accept = ACCEPT[side];
-    input.multiple = side === 'any';
+    // A leader may be two files: an AMC and its ASF.
+    input.multiple = side === 'any' || side === 'leader';
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
       // So that choosing the same file again is a change.

@@ -1,15 +1,12 @@
 import type { Files, FileReaders } from '../store/services';
-import {
-  emptyFileProblem,
-  fileProblem,
-  isAbort,
-  otherMotionProblem,
-  unknownFileProblem,
-} from '../store/problems';
+import { emptyFileProblem, fileProblem, isAbort, unknownFileProblem } from '../store/problems';
 import { fileKind, HEAD_BYTES } from './file-type';
-import type { LoadedLeader, LoadedSong } from '../store/reaction';
+import type { LeaderSource, LoadedLeader, LoadedSong } from '../store/reaction';
+import type { ImportOptions } from '../../motion/retarget/options';
+import { groupCompanions } from '../../motion/import/format';
+import type { FileBytes } from '../../motion/import/read';
 import type { InputKind } from '../store/state';
-import { leaderLoaded, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
+import { leaderLoaded, leaderRefused, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
 import { problemShown, problemClosed } from '../store/actions/notices';
 import { withoutUndo } from '../store/history';
@@ -20,12 +17,18 @@ import { withoutUndo } from '../store/history';
  */
 const PROGRESS_INTERVAL_MS = 500;
 
+async function bytesOf(file: File): Promise<FileBytes> {
+  return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
+}
+
 /** A song or leader to read, and what to do with it. */
 interface Task<T> {
   readonly side: InputKind;
   readonly name: string;
   readonly read: (signal: AbortSignal, progress: (fraction: number) => void) => Promise<T>;
   readonly done: (value: T) => void;
+  /** Called when it could not be read. */
+  readonly refused?: () => void;
 }
 
 /**
@@ -34,6 +37,8 @@ interface Task<T> {
  */
 export class FileLoader implements Files {
   private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
+  /** Reads again what could not be read last. */
+  private readonly retry: Partial<Record<InputKind, () => void>> = {};
 
   constructor(
     private readonly store: Store,
@@ -44,9 +49,10 @@ export class FileLoader implements Files {
   async open(files: readonly File[]): Promise<void> {
     apply(this.store, problemClosed());
     await Promise.all(
-      files.map(async (file) => {
+      groupCompanions(files).map(async ([file, ...companions]) => {
+        if (!file) return;
         try {
-          await this.openOne(file);
+          await this.openOne(file, companions);
         } catch (error) {
           // A folder, or a file that vanished between choosing and reading.
           apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
@@ -62,20 +68,27 @@ export class FileLoader implements Files {
     });
   }
 
-  openLeader(text: string, name: string, label: string | null): Promise<LoadedLeader | null> {
-    return this.runLeader(text, name, label, null, (leader) => {
-      if (this.isSuperseded('leader', label)) this.endReading('leader');
+  openLeader(source: LeaderSource): Promise<LoadedLeader | null> {
+    return this.runLeader(source, (leader) => {
+      if (this.isSuperseded('leader', source.label)) this.endReading('leader');
       else this.putLeader(leader);
     });
   }
 
-  async rereadLeader(fps: number | null): Promise<LoadedLeader | null> {
-    const { leader } = this.store.getState();
-    if (!leader) return null;
-    return this.runLeader(leader.text, leader.name, leader.label, fps, (read) => {
+  async rereadLeader(options: ImportOptions): Promise<LoadedLeader | null> {
+    const { leader, refusedLeader } = this.store.getState();
+    const source = refusedLeader ?? leader;
+    if (!source) return null;
+    const { name, label, files } = source;
+    return this.runLeader({ name, label, files, options }, (read) => {
       this.putLeader(read);
     });
   }
+
+  /** Reads the file again whose reading failed last. */
+  readonly readAgain = (kind: InputKind): void => {
+    this.retry[kind]?.();
+  };
 
   readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
     return this.runSong(blob, name, label, () => {
@@ -83,18 +96,14 @@ export class FileLoader implements Files {
     });
   }
 
-  readLeader(
-    text: string,
-    name: string,
-    label: string | null,
-    fps: number | null,
-  ): Promise<LoadedLeader | null> {
-    return this.runLeader(text, name, label, fps, () => {
+  readLeader(source: LeaderSource): Promise<LoadedLeader | null> {
+    return this.runLeader(source, () => {
       this.endReading('leader');
     });
   }
 
-  private async openOne(file: File): Promise<void> {
+  /** @param companions files that belong to this one, as the ASF skeleton of an AMC */
+  private async openOne(file: File, companions: readonly File[]): Promise<void> {
     if (file.size === 0) {
       apply(this.store, problemShown(emptyFileProblem(file.name)));
       return;
@@ -107,14 +116,17 @@ export class FileLoader implements Files {
         return;
       case 'leader':
         apply(this.store, firstVisitEnded());
-        await this.openLeader(await file.text(), file.name, null);
+        await this.openLeader({
+          name: file.name,
+          label: null,
+          files: await Promise.all([file, ...companions].map(bytesOf)),
+          options: {},
+        });
         return;
       case 'video':
         await this.openVideo(file);
         return;
-      case 'other-motion':
-        apply(this.store, problemShown(otherMotionProblem(file.name)));
-        return;
+      case 'picture':
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
@@ -140,22 +152,25 @@ export class FileLoader implements Files {
   }
 
   private runLeader(
-    text: string,
-    name: string,
-    label: string | null,
-    fps: number | null,
+    source: LeaderSource,
     done: (leader: LoadedLeader) => void,
   ): Promise<LoadedLeader | null> {
+    const { name, files, options } = source;
     const read = async (signal: AbortSignal): Promise<LoadedLeader> => {
-      const { file, motion } = await this.readers.readLeader({ text, fps }, signal);
-      return { name, label, text, fps, file, motion };
+      const { file, motion } = await this.readers.readLeader({ files, options }, signal);
+      return { ...source, file, motion };
     };
-    return this.run({ side: 'leader', name, read, done });
+    const refused = (): void => {
+      apply(this.store, leaderRefused(source));
+    };
+    return this.run({ side: 'leader', name, read, done, refused });
   }
 
   /** Runs a task with its progress in the store; null when it failed or a newer one cancelled it. */
-  private async run<T>({ side, name, read, done }: Task<T>): Promise<T | null> {
+  private async run<T>(task: Task<T>): Promise<T | null> {
     const { store, running } = this;
+    const { side, name, read, done, refused } = task;
+    delete this.retry[side];
     running[side]?.abort();
     const controller = new AbortController();
     running[side] = controller;
@@ -176,6 +191,8 @@ export class FileLoader implements Files {
       if (controller.signal.aborted || isAbort(error)) return null;
       running[side] = null;
       this.endReading(side);
+      this.retry[side] = () => void this.run(task);
+      refused?.();
       apply(store, problemShown(fileProblem(error, side, name)));
       return null;
     }

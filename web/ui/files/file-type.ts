@@ -1,18 +1,43 @@
+import { motionFormat } from '../../motion/import/format';
+
 /** The type of a file, from its first bytes; from its name only where they do not tell. */
-type FileKind = 'song' | 'leader' | 'video' | 'other-motion' | 'unknown';
+export type FileKind = 'song' | 'leader' | 'video' | 'picture' | 'unknown';
 
 /** Bytes that `fileKind` looks at. */
 export const HEAD_BYTES = 512;
 
-const AUDIO_NAME = /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i;
 const VIDEO_NAME = /\.(mp4|m4v|mov|webm|mkv)$/i;
-const BVH_NAME = /\.bvh$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
 /** Whether a file is a project, from its name alone: other files are zip archives too. */
 export function isProject(name: string): boolean {
   return PROJECT_NAME.test(name);
 }
+
+/** How files of a kind are told from others: by their first bytes, as text and as numbers, or else by name or media type. */
+interface Signature {
+  readonly kind: FileKind;
+  readonly head: (text: string, head: Uint8Array, name: string, type: string) => boolean;
+  readonly name?: RegExp;
+  readonly type?: string;
+}
+
+/** The first one that fits counts. */
+const SIGNATURES: readonly Signature[] = [
+  { kind: 'picture', head: isPicture, type: 'image/' },
+  // The same containers hold songs: whether there are pictures in it is seen when it is opened.
+  {
+    kind: 'video',
+    head: (text, _, name, type) => isContainer(text) && (type.startsWith('video/') || VIDEO_NAME.test(name)),
+  },
+  {
+    kind: 'song',
+    head: isSound,
+    name: /\.(mp3|wav|wave|ogg|oga|opus|flac|m4a|mp4|aac|webm|weba|aif|aiff)$/i,
+    type: 'audio/',
+  },
+  { kind: 'leader', head: (_, head, name) => motionFormat(head, name) !== null },
+];
 
 /**
  * @param head the first `HEAD_BYTES` bytes, or all of a shorter file
@@ -21,19 +46,21 @@ export function isProject(name: string): boolean {
  */
 export function fileKind(head: Uint8Array, name: string, type: string): FileKind {
   const text = String.fromCharCode(...head);
-  if (/^(\u00ef\u00bb\u00bf)?\s*HIERARCHY\b/i.test(text)) return 'leader';
-  if (isUnsupportedMotion(text)) return 'other-motion';
-  // The same containers hold songs: whether there are pictures in it is seen when it is opened.
-  if (isContainer(text) && (type.startsWith('video/') || VIDEO_NAME.test(name))) return 'video';
-  if (isSound(text, head)) return 'song';
-  // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
-  if (BVH_NAME.test(name)) return 'leader';
-  if (type.startsWith('audio/') || AUDIO_NAME.test(name)) return 'song';
-  return 'unknown';
+  const known =
+    SIGNATURES.find((signature) => signature.head(text, head, name, type)) ??
+    // The bytes do not tell: the reader of the type that the name suggests reports what is wrong with them.
+    SIGNATURES.find(
+      (signature) =>
+        signature.name?.test(name) === true ||
+        (signature.type !== undefined && type.startsWith(signature.type)),
+    );
+  return known?.kind ?? 'unknown';
 }
 
-function isUnsupportedMotion(text: string): boolean {
-  return text.startsWith('Kaydara FBX Binary') || text.startsWith('glTF') || text.startsWith('; FBX');
+/** PNG, JPEG, GIF, WebP, and HEIC or AVIF, which lie in the same container as sounds. */
+function isPicture(text: string): boolean {
+  if (/^(\u0089PNG|\u00ff\u00d8\u00ff|GIF8)/.test(text)) return true;
+  return /^RIFF[^]{4}WEBP|^[^]{4}ftyp(hei|hev|mif|msf|avi)/.test(text);
 }
 
 function isSound(text: string, head: Uint8Array): boolean {

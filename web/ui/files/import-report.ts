@@ -1,17 +1,20 @@
 import type { Manifest } from '../../model/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { standingHeight } from '../../motion/skeleton/kinematics';
 import { loadedRole, roleName } from '../store/roles';
 import { el, combineDisposers } from '../widgets/dom';
-import { clockTime, rate, tempo } from '../store/format';
+import { countingOf, countedBeats, tempoText } from '../store/counting';
+import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joint-text';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
-import type { LoadedLeader, Reaction } from '../store/reaction';
+import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
 import type { AppState, ModelState } from '../store/state';
 import { watchAll } from '../store/store';
 
 /** Common frame rates of motion capture, for files whose own is wrong. */
-const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
+export const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
 
 /** The import report: what was read from the files, so that a wrong guess is noticed before a partner is generated. */
 export const mountImportReport: Mount = (root, store, services) => {
@@ -48,6 +51,7 @@ export const mountImportReport: Mount = (root, store, services) => {
       store,
       (state) => [
         state.song,
+        state.countings,
         state.leader,
         ...isReading(state),
         state.reaction,
@@ -73,13 +77,16 @@ function fact(name: string, value: string | HTMLElement): HTMLElement[] {
   return [el('dt', { text: name }), el('dd', {}, value)];
 }
 
-function songFacts({ song, reading }: AppState): HTMLElement[] {
+function songFacts(state: AppState): HTMLElement[] {
+  const { song, reading, countings } = state;
   if (!song) return [group('', 'Song'), ...fact('File', reading.song ? 'being read' : 'none yet, silence')];
-  const { data } = song;
+  const beats = countedBeats(state).times.length;
+  const { beatsPerBar } = countingOf(song, countings);
   return [
     group('', 'Song'),
-    ...fact('Length', clockTime(data.duration)),
-    ...fact('Tempo', data.tempo > 0 ? `${tempo(data.tempo)}, ${data.beats.length} beats` : tempo(0)),
+    ...fact('Length', clockTime(song.data.duration)),
+    ...fact('Tempo', tempoText(song, countings)),
+    ...(beats > 0 ? fact('Beats', `${beats}, in bars of ${beatsPerBar}`) : []),
   ];
 }
 
@@ -95,7 +102,7 @@ function leaderFacts(state: AppState, services: Services): HTMLElement[] {
     ...fact('Frame rate', rateSelect(leader, services)),
     ...fact('Skeleton', report.convention),
     ...fact('Joints', jointText(report)),
-    ...fact('Space', `${report.unit}, ${report.upAxis} up`),
+    ...fact('Units', `${report.unit}, ${report.upAxis} up`),
   ];
 }
 
@@ -108,17 +115,19 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
       attributes: { id: 'leader-rate', 'aria-label': 'Frame rate of the leader file' },
       on: {
         change: () => {
-          services.rereadLeader(select.value === '' ? null : Number(select.value));
+          const fps = select.value === '' ? undefined : Number(select.value);
+          services.rereadLeader({ ...leader.options, fps });
         },
       },
     },
     el('option', {
-      text: leader.fps === null ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
+      text:
+        leader.options.fps === undefined ? `${rate(report.sourceFps)} fps, as in the file` : 'As in the file',
       attributes: { value: '' },
     }),
     ...RATES.map((fps) => el('option', { text: `${fps} fps`, attributes: { value: fps } })),
   );
-  select.value = leader.fps === null ? '' : String(leader.fps);
+  select.value = String(leader.options.fps ?? '');
   const rest = Math.abs(report.sourceFps - clip.fps) > 0.01 ? ` to ${rate(clip.fps)} fps` : '';
   return el('span', {}, select, rest);
 }
@@ -129,11 +138,17 @@ function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElemen
     group(role, roleName(role)),
     ...fact('From', `seed ${seed}, ${steps} steps`),
     ...fact('Guidance', guidanceText(inputs.settings)),
+    ...fact('Height', heightText(motion, inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
-      ? fact('Bones', `constant, ${millimetres(motion.fitError)} from the model's joints`)
+      ? fact('Bones', `constant length, ${millimetres(motion.fitError)} off the model’s joints`)
       : []),
   ];
+}
+
+/** `148 cm, in proportion`. */
+function heightText({ offsets }: SolvedMotion, { height }: Settings): string {
+  return `${centimetres(standingHeight(offsets))} cm, ${height === null ? 'in proportion' : 'as set'}`;
 }
 
 function millimetres(metres: number): string {

@@ -1,5 +1,5 @@
 import { randomSeed } from '../store/actions/settings';
-import type { Generator, Manifest, ModelFolder, Status } from '../../model/client';
+import type { Generator, Manifest, ModelFolder, ReloadFailure, Status } from '../../model/client';
 import { modelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
 import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/model';
@@ -23,22 +23,31 @@ export interface ModelLink {
  */
 export function createModelLink(
   store: Store,
-  create: (onStatus: (status: Status) => void, folder: ModelFolder | null) => Promise<Generator>,
+  create: (
+    onStatus: (status: Status | ReloadFailure) => void,
+    folder: ModelFolder | null,
+  ) => Promise<Generator>,
 ): ModelLink {
   let resolveManifest: (manifest: Manifest) => void = () => undefined;
   const manifest = new Promise<Manifest>((resolve) => {
     resolveManifest = resolve;
   });
 
-  const onStatus = (status: Status): void => {
-    if (status.kind === 'manifest') {
+  const fail = (error: unknown): void => {
+    const problem = modelProblem(error);
+    apply(store, modelChanged({ phase: 'failed', problem }));
+    apply(store, problemShown(problem));
+  };
+  const onStatus = (status: Status | ReloadFailure): void => {
+    if (status.kind === 'failed') fail(status.error);
+    else if (status.kind === 'manifest') {
       if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, randomSeed()));
       resolveManifest(status.manifest);
     } else if (status.kind === 'notice') apply(store, noticeAdded(`${status.message} ${status.hint}`));
     else apply(store, modelChanged(stateOf(status)));
   };
   const load = async (): Promise<Generator> => {
-    apply(store, modelChanged({ phase: 'loading', label: 'Asking for the model', received: 0, total: 0 }));
+    apply(store, modelChanged({ phase: 'loading', label: 'Finding the model', received: 0, total: 0 }));
     // Other downloads may still report progress after one has failed.
     let failed = false;
     try {
@@ -47,9 +56,7 @@ export function createModelLink(
       }, null);
     } catch (error) {
       failed = true;
-      const problem = modelProblem(error);
-      apply(store, modelChanged({ phase: 'failed', problem }));
-      apply(store, problemShown(problem));
+      fail(error);
       throw error;
     }
   };
@@ -105,7 +112,7 @@ function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): Mode
       return preparing('Opening the model');
     case 'check':
     case 'checked':
-      return preparing('Checking its numbers');
+      return preparing('Checking the model');
     case 'warm-up':
       return preparing('Warming up');
     case 'ready': {

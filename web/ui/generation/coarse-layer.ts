@@ -51,7 +51,10 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
     try {
       const generator = await model();
       for (const { inputs, latents } of missing) {
-        const motion = await generator.coarse({ leader: inputs.leader.file.clip, latents }, { signal });
+        const { leader, settings } = inputs;
+        const { role, height } = settings;
+        const request = { leader: leader.file.clip, latents, role, height: height ?? undefined };
+        const motion = await generator.coarse(request, { signal });
         decodedMotions.set(latents, motion);
         if (signal.aborted) return;
         show(latents !== missing.at(-1)?.latents);

@@ -21,7 +21,7 @@ export const mountFootLock: Mount = (root, store) => {
     el('span', {}, 'Foot lock', el('small', { class: 'hint', text: HINT })),
     el('span', { class: 'knob', attributes: { 'aria-hidden': true } }),
   );
-  const section = el('section', { class: 'sec', attributes: { 'aria-label': 'Motion' } }, control);
+  const section = el('section', { class: 'sec foot-lock', attributes: { 'aria-label': 'Motion' } }, control);
   root.append(section);
   return combineDisposers(
     watch(

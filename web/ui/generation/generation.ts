@@ -174,6 +174,7 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
     steps: settings.steps,
     seed: settings.seed,
     role: settings.role,
+    height: settings.height ?? undefined,
   };
 }
 

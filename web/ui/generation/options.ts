@@ -3,7 +3,7 @@ import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
 import { iconButton, textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { icon } from '../widgets/icons';
+import { mountHeightBox } from './height-box';
 import { mountSeedBox } from './seed-box';
 import { isReading, upToDate } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -17,7 +17,7 @@ interface Controls {
   readonly show: (state: AppState) => void;
 }
 
-/** The section of reactions: seed, variations to pick from, generate, number of steps and swapped roles. */
+/** The section of reactions: seed, variations to pick from, generate, number of steps, height and swapped roles. */
 export const mountOptions: Mount = (root, store, services) => {
   const steps = createStepControl(store);
   const swap = createSwapButton(store);
@@ -36,13 +36,14 @@ export const mountOptions: Mount = (root, store, services) => {
   root.append(section);
   const seed = mountSeedBox(head, store, services);
   const cards = mountVariationCards(section, store, services);
-  section.append(
-    el('div', { class: 'make' }, ...generate.elements, ...variations.elements),
-    el('div', { class: 'option-row' }, ...steps.elements, el('span', { class: 'grow' }), ...swap.elements),
-  );
+  const row = el('div', { class: 'option-row' }, ...steps.elements);
+  const height = mountHeightBox(row, store, services);
+  row.append(...swap.elements);
+  section.append(el('div', { class: 'make' }, ...generate.elements, ...variations.elements), row);
   return combineDisposers(
     seed,
     cards,
+    height,
     watchAll(
       store,
       (state) => [
@@ -99,10 +100,9 @@ function createStepControl(store: Store): Controls {
 }
 
 function createSwapButton(store: Store): Controls {
-  const swap = textButton('btn tint swap', 'Swap roles', () => {
+  const swap = iconButton('btn tint swap', 'swap', { label: 'Swap roles' }, () => {
     apply(store, rolesSwapped());
   });
-  swap.prepend(icon('swap'));
   return {
     elements: [swap],
     show: (state) => {
@@ -149,7 +149,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
       );
       button.title = making
         ? 'Make no more'
-        : 'Try several seeds, make the three reactions that differ most, and pick one';
+        : 'Makes three reactions that differ as much as possible, for you to pick from';
     },
   };
 }
@@ -161,11 +161,11 @@ function canGenerate(state: AppState): boolean {
 
 function generateTitle(state: AppState): string {
   if (!state.leader)
-    return state.reading.leader ? 'Reading the leader' : 'Needs a leader; a song is optional.';
+    return state.reading.leader ? 'Reading the leader' : 'Choose a leader first. A song is optional.';
   if (state.job) return 'The reaction is being made.';
   if (state.reading.song) return 'Reading the song';
   if (!upToDate(state)) return state.reaction ? 'The settings have changed since.' : 'Ready.';
   return state.seedLocked
-    ? 'Makes the same again: the seed is locked.'
-    : 'Another reaction, with a new seed. Changed settings take effect by themselves.';
+    ? 'The seed is locked, so this makes the same reaction again.'
+    : 'Makes another reaction, with a new seed.';
 }

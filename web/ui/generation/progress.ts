@@ -1,4 +1,4 @@
-import { generatedRole } from '../store/roles';
+import { generatedRole, roleName } from '../store/roles';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { jobText } from '../store/selectors';
 import type { Mount } from '../store/services';
@@ -61,7 +61,7 @@ export const mountProgress: Mount = (root, store, services) => {
       setText(spoken, `The ${generatedRole(state)} is being made.`);
     }, SHOW_AFTER_MS);
     if (!box.hidden && job.fraction >= 0.5) setText(spoken, `The ${generatedRole(state)} is half made.`);
-    setText(title, generatedRole(state) === 'reactor' ? 'Reacting ' : 'Leading ');
+    setText(title, `${roleName(generatedRole(state))}: `);
     setText(stageText, jobText(job, state));
     setVariable(fill, '--part', job.fraction);
     meter.setAttribute('aria-valuenow', String(Math.round(job.fraction * 100)));

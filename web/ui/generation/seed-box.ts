@@ -15,7 +15,7 @@ export const mountSeedBox: Mount = (root, store) => {
       step: 1,
       'aria-label': 'Seed',
       inputmode: 'numeric',
-      title: 'The seed of the random numbers: the same seed and settings make the same reaction again',
+      title: 'Each seed gives another reaction. The same seed and settings give the same one again',
     },
     on: {
       change: () => {
@@ -40,7 +40,7 @@ export const mountSeedBox: Mount = (root, store) => {
     roll.disabled = !settings || seedLocked;
     input.value = settings ? String(settings.seed) : '';
     roll.title = seedLocked ? 'The seed is locked' : 'Another reaction (D)';
-    lock.title = seedLocked ? 'Unlock the seed' : 'Lock the seed: generating again keeps it';
+    lock.title = seedLocked ? 'Unlock the seed' : 'Lock the seed, so that it stays when you generate again';
     lock.setAttribute('aria-pressed', String(seedLocked));
     lock.replaceChildren(icon(seedLocked ? 'lock' : 'unlock'));
   };

@@ -1,17 +1,13 @@
 import { allVariationsMade, VARIATION_COUNT } from '../store/actions/variations';
-import { generatedRole } from '../store/roles';
 import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
-import { mostDifferentFrame } from '../../motion/skeleton/difference';
-import { headingOf } from '../../motion/skeleton/heading';
-import { drawFigure } from '../widgets/figure';
 import { icon } from '../widgets/icons';
-import { token } from '../widgets/lane-canvas';
 import { clockTime } from '../store/format';
 import { danceFps, sameInputs } from '../store/selectors';
 import type { Mount } from '../store/services';
 import type { Reaction } from '../store/reaction';
 import type { AppState, Variation } from '../store/state';
 import { watchAll } from '../store/store';
+import { drawFigures, sharedFrame } from './variation-figures';
 
 /** How a card is shown: whether its reaction is on the stage or being made, and whether Tab leads to the card. */
 interface CardState {
@@ -28,15 +24,15 @@ interface Card {
   readonly show: (variation: Variation, state: CardState) => void;
 }
 
-/** Time between two drawings of the figures while they dance. */
-const DRAW_INTERVAL_MS = 100;
+/** Least time between two drawings of the figures. */
+const DRAW_INTERVAL_MS = 250;
 
 /** Steps between cards, by key. */
 const ARROWS: Readonly<Record<string, number>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
 /**
  * The variations to pick from, as small figures in the moment in which they differ most; the one on the stage is marked.
- * Until all are there they follow the playhead.
+ * Until all are there they show the moment at which the playhead rests. Without WebGL there are no figures.
  */
 export const mountVariationCards: Mount = (root, store, services) => {
   const pick = (index: number): void => {
@@ -72,8 +68,11 @@ export const mountVariationCards: Mount = (root, store, services) => {
   const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   root.append(group, spoken);
 
+  const canvases = cards.map(({ canvas }) => canvas);
   const figures = throttle(() => {
-    drawFigures(root, cards, store.getState());
+    const state = store.getState();
+    const reactions = cardContents(state).map(({ reaction }) => reaction);
+    if (services.drawFigure) drawFigures(canvases, reactions, state, services.drawFigure);
   }, DRAW_INTERVAL_MS);
   const sizes = new ResizeObserver(figures.run);
   sizes.observe(group);
@@ -92,7 +91,7 @@ export const mountVariationCards: Mount = (root, store, services) => {
         variations?.list,
         reaction,
         theme,
-        allVariationsMade(variations) ? null : playback.time,
+        allVariationsMade(variations) || playback.playing ? null : playback.time,
         settings?.role,
       ],
       figures.run,
@@ -149,7 +148,7 @@ function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
       const shown = moment === null ? '' : `, shown at ${clockTime(moment)}`;
       const label = `Reaction, seed ${seed}${reaction ? shown : ', not made yet'}`;
       setAttribute(button, 'aria-label', seed === null ? 'No reaction yet' : label);
-      button.title = reaction && !onStage ? 'Bring this one to the stage' : (reaction?.label ?? '');
+      button.title = reaction && !onStage ? 'Show this one on the stage' : (reaction?.label ?? '');
     },
   };
 }
@@ -186,48 +185,6 @@ function isOnStage(state: AppState, reaction: Reaction | null): boolean {
     reaction !== null &&
     (reaction === state.reaction || sameInputs(reaction.inputs, state.reaction?.inputs ?? null))
   );
-}
-
-/** Frames by the variations that differ most in them. */
-const frames = new WeakMap<readonly Variation[], number>();
-
-/** The frame in which all cards show their dancers: where they differ most; null while one is missing. */
-function sharedFrame({ variations }: Pick<AppState, 'variations'>): number | null {
-  const dances = variations?.list.flatMap(({ reaction }) => reaction?.motion.positions ?? []) ?? [];
-  if (!variations || dances.length < VARIATION_COUNT) return null;
-  const frame = frames.get(variations.list) ?? mostDifferentFrame(dances);
-  frames.set(variations.list, frame);
-  return frame;
-}
-
-/** Draws each card's dancer, all in the same moment and seen from the same direction. */
-function drawFigures(root: HTMLElement, cards: readonly Card[], state: AppState): void {
-  const frame = sharedFrame(state) ?? Math.round(state.playback.time * danceFps(state));
-  const poses = cardContents(state).map(({ reaction }) => reaction && poseAt(reaction, frame));
-  const direction = headingOf(poses.find((pose) => pose !== null) ?? new Float32Array(66));
-  const colour = token(root, `--figure-${generatedRole(state)}`);
-  poses.forEach((pose, index) => {
-    const context = cards[index]?.canvas.getContext('2d');
-    if (!context || !fitCanvas(context.canvas)) return;
-    if (pose) drawFigure(context, pose, direction, colour);
-    else context.clearRect(0, 0, context.canvas.width, context.canvas.height);
-  });
-}
-
-/** Joint positions (22 x 3, metres) in a frame; at the end of the dance in the last one. */
-function poseAt({ motion }: Reaction, frame: number): Float32Array {
-  const at = Math.min(motion.frames - 1, Math.max(0, frame));
-  return motion.positions.subarray(at * 66, (at + 1) * 66);
-}
-
-/** Gives the canvas the pixels of its element; false while it has no size. */
-function fitCanvas(canvas: HTMLCanvasElement): boolean {
-  const ratio = Math.min(2, window.devicePixelRatio);
-  const width = Math.round(canvas.clientWidth * ratio);
-  const height = Math.round(canvas.clientHeight * ratio);
-  if (width === 0 || height === 0) return false;
-  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-  return true;
 }
 
 /** Runs `action` at once, but at most every `interval` milliseconds: later calls in between share one late run. */

@@ -32,13 +32,13 @@ interface Moved extends FaderTexts {
 }
 
 const FADERS: readonly Moved[] = [
-  layerFader('coarse', 'Coarse', 'Path and poses: larger, more on the leader’s beats.'),
-  layerFader('fine', 'Fine', 'Quick movements: how sharp the accents are.'),
+  layerFader('coarse', 'Coarse', 'Path and poses'),
+  layerFader('fine', 'Fine', 'Sharpness of accents'),
   {
     control: 'music',
     name: 'Music',
     label: 'Music guidance',
-    hint: 'How far the song changes the dance.',
+    hint: 'How much the song shapes the dance',
     shown: ({ settings, manifest, song }) => ({
       range: settings && manifest && song ? manifest.guidance.music : null,
       value: settings?.music ?? 0,
@@ -51,7 +51,7 @@ const FADERS: readonly Moved[] = [
     control: 'variety',
     name: 'Variety',
     label: 'Variety',
-    hint: 'How far this seed is from the mean of several.',
+    hint: 'How far this seed is from the average of several',
     shown: ({ settings, manifest }) => ({
       range: settings && manifest ? manifest.guidance.variety : null,
       value: settings?.variety ?? 0,

@@ -12,7 +12,7 @@ export const mountGuidance: Mount = (root, store, services) => {
   const reset = iconButton(
     'icon',
     'reset',
-    { label: 'Reset guidance', title: 'Back to what suits this model best (R)' },
+    { label: 'Reset guidance', title: 'Back to the default (R)' },
     () => {
       apply(store, guidanceReset());
     },

@@ -73,7 +73,7 @@ function createFold(grid: HTMLElement, summary: HTMLElement): HTMLButtonElement 
         type: 'button',
         'aria-expanded': 'false',
         'aria-controls': grid.id,
-        title: 'Guide arms and trunk, legs, and the place on the floor separately',
+        title: 'Set arms and trunk, legs, and the place on the floor separately',
       },
       on: {
         click: () => {

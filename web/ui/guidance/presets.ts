@@ -21,15 +21,15 @@ const KINDS: readonly {
   readonly description: string;
   readonly towards: Readonly<Partial<Record<Control, number>>>;
 }[] = [
-  { name: 'Balanced', description: 'What suits this model best.', towards: {} },
-  { name: 'Loose', description: 'Smaller moves, a path more of its own.', towards: { coarse: -0.7 } },
+  { name: 'Balanced', description: 'The default of this model.', towards: {} },
+  { name: 'Loose', description: 'Smaller moves, less tied to the leader.', towards: { coarse: -0.7 } },
   { name: 'Large', description: 'Larger moves, more on the leader’s beats.', towards: { coarse: 0.6 } },
   { name: 'Soft', description: 'Less quick movement, few accents.', towards: { fine: -0.8 } },
   { name: 'Sharp', description: 'More quick movement, strong accents.', towards: { fine: 0.8 } },
   { name: 'More song', description: 'The song changes the dance most.', towards: { music: 1 } },
   { name: 'Less song', description: 'The song hardly changes the dance.', towards: { music: -1 } },
-  { name: 'Average', description: 'What the seeds have in common.', towards: { variety: -1 } },
-  { name: 'Individual', description: 'Far from what other seeds dance.', towards: { variety: 0.7 } },
+  { name: 'Average', description: 'The average of several seeds.', towards: { variety: -1 } },
+  { name: 'Individual', description: 'Unlike the other seeds.', towards: { variety: 0.7 } },
   {
     name: 'Calm',
     description: 'Near the average and soft.',

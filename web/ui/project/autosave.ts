@@ -112,7 +112,7 @@ export class Autosave {
 
 /** The parts of the state that are stored; while they are the same, there is nothing to write. */
 function storedParts(state: AppState): readonly unknown[] {
-  const { takes, reaction, other, letter, compare, footLock, song } = state;
+  const { takes, reaction, other, letter, compare, footLock, countings, song } = state;
   return [
     takes,
     reaction,
@@ -120,6 +120,7 @@ function storedParts(state: AppState): readonly unknown[] {
     letter,
     compare,
     footLock,
+    countings,
     song,
     ...Object.values<unknown>({ ...currentInputs(state) }),
   ];

@@ -22,15 +22,30 @@ const shape = {
   fitError: v.number(),
 };
 
+/** What is set by hand about a leader. Files of earlier pages have the frame rate alone, beside it. */
+const options = v.optional(v.record(v.string(), v.unknown()), {});
+const fps = v.optional(v.nullable(v.number()), null);
+/** Files that belong to a leader's, as the skeleton of an AMC. */
+const companions = v.optional(v.array(v.object({ name: text, file: text })), []);
+
 /** The latents of a motion, in a file of their own. */
 const latents = v.object({ decoder: text, count, file: text });
+
+/** How a song is counted. */
+const counting = v.object({
+  song: text,
+  bytes: count,
+  beatsPerBar: v.picklist([3, 4]),
+  rate: v.picklist([0.5, 1, 2]),
+  one: v.pipe(v.number(), v.finite()),
+});
 
 /** project.json: the page, the takes, and which file of the archive holds what. */
 const schema = v.object({
   format: v.literal(FORMAT),
   version: v.number(),
   songs: v.array(v.object({ id: text, name: text, label, type: v.string(), file: text })),
-  leaders: v.array(v.object({ id: text, name: text, label, fps: v.nullable(v.number()), file: text })),
+  leaders: v.array(v.object({ id: text, name: text, label, file: text, companions, options, fps })),
   motions: v.array(v.object({ id: text, file: text, ...shape, latents: v.optional(latents) })),
   takes: v.array(
     v.object({
@@ -57,6 +72,7 @@ const schema = v.object({
     compare: v.picklist(['off', 'side', 'ghost']),
     takesMade: count,
     footLock: v.boolean(),
+    countings: v.optional(v.array(counting), []),
     time: v.number(),
   }),
 });
@@ -64,7 +80,7 @@ const schema = v.object({
 type Manifest = v.InferOutput<typeof schema>;
 
 /**
- * Writes a project: a zip archive with project.json, the songs as they were given, leaders as BVH, motion and latents
+ * Writes a project: a zip archive with project.json, the songs as they were given, leaders as they were given, motion and latents
  * of takes as float32.
  */
 export async function writeProject(project: StoredProject): Promise<Uint8Array<ArrayBuffer>> {
@@ -81,10 +97,15 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
     const path = `songs/${index + 1}-${slug(name, 'song')}${ending}`;
     songs.push({ id, name, label, type: file.type, file: add(path, bytes, 0) });
   }
-  const leaders = project.leaders.map(({ id, name, label, fps, text }, index) => {
-    const path =
-      project.leaders.length === 1 ? 'leader.bvh' : `leaders/${index + 1}-${slug(name, 'leader')}.bvh`;
-    return { id, name, label, fps, file: add(path, strToU8(text), 1) };
+  const leaders = project.leaders.map(({ id, name, label, files: parts, options }, index) => {
+    const folder = project.leaders.length === 1 ? '' : 'leaders/';
+    const [file, ...companions] = parts.map((part, place) => {
+      const ending = /\.[a-z0-9]{1,5}$/i.exec(part.name)?.[0].toLowerCase() ?? '';
+      const stem = folder === '' ? 'leader' : `${index + 1}-${slug(name, 'leader')}`;
+      const path = `${folder}${stem}${place > 0 ? `-${place + 1}` : ''}${ending}`;
+      return { name: part.name, file: add(path, part.bytes, 1) };
+    });
+    return { id, name, label, file: file!.file, companions, options: { ...options }, fps: null };
   });
   const motions = project.motions.map(({ id, motion, latents }, index) => {
     const { fps, frames, fitError } = motion;
@@ -139,12 +160,12 @@ export function readProject(bytes: Uint8Array): StoredProject {
       label,
       file: new Blob([part(file)], { type }),
     })),
-    leaders: manifest.leaders.map(({ id, name, label, fps, file }) => ({
+    leaders: manifest.leaders.map(({ id, name, label, fps, file, companions, options }) => ({
       id,
       name,
       label,
-      fps,
-      text: strFromU8(part(file)),
+      files: [{ name, file }, ...companions].map((one) => ({ name: one.name, bytes: part(one.file) })),
+      options: { ...(fps !== null && { fps }), ...options },
     })),
     motions: manifest.motions.map(({ id, fps, frames, fitError, file, latents }) => {
       const content = partOf(file, motionBytes(frames), `${frames} frames`);

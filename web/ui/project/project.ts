@@ -31,7 +31,8 @@ export class Project {
     this.autosave = new Autosave(store, storage);
     this.foreground = {
       song: ({ file, name, label }) => files.readSong(file, name, label),
-      leader: ({ text, name, label, fps }) => files.readLeader(text, name, label, fps),
+      leader: ({ name, label, files: leader, options }) =>
+        files.readLeader({ name, label, files: leader, options }),
     };
     this.background = backgroundReaders(readers);
   }
@@ -124,21 +125,21 @@ function backgroundReaders(readers: FileReaders): StoredFileReaders {
         () => null,
       );
     },
-    leader: ({ text, name, label, fps }) =>
-      readers.readLeader({ text, fps }, new AbortController().signal).then(
-        ({ file, motion }) => ({ name, label, text, fps, file, motion }),
+    leader: ({ name, label, files, options }) =>
+      readers.readLeader({ files, options }, new AbortController().signal).then(
+        ({ file, motion }) => ({ name, label, files, options, file, motion }),
         () => null,
       ),
   };
 }
 
-/** `descarga_lead-0412.reactdance`. */
+/** `descarga_leader-0412.reactdance`. */
 function projectName({ song, leader }: AppState): string {
   const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
   return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
 }
 
-/** `Opened: descarga.mp3, lead_0412.bvh, 3 takes`. */
+/** `Opened: descarga.mp3, leader_0412.bvh, 3 takes`. */
 export function openedText({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
   const count = takes.length === 1 ? '1 take' : `${takes.length || 'no'} takes`;
   return `Opened: ${[song?.name ?? 'no song', leader?.name ?? 'no leader', count].join(', ')}`;

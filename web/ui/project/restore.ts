@@ -64,7 +64,7 @@ export class Restorer {
     const onStage = takes.find(({ id }) => id === page.shown)?.reaction ?? null;
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
-    const { letter, takesMade, footLock, time } = page;
+    const { letter, takesMade, footLock, countings = [], time } = page;
     return {
       ...(leader && page.inputs ? restoredInputs(page.inputs, state, leader, song) : { leader, song }),
       takes,
@@ -74,6 +74,7 @@ export class Restorer {
       letter,
       compare: other === null ? 'off' : page.compare,
       footLock,
+      countings,
       playback: {
         ...state.playback,
         playing: false,
@@ -154,7 +155,9 @@ function restoredInputs(
   leader: LoadedLeader,
   song: LoadedSong | null,
 ): Inputs {
-  const present = currentInputs({ ...state, leader, song });
+  // In proportion, where a height is missing.
+  const settings = state.settings && { ...state.settings, height: null };
+  const present = currentInputs({ ...state, leader, song, settings });
   if (!present) throw new Error('Inputs are restored once the settings are there.');
   return { ...(conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>), leader, song };
 }
@@ -163,6 +166,8 @@ function restoredInputs(
 function conform(example: unknown, value: unknown): unknown {
   if (typeof example === 'number')
     return typeof value === 'number' && Number.isFinite(value) ? value : example;
+  // A number that need not be there.
+  if (example === null) return typeof value === 'number' && Number.isFinite(value) ? value : null;
   if (example === null || typeof example !== 'object')
     return typeof value === typeof example ? value : example;
   if (value === null || typeof value !== 'object') return example;

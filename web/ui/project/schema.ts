@@ -1,7 +1,7 @@
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Inputs, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
-import type { AppState, Compare, Letter } from '../store/state';
+import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
+import type { AppState, Compare, Letter, SongCounting } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 
 /** A song: the file that it was read from. */
@@ -12,12 +12,8 @@ export interface StoredSong {
   readonly file: Blob;
 }
 
-export interface StoredLeader {
+export interface StoredLeader extends LeaderSource {
   readonly id: string;
-  readonly name: string;
-  readonly label: string | null;
-  readonly text: string;
-  readonly fps: number | null;
 }
 
 export interface StoredMotion {
@@ -69,6 +65,8 @@ export interface StoredPage {
   readonly compare: Compare;
   readonly takesMade: number;
   readonly footLock: boolean;
+  /** Left out by pages that did not store it. */
+  readonly countings?: readonly SongCounting[];
   /** Seconds. */
   readonly time: number;
 }
@@ -114,9 +112,9 @@ export function storedProject(state: AppState): StoredProject {
     return id;
   };
   const leader = (part: LoadedLeader): string => {
-    const { name, label, text, fps } = part;
+    const { name, label, files, options } = part;
     const id = idOf(part);
-    leaders.set(id, { id, name, label, text, fps });
+    leaders.set(id, { id, name, label, files, options });
     return id;
   };
   const motion = ({ motion: part, latents: values }: Reaction): string => {
@@ -137,7 +135,7 @@ export function storedProject(state: AppState): StoredProject {
     return { id, number, name, starred, createdAt, label, seconds, ...parts };
   });
   const inputs = currentInputs(state);
-  const { other, letter, compare, takesMade, footLock, playback } = state;
+  const { other, letter, compare, takesMade, footLock, countings, playback } = state;
   const page: StoredPage = {
     leader: state.leader ? leader(state.leader) : null,
     song: song(state.song),
@@ -148,6 +146,7 @@ export function storedProject(state: AppState): StoredProject {
     compare,
     takesMade,
     footLock,
+    countings,
     time: playback.time,
   };
   return {
@@ -165,8 +164,9 @@ export function storedInputs(inputs: Inputs): StoredInputs {
 }
 
 /** Whether the page holds anything of the visitor's own; a demo that was only watched does not count. */
-export function hasVisitorContent({ takes, leader, song }: AppState): boolean {
+export function hasVisitorContent({ takes, leader, song, countings }: AppState): boolean {
   return (
+    countings.length > 0 ||
     leader?.label === null ||
     song?.label === null ||
     takes.some(({ starred, name, reaction }) => starred || name !== null || reaction.label === null)

@@ -1,4 +1,11 @@
-import { type DBSchema, type IDBPDatabase, openDB, type OpenDBCallbacks } from 'idb';
+import {
+  type DBSchema,
+  type IDBPDatabase,
+  type IDBPObjectStore,
+  openDB,
+  type OpenDBCallbacks,
+  type StoreNames,
+} from 'idb';
 import type { StoredProject, StoredLeader, StoredMotion, StoredPage, StoredSong, StoredTake } from './schema';
 
 /** A song in the database: its bytes, because not every browser can store blobs in private windows. */
@@ -199,7 +206,8 @@ function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
     opening = null;
   };
   const options: OpenDBCallbacks<Schema> = {
-    upgrade: (database) => {
+    upgrade: (database, oldVersion, _newVersion, transaction) => {
+      if (oldVersion > 0) return void convertLeaders(transaction.objectStore('leaders'));
       for (const part of PARTS) database.createObjectStore(part, { keyPath: 'id' });
       database.createObjectStore('page');
     },
@@ -211,12 +219,26 @@ function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
     terminated: reset,
   };
   return () => {
-    opening ??= openDB<Schema>(name, 1, options).catch((error: unknown) => {
+    opening ??= openDB<Schema>(name, 2, options).catch((error: unknown) => {
       reset();
       throw error;
     });
     return opening;
   };
+}
+
+/** A leader as the first version stored it: the text of a BVH file, and its frame rate where that was set by hand. */
+type FirstLeader = Pick<StoredLeader, 'id' | 'name' | 'label'> & { text: string; fps: number | null };
+
+/** Converts leaders of the first version, within the transaction that upgrades the database. */
+async function convertLeaders(
+  leaders: IDBPObjectStore<Schema, StoreNames<Schema>[], 'leaders', 'versionchange'>,
+): Promise<void> {
+  for (const first of (await leaders.getAll()) as unknown as FirstLeader[]) {
+    const { id, name, label, text, fps } = first;
+    const files = [{ name, bytes: new TextEncoder().encode(text) }];
+    await leaders.put({ id, name, label, files, options: fps === null ? {} : { fps } });
+  }
 }
 
 /** Waits for all; throws the first failure, and leaves no rejection unhandled. */

@@ -64,7 +64,7 @@ export function measureRows(
     known: number | null | undefined,
   ) => ({
     name: `On the ${name}’s beat`,
-    hint: Number.isNaN(beat.value) ? `no beats of the ${name} to meet` : 'from 0, never, to 1, always',
+    hint: Number.isNaN(beat.value) ? `no beats of the ${name} found` : 'from 0, never, to 1, always',
     value: write(beat.value, score),
     beside: Number.isNaN(beat.value)
       ? ''

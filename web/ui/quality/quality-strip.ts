@@ -1,4 +1,4 @@
-import { combineDisposers } from '../widgets/dom';
+import { combineDisposers, listen } from '../widgets/dom';
 import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LaneContent, type QualityLane } from './quality-lane';
 import { type Mark, marksInOne, marksOf, worstRow } from './quality-marks';
@@ -13,8 +13,6 @@ import { type Store, watchAll } from '../store/store';
 import type { Span } from '../store/time-scale';
 
 const PARTS: readonly Part[] = ['feet', 'closeness', 'beats', 'seams'];
-/** How much before a moment a click jumps while it plays, seconds. */
-const LEAD_IN = 0.5;
 /** Width that a mark takes in a row, CSS pixels. */
 const MARK_WIDTH = 28;
 
@@ -25,7 +23,7 @@ function wholeDance(state: AppState): Span {
 
 /**
  * The quality of the dance along the timeline: a narrow lane for each part, and one of the worst of them, which low
- * windows show instead. The worst moments are numbered; a click jumps there.
+ * windows show instead. The worst moments are numbered; a click plays the seconds around one in a loop.
  * @param root the grid of the timeline's lanes: labels left, lanes right
  * @param visibleSpan the part of the dance that the lanes show
  */
@@ -35,11 +33,9 @@ export function mountQualityStrip(
   services: Services,
   visibleSpan: (state: AppState) => Span = wholeDance,
 ): () => void {
-  const jumpTo = ({ moment }: Mark): void => {
-    const { playback, quality } = store.getState();
-    if (!quality) return;
-    const time = moment.frame / quality.reactor.fps;
-    services.seek(Math.max(0, playback.playing ? time - LEAD_IN : time));
+  const jumpTo = ({ part, moment }: Mark): void => {
+    const { quality } = store.getState();
+    if (quality) services.showMoment(part, moment.frame / quality.reactor.fps);
   };
   const cards = new InfoCard(root.closest('section') ?? root);
   const partLanes = PARTS.map((part) =>
@@ -57,6 +53,7 @@ export function mountQualityStrip(
   });
   sizes.observe(root);
   return combineDisposers(
+    markWhileLookedAt(root, lanes),
     watchAll(
       store,
       (state) => {
@@ -88,6 +85,25 @@ function isStale(state: AppState): boolean {
   const { quality } = state;
   const ofAnother = quality !== null && quality.reactor !== reactorMotion(state);
   return ofAnother || isSampling(state);
+}
+
+/**
+ * Marks `root` as `looked-at` while the pointer or the focus is in one of the lanes, and after a tap until the next one
+ * elsewhere; returns a function that stops it.
+ */
+function markWhileLookedAt(root: HTMLElement, lanes: readonly QualityLane[]): () => void {
+  const parts = lanes.flatMap(({ label, lane }) => [label, lane]);
+  const isInside = (target: EventTarget | null): boolean =>
+    target instanceof Node && parts.some((part) => part.contains(target));
+  const follow = ({ target, type }: Event): void => {
+    const focused = type === 'pointerover' && isInside(document.activeElement);
+    root.classList.toggle('looked-at', focused || isInside(target));
+  };
+  return combineDisposers(
+    listen(window, 'pointerover', follow),
+    listen(window, 'pointerdown', follow),
+    listen(window, 'focusin', follow),
+  );
 }
 
 function drawLanes(

@@ -61,8 +61,8 @@ function feetText(
     sentence:
       `Feet slide ${percent(skateShare)} of the time they touch the floor` +
       `${recorded(reference?.skateShare, percent)}. Less is steadier. ` +
-      `They touch it ${percent(contactShare)} of the dance${recorded(reference?.contactShare, percent)} ` +
-      `and move ${speed(slideSpeed)} then${recorded(reference?.slideSpeed, speed)}.`,
+      `They are on the floor for ${percent(contactShare)} of the dance${recorded(reference?.contactShare, percent)} ` +
+      `and move at ${speed(slideSpeed)} there${recorded(reference?.slideSpeed, speed)}.`,
   };
 }
 
@@ -72,9 +72,9 @@ function closenessText(
 ): LaneText {
   const overlap =
     overlapShare > 0
-      ? `The bodies go more than a touch into each other for ${percent(overlapShare)} of the dance` +
+      ? `The bodies overlap by more than a touch for ${percent(overlapShare)} of the dance` +
         `${recorded(reference?.overlapShare, percent)}, ${centimetres(deepest)} at most.`
-      : 'The bodies never go into each other.';
+      : 'The bodies never overlap.';
   return {
     value: metres(closest),
     sentence: `At their closest the hips of the two are ${metres(closest)} apart. ${overlap}`,
@@ -84,13 +84,13 @@ function closenessText(
 function beatText({ music, leader }: Report['beats']['whole'], reference: Reference | null): LaneText {
   const one = (name: string, { value, chance }: typeof music, known: number | null | undefined): string =>
     Number.isNaN(value)
-      ? `There are no beats of the ${name} to meet.`
+      ? `No beats of the ${name} were found.`
       : `With the ${name}: ${score(value)}, by chance ${score(chance)}${recorded(known, score)}.`;
   const brief = ({ value }: typeof music): string => (Number.isNaN(value) ? NOTHING : score(value));
   return {
     value: `${brief(music)} ${brief(leader)}`,
     sentence:
-      'How often the partner turns round or rests just on a beat, from 0 (never) to 1 (on every one). ' +
+      'How often the partner turns or stops exactly on a beat, from 0 (never) to 1 (always). ' +
       `${one('music', music, reference?.music)} ${one('leader', leader, reference?.leader)}`,
   };
 }
@@ -143,14 +143,14 @@ export function momentCard(moment: Moment, fps: number, { beats }: Report, rules
         );
       case 'overlap':
         return (
-          `The two bodies go ${centimetres(value)} into each other. ` +
+          `The two bodies overlap by ${centimetres(value)}. ` +
           `Up to ${centimetres(rules.penetration.deep)} counts as a touch.`
         );
       case 'music':
       case 'leader':
         return (
           `Around here the partner’s moves miss most beats of the ${kind}: ${score(value)} on a scale from ` +
-          `0 (none met) to 1 (all). By chance it would be ${score(beats.whole[kind].chance)}.`
+          `0 (all missed) to 1 (all met). By chance it would be ${score(beats.whole[kind].chance)}.`
         );
       case 'seam':
         return (

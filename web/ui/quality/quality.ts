@@ -57,7 +57,10 @@ export function createQuality(
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
       apply(store, qualityMeasured(null));
-      apply(store, noticeAdded('The quality of the dance could not be measured. All else works as before.'));
+      apply(
+        store,
+        noticeAdded('The quality of the dance could not be measured. Everything else works as before.'),
+      );
     }
   };
 

@@ -7,9 +7,10 @@ import type { ModelState } from '../store/state';
 import { apply, watch } from '../store/store';
 import { panelToggled } from '../store/actions/view';
 
-const BACKENDS = { webgpu: 'WebGPU', wasm: 'WebAssembly' } as const;
+/** What computes the dance, in one word. */
+const BACKENDS = { webgpu: 'WebGPU', wasm: 'Processor' } as const;
 
-/** The backend and why it was chosen; while the model is being downloaded, the progress of that. */
+/** What computes the dance; while the model is being downloaded, the progress of that. Why is in the card that it opens. */
 export const mountBackendBadge: Mount = (root, store, services) => {
   const title = el('b');
   const fill = el('i');
@@ -20,7 +21,6 @@ export const mountBackendBadge: Mount = (root, store, services) => {
   );
   const bytes = el('span', { class: 'bytes' });
   const dot = el('span', { class: 'dot', attributes: { 'aria-hidden': 'true' } });
-  const why = el('span', { class: 'why' });
   const again = el('button', {
     class: 'btn tint',
     text: 'Try again',
@@ -45,7 +45,6 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     el('span', { class: 'phone-only' }, icon('device')),
     dot,
     title,
-    why,
   );
   const badge = el('div', { class: 'badge' }, about, meter, bytes, again);
   root.append(badge);
@@ -54,7 +53,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
   const show = (model: ModelState): void => {
     const loading = model.phase === 'loading';
     meter.hidden = bytes.hidden = !loading;
-    dot.hidden = why.hidden = model.phase !== 'ready';
+    dot.hidden = model.phase !== 'ready';
     again.hidden = model.phase !== 'failed';
     badge.className = `badge ${model.phase}`;
     about.title = '';
@@ -69,10 +68,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
       meter.setAttribute('aria-valuenow', String(Math.round(part * 100)));
     } else if (model.phase === 'ready') {
       setText(title, BACKENDS[model.backend]);
-      setText(why, model.reason.replace(/\.$/, ''));
-      const threads =
-        model.backend === 'wasm' ? `, ${model.threads} thread${model.threads === 1 ? '' : 's'}` : '';
-      about.title = `Computes on ${BACKENDS[model.backend]}${threads}: ${model.reason}`;
+      about.title = `What computes the dance: ${model.reason}`;
     } else {
       setText(title, 'No model');
       about.title = model.problem.title;

@@ -118,15 +118,16 @@ async function empty(elements: Elements, services: Services): Promise<void> {
     await services.measureStorage(),
     cleared
       ? 'Cleared. The next visit downloads it again; nothing of yours was removed.'
-      : 'The browser did not let this page clear it. Its own settings for this site can.',
+      : 'The browser did not let this page clear it. You can do so in the browser’s settings for this site.',
   );
   elements.close.focus();
 }
 
 function reason(model: ModelState): string {
-  if (model.phase === 'ready') return `The partner is computed here. ${model.reason}`;
-  if (model.phase === 'loading') return 'The partner will be computed here; its model is on the way.';
-  return 'The partner is computed here, but its model could not be loaded.';
+  if (model.phase === 'ready') return `The partner is computed on this device. ${model.reason}`;
+  if (model.phase === 'loading')
+    return 'The partner will be computed on this device. Its model is being downloaded.';
+  return 'The model that makes the partner could not be loaded.';
 }
 
 function storageText(usage: StorageUsage | null): string {

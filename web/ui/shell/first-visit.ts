@@ -30,7 +30,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
     el('p', {
       class: 'intro',
-      text: 'Your browser dances the reacting partner and shows both in 3D.',
+      text: 'Your browser makes the dance partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
@@ -41,7 +41,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         services,
         'leader',
         'Leader',
-        'a video of one dancer, or BVH',
+        'a video of one dancer, or a motion file',
         'Choose a motion',
         cameraButton(services),
       ),
@@ -85,9 +85,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
 
 function demoText(state: AppState): string {
   if (state.demo === 'loading') return 'Loading the demo';
-  if (state.demo === 'missing') return 'The demo is not here. Your own files work.';
+  if (state.demo === 'missing') return 'The demo could not be loaded. Your own files work.';
   const length = duration(danceDuration(state));
-  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is on its way`;
+  return state.reaction ? `${length} duet, ready to play` : `${length}, the partner is being made`;
 }
 
 function cameraButton(services: Services): HTMLElement {

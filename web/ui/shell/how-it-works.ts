@@ -8,9 +8,9 @@ export function steps(...afterFirst: Node[]): HTMLElement {
   return el(
     'ol',
     { class: 'steps' },
-    el('li', {}, 'Give a song and a leader, one dancer as a BVH file. ', ...afterFirst),
+    el('li', {}, 'Choose a song and a leader: one dancer’s motion as BVH. ', ...afterFirst),
     el('li', {
-      text: 'The partner answers by itself. Coarse, Fine and Music steer how.',
+      text: 'Your browser makes the partner. The sliders change how it dances.',
     }),
     el('li', { text: 'Play it, then download the motion for Blender, Maya and other tools.' }),
   );
@@ -56,8 +56,8 @@ export function howItWorks(): HTMLElement {
     el(
       'ul',
       {},
-      item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances to silence.'),
-      item('Leader', 'a BVH file of one whole body. The dance is as long as the leader.'),
+      item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances in silence.'),
+      item('Leader', 'a BVH file, or joints as NPZ, NPY, JSON or CSV. The dance is as long as the leader.'),
     ),
     el('h3', { text: 'Where a leader comes from' }),
     el(
@@ -66,7 +66,7 @@ export function howItWorks(): HTMLElement {
       item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
       item('Mixamo', 'download a dance as FBX, import it into Blender, export it as BVH.'),
       item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),
-      item('This page', 'a reactor downloaded here can lead the next dance.'),
+      item('This page', 'a reactor downloaded here can be the leader of the next dance.'),
     ),
   );
 }

@@ -1,17 +1,19 @@
-import { coarseIsMissing } from '../generation/coarse-layer';
 import { listen, combineDisposers } from '../widgets/dom';
+import { barBeside } from '../store/bars';
+import { countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
-import { OVERLAYS } from './overlay-menu';
-import type { VisibleOverlays } from '../../common/visible-overlays';
+import { OVERLAYS, toggleOverlay } from './overlay-menu';
 import type { AppState, Camera } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
+import { givenSet } from '../store/actions/files';
 import { problemClosed } from '../store/actions/notices';
-import { cameraSet, panelToggled, playbackSet, overlayToggled, SPEEDS } from '../store/actions/view';
+import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
-import { takeStarred } from '../store/actions/takes';
+import { settingOneSet } from '../store/actions/counting';
+import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
 /**
@@ -24,6 +26,11 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (event.key === 'Tab') byPointer = false;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
+    if (flipsOnStage(event, target, store)) {
+      event.preventDefault();
+      apply(store, takesSwapped());
+      return;
+    }
     if (event.key === 'Escape') {
       // The browser itself closes a popover, and nothing else then.
       if (document.querySelector(':popover-open')) return;
@@ -54,10 +61,20 @@ export function mountKeyboard(store: Store, services: Services): () => void {
   );
 }
 
-/** Closes the problem or panel in front, cancels the job, or removes the region; false if there is none of these. */
+/**
+ * Whether the key is Tab on the picture, where it flips the compared takes. Only a click brings the focus there, so that
+ * nobody who goes through the page by Tab is held up; with Shift it leaves the picture.
+ */
+function flipsOnStage({ key, shiftKey }: KeyboardEvent, target: HTMLElement, store: Store): boolean {
+  return key === 'Tab' && !shiftKey && target.matches('.picture') && canSwapTakes(store.getState());
+}
+
+/** Closes the problem or panel in front, or ends setting the "1", cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
-  const { problem, openPanel, job, variations, playback } = store.getState();
+  const { problem, given, settingOne, openPanel, job, variations, playback } = store.getState();
   if (problem) apply(store, problemClosed());
+  else if (given) apply(store, givenSet(null));
+  else if (settingOne) apply(store, settingOneSet(false));
   else if (openPanel) apply(store, panelToggled(openPanel));
   else if (job || variations?.making) services.cancel();
   else if (playback.region) apply(store, regionSet(null));
@@ -68,8 +85,11 @@ function escape(store: Store, services: Services): boolean {
 /** What keys do, by `event.key`; letters in lower case. */
 const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   ' ': ({ services }) => services.togglePlay(),
-  ArrowLeft: (key) => key.services.seek(key.time - arrowStep(key)),
-  ArrowRight: (key) => key.services.seek(key.time + arrowStep(key)),
+  ArrowLeft: (key) => key.services.seek(arrowTarget(key, -1)),
+  ArrowRight: (key) => key.services.seek(arrowTarget(key, 1)),
+  '1': (key) => pickVariation(key, 0),
+  '2': (key) => pickVariation(key, 1),
+  '3': (key) => pickVariation(key, 2),
   Home: ({ services }) => services.seek(0),
   End: ({ services, state }) => services.seek(danceDuration(state)),
   '[': ({ store, state }) => apply(store, playbackSet({ speed: nextSpeed(state.playback.speed, -1) })),
@@ -80,8 +100,8 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   '0': ({ store }) => apply(store, zoomSet(null)),
   '?': ({ store }) => apply(store, panelToggled('keys')),
   l: ({ store, state }) => apply(store, playbackSet({ loop: !state.playback.loop })),
-  i: ({ store, time }) => apply(store, regionEndSet('from', time)),
-  o: ({ store, time }) => apply(store, regionEndSet('to', time)),
+  i: ({ store, state, time }) => apply(store, regionEndSet('from', snapped(countedBeats(state), time))),
+  o: ({ store, state, time }) => apply(store, regionEndSet('to', snapped(countedBeats(state), time))),
   c: () => focusFader('Coarse guidance'),
   v: () => focusFader('Fine guidance'),
   m: () => focusFader('Music guidance'),
@@ -120,9 +140,15 @@ function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: 
   return overlay !== undefined || action !== undefined;
 }
 
-/** How far an arrow moves the playhead, seconds: one frame, with Shift one second. */
-function arrowStep({ shift, state }: KeyPress): number {
-  return shift ? 1 : 1 / danceFps(state);
+/** Where an arrow moves the playhead, seconds: by one frame, with Shift to the start of a bar. */
+function arrowTarget({ shift, state, time }: KeyPress, direction: 1 | -1): number {
+  return shift ? barBeside(state, time, direction) : time + direction / danceFps(state);
+}
+
+/** Shows one of the reactions to pick from, if it is made. */
+function pickVariation({ services, state }: KeyPress, index: number): void {
+  const seed = state.variations?.list[index]?.seed ?? null;
+  if (seed !== null) services.pickVariation(seed);
 }
 
 /** The next slower or faster of the offered speeds. */
@@ -137,12 +163,4 @@ function focusFader(label: string): void {
 
 function toggleCamera(store: Store, camera: Camera): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
-}
-
-/** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
-function toggleOverlay(store: Store, what: keyof VisibleOverlays): void {
-  apply(store, overlayToggled(what));
-  const { overlays, openPanel, firstVisit } = store.getState();
-  const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());
-  if (isMissing && openPanel === null && !firstVisit) apply(store, panelToggled('overlays'));
 }

@@ -23,7 +23,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
     el('button', {
       class: 'btn ghost',
       text: 'Later',
-      attributes: { type: 'button', title: 'The next visit takes it by itself' },
+      attributes: { type: 'button', title: 'The new version loads at your next visit' },
       on: {
         click: () => {
           apply(store, updateSet(false));

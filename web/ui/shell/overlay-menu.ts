@@ -18,12 +18,20 @@ interface Overlay {
 
 export const OVERLAYS: readonly Overlay[] = [
   { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The partner without the fine layer' },
-  { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },
-  { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },
   { what: 'contacts', label: 'Foot contacts', key: 'N', hint: 'Rings under feet that stand' },
+  { what: 'hands', label: 'Hand links', key: 'H', hint: 'Arcs between hands within reach' },
+  { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },
+  { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },
   { what: 'facing', label: 'Facing', key: 'W', hint: 'Which way each dancer faces' },
-  { what: 'hands', label: 'Hand links', key: 'H', hint: 'Lines between hands within reach' },
 ];
+
+/** Toggles an overlay. A coarse ghost that can't be drawn opens the menu, which says why and what to do. */
+export function toggleOverlay(store: Store, what: keyof VisibleOverlays): void {
+  apply(store, overlayToggled(what));
+  const { overlays, openPanel, firstVisit } = store.getState();
+  const isMissing = what === 'ghost' && overlays.ghost && coarseIsMissing(store.getState());
+  if (isMissing && openPanel === null && !firstVisit) apply(store, panelToggled('overlays'));
+}
 
 interface Elements {
   readonly corner: HTMLElement;
@@ -31,22 +39,24 @@ interface Elements {
   /** How many overlays are on. */
   readonly count: HTMLElement;
   readonly menu: HTMLElement;
-  /** One per overlay, in their order. */
-  readonly toggles: readonly HTMLButtonElement[];
+  /** In the menu and on the stage, one per overlay each, in their order. */
+  readonly toggles: readonly (readonly HTMLButtonElement[])[];
   /** Says why the coarse ghost can't be seen, with a button that generates it. */
   readonly note: HTMLElement;
   readonly noteText: HTMLElement;
   readonly generate: HTMLButtonElement;
 }
 
-/** The button on the stage and its menu: what is drawn beside the dancers. */
+/** What is drawn beside the dancers: toggles on the stage, and a button with a menu where the stage is narrow. */
 export const mountOverlayMenu: Mount = (root, store, services) => {
   const elements = build(store, services);
-  const { corner, menu } = elements;
+  const { corner, button, menu } = elements;
   root.append(corner);
   const takes = mountTakesButton(corner, store, services);
   const closeOutside = (event: PointerEvent): void => {
-    if (!menu.hidden && !corner.contains(event.target as Node)) apply(store, panelToggled('overlays'));
+    const target = event.target as Node;
+    if (!menu.hidden && !menu.contains(target) && !button.contains(target))
+      apply(store, panelToggled('overlays'));
   };
   document.addEventListener('pointerdown', closeOutside);
   return combineDisposers(
@@ -83,11 +93,14 @@ function build(store: Store, services: Services): Elements {
     'Show',
     count,
   );
-  const toggles = OVERLAYS.map((overlay) =>
-    overlayToggle(overlay, () => {
-      apply(store, overlayToggled(overlay.what));
-    }),
-  );
+  const togglesOf = (className: string): HTMLButtonElement[] =>
+    OVERLAYS.map((overlay) =>
+      overlayToggle(overlay, className, () => {
+        toggleOverlay(store, overlay.what);
+      }),
+    );
+  const inMenu = togglesOf('menu-item');
+  const onStage = togglesOf('btn stage-toggle');
   const generate = el('button', {
     class: 'btn',
     text: 'Generate it here',
@@ -100,7 +113,7 @@ function build(store: Store, services: Services): Elements {
   });
   const noteText = el('span');
   const note = el('div', { class: 'note' }, noteText, generate);
-  const [ghost, ...others] = toggles;
+  const [ghost, ...others] = inMenu;
   const menu = el(
     'div',
     { class: 'float overlay-menu', attributes: { role: 'dialog', 'aria-label': 'Show on the stage' } },
@@ -109,15 +122,25 @@ function build(store: Store, services: Services): Elements {
     ...others,
   );
   menu.hidden = true;
-  const corner = el('div', { class: 'over stage-corner' }, button, menu);
-  return { corner, button, count, menu, toggles, note, noteText, generate };
+  // Seen where the stage is wide: all, or the first three beside the button of the menu.
+  const row = el(
+    'div',
+    { class: 'stage-toggles', attributes: { role: 'group', 'aria-label': 'Shown on the stage' } },
+    ...onStage,
+  );
+  const corner = el('div', { class: 'over stage-corner' }, row, button, menu);
+  return { corner, button, count, menu, toggles: [inMenu, onStage], note, noteText, generate };
 }
 
-function overlayToggle({ label, key, hint }: Overlay, toggle: () => void): HTMLButtonElement {
+function overlayToggle(
+  { label, key, hint }: Overlay,
+  className: string,
+  toggle: () => void,
+): HTMLButtonElement {
   return el(
     'button',
     {
-      class: 'menu-item',
+      class: className,
       attributes: { type: 'button', title: hint, 'aria-keyshortcuts': key, 'aria-label': label },
       on: { click: toggle },
     },
@@ -130,9 +153,11 @@ function overlayToggle({ label, key, hint }: Overlay, toggle: () => void): HTMLB
 function showState({ button, count, toggles, note, noteText, generate }: Elements, state: AppState): void {
   const { overlays, coarse, job } = state;
   OVERLAYS.forEach(({ what }, i) => {
-    const toggle = toggles[i]!;
-    setAttribute(toggle, 'aria-pressed', String(overlays[what]));
-    if (what === 'ghost') setAttribute(toggle, 'aria-busy', coarse.decoding ? 'true' : undefined);
+    for (const place of toggles) {
+      const toggle = place[i]!;
+      setAttribute(toggle, 'aria-pressed', String(overlays[what]));
+      if (what === 'ghost') setAttribute(toggle, 'aria-busy', coarse.decoding ? 'true' : undefined);
+    }
   });
   const on = OVERLAYS.filter(({ what }) => overlays[what]).length;
   setText(count, on > 0 ? String(on) : '');
@@ -143,11 +168,11 @@ function showState({ button, count, toggles, note, noteText, generate }: Element
   generate.hidden = !coarseIsMissing(state) || job !== null;
 }
 
-function showOpen({ button, menu, toggles }: Elements, open: boolean): void {
+function showOpen({ button, menu, toggles: [inMenu] }: Elements, open: boolean): void {
   const wasOpen = !menu.hidden;
   menu.hidden = !open;
   button.setAttribute('aria-expanded', String(open));
-  if (open) toggles[0]?.focus();
+  if (open) inMenu?.find((toggle) => toggle.checkVisibility())?.focus();
   else if (wasOpen && menu.contains(document.activeElement)) button.focus();
 }
 
@@ -162,6 +187,6 @@ function ghostNote(state: AppState): string {
 
 function missingText({ label }: Reaction): string {
   return label === null
-    ? 'This take was made by another model, or kept without its layers.'
-    : `The ${label} came ready-made, without its layers.`;
+    ? 'This take was made by another model, or stored without its coarse layer.'
+    : `The ${label} has no coarse layer to show.`;
 }

@@ -1,3 +1,4 @@
+import { RATES } from '../files/import-report';
 import { el, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
@@ -61,14 +62,50 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
       },
     },
     el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
-    el('p', { text: problem.hint, attributes: { id: 'problem-hint' } }),
+    el('p', { text: hintOf(problem, state), attributes: { id: 'problem-hint' } }),
+    NEEDS_RATE.has(problem.code) ? rateRow(dismiss, services) : null,
     el(
       'div',
       { class: 'actions' },
       remedy && action(remedy.text, 'primary', remedy.run),
+      losesWork(problem, state) ? action('Save project', 'tint', services.saveProject) : null,
       action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
     ),
   );
+}
+
+/** Whether the remedy takes away what the browser does not keep. */
+const losesWork = ({ remedy }: Problem, { autosave }: Pick<AppState, 'autosave'>): boolean =>
+  remedy === 'reload' && autosave !== 'stored';
+
+/** The hint; before a reload also what becomes of the visitor's work. */
+export function hintOf(problem: Problem, state: Pick<AppState, 'autosave'>): string {
+  if (problem.remedy !== 'reload') return problem.hint;
+  const kept = losesWork(problem, state)
+    ? 'Save your project first: this browser does not keep it.'
+    : 'Song, leader, takes and settings stay.';
+  return `${problem.hint} ${kept}`;
+}
+
+/** Failures to read a leader that another frame rate mends. */
+const NEEDS_RATE: ReadonlySet<string> = new Set(['bad-frame-time', 'too-few-frames']);
+
+/** The frame rate by hand; choosing one reads the file again. */
+function rateRow(dismiss: () => void, services: Services): HTMLElement {
+  const select = el(
+    'select',
+    {
+      on: {
+        change: () => {
+          dismiss();
+          services.rereadLeader({ fps: Number(select.value) });
+        },
+      },
+    },
+    el('option', { text: 'choose a frame rate', attributes: { value: '', disabled: '', selected: '' } }),
+    ...RATES.map((fps) => el('option', { text: `${fps} frames per second`, attributes: { value: fps } })),
+  );
+  return el('label', { class: 'rate' }, 'Read it again at ', select);
 }
 
 /** A sentence whose short quotations stay on one line. */
@@ -91,18 +128,24 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
         },
       };
     }
+    case 'read-again': {
+      const kind = problem.refused?.kind;
+      return kind ? { text: 'Try again', run: () => services.readAgain(kind) } : null;
+    }
     case 'model':
       return { text: 'Try again', run: services.retryModel };
     case 'generate':
       return { text: 'Try again', run: services.generate };
     case 'project':
       return { text: 'Save project', run: services.saveProject };
+    case 'reload':
+      return { text: 'Reload', run: services.reload };
     case 'none':
       return null;
   }
 }
 
-/** The label of the button that closes the dialog. It names the files that stay: `Keep lead_0412.bvh`, or song and leader where the file could have been either. */
+/** The label of the button that closes the dialog. It names the files that stay: `Keep leader_0412.bvh`, or song and leader where the file could have been either. */
 export function dismissLabel(problem: Problem, { song, leader }: Pick<AppState, 'song' | 'leader'>): string {
   if (!problem.refused) return 'Close';
   const { kind } = problem.refused;

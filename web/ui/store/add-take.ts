@@ -2,7 +2,7 @@ import { differOnlyInWeights, sameInputs } from './selectors';
 import type { Reaction, Take } from './reaction';
 import type { AppState } from './state';
 import { sealed } from './history';
-import { takeOnStage, withTake } from './take';
+import { currentInputs, takeOnStage, takeTitle, withTake } from './take';
 
 /** Identity and creation time of a new take, the latter in milliseconds since 1970. */
 export interface TakeStamp {
@@ -29,29 +29,38 @@ export function withReaction(
   state: AppState,
   reaction: Reaction,
   stamp: TakeStamp,
-): Pick<AppState, 'takes' | 'takesMade' | 'history' | 'drag'> {
-  const { takes, takesMade, drag } = state;
+): Pick<AppState, 'takes' | 'takesMade' | 'history' | 'drag' | 'toast'> {
+  const { takes, takesMade, drag, toast } = state;
   const before = takeOnStage(state);
   // A drag stays one step of undo however many reactions come while it lasts.
   const sameDance = before !== null && differOnlyInWeights(before.reaction.inputs, reaction.inputs);
   const history = sameDance ? state.history : sealed(state.history);
-  const dragged = (take: string): AppState['drag'] => (drag?.held ? { ...drag, take } : null);
+  // A drag ends with the reaction to where it was released; one to the way there may come before.
+  const goesOn = drag !== null && (drag.held || !sameInputs(reaction.inputs, currentInputs(state)));
+  const dragged = (take: string | null): AppState['drag'] => (goesOn ? { ...drag, take } : null);
   const keep = (take: Take): ReturnType<typeof withReaction> => ({
     takes: withTake(takes, take),
     takesMade,
     history,
     drag: dragged(take.id),
+    toast,
   });
 
   // 1. The motion of a take with other inputs, as when the demo's song is read after its dancers.
   const sameMotion = takes.find((take) => take.reaction.motion === reaction.motion);
   if (sameMotion) return keep({ ...sameMotion, reaction });
 
-  // 2. The same inputs as a take's: the model generates the same motion, so it is that take again.
+  // 2. The same inputs as a take's: the model generates the same motion, so it is that take again. A drag that came
+  // there leaves nothing of its own.
   const sameInput = takes.find(
     (take) => take.reaction.label === reaction.label && sameInputs(take.reaction.inputs, reaction.inputs),
   );
-  if (sameInput) return keep({ ...sameInput, reaction });
+  if (sameInput) {
+    const kept = keep({ ...sameInput, reaction });
+    const onTheWay = drag && before && before !== sameInput && isReplaceable(before, state, stamp.at);
+    if (!onTheWay) return sameInput.id === drag?.take ? kept : { ...kept, drag: dragged(null) };
+    return { ...kept, takes: kept.takes.filter(({ id }) => id !== before.id), drag: dragged(null) };
+  }
 
   // 3. The next reaction of a drag or of keys replaces the one before.
   if (before && sameDance && isReplaceable(before, state, stamp.at))
@@ -60,11 +69,13 @@ export function withReaction(
   // 4. A new take. The page's own reactions have a label and need no number.
   const number = reaction.label === null ? takesMade + 1 : 0;
   const take: Take = { id: stamp.id, number, name: null, starred: false, createdAt: stamp.at, reaction };
+  const oldest = tooOld(withTake(takes, take), [take.id, state.other]);
   return {
-    takes: withoutOldest(withTake(takes, take), [take.id, state.other]),
+    takes: withTake(takes, take).filter((one) => !oldest.includes(one)),
     takesMade: Math.max(takesMade, number),
     history,
     drag: dragged(take.id),
+    toast: oldest.length > 0 ? removedText(oldest) : toast,
   };
 }
 
@@ -77,15 +88,16 @@ function isReplaceable(take: Take, { other, drag }: AppState, now: number): bool
   return unmarked && (drag ? take.id === drag.take : now - take.createdAt < SAME_CHANGE_MS);
 }
 
-/** At most `MAX_TAKES`, unless more are starred, named or in use. */
-function withoutOldest(takes: readonly Take[], inUse: readonly (string | null)[]): readonly Take[] {
-  let surplus = takes.length - MAX_TAKES;
-  if (surplus <= 0) return takes;
-  const removed = new Set<string>();
-  for (const { id, starred, name } of takes.toReversed())
-    if (surplus > 0 && !starred && name === null && !inUse.includes(id)) {
-      removed.add(id);
-      surplus--;
-    }
-  return takes.filter(({ id }) => !removed.has(id));
+/** The oldest takes beyond `MAX_TAKES` that are neither starred nor named nor in use. */
+function tooOld(takes: readonly Take[], inUse: readonly (string | null)[]): readonly Take[] {
+  const surplus = Math.max(0, takes.length - MAX_TAKES);
+  return takes
+    .filter(({ id, starred, name }) => !starred && name === null && !inUse.includes(id))
+    .toReversed()
+    .slice(0, surplus);
+}
+
+function removedText(takes: readonly Take[]): string {
+  const names = takes.map((take) => `“${takeTitle(take)}”`).join(' and ');
+  return `${names} left the list, which holds ${MAX_TAKES} takes. Star or name a take to keep it.`;
 }

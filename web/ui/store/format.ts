@@ -22,14 +22,14 @@ export function byteSize(bytes: number): string {
   return bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.max(1, Math.round(bytes / 1e3))} KB`;
 }
 
+/** Whole centimetres. */
+export function centimetres(metres: number): number {
+  return Math.round(metres * 100);
+}
+
 /** `29.97`, `60`: frame rates without needless zeros. */
 export function rate(fps: number): string {
   return String(Math.round(fps * 100) / 100);
-}
-
-/** `175 BPM`, or words when no beat was found. */
-export function tempo(bpm: number): string {
-  return bpm > 0 ? `${Math.round(bpm)} BPM` : 'no beat found';
 }
 
 /** Rounds to a fader's step, without floating-point remainders (`0.15000000000000002`). */

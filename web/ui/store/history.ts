@@ -45,18 +45,21 @@ export function sealed(history: History): History {
 
 /**
  * Adds to a change the step that undoes it, if it is one that visitors undo: of settings, song, leader, any other
- * input of a reaction, takes, or the choice of a take. Changes that set `history` themselves are left as they are;
+ * input of a reaction, the counting of the song, takes, or the choice of a take. Changes that set `history` themselves are left as they are;
  * new reactions are among them, so that undoing shows the take before and removes none.
  */
 export function withUndo(before: AppState, patch: Partial<AppState>, at: number): Partial<AppState> {
   if ('history' in patch) return patch;
   const after = { ...before, ...patch };
-  const inputs = changedInputs(before, after);
+  const parts = [
+    ...changedInputs(before, after),
+    ...(before.countings === after.countings ? [] : (['countings'] as const)),
+  ];
   const edits = editsBetween(before.takes, after.takes);
   const chosen = after.reaction !== before.reaction && takeOnStage(after) !== null;
-  if (inputs.length === 0 && edits.length === 0 && !chosen) return patch;
+  if (parts.length === 0 && edits.length === 0 && !chosen) return patch;
 
-  const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(inputs, before, after);
+  const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(parts, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
   const sameGesture = before.drag?.held === true || (last !== undefined && at - last.at < SAME_GESTURE_MS);
@@ -66,7 +69,7 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
     : {
         kind,
         at,
-        back: pick(before, [...inputs, 'reaction', ...(after.other === before.other ? [] : COMPARISON)]),
+        back: pick(before, [...parts, 'reaction', ...(after.other === before.other ? [] : COMPARISON)]),
         edits,
         stage: takeOnStage(before),
       };
@@ -181,9 +184,9 @@ function changedInputs(before: AppState, after: AppState): (keyof Inputs)[] {
   });
 }
 
-/** The names of the inputs that changed: `leader`, or `settings.guidance`. */
-function kindOf(inputs: readonly (keyof Inputs)[], before: AppState, after: AppState): string {
-  return inputs
+/** The names of the parts that changed: `leader`, or `settings.guidance`. */
+function kindOf(parts: readonly (keyof AppState)[], before: AppState, after: AppState): string {
+  return parts
     .map((key) => {
       if (key !== 'settings' || !before.settings || !after.settings) return key;
       const [a, b] = [before.settings, after.settings];

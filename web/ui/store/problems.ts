@@ -22,9 +22,22 @@ export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
+/** The server has a newer version of the page, without which this one cannot go on; null for other failures. */
+function versionProblem(error: unknown): Problem | null {
+  if (!isExplained(error) || error.code !== 'newer-version') return null;
+  return { code: error.code, title: error.message, hint: error.hint, remedy: 'reload', refused: null };
+}
+
+/** Failures of the page that no other file would mend. */
+const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'page-part-missing'];
+
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
+  const newer = versionProblem(error);
+  if (newer) return newer;
   const refused = { kind, name };
+  if (isExplained(error) && NOT_OF_THE_FILE.includes(error.code))
+    return { code: error.code, title: error.message, hint: error.hint, remedy: 'read-again', refused };
   if (isExplained(error))
     return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
   return {
@@ -69,37 +82,43 @@ export function fullProblem(): Problem {
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'model-failed',
-    title: explained ? error.message : 'The model could not be started.',
-    hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
-    remedy: 'model',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'model-failed',
+      title: explained ? error.message : 'The model could not be started.',
+      hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
+      remedy: 'model',
+      refused: null,
+    }
+  );
 }
 
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'generation-failed',
-    title: explained ? error.message : 'The reactor could not be made.',
-    hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'generation-failed',
+      title: explained ? error.message : 'The reactor could not be made.',
+      hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'coarse-failed',
-    title: explained ? error.message : 'The coarse layer of this reaction could not be decoded.',
-    hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
-    remedy: 'generate',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'coarse-failed',
+      title: explained ? error.message : 'The coarse layer of this reaction could not be shown.',
+      hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
+      remedy: 'generate',
+      refused: null,
+    }
+  );
 }
 
 /** A failure to play. */
@@ -117,13 +136,17 @@ export function playbackProblem(error: unknown): Problem {
 /** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
   const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'saving-failed',
-    title: explained ? error.message : 'The file could not be written.',
-    hint: explained ? error.hint : 'Try again, or another format. The dance and your settings are unchanged.',
-    remedy: 'none',
-    refused: null,
-  };
+  return (
+    versionProblem(error) ?? {
+      code: explained ? error.code : 'saving-failed',
+      title: explained ? error.message : 'The file could not be written.',
+      hint: explained
+        ? error.hint
+        : 'Try again, or another format. The dance and your settings are unchanged.',
+      remedy: 'none',
+      refused: null,
+    }
+  );
 }
 
 /** A failure of the 3D picture; everything else goes on working. */
@@ -147,8 +170,8 @@ export function dropProblem(error: unknown): Problem {
   return {
     code: 'drop-unreadable',
     title: forbidden
-      ? 'The browser may not read what was dropped.'
-      : 'What was dropped could not be read to its end.',
+      ? 'The browser is not allowed to read what was dropped.'
+      : 'Not everything that was dropped could be read.',
     hint: 'Check that it is still there and that you may open it, copy it to a folder of your own, and drop it again.',
     remedy: 'any-file',
     refused: null,
@@ -158,30 +181,35 @@ export function dropProblem(error: unknown): Problem {
 export function emptyDropProblem(): Problem {
   return {
     code: 'drop-empty',
-    title: 'There is no file in what was dropped.',
-    hint: 'Drop a song, a leader as video or BVH, or the folder of a model with its manifest.json.',
+    title: 'Nothing that was dropped is a file.',
+    hint: 'Drop a song, a leader’s video or motion file, or the folder of a model with its manifest.json.',
     remedy: 'any-file',
     refused: null,
   };
 }
 
-export function otherMotionProblem(name: string): Problem {
-  return {
-    code: 'other-motion',
-    title: `${name} is a motion in a format that cannot be read here.`,
-    hint: 'Export it as BVH: Blender, MotionBuilder, Mixamo converters and most capture tools can.',
-    remedy: 'leader',
-    refused: { kind: null, name },
-  };
-}
+const USABLE =
+  'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, ' +
+  'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.';
 
 export function unknownFileProblem(name: string): Problem {
   return {
     code: 'unknown-file',
-    title: `${name} is neither a song nor a motion or video.`,
-    hint: 'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a BVH file or a video.',
+    title: `${name} is neither a song, a video nor a motion.`,
+    hint: USABLE,
     remedy: 'any-file',
     refused: { kind: null, name },
+  };
+}
+
+/** None of several files can be used. `sentences` say what they are. */
+export function noneUsableProblem(count: number, sentences: readonly string[]): Problem {
+  return {
+    code: 'none-usable',
+    title: `None of the ${count} files is a song or a leader.`,
+    hint: `${sentences.join(' ')} ${USABLE}`,
+    remedy: 'any-file',
+    refused: null,
   };
 }
 
@@ -189,7 +217,7 @@ export function emptyFileProblem(name: string): Problem {
   return {
     code: 'empty-file',
     title: `${name} is empty.`,
-    hint: 'The file has no bytes; the copy or download may have failed. Choose it again from its source.',
+    hint: 'The copy or download may have failed. Copy or download it again.',
     remedy: 'any-file',
     refused: { kind: null, name },
   };

@@ -1,6 +1,8 @@
 /** What a reaction is generated from, the reaction itself, and takes. */
 import type { Song } from '../../audio/client';
-import type { LeaderFile } from '../../motion/bvh/read';
+import type { FileBytes } from '../../motion/import/read';
+import type { LeaderFile } from '../../motion/retarget/leader';
+import type { ImportOptions } from '../../motion/retarget/options';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 
 export type Layer = 'coarse' | 'fine';
@@ -18,13 +20,18 @@ export interface LoadedSong {
   readonly data: Song;
 }
 
-export interface LoadedLeader {
+/** What a leader is read from. */
+export interface LeaderSource {
   readonly name: string;
+  /** Where it comes from when not from the visitor: "demo leader". */
   readonly label: string | null;
-  /** The file itself, kept so that it can be read again at another frame rate. */
-  readonly text: string;
-  /** Frame rate set by hand instead of the file's own, frames per second. */
-  readonly fps: number | null;
+  /** The file itself, with those that belong to it after it, kept so that it can be read again in another way. */
+  readonly files: readonly FileBytes[];
+  /** What is set by hand about it. */
+  readonly options: ImportOptions;
+}
+
+export interface LoadedLeader extends LeaderSource {
   readonly file: LeaderFile;
   /** The leader on constant bone lengths, as drawn. */
   readonly motion: SolvedMotion;
@@ -41,6 +48,8 @@ export interface Settings {
   readonly seed: number;
   /** The role that the model generates; the loaded dancer has the other one. */
   readonly role: Role;
+  /** Height of the generated dancer, from the floor to the crown, metres; null in proportion to the loaded one. */
+  readonly height: number | null;
 }
 
 /** Everything that determines a reaction. Songs and leaders are compared by identity. */

@@ -28,6 +28,7 @@ export function sameSettings(a: Settings, b: Settings): boolean {
     a.role === b.role &&
     a.music === b.music &&
     a.variety === b.variety &&
+    a.height === b.height &&
     sameGuidance(a.guidance, b.guidance)
   );
 }
@@ -38,10 +39,10 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   return sameFiles && sameSettings(a.settings, b.settings);
 }
 
-/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance differ. */
+/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance or height differ. */
 export function differOnlyInWeights(a: Inputs, b: Inputs): boolean {
-  const { guidance, music, variety } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety } }, b);
+  const { guidance, music, variety, height } = b.settings;
+  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety, height } }, b);
 }
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */
@@ -60,26 +61,6 @@ export function guidanceMatrix(
   );
 }
 
-/** Assumed length of a beat where only one was found, seconds. */
-const ONLY_BEAT_SECONDS = 0.5;
-
-/**
- * Bar and count, both from 1, counted in four from the first beat found; null before it, without beats, and once the
- * last one has lasted as long as the one before it.
- */
-export function barAt(beats: readonly number[], time: number): { bar: number; count: number } | null {
-  const [last = 0, before = last - ONLY_BEAT_SECONDS] = [beats.at(-1), beats.at(-2)];
-  if (time >= 2 * last - before) return null;
-  let low = 0;
-  let high = beats.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if ((beats[middle] ?? Infinity) <= time + 1e-6) low = middle + 1;
-    else high = middle;
-  }
-  return low === 0 ? null : { bar: Math.floor((low - 1) / 4) + 1, count: ((low - 1) % 4) + 1 };
-}
-
 /** Whether the reaction on the stage is being replaced by one that is sampled, which takes seconds. */
 export function isSampling(state: AppState): boolean {
   return state.job !== null && state.job.fraction > 0 && !upToDate(state);
@@ -94,7 +75,7 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
         ? `waiting for the model, ${bytesOf(model.received, model.total)}`
         : 'waiting for the model';
     case 'condition':
-      return 'listening and watching';
+      return 'reading song and leader';
     case 'step':
       return stepText(job, settings?.steps ?? job.total);
   }
@@ -114,7 +95,7 @@ export function lengthNote({
 }: Pick<AppState, 'song' | 'leader' | 'shift' | 'reading'>): string | null {
   if (!leader || reading.song) return null;
   const dance = leader.file.clip.frames / leader.file.clip.fps;
-  if (!song) return 'No song: the partner dances to silence.';
+  if (!song) return 'No song: the couple dances in silence.';
   const end = song.data.duration + shift / leader.file.clip.fps;
   const rest = dance - end;
   if (rest > 0.5) return `The song ends at ${duration(end)}; silence follows to the end of the dance.`;
@@ -143,8 +124,8 @@ export interface Note {
 }
 
 const UNFAMILIAR =
-  'This leader dances unlike all that the model has learned from. The partner answers in the style it knows, and may ' +
-  'move oddly.';
+  'This leader moves unlike the dancers that the model learned from. The partner answers in the style it knows and ' +
+  'may look odd.';
 
 /** Whether the reaction on the stage is to a leader unlike those that the model was trained on. */
 function isUnfamiliar({ reaction, manifest }: AppState): boolean {
@@ -158,9 +139,11 @@ function fileNotes(state: AppState): Note[] {
   const length = lengthNote(state);
   if (length) list.push({ text: length, isWarning: false });
   if (song?.data.silent)
-    list.push({ text: 'The song is silent: it carries no beat to dance to.', isWarning: true });
-  else if (song && song.data.beats.length === 0)
+    list.push({ text: 'The song is silent: there is no beat to dance to.', isWarning: true });
+  else if (song && song.data.rhythm.beats.length === 0)
     list.push({ text: 'No steady beat was found in the song.', isWarning: true });
+  else if (song && !song.data.rhythm.sure)
+    list.push({ text: 'The beat of the song is hard to find: check the count.', isWarning: true });
   if (isUnfamiliar(state)) list.push({ text: UNFAMILIAR, isWarning: true });
   for (const warning of leader?.file.report.warnings ?? []) list.push({ text: warning, isWarning: true });
   for (const remark of leader?.file.report.remarks ?? []) list.push({ text: remark, isWarning: false });

@@ -2,9 +2,12 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { StorageUsage } from '../../offline/storage-usage';
-import type { LoadedLeader, LoadedSong } from './reaction';
-import type { InputKind } from './state';
+import type { Report } from '../../quality/client';
+import type { LeaderSource, LoadedLeader, LoadedSong, Role } from './reaction';
+import type { ImportOptions } from '../../motion/retarget/options';
+import type { InputKind, Theme } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
@@ -34,29 +37,38 @@ export interface Files {
   readonly open: (files: readonly File[]) => Promise<void>;
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
-  readonly openLeader: (text: string, name: string, label: string | null) => Promise<LoadedLeader | null>;
-  readonly rereadLeader: (fps: number | null) => Promise<LoadedLeader | null>;
+  readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
+  /** Reads the leader on the page, or the one that was refused last, again with these options. */
+  readonly rereadLeader: (options: ImportOptions) => Promise<LoadedLeader | null>;
   /** Reads a song without putting it on the page; null when that failed or a newer song cancelled it. */
   readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   /** The same for a leader. */
-  readonly readLeader: (
-    text: string,
-    name: string,
-    label: string | null,
-    fps: number | null,
-  ) => Promise<LoadedLeader | null>;
+  readonly readLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
+}
+
+/** A dancer alone in one moment, seen from a direction (radians about y, 0 looks from +z). */
+export interface Figure {
+  readonly motion: SolvedMotion;
+  readonly seconds: number;
+  readonly role: Role;
+  readonly heading: number;
+  readonly theme: Theme;
 }
 
 /** Actions with effects that panels start. The state itself they change through the store. */
 export interface Services {
   /** Reads what was dropped: songs and leaders, which their content tells apart, or the folder of a model. */
   readonly openDropped: (dropped: Promise<readonly DroppedFile[]>) => void;
+  /** Reads these of the files that were given together. */
+  readonly useGiven: (files: readonly File[]) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
   /** Records a leader with the webcam. */
   readonly recordVideo: () => void;
-  /** Reads the leader again at this frame rate; null is the file's own. */
-  readonly rereadLeader: (fps: number | null) => void;
+  /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */
+  readonly rereadLeader: (options: ImportOptions) => void;
+  /** Reads the song or leader again whose reading failed last. */
+  readonly readAgain: (kind: InputKind) => void;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */
@@ -64,6 +76,8 @@ export interface Services {
   readonly cancel: () => void;
   /** Generates three reactions that differ in their seed; where there are three already, three others. */
   readonly makeVariations: () => void;
+  /** Draws a dancer into a canvas, or clears it, as soon as it can; null where the browser can draw no 3D picture. */
+  readonly drawFigure: ((canvas: HTMLCanvasElement, figure: Figure | null) => void) | null;
   /** Shows the one with this seed on the stage. */
   readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */
@@ -71,6 +85,8 @@ export interface Services {
   readonly togglePlay: () => void;
   /** Jumps to a time in seconds, playing or not. */
   readonly seek: (seconds: number) => void;
+  /** Loops the seconds around a moment that a measure marks, and shows it from where it is seen. */
+  readonly showMoment: (measure: keyof Report, seconds: number) => void;
   /** Frames both dancers in the picture. */
   readonly frameBoth: () => void;
   /** Writes the chosen motion in this format and hands it to the browser's downloads. */
@@ -94,6 +110,8 @@ export interface Services {
   readonly clearStorage: () => Promise<boolean>;
   /** Loads the newer build of the page. */
   readonly loadUpdate: () => void;
+  /** Loads the page again. */
+  readonly reload: () => void;
 }
 
 /** Builds a panel into its root; returns its removal. */

@@ -13,7 +13,7 @@ export function songStart({ leader, shift }: Pick<AppState, 'leader' | 'shift'>)
 /** Beats of the song in seconds of the dance; the first ones may be before its start. */
 export function musicBeats(parts: Parts): number[] {
   const start = songStart(parts);
-  return parts.song?.data.beats.map((beat) => beat + start) ?? [];
+  return parts.song?.data.rhythm.beats.map((beat) => beat + start) ?? [];
 }
 
 /** Range of shifts at which the song plays for at least a second of the dance, frames; 0 to 0 without song or leader. */
@@ -39,7 +39,7 @@ export function frameCountText(frames: number): string {
 
 /** `+7 frames, 0.23 s later`; without a leader there is nothing to shift against. */
 export function shiftText(frames: number, { leader }: Pick<AppState, 'leader'>): string {
-  if (frames === 0 || !leader) return 'as the files begin';
+  if (frames === 0 || !leader) return 'not moved';
   const seconds = (Math.abs(frames) / leader.file.clip.fps).toFixed(2);
   return `${frameCountText(frames)}, ${seconds} s ${frames > 0 ? 'later' : 'earlier'}`;
 }
@@ -79,16 +79,16 @@ function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Shi
     return {
       better: null,
       summary: 'too few beats',
-      reason: 'Leader and song have too few beats together to tell how they fit. Drag the song to shift it.',
+      reason: 'Too few beats were found to tell how song and leader fit. Drag the song to move it.',
     };
-  const now = `The leader's accents, the moments of least speed, meet the song's beats by ${percent(best.before)}`;
+  const now = `The leader’s accents fit the song’s beats by ${percent(best.before)}`;
   const seconds = (Math.abs(best.by) / clip.fps).toFixed(2);
   const other =
     best.by === 0
       ? ', the best within two seconds'
       : `; the best within two seconds is ${percent(best.score)}, ${seconds} s ${best.by > 0 ? 'later' : 'earlier'}` +
-        (best.clear ? '' : ', too little to tell from accident');
-  return { better: null, summary: 'no better shift', reason: `${now}${other}. Drag the song to shift it.` };
+        (best.clear ? '' : ', a difference that may be chance');
+  return { better: null, summary: 'timing fits', reason: `${now}${other}. Drag the song to move it.` };
 }
 
 /** `58 %`. */

@@ -1,11 +1,12 @@
 /** The state of the page and the types of its parts. */
 import type { VisibleOverlays } from '../../common/visible-overlays';
+import type { BeatsPerBar } from '../../audio/client';
 import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
 import type { History } from './history';
-import type { Inputs, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
+import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 
 export type Theme = 'dark' | 'light';
@@ -26,6 +27,17 @@ export interface Quality {
   /** The motion that was measured, as drawn. */
   readonly reactor: SolvedMotion;
   readonly report: Report;
+}
+
+/** Files that belong together, the one that is named first: a song, or a leader with its skeleton. */
+export type FileGroup = readonly File[];
+
+/** Files that were given together, of which some are to be used. */
+export interface GivenFiles {
+  readonly songs: readonly FileGroup[];
+  readonly leaders: readonly FileGroup[];
+  /** Sentences about those that can't be used. */
+  readonly unused: readonly string[];
 }
 
 export type ModelState =
@@ -89,7 +101,8 @@ export interface Problem {
   readonly title: string;
   readonly hint: string;
   /** What the dialog's first button offers. */
-  readonly remedy: 'song' | 'leader' | 'any-file' | 'model' | 'generate' | 'project' | 'none';
+  readonly remedy:
+    'song' | 'leader' | 'any-file' | 'read-again' | 'model' | 'generate' | 'project' | 'reload' | 'none';
   /** The file that was refused, if it was a file. */
   readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }
@@ -118,6 +131,9 @@ export interface DownloadChoice {
   readonly who: DancerSelection;
   readonly format: MotionFormat;
   readonly size: VideoSize;
+  /** Written into the first seconds of a video, and below all of it; empty for none. */
+  readonly title: string;
+  readonly credit: string;
 }
 
 /** A video that is being written. */
@@ -153,6 +169,21 @@ export interface Drag {
   readonly take: string | null;
 }
 
+/** How a song is counted. */
+export interface Counting {
+  readonly beatsPerBar: BeatsPerBar;
+  /** Counted beats to a beat that was found. */
+  readonly rate: 0.5 | 1 | 2;
+  /** The time of a "1", seconds of the song. */
+  readonly one: number;
+}
+
+/** How the visitor counts a song, which is known by its file's name and size. */
+export interface SongCounting extends Counting {
+  readonly song: string;
+  readonly bytes: number;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: Camera;
@@ -161,7 +192,7 @@ export interface AppState {
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | null;
+  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
   /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;
@@ -170,8 +201,14 @@ export interface AppState {
   readonly settings: Settings | null;
   readonly song: LoadedSong | null;
   readonly leader: LoadedLeader | null;
+  /** The last leader that could not be read, so that it can be read again in another way. */
+  readonly refusedLeader: LeaderSource | null;
   /** As in `Inputs`; 0 while there is no leader. */
   readonly shift: number;
+  /** The songs that are counted otherwise than was found, the last one changed first. */
+  readonly countings: readonly SongCounting[];
+  /** The next click on ruler or song says where a "1" is. */
+  readonly settingOne: boolean;
   readonly reading: Readonly<Record<InputKind, Reading | null>>;
   readonly reaction: Reaction | null;
   readonly preview: Preview | null;
@@ -205,6 +242,8 @@ export interface AppState {
   readonly videoProgress: VideoProgress | null;
   /** The file that was handed to the browser's downloads last. */
   readonly saved: Saved | null;
+  /** Shown as a list to choose from. */
+  readonly given: GivenFiles | null;
   readonly problem: Problem | null;
   /** Failures that came while another one was shown. */
   readonly queuedProblems: readonly Problem[];

@@ -14,8 +14,8 @@ export function takeOnStage({ takes, reaction }: Pick<AppState, 'takes' | 'react
 
 /** Why two reactions can't be compared, in a sentence; null when they can. */
 export function whyNotComparable(one: Reaction, other: Reaction): string | null {
-  if (one.inputs.leader !== other.inputs.leader) return 'Made for another leader.';
-  return one.inputs.settings.role === other.inputs.settings.role ? null : 'Dances the other part.';
+  if (one.inputs.leader !== other.inputs.leader) return 'This take was made for another leader.';
+  return one.inputs.settings.role === other.inputs.settings.role ? null : 'This take dances the other role.';
 }
 
 /** Whether a take can be compared with the one on the stage: another one, of the same part to the same leader. */

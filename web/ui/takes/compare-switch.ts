@@ -55,7 +55,7 @@ function createLetters(store: Store): Group {
   const buttons = LETTERS.map((letter) =>
     el('button', {
       text: letter,
-      attributes: { type: 'button', role: 'radio', title: 'Flip (B)' },
+      attributes: { type: 'button', role: 'radio', title: 'Show the other take (B)' },
       on: {
         click: () => {
           if (store.getState().letter !== letter) apply(store, takesSwapped());

@@ -56,13 +56,15 @@ export class TakeList {
     this.root.hidden = takes.length === 0;
   }
 
-  /** Scrolls the list, and nothing around it, until the row is in sight and not faded. */
-  reveal(id: string): void {
-    const row = this.#rows.get(id)?.root;
+  /** Scrolls the list, and nothing around it, until the row of this take is in sight and not faded. */
+  reveal(id: string | undefined): void {
+    const index = [...this.#rows.keys()].indexOf(id ?? '');
+    const row = this.#rows.get(id ?? '')?.root;
     if (!row) return;
     const list = this.root;
     const faded = row.offsetHeight / 2;
-    const top = row.offsetTop - list.offsetTop - faded;
+    // By its index: the row on the stage sticks to the ends of the list, so that its own place does not tell.
+    const top = index * row.offsetHeight - faded;
     const bottom = top + row.offsetHeight + 2 * faded;
     if (top < list.scrollTop) list.scrollTop = top;
     else if (bottom > list.scrollTop + list.clientHeight) list.scrollTop = bottom - list.clientHeight;

@@ -1,5 +1,6 @@
 import { columnOf, guidanceText } from '../store/guidance-matrix';
-import type { Inputs, Take } from '../store/reaction';
+import { centimetres } from '../store/format';
+import type { Inputs, Settings, Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 
 /** Length at which the name of a file is cut, characters. */
@@ -26,6 +27,7 @@ export function takeText({ reaction: { inputs } }: Take, { leader, song, manifes
     ...(settings.variety === manifest?.guidance.variety.default
       ? []
       : [`${plain(settings.variety)} variety`]),
+    ...heightText(settings),
   ].join(', ');
 }
 
@@ -38,6 +40,7 @@ export function fullTakeText({ reaction: { inputs } }: Take): string {
     ...shiftText(inputs),
     stepText(settings.steps),
     guidanceText(settings),
+    ...heightText(settings),
     `seed ${settings.seed}`,
   ].join(', ');
 }
@@ -45,6 +48,11 @@ export function fullTakeText({ reaction: { inputs } }: Take): string {
 function shiftText({ shift, leader }: Inputs): string[] {
   const seconds = (Math.abs(shift) / leader.file.clip.fps).toFixed(1);
   return shift === 0 ? [] : [`song ${seconds} s ${shift > 0 ? 'later' : 'earlier'}`];
+}
+
+/** `170 cm tall`, where it is not in proportion. */
+function heightText({ height }: Settings): string[] {
+  return height === null ? [] : [`${centimetres(height)} cm tall`];
 }
 
 const stepText = (steps: number): string => `${steps} ${steps === 1 ? 'step' : 'steps'}`;

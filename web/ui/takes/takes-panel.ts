@@ -1,8 +1,10 @@
+import { textButton } from '../widgets/button';
 import { closeButton } from '../widgets/close-button';
 import { el, listen, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
+import { hasTakesToClear, starredKept } from '../store/actions/takes';
 import { panelToggled } from '../store/actions/view';
 import { TakeList } from './take-list';
 import { takeOnStage } from '../store/take';
@@ -13,18 +15,23 @@ export const mountTakes: Mount = (root, store, services) => {
   const list = new TakeList(store);
   const empty = el('p', {
     class: 'empty-line',
-    text: 'Every partner that is made becomes a take. Mark two of them A and B to compare them on the same beat.',
+    text: 'Each new dance is kept here as a take. Mark two takes A and B to compare them at the same moment.',
   });
   const count = el('span', { class: 'muted' });
   const close = closeButton(() => {
     apply(store, panelToggled('takes'));
   });
   close.classList.add('phone-only');
+  const clear = textButton('btn ghost', 'Keep starred', () => {
+    apply(store, starredKept());
+  });
+  clear.title = 'Removes all takes without a star. Undo brings them back.';
   const head = el(
     'div',
     { class: 'head' },
     el('h2', { text: 'Takes', attributes: { id: 'takes-head' } }),
     count,
+    clear,
     createProjectButton(store),
   );
   const section = el(
@@ -43,6 +50,7 @@ export const mountTakes: Mount = (root, store, services) => {
     list.show(state);
     empty.hidden = takes.some(({ reaction }) => reaction.label === null);
     setText(count, takes.length > 1 ? String(takes.length) : '');
+    clear.hidden = !hasTakesToClear(state);
   };
   return combineDisposers(
     watchAll(
@@ -58,11 +66,11 @@ export const mountTakes: Mount = (root, store, services) => {
       ],
       show,
     ),
-    watch(
+    watchAll(
       store,
-      (state) => takeOnStage(state)?.id,
-      (id) => {
-        if (id !== undefined) list.reveal(id);
+      (state) => [takeOnStage(state)?.id, state.takes.length],
+      (state) => {
+        list.reveal(takeOnStage(state)?.id);
       },
     ),
     watch(

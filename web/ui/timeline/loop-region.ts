@@ -1,16 +1,18 @@
 import { el, setAttribute, setVariable, combineDisposers } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { clockTime } from '../store/format';
+import { beatBeside, countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 import { regionEndSet, regionSet } from '../store/actions/timeline';
 import type { Span, TimeScale } from '../store/time-scale';
+import { timelineClicked } from './timeline-click';
 
 /** The elements that the region lies on. */
 interface LoopPlaces {
-  /** A drag here draws a region, a click jumps, a double click removes the region. */
+  /** A drag here draws a region from beat to beat, with Alt from any time to any other; a click jumps, a double click removes the region. */
   readonly ruler: HTMLElement;
   /** Lies over all lanes and holds the band. */
   readonly overlay: HTMLElement;
@@ -21,7 +23,7 @@ type End = 'from' | 'to';
 const ENDS: readonly End[] = ['from', 'to'];
 
 /** Direction of a step, by key. */
-const ARROWS: Readonly<Record<string, number>> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
+const ARROWS: Readonly<Record<string, 1 | -1>> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
 /** How far outside the picture, as a share of its width, an end still counts as inside. */
 const TOLERANCE = 1e-6;
@@ -93,6 +95,12 @@ export class LoopRegion {
     return Math.min(danceDuration(this.#store.getState()), Math.max(0, time));
   }
 
+  /** The beat nearest to the pointer; with Alt, or where there is none, the time under it. */
+  #beatAt(event: PointerEvent): number {
+    const time = this.#timeAt(event);
+    return event.altKey ? time : snappedInside(this.#store.getState(), time);
+  }
+
   #drag(region: Span | null): void {
     this.#dragged = region;
     this.draw();
@@ -102,18 +110,18 @@ export class LoopRegion {
     let start = 0;
     return draggable(this.#places.ruler, {
       begin: (event) => {
-        start = this.#timeAt(event);
+        start = this.#beatAt(event);
         return danceDuration(this.#store.getState()) > 0;
       },
       move: (_, event) => {
-        this.#drag(ordered({ from: start, to: this.#timeAt(event) }));
+        this.#drag(this.#drawn(start, event));
       },
       drop: (event) => {
         this.#dragged = null;
-        apply(this.#store, regionSet({ from: start, to: this.#timeAt(event) }));
+        apply(this.#store, regionSet(this.#drawn(start, event)));
       },
       click: (event) => {
-        services.seek(this.#timeAt(event));
+        timelineClicked(this.#store, services, this.#timeAt(event), event);
       },
       cancel: () => {
         this.#drag(null);
@@ -121,11 +129,18 @@ export class LoopRegion {
     });
   }
 
+  /** The region from where a drag began to the pointer: at least one beat. */
+  #drawn(start: number, event: PointerEvent): Span {
+    const end = this.#beatAt(event);
+    if (end !== start) return ordered({ from: start, to: end });
+    return { from: start, to: beatBeside(countedBeats(this.#store.getState()), start, 1) ?? end };
+  }
+
   #dragHandle(end: End): () => void {
     return draggable(this.#handles[end], {
       move: (_, event) => {
         const { region } = this.#store.getState().playback;
-        if (region) this.#drag(ordered({ ...region, [end]: this.#timeAt(event) }));
+        if (region) this.#drag(ordered({ ...region, [end]: this.#beatAt(event) }));
       },
       drop: () => {
         const region = this.#dragged;
@@ -139,15 +154,17 @@ export class LoopRegion {
     });
   }
 
-  /** An arrow key moves an end by a frame, with Shift by a second. */
+  /** An arrow key moves an end by a frame, with Shift to the next beat, or by a second where there is none. */
   #moveByKey(end: End, event: KeyboardEvent): void {
     const by = ARROWS[event.key];
     const { region } = this.#store.getState().playback;
     if (!region || by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
-    const step = event.shiftKey ? 1 : 1 / danceFps(this.#store.getState());
-    apply(this.#store, regionEndSet(end, region[end] + by * step));
+    const state = this.#store.getState();
+    const beat = event.shiftKey ? beatBeside(countedBeats(state), region[end], by) : null;
+    const step = event.shiftKey ? 1 : 1 / danceFps(state);
+    apply(this.#store, regionEndSet(end, beat ?? region[end] + by * step));
   }
 }
 
@@ -160,7 +177,7 @@ function createHandle(label: string): HTMLElement {
       tabindex: 0,
       'aria-label': label,
       'aria-valuemin': 0,
-      title: `${label}: drag to change it, double click to remove the loop`,
+      title: `${label}: drag it from beat to beat, with Alt to any time, double click to remove the loop`,
     },
   });
 }
@@ -171,6 +188,12 @@ function showHandle(handle: HTMLElement, at: number, time: number, state: AppSta
   handle.setAttribute('aria-valuemax', danceDuration(state).toFixed(2));
   handle.setAttribute('aria-valuenow', time.toFixed(2));
   handle.setAttribute('aria-valuetext', clockTime(time));
+}
+
+/** The nearest beat that the dance has; the time itself where there is none. */
+function snappedInside(state: AppState, time: number): number {
+  const beat = snapped(countedBeats(state), time);
+  return beat >= 0 && beat <= danceDuration(state) ? beat : time;
 }
 
 function ordered({ from, to }: Span): Span {

@@ -6,9 +6,14 @@ import type { AppState } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { problemShown } from '../store/actions/notices';
+import { regionSet } from '../store/actions/timeline';
 import { playbackSet } from '../store/actions/view';
 import { combineDisposers } from '../widgets/dom';
 import type { Span } from '../store/time-scale';
+
+/** How much is played in a loop around a moment, and how much of that before it, seconds. */
+const MOMENT_SECONDS = 2;
+const LEAD_IN = 0.5;
 
 /** Connects player and store: the audio is the clock, and the store takes its time once per drawn frame. */
 export class PlaybackControl {
@@ -65,6 +70,15 @@ export class PlaybackControl {
     const time = Math.min(danceDuration(this.#store.getState()), Math.max(0, seconds));
     this.#player.seek(time);
     apply(this.#store, playbackSet({ time }));
+  };
+
+  /** Plays the seconds around a moment in a loop. */
+  readonly loopAround = (seconds: number): void => {
+    const from = Math.max(0, seconds - LEAD_IN);
+    const to = Math.min(danceDuration(this.#store.getState()), from + MOMENT_SECONDS);
+    apply(this.#store, regionSet({ from, to }));
+    this.seek(from);
+    this.#start();
   };
 
   readonly playFromStart = (): void => {

@@ -1,8 +1,8 @@
 import { el, setVariable, combineDisposers } from '../widgets/dom';
 import { DRAG_THRESHOLD_PX } from '../widgets/drag';
-import { barAt, danceDuration } from '../store/selectors';
+import { barAt, countedBeats } from '../store/counting';
+import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
-import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { type Store, watchAll } from '../store/store';
 import type { TimeScale } from '../store/time-scale';
@@ -42,7 +42,7 @@ export class Playhead {
       this.#listen(lanes),
       watchAll(
         store,
-        (state) => [state.playback.time, state.zoom, state.leader, state.song, state.shift],
+        (state) => [state.playback.time, state.zoom, state.leader, state.song, state.shift, state.countings],
         (state) => {
           this.draw();
           this.#describe(state);
@@ -63,8 +63,10 @@ export class Playhead {
   #describe(state: AppState): void {
     const { time } = state.playback;
     const duration = danceDuration(state);
-    const place = barAt(musicBeats(state), time);
-    const counted = place ? `, bar ${place.bar}, count ${place.count}` : '';
+    const place = barAt(countedBeats(state), time);
+    const counted = place
+      ? `, bar ${place.bar < 1 ? 'before the first' : place.bar}, count ${place.count}`
+      : '';
     this.root.setAttribute('aria-valuemax', duration.toFixed(1));
     this.root.setAttribute('aria-valuenow', time.toFixed(1));
     this.root.setAttribute('aria-disabled', String(duration === 0));

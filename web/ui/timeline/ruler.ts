@@ -1,4 +1,5 @@
 import { el, setText, setVariable } from '../widgets/dom';
+import { accentOf, type Accent, type BarAndCount, type CountedBeats, placeOf } from '../store/counting';
 import { clockTime } from '../store/format';
 import type { TimeScale } from '../store/time-scale';
 
@@ -6,15 +7,14 @@ import type { TimeScale } from '../store/time-scale';
 interface RulerLane {
   readonly label: HTMLElement;
   readonly root: HTMLElement;
-  /** @param beats seconds of the dance, ascending */
-  readonly draw: (beats: readonly number[], scale: TimeScale) => void;
+  readonly draw: (beats: CountedBeats, scale: TimeScale) => void;
 }
 
 export function createRulerLane(): RulerLane {
   const label = el('div', { class: 'lane-label ruler' });
   const markRow = el('div', { class: 'marks', attributes: { 'aria-hidden': 'true' } });
   const root = el('div', { class: 'lane ruler', attributes: { 'data-own-pointer': true } }, markRow);
-  root.title = 'Drag to loop a part, click to jump';
+  root.title = 'Drag to loop a part, click to jump, Alt and click where the “1” is';
   return {
     label,
     root,
@@ -22,8 +22,8 @@ export function createRulerLane(): RulerLane {
       const { name, marks } = rulerMarks(beats, scale);
       setText(label, name);
       markRow.replaceChildren(
-        ...marks.map(({ text, at }) => {
-          const mark = el('span', { text });
+        ...marks.map(({ text, at, one }) => {
+          const mark = el('span', { text, class: one ? 'one' : '' });
           setVariable(mark, '--at', at);
           return mark;
         }),
@@ -36,8 +36,8 @@ export function createRulerLane(): RulerLane {
 interface RulerMarks {
   /** `Bars` or `Time`. */
   readonly name: string;
-  /** Texts with their place in the picture, 0 to 1. */
-  readonly marks: readonly { readonly text: string; readonly at: number }[];
+  /** Texts with their place in the picture, 0 to 1, and whether they are at a "1". */
+  readonly marks: readonly { readonly text: string; readonly at: number; readonly one: boolean }[];
 }
 
 /** Least distance between two marks, CSS pixels. */
@@ -48,39 +48,41 @@ const TEXT_WIDTH = 18;
 const MIN_BEATS = 8;
 
 /**
- * Bars of four beats from the first beat, with the beats between them where there is room; seconds where there are
- * too few beats.
- * @param beats seconds of the dance, ascending
+ * The bars that begin with a "1", which is every second one; the others and the beats between them where there is
+ * room; seconds where there are too few beats.
  */
-export function rulerMarks(beats: readonly number[], scale: TimeScale): RulerMarks {
+export function rulerMarks(beats: CountedBeats, scale: TimeScale): RulerMarks {
   const { from, to, width } = scale;
   const seconds = to - from;
   if (seconds <= 0 || width <= 0) return { name: 'Time', marks: [] };
-  if (beats.length < MIN_BEATS)
+  if (beats.times.length < MIN_BEATS)
     return { name: 'Time', marks: timeMarks(scale, Math.max(1, Math.floor(width / MARK_DISTANCE))) };
   // A mark whose text would be cut off at the end is left out.
   const last = scale.time(width - TEXT_WIDTH);
-  const seen = beats.flatMap((time, index) => (time >= from && time <= last ? [{ time, index }] : []));
-  const bars = seen.filter(({ index }) => index % 4 === 0);
-  const place = (time: number): number => scale.x(time) / width;
+  const seen = beats.times.flatMap((time, index) =>
+    time >= from && time <= last ? [{ time, accent: accentOf(beats, index), ...placeOf(beats, index) }] : [],
+  );
   const apart = scale.x(seen.at(-1)?.time ?? 0) - scale.x(seen[0]?.time ?? 0);
   const beatDistance = seen.length > 1 ? apart / (seen.length - 1) : MARK_DISTANCE;
-  if (beatDistance >= MARK_DISTANCE)
-    return {
-      name: 'Bars',
-      marks: seen.map(({ time, index }) => ({ text: barAndCount(index), at: place(time) })),
-    };
-  const every = nextOf([1, 2, 4, 8, 16, 32, 64], MARK_DISTANCE / (4 * beatDistance));
-  const marks = bars.flatMap(({ time, index }) =>
-    (index / 4) % every === 0 ? [{ text: String(index / 4 + 1), at: place(time) }] : [],
-  );
-  return { name: 'Bars', marks };
+  const every = nextOf([1, 2, 4, 8, 16, 32, 64], MARK_DISTANCE / (beats.beatsPerBar * beatDistance));
+  const marked =
+    beatDistance >= MARK_DISTANCE
+      ? seen
+      : seen.filter(({ bar, accent }) => bar > 0 && accent !== 'beat' && (bar - 1) % every === 0);
+  return {
+    name: 'Bars',
+    marks: marked.map((beat) => ({
+      text: markText(beat),
+      at: scale.x(beat.time) / width,
+      one: beat.accent === 'one',
+    })),
+  };
 }
 
-/** `3` where bar 3 begins, `3.2` at its second count. */
-function barAndCount(beat: number): string {
-  const bar = String(Math.floor(beat / 4) + 1);
-  return beat % 4 === 0 ? bar : `${bar}.${(beat % 4) + 1}`;
+/** `3` where bar 3 begins, `3.2` at its second count; `·7` before the first bar. */
+function markText({ bar, count, accent }: BarAndCount & { readonly accent: Accent }): string {
+  if (bar < 1) return `·${count}`;
+  return accent !== 'beat' ? String(bar) : `${bar}.${count}`;
 }
 
 function timeMarks({ from, to, x, width }: TimeScale, maxMarks: number): RulerMarks['marks'] {
@@ -89,7 +91,7 @@ function timeMarks({ from, to, x, width }: TimeScale, maxMarks: number): RulerMa
   const last = Math.floor((to - 1e-6) / every);
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => {
     const time = (first + index) * every;
-    return { text: clockTime(time, every < 1), at: x(time) / width };
+    return { text: clockTime(time, every < 1), at: x(time) / width, one: false };
   });
 }
 

@@ -7,6 +7,7 @@ import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';
 import type { TimeScale } from '../store/time-scale';
+import { timelineClicked } from './timeline-click';
 
 /** What the handle needs of the timeline. */
 export interface ShiftHandleOptions {
@@ -32,7 +33,7 @@ export class ShiftHandle {
       role: 'slider',
       tabindex: 0,
       'aria-label': 'Song shift',
-      title: 'Drag to shift the song against the leader, double click to put it back; a click jumps here',
+      title: 'Drag to move the song in time, double click to move it back. A click jumps here',
     },
   });
   readonly text = el('div', { class: 'shift-text', attributes: { 'aria-hidden': 'true' } });
@@ -88,7 +89,7 @@ export class ShiftHandle {
       },
       click: (event) => {
         const { left } = this.handle.getBoundingClientRect();
-        services.seek(this.#options.scale().time(event.clientX - left));
+        timelineClicked(this.#store, services, this.#options.scale().time(event.clientX - left), event);
         // After a jump the arrow keys move the playhead.
         this.handle.blur();
       },

@@ -45,8 +45,8 @@ export function createSongLabel(store: Store): SongLabel {
       const { shift } = state;
       back.hidden = shift === 0;
       setText(back, `${signed(shift)} ×`);
-      back.setAttribute('aria-label', `Song shift ${frameCountText(shift)}: put it back`);
-      back.title = `The song is shifted by ${shiftText(shift, state)}. Click to put it back.`;
+      back.setAttribute('aria-label', `Song shift ${frameCountText(shift)}: move it back`);
+      back.title = `The song is moved by ${shiftText(shift, state)}. Click to move it back.`;
       const fit = shiftAdvice(state);
       align.hidden = !fit?.better;
       none.hidden = !fit || fit.better !== null;
@@ -59,9 +59,9 @@ export function createSongLabel(store: Store): SongLabel {
       const { by, score, before } = fit.better;
       setText(align, `Align ${frameCountText(by)}`);
       align.title =
-        `The leader's accents, the moments of least speed, meet the song's beats better ` +
-        `${shiftText(by, state).split(', ')[1] ?? ''}: ${percent(score)} instead of ${percent(before)}. ` +
-        'Click to shift the song.';
+        `If the song starts ${shiftText(by, state).split(', ')[1] ?? ''}, its beats fit the leader’s accents better: ` +
+        `${percent(score)} instead of ${percent(before)}. ` +
+        'Click to move the song.';
     },
   };
 }

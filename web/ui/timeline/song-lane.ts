@@ -1,6 +1,7 @@
 import { loudest, peaks } from './curves';
 import { el, setText } from '../widgets/dom';
 import { drawBeats, drawWave, surface, token } from '../widgets/lane-canvas';
+import { accentOf, type CountedBeats } from '../store/counting';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
 import { ShiftHandle, type ShiftHandleOptions } from './shift-handle';
@@ -15,8 +16,7 @@ interface SongLaneView {
   readonly scale: TimeScale;
   /** Frames. */
   readonly shift: number;
-  /** Seconds of the dance. */
-  readonly musicBeats: readonly number[];
+  readonly beats: CountedBeats;
 }
 
 /** The lane of the song: waveform and beats, brighter where it has been played; dragging shifts the song. */
@@ -59,7 +59,7 @@ function createWaveform(): {
   /** The song whose loudest sample is known; finding it reads all of the song. */
   let measured: { readonly song: LoadedSong; readonly loudest: number } | null = null;
 
-  const drawSong = (song: LoadedSong, state: AppState, { scale, shift, musicBeats }: SongLaneView): void => {
+  const drawSong = (song: LoadedSong, state: AppState, { scale, shift, beats }: SongLaneView): void => {
     if (measured?.song !== song) measured = { song, loudest: loudest(song.data.pcm) };
     const start = songStart({ leader: state.leader, shift });
     const columns = Math.max(1, Math.round(scale.width * Math.min(2, window.devicePixelRatio)));
@@ -70,13 +70,14 @@ function createWaveform(): {
       beat: token(root, '--control-line'),
       line: token(root, '--line'),
     };
+    const marks = beats.times.map((time, index) => ({ time, accent: accentOf(beats, index) }));
     for (const [each, colour] of [
       [canvas, '--wave'],
       [playedCanvas, '--wave-played'],
     ] as const) {
       const on = surface(each);
       if (!on) continue;
-      drawBeats(on, musicBeats, scale, colours);
+      drawBeats(on, marks, scale, colours);
       drawWave(on, shape, measured.loudest, token(root, colour));
     }
   };
@@ -86,7 +87,7 @@ function createWaveform(): {
       const { song } = state;
       note.hidden = song !== null || danceDuration(state) === 0;
       setText(note, state.reading.song ? 'Reading the song' : 'No song: silence');
-      const label = song ? `Waveform of ${song.name}, ${song.data.beats.length} beats` : 'No song';
+      const label = song ? `Waveform of ${song.name}, ${picture.beats.times.length} beats` : 'No song';
       root.setAttribute('aria-label', label);
       if (song && picture.scale.to > picture.scale.from) drawSong(song, state, picture);
       else for (const each of [canvas, playedCanvas]) surface(each);

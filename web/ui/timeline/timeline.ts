@@ -3,6 +3,7 @@ import { DancerLanes } from './dancer-lanes';
 import { reactorMotion } from '../store/reactor-motion';
 import type { Role } from '../store/reaction';
 import { generatedRole } from '../store/roles';
+import { countedBeats } from '../store/counting';
 import { el, combineDisposers } from '../widgets/dom';
 import { mountLaneZoom } from './lane-zoom';
 import { LoopRegion } from './loop-region';
@@ -64,12 +65,12 @@ export function mountTimeline(
     const state = store.getState();
     const now = scale();
     const shift = draggedShift ?? state.shift;
-    const beats = musicBeats({ ...state, shift });
+    const beats = countedBeats({ ...state, shift });
     ruler.draw(beats, now);
     songLabel.show(state);
-    songLane.draw(state, { scale: now, shift, musicBeats: beats });
+    songLane.draw(state, { scale: now, shift, beats });
     songLane.showPlayed(state.playback.time, now);
-    dancers.draw(state, now, beats);
+    dancers.draw(state, now, musicBeats({ ...state, shift }));
     loop.draw();
     playhead.draw();
   });
@@ -86,6 +87,7 @@ export function mountTimeline(
         dancers.showProgress(state);
       },
     ),
+    followSettingOne(store, lanes),
     watch(
       store,
       (state) => state.playback.time,
@@ -102,6 +104,17 @@ export function mountTimeline(
     () => {
       sizes.disconnect();
       lanes.remove();
+    },
+  );
+}
+
+/** Marks the lanes while the next click says where the "1" is. */
+function followSettingOne(store: Store, lanes: HTMLElement): () => void {
+  return watch(
+    store,
+    (state) => state.settingOne,
+    (on) => {
+      lanes.classList.toggle('setting-one', on);
     },
   );
 }
@@ -127,7 +140,7 @@ function laneMotion(state: AppState, role: Role): SolvedMotion | null {
 /** The parts of the state that the drawn lanes depend on. */
 function drawnParts(state: AppState): readonly unknown[] {
   return [
-    ...[state.leader, state.song, state.shift, reactorMotion(state), state.manifest],
+    ...[state.leader, state.song, state.shift, state.countings, reactorMotion(state), state.manifest],
     ...[state.zoom, state.theme, generatedRole(state), ...isReading(state)],
     isSampling(state),
   ];

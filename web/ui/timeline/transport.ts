@@ -2,12 +2,12 @@ import { iconButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { clockTime } from '../store/format';
 import { icon } from '../widgets/icons';
-import { barAt, isReading, danceDuration, firstNote } from '../store/selectors';
+import { isReading, danceDuration, firstNote } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
-import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { playbackSet, SPEEDS } from '../store/actions/view';
+import { createCountMenu } from './count-menu';
 import { createZoomControl } from './zoom-control';
 
 /** A control of the transport with what takes it out of the store's watchers. */
@@ -31,7 +31,7 @@ export const mountTransport: Mount = (root, store, services) => {
   });
   const play = createPlayButton(store, services);
   const clock = createClock(store);
-  const count = createBeatCount(store);
+  const count = createCountMenu(store);
   const speed = createSpeedMenu(store);
   const loop = createLoopButton(store);
   const note = el('span', { class: 'file-note' });
@@ -105,32 +105,6 @@ function createClock(store: Store): Control {
   return { element, dispose };
 }
 
-/** Bar and count at the playhead. */
-function createBeatCount(store: Store): Control {
-  const bar = el('b');
-  const count = el('b');
-  const element = el(
-    'div',
-    { class: 'count', attributes: { title: 'Bars of four beats, counted from the first beat found' } },
-    'Bar ',
-    bar,
-    'Count ',
-    count,
-  );
-  const dispose = watchAll(
-    store,
-    (state) => [state.playback.time, state.song, state.shift, state.leader],
-    (state) => {
-      // Only its words are hidden, so that nothing beside it moves when a song comes.
-      element.classList.toggle('none', !state.song || state.song.data.beats.length === 0);
-      const place = barAt(musicBeats(state), state.playback.time);
-      setText(bar, place ? String(place.bar) : '–');
-      setText(count, place ? String(place.count) : '–');
-    },
-  );
-  return { element, dispose };
-}
-
 function createSpeedMenu(store: Store): Control {
   const element = el(
     'select',
@@ -156,7 +130,7 @@ function createSpeedMenu(store: Store): Control {
 }
 
 function createLoopButton(store: Store): Control<HTMLButtonElement> {
-  const title = 'Start over at the end; drag on the ruler to loop a part (L)';
+  const title = 'Play again from the start at the end (L). Drag on the ruler to loop a part';
   const element = iconButton('icon', 'loop', { label: 'Loop', title }, () => {
     apply(store, playbackSet({ loop: !store.getState().playback.loop }));
   });

@@ -111,7 +111,12 @@ export class VideoLeader {
       session.motion = motion;
       panel.showMotion(observations, motion);
       const { shift } = this.store.getState();
-      await this.files.openLeader(motion.bvh, file.name, null);
+      await this.files.openLeader({
+        name: file.name,
+        label: null,
+        files: [{ name: 'leader.bvh', bytes: new TextEncoder().encode(motion.bvh) }],
+        options: {},
+      });
       const moved = before ? shift + (before.start - motion.start) * FPS : -motion.start * FPS;
       if (before ? shift !== 0 || session.songOfVideo : session.songOfVideo)
         apply(this.store, shiftSet(moved));

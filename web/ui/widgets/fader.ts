@@ -11,7 +11,7 @@ export interface FaderTexts {
   readonly name: string;
   /** Its name for screen readers. */
   readonly label: string;
-  /** What it moves, in a sentence. */
+  /** What it moves, in a few words. */
   readonly hint: string;
 }
 
@@ -72,7 +72,7 @@ export function createFader(control: Control, { name, label, hint }: FaderTexts,
       type: 'range',
       'aria-label': label,
       'aria-describedby': hintId,
-      title: `${hint} Double click for the default.`,
+      title: `${hint}. Double click for the default.`,
       disabled: true,
     },
   });

@@ -1,3 +1,4 @@
+import type { Accent } from '../store/counting';
 import type { TimeScale } from '../store/time-scale';
 
 /** A waveform: the lowest and the highest sample per column. */
@@ -58,25 +59,26 @@ export function drawWave(
   }
 }
 
-/** Draws beat marks under the waveform; each fourth one is taller, with a line through the waveform. */
+/** Draws beat marks under the waveform: those that begin a bar are taller, and each "1" has a line through it. */
 export function drawBeats(
   { context, width, height }: Surface,
-  beats: readonly number[],
+  beats: readonly { readonly time: number; readonly accent: Accent }[],
   scale: TimeScale,
   colours: { readonly bar: string; readonly beat: string; readonly line: string },
 ): void {
-  const tooDense = within(beats, scale).length > width / BEAT_SPACING_PX;
-  beats.forEach((beat, index) => {
-    const first = index % 4 === 0;
-    if (beat < scale.from || beat > scale.to || (tooDense && !first)) return;
-    const x = Math.round(scale.x(beat));
-    if (first) {
+  const seen = beats.filter(({ time }) => time >= scale.from && time <= scale.to);
+  const tooDense = seen.length > width / BEAT_SPACING_PX;
+  for (const { time, accent } of seen) {
+    const first = accent !== 'beat';
+    if (tooDense && !first) continue;
+    const x = Math.round(scale.x(time));
+    if (accent === 'one') {
       context.fillStyle = colours.line;
       context.fillRect(x, 0, 1, height);
     }
     context.fillStyle = first ? colours.bar : colours.beat;
     context.fillRect(x, height - (first ? 7 : 4), 1, first ? 7 : 4);
-  });
+  }
 }
 
 /** A dancer's speed and how it is drawn. */
@@ -151,8 +153,4 @@ export function drawDots(
     context.lineWidth = 1.25;
     context.stroke();
   }
-}
-
-function within(times: readonly number[], { from, to }: TimeScale): number[] {
-  return times.filter((time) => time >= from && time <= to);
 }

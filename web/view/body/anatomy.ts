@@ -2,7 +2,8 @@ import type { BindPose } from './bind-pose';
 import { forearm, hand, upperArm } from './arm';
 import { buttock, foot, shin, thigh } from './leg';
 import { pair, type Build, type Part, type BodyPlan, type Shape, type Side } from './part';
-import { head, neck, shoulderSlope, torso } from './trunk';
+import { head, neck } from './head';
+import { shoulderSlope, torso } from './trunk';
 
 /** The body of a dancer in the bind pose. */
 interface Anatomy {
@@ -33,7 +34,7 @@ export function anatomy(pose: BindPose, build: Build): Anatomy {
   const parts: Part[] = [];
   const single = (part: Part): void => {
     shapes.push(part);
-    if (!part.cut) parts.push(part);
+    parts.push(part);
   };
   const both = (left: Part, right: Part, between: number): void => {
     shapes.push(pair(left, right, between));
@@ -41,7 +42,8 @@ export function anatomy(pose: BindPose, build: Build): Anatomy {
   };
   single(torso(plan));
   for (const [make, between] of LIMBS) both(make(plan, 1), make(plan, -1), between);
-  [neck(plan), ...head(plan)].forEach(single);
+  single(neck(plan));
+  single(head(plan));
   for (const make of ARMS) {
     const right = make(plan, -1);
     make(plan, 1).forEach((left, i) => both(left, right[i]!, 0.002));

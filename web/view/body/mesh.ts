@@ -1,7 +1,7 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { anatomy } from './anatomy';
 import { bindPose } from './bind-pose';
-import { smoothCut, smoothUnion, smoothstep } from './field';
+import { smoothUnion, smoothstep } from './field';
 import { shapesNear, type Build, type Shape } from './part';
 import { skinTo, type Skin } from './skin';
 import { surfaceNets, triangulate, type Grid, type Net } from './surface-nets';
@@ -22,7 +22,7 @@ export interface BodyMesh extends Skin {
 export const CELL = 0.018;
 /** Nodes a side of the blocks in which the grid is filled: blocks away from the body are skipped. */
 const BLOCK = 4;
-const SHOE_SHADE = 0.38;
+const SHOE_SHADE = 0.3;
 
 /** Distance to the smooth union of `shapes`, in order. */
 function distance(shapes: readonly Shape[], x: number, y: number, z: number): number {
@@ -30,7 +30,7 @@ function distance(shapes: readonly Shape[], x: number, y: number, z: number): nu
   for (const shape of shapes) {
     const next = shape.field(x, y, z);
     const k = shape.blend(x, y, z);
-    d = shape.cut ? smoothCut(d, next, k) : k > 0 ? smoothUnion(d, next, k) : Math.min(d, next);
+    d = k > 0 ? smoothUnion(d, next, k) : Math.min(d, next);
   }
   return d;
 }

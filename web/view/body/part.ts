@@ -5,8 +5,6 @@ import {
   smoothUnion,
   mix,
   sub,
-  unit,
-  smoothstep,
   type Field,
   type LimbShape,
   type Station,
@@ -38,7 +36,7 @@ export type Side = 1 | -1;
 /** Skin weights of a point: joints and their shares. */
 export type Weights = readonly (readonly [joint: number, share: number])[];
 
-/** A solid that is added to the body or cut out of it. */
+/** A solid that is added to the body. */
 export interface Shape {
   readonly field: Field;
   /** Bounding spheres, for leaving it out far from it. */
@@ -47,8 +45,6 @@ export interface Shape {
   readonly blend: Field;
   /** Largest blend width. */
   readonly maxBlend: number;
-  /** Cut out of the body instead of added to it. */
-  readonly cut: boolean;
 }
 
 /** One rounded solid with skin weights. */
@@ -57,7 +53,7 @@ export interface Part extends Shape {
 }
 
 /** A blend width that is the same everywhere, or one that varies up to `max`, metres. */
-type Blend = number | { readonly max: number; readonly at: Field };
+export type Blend = number | { readonly max: number; readonly at: Field };
 
 const blendOf = (blend: Blend): Pick<Shape, 'blend' | 'maxBlend'> =>
   typeof blend === 'number'
@@ -75,21 +71,13 @@ export const limbPart = (shape: LimbShape, blend: Blend, weights: Part['weights'
     },
   ],
   ...blendOf(blend),
-  cut: false,
   weights,
 });
 
-export const ball = (
-  centre: Vec3,
-  radii: Vec3,
-  blend: Blend,
-  weights: Part['weights'],
-  cut = false,
-): Part => ({
+export const ball = (centre: Vec3, radii: Vec3, blend: Blend, weights: Part['weights']): Part => ({
   field: ellipsoid(centre, radii),
   bounds: [{ centre, radius: Math.max(...radii) }],
   ...blendOf(blend),
-  cut,
   weights,
 });
 
@@ -103,29 +91,7 @@ export const halfBuildScale = (build: Build): number => 1 + (build.width - 1) / 
 export const scaledBy = (factor: number, stations: readonly Station[]): Station[] =>
   stations.map((s) => ({ ...s, wide: s.wide * factor, deep: (s.deep ?? s.wide) * factor }));
 
-/** Length of a bone, and a field of how far along it a point lies, metres. */
-export function alongBone(from: Vec3, to: Vec3): { span: number; down: Field } {
-  const [ax, ay, az] = unit(sub(to, from));
-  const start = from[0] * ax + from[1] * ay + from[2] * az;
-  return { span: length(sub(to, from)), down: (x, y, z) => x * ax + y * ay + z * az - start };
-}
-
 export const movedBy = (joint: number) => (): Weights => [[joint, 1]];
-
-/** Skin weights that go from joint `a` to joint `b` while `share` goes from 0 to 1. */
-export const blendWeights = (a: number, b: number, share: number): Weights =>
-  share <= 0
-    ? [[a, 1]]
-    : share >= 1
-      ? [[b, 1]]
-      : [
-          [a, 1 - share],
-          [b, share],
-        ];
-
-/** Share of the bone behind a hinge such as a knee at a point `past` metres beyond it: half at the joint. */
-export const hingeShare = (past: number, width: number): number =>
-  0.5 * smoothstep(-width, 0, past) + 0.5 * smoothstep(0, width, past);
 
 /** Distance from the middle plane from which on left and right of a pair do not blend, metres. */
 const PAIR_BLEND_WIDTH = 0.14;
@@ -145,7 +111,6 @@ export function pair(left: Shape, right: Shape, between: number): Shape {
     bounds: [...left.bounds, ...right.bounds],
     blend: (x, y, z) => (x > 0 ? left : right).blend(x, y, z),
     maxBlend: Math.max(left.maxBlend, right.maxBlend),
-    cut: left.cut,
   };
 }
 

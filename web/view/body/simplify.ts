@@ -1,5 +1,6 @@
 import { MeshoptEncoder } from 'meshoptimizer/encoder';
 import { MeshoptSimplifier } from 'meshoptimizer/simplifier';
+import { J } from '../../motion/skeleton/skeleton';
 import { buildBody, type BodyMesh } from './mesh';
 import type { Build } from './part';
 
@@ -17,8 +18,9 @@ const NEAR_SHARE = 0.5;
 const LIGHT_SHARE = 0.25;
 /** Greatest error of a simplified surface, as a share of the body's size. */
 const MAX_ERROR = 0.005;
-/** Weights of errors of the normals beside errors of the positions. */
-const NORMAL_WEIGHTS = [0.2, 0.2, 0.2];
+/** Weights of errors of the normals and of the shade beside errors of the positions. */
+const ATTRIBUTE_WEIGHTS = [0.2, 0.2, 0.2, 0.2];
+const DETAILED_JOINTS: ReadonlySet<number> = new Set([J.head, J.left_wrist, J.right_wrist]);
 
 /** Meshes a body for a skeleton (22 x 3 offsets, metres), with its lower levels of detail. */
 export async function makeBody(offsets: ArrayLike<number>, build: Build): Promise<Body> {
@@ -27,20 +29,31 @@ export async function makeBody(offsets: ArrayLike<number>, build: Build): Promis
   return {
     ...mesh,
     offsets: Float32Array.from(offsets),
-    near: simplified(mesh, NEAR_SHARE),
-    light: simplified(mesh, LIGHT_SHARE),
+    near: simplified(mesh, NEAR_SHARE, detailed(mesh)),
+    light: simplified(mesh, LIGHT_SHARE, null),
   };
 }
 
-function simplified(mesh: BodyMesh, share: number): Uint32Array {
+/** Per vertex, whether it stays where it is: on heads and hands, which are looked at most. */
+function detailed({ skinJoints, shade }: BodyMesh): Uint8Array {
+  return Uint8Array.from(shade, (_, v) => Number(DETAILED_JOINTS.has(skinJoints[v * 4]!)));
+}
+
+/** @param kept per vertex, whether it must stay; null lets all go */
+function simplified(mesh: BodyMesh, share: number, kept: Uint8Array | null): Uint32Array {
+  const attributes = new Float32Array(mesh.shade.length * ATTRIBUTE_WEIGHTS.length);
+  mesh.shade.forEach((shade, v) => {
+    attributes.set(mesh.normals.subarray(v * 3, v * 3 + 3), v * 4);
+    attributes[v * 4 + 3] = shade;
+  });
   const [triangles] = MeshoptSimplifier.simplifyWithAttributes(
     mesh.indices,
     mesh.positions,
     3,
-    mesh.normals,
-    3,
-    NORMAL_WEIGHTS,
-    null,
+    attributes,
+    ATTRIBUTE_WEIGHTS.length,
+    ATTRIBUTE_WEIGHTS,
+    kept,
     3 * Math.round((share * mesh.indices.length) / 3),
     MAX_ERROR,
     // Long thin triangles would streak the shading.

@@ -23,6 +23,8 @@ export interface Couple {
   readonly radius: number;
   /** Highest joint, metres. */
   readonly height: number;
+  /** Distance of the eye from the middle at which every joint is below the upper edge, from any side, metres. */
+  readonly tallDistance: number;
   /** Heading from which both are seen side by side, the leader on the right. */
   readonly sideHeading: number;
 }
@@ -36,6 +38,8 @@ export interface Framing {
   readonly tracked: readonly [x: number, z: number];
   /** The person has chosen the distance. */
   readonly ownDistance: boolean;
+  /** The person has turned the camera, which then does not turn by itself. */
+  readonly ownHeading: boolean;
   /** Width / height of the picture. */
   readonly aspect: number;
 }
@@ -45,9 +49,11 @@ const TARGET_HEIGHT = 0.84;
 const EYE_HEIGHT = 1.3;
 /** Distance from which a couple of ordinary height fills 73 % of the picture. */
 const BASE_DISTANCE = 5.05;
-/** Room beside the outermost and above the highest joint: half a hand and air, metres. */
+/** Room beside the outermost and above the highest joint: half a hand, a skull, and air, metres. */
 const MARGIN = 0.22;
-const HEADROOM = 0.12;
+const HEADROOM = 0.22;
+/** Half the height of the picture, at a distance of 1. */
+const TANGENT = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
 /** Size of a pixel on a dancer from which on the low level of detail looks like the full one, metres. */
 const LOW_DETAIL_PIXEL = 0.004;
 
@@ -65,30 +71,31 @@ export function measureCouple(
   beside: readonly Float32Array[] = [],
 ): Couple {
   const [first, second] = dancers;
-  if (first === undefined) return { x: 0, z: 0, radius: 0.5, height: 0, sideHeading: 0 };
-  let [x, z, radius, height] = [0, 0, 0, 0];
+  if (first === undefined) return { x: 0, z: 0, radius: 0.5, height: 0, tallDistance: 0, sideHeading: 0 };
+  let [x, z, radius, height, tallDistance] = [0, 0, 0, 0, 0];
   for (const joints of dancers) {
     x += joints[0]! / dancers.length;
     z += joints[2]! / dancers.length;
   }
   for (const joints of [...dancers, ...beside])
     for (let j = 0; j < joints.length; j += 3) {
-      radius = Math.max(radius, Math.hypot(joints[j]! - x, joints[j + 2]! - z));
-      height = Math.max(height, joints[j + 1]!);
+      const [away, above] = [Math.hypot(joints[j]! - x, joints[j + 2]! - z), joints[j + 1]!];
+      radius = Math.max(radius, away);
+      height = Math.max(height, above);
+      // Whoever is nearer to the eye than the middle looks taller.
+      tallDistance = Math.max(tallDistance, (above + HEADROOM - TARGET_HEIGHT) / TANGENT + away);
     }
   const sideHeading =
     second === undefined
       ? headingOf(first) + THREE_QUARTERS
       : Math.atan2(second[2]! - first[2]!, first[0]! - second[0]!);
-  return { x, z, radius, height, sideHeading };
+  return { x, z, radius, height, tallDistance, sideHeading };
 }
 
-/** Distance at which a couple of this radius and height fills the picture as it should. */
-export function fitDistance(couple: Pick<Couple, 'radius' | 'height'>, aspect: number): number {
-  const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-  const tall = (couple.height + HEADROOM - TARGET_HEIGHT) / tangent;
-  const wide = (couple.radius + MARGIN) / (tangent * aspect);
-  return Math.max(BASE_DISTANCE, tall, wide);
+/** Distance at which a couple fills the picture as it should, from any side. */
+export function fitDistance({ radius, tallDistance }: Couple, aspect: number): number {
+  const perspective = Math.hypot(1, 1 / (TANGENT * aspect));
+  return Math.max(BASE_DISTANCE, tallDistance, (radius + MARGIN) * perspective);
 }
 
 /**
@@ -103,8 +110,7 @@ export function isFar(
   height: number,
 ): boolean {
   const nearest = Math.hypot(eye.x - couple.x, eye.y - TARGET_HEIGHT, eye.z - couple.z) - couple.radius;
-  const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-  return (2 * nearest * tangent) / height > LOW_DETAIL_PIXEL;
+  return (2 * nearest * TANGENT) / height > LOW_DETAIL_PIXEL;
 }
 
 /** The shot each view begins with. `heading` is where the eye stands now, for views that keep it. */
@@ -123,8 +129,7 @@ export function shotOf(view: View, couple: Couple, aspect: number, heading: numb
     case 'side':
       return { target, distance, heading: couple.sideHeading, elevation: 0.02 };
     case 'top': {
-      const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-      const above = (couple.radius + 2 * MARGIN) / (tangent * Math.min(1, aspect));
+      const above = (couple.radius + 2 * MARGIN) / (TANGENT * Math.min(1, aspect));
       return {
         target: [couple.x, 0, couple.z],
         distance: Math.max(above + couple.height, BASE_DISTANCE),

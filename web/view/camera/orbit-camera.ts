@@ -3,6 +3,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { FIELD_OF_VIEW, type Shot } from './framing';
 
 const POLE = Math.PI / 2;
+const UP = new Vector3(0, 1, 0);
 
 /** A perspective camera with orbit controls that is read and placed as a `Shot`. */
 export class OrbitCamera {
@@ -22,6 +23,7 @@ export class OrbitCamera {
     this.controls.maxDistance = 10;
     this.controls.maxPolarAngle = POLE + 0.06;
     this.controls.zoomSpeed = 0.8;
+    this.controls.zoomToCursor = true;
   }
 
   /** Width / height of the picture. */
@@ -53,6 +55,13 @@ export class OrbitCamera {
     this.vector.set(x, 0, z);
     this.controls.target.add(this.vector);
     this.camera.position.add(this.vector);
+  }
+
+  /** Turns eye and target by an angle about a vertical axis through a point. */
+  turn(angle: number, about: Vector3): void {
+    const { target } = this.controls;
+    for (const point of [target, this.camera.position]) point.sub(about).applyAxisAngle(UP, angle).add(about);
+    this.camera.lookAt(target);
   }
 
   resize(width: number, height: number): void {

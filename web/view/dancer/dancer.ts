@@ -7,7 +7,7 @@ import type { Body } from '../body/simplify';
 import type { Role } from '../theme';
 import type { BodyMaterial } from './body-material';
 import { DancerBody } from './dancer-body';
-import { gesture } from './gesture';
+import { gesture, levelHead } from './gesture';
 import { blendPose, createPose, samplePose } from './pose';
 import { createRig } from './rig';
 
@@ -100,7 +100,7 @@ export class Dancer {
     return true;
   }
 
-  /** Takes the pose of the motion at a moment. */
+  /** Takes the pose of the motion at a moment, with the head held level. */
   pose(seconds: number): void {
     if (this.currentMotion === null) return;
     samplePose(this.fadingMotion ?? this.currentMotion, seconds, this.currentPose);
@@ -109,6 +109,7 @@ export class Dancer {
       blendPose(this.currentPose, this.nextPose, this.fade * this.fade * (3 - 2 * this.fade));
     }
     this.rig.apply(this.currentPose);
+    levelHead(this.rig);
   }
 
   /** Turns head and hands towards a partner who has been posed as well. */

@@ -1,5 +1,6 @@
 import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { BodyLibrary } from '../body/library';
 import { measureCouple, type Couple } from '../camera/framing';
 import type { Viewport } from '../canvas';
@@ -150,6 +151,21 @@ export class Dancers {
   /** Joints of all dancers in the viewport that was arranged last, 22 x 3 world positions each, metres. */
   visibleJoints(): readonly Float32Array[] {
     return this.all.filter(({ object }) => object.visible).map((dancer) => dancer.jointPositions());
+  }
+
+  /** Motions of leader and reactor; null while one of them is not on the stage. */
+  get couple(): readonly [leader: SolvedMotion, reactor: SolvedMotion] | null {
+    const [leader, reactor] = ROLES.map((role) => this.dancers[role].motion);
+    return leader && reactor ? [leader, reactor] : null;
+  }
+
+  /** 22 x 3 joints of the dancer that was made at a moment, metres; null without one. */
+  madeAt(seconds: number): Float32Array | null {
+    const { motion } = this.dancers[this.made];
+    if (motion === null) return null;
+    const frame = Math.min(motion.frames - 1, Math.max(0, Math.round(seconds * motion.fps)));
+    const width = JOINT_COUNT * 3;
+    return motion.positions.slice(frame * width, (frame + 1) * width);
   }
 
   /** 22 x 3 world positions in metres; all zero without a motion. */

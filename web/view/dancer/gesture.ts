@@ -4,14 +4,19 @@ import { smoothstep } from '../body/field';
 import type { Rig } from './rig';
 
 /**
- * Head and hands, which the 22 joints of a motion say little about: a head turns a little to the partner, a hand turns
- * towards a hand near it. Only the last bones of the chains are turned, so every joint stays where the motion has it.
+ * Head and hands, which the 22 joints of a motion say little about: a head is held level and turns a little to the
+ * partner, a hand turns towards a hand near it. Only the last bones of the chains are turned, so every joint stays where
+ * the motion has it.
  */
 
-/** Share of the angle to the partner by which a head turns, and its greatest angles, radians. */
-const HEAD_SHARE = 0.55;
+/** Share of a small tilt of the head against the horizon that is taken back, and the greatest angle, radians. */
+const LEVEL_SHARE = 0.85;
+const MAX_LEVEL = 0.6;
+/** Shares of the angles to the partner by which a head turns, and its greatest angles, radians. */
+const YAW_SHARE = 0.55;
+const PITCH_SHARE = 0.25;
 const MAX_YAW = 1.1;
-const MAX_PITCH = 0.45;
+const MAX_PITCH = 0.3;
 /** Distance of two wrists from which on hands do not turn to each other, metres. */
 const HOLD_DISTANCE = 0.45;
 /** Greatest angle by which a hand turns, radians. */
@@ -29,12 +34,39 @@ const other = new Vector3();
 const direction = new Vector3();
 const frame = new Quaternion();
 const turn = new Quaternion();
+const worldTurn = new Quaternion();
 
 /** Rotation from the world into the space of a joint's parent; bones are never scaled. */
 const worldToParent = (rig: Rig, joint: number): Quaternion => {
   const parent = rig.bones[joint]!.parent!;
   return parent.getWorldQuaternion(frame).invert();
 };
+
+/** An angle's share as long as it is small, and never more than `max`. */
+const limited = (angle: number, max: number): number => max * Math.tanh(angle / max);
+
+/**
+ * Holds the head of a posed rig level: the fit turns it with the chest, so that whoever leans back would look at the
+ * ceiling.
+ */
+export function levelHead(rig: Rig): void {
+  const head = rig.bones[J.head]!;
+  head.getWorldQuaternion(worldTurn);
+  direction.set(0, 0, 1).applyQuaternion(worldTurn);
+  const across = Math.hypot(direction.x, direction.z);
+  // Rotation from the head as it is to the same heading without pitch and roll.
+  turn.setFromAxisAngle(UP, Math.atan2(direction.x, direction.z)).multiply(frame.copy(worldTurn).invert());
+  if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
+  const sine = Math.hypot(turn.x, turn.y, turn.z);
+  if (sine < 1e-6) return;
+  const tilt = 2 * Math.atan2(sine, turn.w);
+  // A head that looks straight up or down has no heading.
+  const angle = limited(LEVEL_SHARE * tilt, MAX_LEVEL) * smoothstep(0.2, 0.6, across);
+  direction.set(turn.x, turn.y, turn.z).divideScalar(sine);
+  worldTurn.premultiply(turn.setFromAxisAngle(direction, angle));
+  head.quaternion.multiplyQuaternions(worldToParent(rig, J.head), worldTurn);
+  head.updateMatrixWorld(true);
+}
 
 /** Turns head and hands of `rig` towards `partner`; both have been posed before. */
 export function gesture(rig: Rig, partner: Rig): void {
@@ -47,14 +79,13 @@ function turnHead(rig: Rig, partner: Rig): void {
   point.setFromMatrixPosition(head.matrixWorld);
   direction.setFromMatrixPosition(partner.bones[J.head]!.matrixWorld).sub(point);
   if (direction.lengthSq() < 0.01) return;
-  direction.applyQuaternion(worldToParent(rig, J.head)).normalize();
+  direction.applyQuaternion(head.getWorldQuaternion(worldTurn).invert()).normalize();
   const yaw = Math.atan2(direction.x, direction.z);
   const pitch = -Math.asin(direction.y);
   // Nobody looks over their back: the share falls to zero as the partner passes behind.
-  const share = HEAD_SHARE * (1 - smoothstep(1.5, 2.6, Math.abs(yaw)));
-  const limited = (angle: number, max: number): number => max * Math.tanh((angle * share) / max);
-  head.quaternion.multiply(turn.setFromAxisAngle(UP, limited(yaw, MAX_YAW)));
-  head.quaternion.multiply(turn.setFromAxisAngle(SIDE, limited(pitch, MAX_PITCH)));
+  const share = 1 - smoothstep(1.5, 2.6, Math.abs(yaw));
+  head.quaternion.multiply(turn.setFromAxisAngle(UP, limited(yaw * YAW_SHARE * share, MAX_YAW)));
+  head.quaternion.multiply(turn.setFromAxisAngle(SIDE, limited(pitch * PITCH_SHARE * share, MAX_PITCH)));
   head.updateMatrixWorld(true);
 }
 

@@ -8,13 +8,15 @@ import {
   ShaderMaterial,
 } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { FEET, footMatrix } from '../dancer/foot-placement';
+import { ballHeight, FEET, footMatrix } from '../dancer/foot-placement';
 import { MAX_FIGURES, type Overlay } from './overlay';
 import { contactOpacity, footContactsOf, type FootContacts } from './contact-fade';
 
 /** Outer size of a ring with its glow, metres. */
 const WIDTH = 0.28;
 const LENGTH = 0.44;
+/** Middle of a ring, as a share of the way from the ankle to the toe joint. */
+const MIDDLE = 0.7;
 /** Greatest height of a ring above the floor, metres. */
 const MAX_HEIGHT = 0.08;
 
@@ -69,8 +71,8 @@ export function createContactRings(): Overlay {
           const opacity = contactOpacity(contacts[side]!, motion.fps, seconds);
           if (opacity <= 0) return;
           // A foot in contact may be a little above the floor; its ring stays with it.
-          const height = Math.min(MAX_HEIGHT, Math.max(0, joints[foot.toe * 3 + 1]!));
-          object.setMatrixAt(count, footMatrix(joints, foot, 0.006 + height, place));
+          const height = Math.min(MAX_HEIGHT, Math.max(0, ballHeight(joints, foot)));
+          object.setMatrixAt(count, footMatrix(joints, foot, MIDDLE, 0.006 + height, place));
           const { r, g, b } = colours[role];
           rgba.setXYZW(count++, r, g, b, opacity);
         });

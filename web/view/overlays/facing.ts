@@ -9,7 +9,6 @@ import {
   Shape,
   ShapeGeometry,
 } from 'three';
-import { SOLE } from '../body/leg';
 import { headingOf } from '../../motion/skeleton/heading';
 import { MAX_FIGURES, type Overlay } from './overlay';
 
@@ -64,7 +63,7 @@ export function createFacing(): Overlay {
     object,
     update(figures) {
       figures.forEach(({ role, joints }, i) => {
-        place.makeRotationY(headingOf(joints)).setPosition(joints[0]!, -SOLE + 0.008, joints[2]!);
+        place.makeRotationY(headingOf(joints)).setPosition(joints[0]!, 0.008, joints[2]!);
         object.setMatrixAt(i, place);
         object.setColorAt(i, colours[role]);
       });

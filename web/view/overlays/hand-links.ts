@@ -7,23 +7,28 @@ import {
   Matrix4,
   MeshBasicMaterial,
 } from 'three';
+import { smoothstep } from '../body/field';
 import { nearHandPairs, MAX_HAND_PAIRS, type HandPair } from './hand-pairs';
 import { createRibbons } from './ribbons';
 import type { Overlay } from './overlay';
 
 /** Points along a line. */
-const POINTS = 17;
-/** Half width of the line, and radius of the bead on each wrist, metres. */
+const POINTS = 25;
+/** Half width of the line, and radii of the dot on each wrist and of the edge around it, metres. */
 const HALF_WIDTH = 0.006;
-const BEAD_RADIUS = 0.021;
+const DOT_RADIUS = 0.015;
+const EDGE_RADIUS = 0.021;
 /** Height of the line's arc above a straight line, as a share of its length. */
 const ARC = 0.14;
+/** Share of the line at each end in the colour of that dancer, and share in the middle that is light. */
+const END = 0.16;
+const MIDDLE = 0.12;
 
-/** Lines between hands that are near each other, from the leader's colour to the reactor's. */
+/** Arcs between hands that are near each other: in the leader's colour, light in the middle, in the reactor's colour. */
 export function createHandLinks(): Overlay {
   const lines = createRibbons(MAX_HAND_PAIRS, POINTS, true);
   const material = new MeshBasicMaterial({ depthTest: false, depthWrite: false, transparent: true });
-  const beads = new InstancedMesh(new IcosahedronGeometry(BEAD_RADIUS, 2), material, MAX_HAND_PAIRS * 2);
+  const beads = new InstancedMesh(new IcosahedronGeometry(1, 2), material, MAX_HAND_PAIRS * 4);
   beads.instanceMatrix.setUsage(DynamicDrawUsage);
   beads.frustumCulled = false;
   beads.renderOrder = 21;
@@ -31,10 +36,10 @@ export function createHandLinks(): Overlay {
   object.add(lines.object, beads);
 
   const colours = { leader: new Color(), reactor: new Color(), middle: new Color(), mixed: new Color() };
-  const between = (t: number): Color =>
-    t < 0.5
-      ? colours.mixed.lerpColors(colours.leader, colours.middle, t * 2)
-      : colours.mixed.lerpColors(colours.middle, colours.reactor, t * 2 - 1);
+  const between = (t: number): Color => {
+    const fromEnd = smoothstep(END, 0.5 - MIDDLE / 2, Math.min(t, 1 - t));
+    return colours.mixed.lerpColors(t < 0.5 ? colours.leader : colours.reactor, colours.middle, fromEnd);
+  };
 
   function draw(a: Float32Array, b: Float32Array, { leader, reactor, distance, opacity }: HandPair): void {
     lines.begin();
@@ -63,8 +68,14 @@ export function createHandLinks(): Overlay {
       if (leader && reactor)
         for (const pair of nearHandPairs(leader.joints, reactor.joints)) {
           draw(leader.joints, reactor.joints, pair);
-          bead(leader.joints, pair.leader, pair.opacity, colours.middle);
-          bead(reactor.joints, pair.reactor, pair.opacity, colours.middle);
+          for (const [{ joints, role }, wrist] of [
+            [leader, pair.leader],
+            [reactor, pair.reactor],
+          ] as const) {
+            // Nothing hides a dot, so that the one that is drawn later lies on top.
+            bead(joints, wrist, EDGE_RADIUS * pair.opacity, colours.middle);
+            bead(joints, wrist, DOT_RADIUS * pair.opacity, colours[role]);
+          }
         }
       lines.commit();
       beads.count = count;

@@ -9,6 +9,7 @@ import {
   type Generator,
   type GenerateRequest,
   type GeneratorOptions,
+  type ReloadFailure,
   type Status,
 } from '../../../../web/model/client';
 
@@ -58,7 +59,7 @@ let generator: Generator | undefined;
 let golden: ReturnType<typeof readNpz> | undefined;
 
 export const page = {
-  statuses: [] as Status[],
+  statuses: [] as (Status | ReloadFailure)[],
   /** Block computations of the generation under way. */
   done: 0,
 

@@ -21,7 +21,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
-import { SOLE } from '../../../../web/view/body/leg';
+import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import { createMannequin } from './mannequin';
 
 /** A camera that stands still and looks at a point; metres, y up. */

@@ -1,8 +1,8 @@
 /** Motions that are known to the millimetre, for videos. */
-import { readBvh } from '../../../../web/motion/bvh/read';
 import { solve } from '../../../../web/motion/fit/ik';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import demo from '../../../../web/public/demo/leader.bvh?raw';
+import { leaderBvh } from '../../../web/support/leader-bvh';
 import { walker } from '../../../web/support/walker';
 
 export type MotionName = 'salsa' | 'turning' | 'spinning' | 'walking';
@@ -10,7 +10,7 @@ export type MotionName = 'salsa' | 'turning' | 'spinning' | 'walking';
 export function motionOf(name: MotionName): SolvedMotion {
   switch (name) {
     case 'salsa':
-      return solve(readBvh(demo).clip);
+      return solve(leaderBvh(demo).clip);
     case 'turning':
       return walker({ seconds: 6, turn: 0.45, distance: 0 });
     case 'spinning':

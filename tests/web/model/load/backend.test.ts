@@ -57,7 +57,7 @@ describe('chooseBackend', () => {
     expect(await chooseBackend('wasm', machine(card), 1)).toMatchObject({ threads: 1 });
     expect(await chooseBackend('wasm', machine(card, false))).toMatchObject({
       threads: 1,
-      reason: 'Processor, one thread: chosen by hand.',
+      reason: 'Processor, one thread: chosen in the address of the page.',
     });
   });
 

@@ -1,6 +1,6 @@
 import { createHash } from 'node:crypto';
 import { describe, expect, it } from 'vitest';
-import { download, type FileStore } from '../../../../web/model/load/download';
+import { download, type FileStore, patientFetch } from '../../../../web/model/load/download';
 import { AppError } from '../../../../web/common/error';
 
 const BASE = 'https://dance.example/models/salsa/manifest.json';
@@ -150,5 +150,58 @@ describe('download', () => {
   it('reports a missing connection', async () => {
     const get: typeof fetch = () => Promise.reject(new TypeError('Failed to fetch'));
     await expect(download(BASE, [a], { fetch: get })).rejects.toMatchObject({ code: 'download-failed' });
+  });
+});
+
+describe('a download that stalls', () => {
+  const STALL_MS = 40;
+  const after = (ms: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, ms));
+  /** A server that answers with these parts, each after a wait, and then keeps the connection open. */
+  const slow =
+    (waits: readonly number[], end: boolean): typeof fetch =>
+    () =>
+      Promise.resolve(
+        new Response(
+          new ReadableStream<Uint8Array>({
+            async start(body) {
+              for (const wait of waits) {
+                await after(wait);
+                body.enqueue(bytesOf('x'));
+              }
+              if (end) body.close();
+            },
+          }),
+        ),
+      );
+  const silent: typeof fetch = (_, options) =>
+    new Promise((_resolve, reject) =>
+      options?.signal?.addEventListener('abort', () => reject(options.signal?.reason as Error)),
+    );
+
+  it.each([
+    ['before its response', silent],
+    ['in the middle of its body', slow([0, 0], false)],
+  ])('%s is given up with a sentence', async (_, get) => {
+    const files = [listed('step.onnx', 'xxx')];
+    await expect(download(BASE, files, { fetch: patientFetch(get, STALL_MS) })).rejects.toMatchObject({
+      code: 'download-failed',
+      message: expect.stringMatching(
+        /^Nothing of the file .*step\.onnx has arrived for 0\.04 seconds/,
+      ) as string,
+    });
+  });
+
+  it('is not one that is slow but goes on', async () => {
+    const waits = Array.from({ length: 8 }, () => STALL_MS / 4);
+    const files = [listed('step.onnx', 'x'.repeat(waits.length))];
+    const get = patientFetch(slow(waits, true), STALL_MS);
+    expect((await download(BASE, files, { fetch: get }))[0]).toHaveLength(waits.length);
+  });
+
+  it('leaves the signal of the caller in force', async () => {
+    const get = patientFetch(silent, 10_000);
+    await expect(get('x', { signal: AbortSignal.timeout(10) })).rejects.toMatchObject({
+      name: 'TimeoutError',
+    });
   });
 });

@@ -8,6 +8,7 @@ import type { Progress } from '../../../../web/model/progress';
 import type { ModelSession } from '../../../../web/model/load/session';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
+import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { scaled } from '../../support/made-dancer';
@@ -273,6 +274,46 @@ describe('Pipeline', () => {
     }
   });
 
+  it('gives the partner the height that is asked for, without another pass of the network', async () => {
+    let passes = 0;
+    const { session, manifest } = model;
+    const watched: ModelSession = {
+      ...session,
+      step: (input) => ((passes += 1), session.step(input)),
+      decode: (input) => ((passes += 1), session.decode(input)),
+    };
+    const counted = new Pipeline(manifest, watched, () => 0);
+    const plain = request(241);
+    const { latents, ...asDecoded } = await counted.generate(plain);
+    const before = passes;
+    const tall = await counted.generate({ ...plain, height: 1.9 });
+    expect(passes).toBe(before);
+    expect(standingHeight(tall.motion.offsets)).toBeCloseTo(1.9, 5);
+    expect(tall.latents).toEqual(latents);
+    expect(tall.motion.positions).toEqual(
+      (await new Pipeline(manifest, session, () => 0).generate({ ...plain, height: 1.9 })).motion.positions,
+    );
+    expect((await counted.generate(plain)).motion.positions).toEqual(asDecoded.motion.positions);
+    const coarse = await counted.coarse({ leader: plain.leader, latents, height: 1.9 });
+    expect(standingHeight(coarse.offsets)).toBeCloseTo(1.9, 5);
+  });
+
+  it.each(['reactor', 'leader'] as const)(
+    'makes a %s in the proportion that the manifest has, to leaders of every size',
+    async (role) => {
+      const { manifest, session } = model;
+      const skeleton = { ...manifest.skeleton, reactor_height: 0.9 * manifest.skeleton.reference_height };
+      const known = new Pipeline({ ...manifest, skeleton }, session, () => 0);
+      for (const size of [1, 1.2]) {
+        const plain = request(120, { role });
+        const leader = scaled(plain.leader, size);
+        const { motion } = await known.generate({ ...plain, leader });
+        const proportion = bodyHeight(motion) / bodyHeight(leader);
+        expect(proportion).toBeCloseTo(role === 'reactor' ? 0.9 : 1 / 0.9, 4);
+      }
+    },
+  );
+
   it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
     const { latents } = await pipeline.generate(request(120));
     const { leader } = request(200);
@@ -311,6 +352,7 @@ describe('Pipeline', () => {
     ['half a step', () => ({ steps: 1.5 }), /1.5 is not/],
     ['a short guidance', () => ({ guidance: new Float32Array(5) }), /not 3 x 2 numbers/],
     ['music guidance that is no number', () => ({ musicGuidance: NaN }), /music is not a number/],
+    ['height that no dancer has', () => ({ height: 3 }), /height of 3 m is not between/],
     ['variety that is no number', () => ({ variety: NaN }), /variety is not a number/],
     ['a seed with a fraction', () => ({ seed: 0.5 }), /seed 0.5/],
     ['no frames', () => ({ leader: { fps: 30, frames: 0, positions: new Float32Array() } }), /empty/],

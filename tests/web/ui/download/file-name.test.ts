@@ -9,41 +9,42 @@ const settings = {
   steps: 10,
   seed: 1204,
   role: 'reactor' as const,
+  height: null,
 };
 const inputs = { leader: leader(90), song: song(3), shift: 0, settings };
 
 test('a file name holds song, leader, take, seed, guidance, foot lock and role', () => {
   expect(motionFileName({ inputs, footLock: false }, 'reactor', 'bvh')).toBe(
-    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_reactor.bvh',
+    'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_reactor.bvh',
   );
   expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'both', 'glb')).toBe(
-    'descarga_lead-0412_softer-hands_s1204_c1.20-f0.60-m3.00_footlock_both.glb',
+    'descarga_leader-0412_softer-hands_s1204_c1.20-f0.60-m3.00_footlock_both.glb',
   );
   expect(motionFileName({ inputs, footLock: true }, 'both', 'bvh')).toMatch(/_footlock_both-bvh\.zip$/);
   expect(motionFileName({ inputs: { ...inputs, song: null }, footLock: true }, 'reactor', 'npz')).toMatch(
-    /^no-song_lead-0412_s1204_c1.20-f0.60_footlock_/,
+    /^no-song_leader-0412_s1204_c1.20-f0.60_footlock_/,
   );
 });
 
 test('a leader alone is named after song and leader', () => {
   expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'leader', 'json')).toBe(
-    'descarga_lead-0412_leader.json',
+    'descarga_leader-0412_leader.json',
   );
 });
 
 test('a video’s name ends with its size', () => {
   expect(videoFileName({ inputs, footLock: true, take: '' }, '1080p', 'webm')).toBe(
-    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm',
+    'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm',
   );
 });
 
 test('with swapped roles the leader is the generated dancer', () => {
   const swapped = { ...inputs, settings: { ...settings, role: 'leader' as const } };
   expect(motionFileName({ inputs: swapped, footLock: false }, 'leader', 'bvh')).toBe(
-    'descarga_lead-0412_s1204_c1.20-f0.60-m3.00_leader.bvh',
+    'descarga_leader-0412_s1204_c1.20-f0.60-m3.00_leader.bvh',
   );
   expect(motionFileName({ inputs: swapped, footLock: false }, 'reactor', 'bvh')).toBe(
-    'descarga_lead-0412_reactor.bvh',
+    'descarga_leader-0412_reactor.bvh',
   );
 });
 

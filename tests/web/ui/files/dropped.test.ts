@@ -63,8 +63,8 @@ describe('opening dropped files', () => {
   });
 
   it.each([
-    ['NotFoundError', /could not be read/],
-    ['NotReadableError', /may not read/],
+    ['NotFoundError', /could be read/],
+    ['NotReadableError', /not allowed to read/],
   ])('reports a drop that fails with %s', async (name, title) => {
     const { store, happened, open } = page();
     await open(Promise.reject(new DOMException('gone', name)));

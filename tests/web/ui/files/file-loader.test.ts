@@ -1,6 +1,7 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
-import type { Files, FileReaders } from '../../../../web/ui/store/services';
+import type { FileReaders } from '../../../../web/ui/store/services';
+import type { LeaderSource } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { songData, leaderFile, still } from '../../support/made-state';
@@ -8,11 +9,17 @@ import { AppError } from '../../../../web/common/error';
 
 const file = (name: string, content: string): File => new File([content], name);
 const BVH = 'HIERARCHY\nROOT Hips\n';
+const source = (name: string, content = BVH, label: string | null = null): LeaderSource => ({
+  name,
+  label,
+  files: [{ name, bytes: new TextEncoder().encode(content) }],
+  options: {},
+});
 const SONG = 'ID3 and so on';
 
 describe('reading files', () => {
   let store: change.Store;
-  let files: Files;
+  let files: FileLoader;
   let videos: string[];
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
@@ -24,8 +31,8 @@ describe('reading files', () => {
         onProgress({ fraction: 0.5 });
         return Promise.resolve(songData(2));
       },
-      readLeader: ({ fps }) => {
-        const frames = fps === null ? 60 : 120;
+      readLeader: ({ options }) => {
+        const frames = options.fps === undefined ? 60 : 120;
         return Promise.resolve({ file: leaderFile(frames), motion: still(frames) });
       },
       manifest: () => Promise.resolve(small),
@@ -77,10 +84,20 @@ describe('reading files', () => {
     expect(store.getState().reading.leader).toBeNull();
   });
 
+  it('reads a file again where the page and not the file failed', async () => {
+    const { readLeader } = readers;
+    readers.readLeader = () =>
+      Promise.reject(new AppError('worker-crashed', 'The reading stopped.', 'Try again.'));
+    await files.open([file('good.bvh', BVH)]);
+    expect(store.getState().problem).toMatchObject({ title: 'The reading stopped.', remedy: 'read-again' });
+    readers.readLeader = readLeader;
+    files.readAgain('leader');
+    await vi.waitFor(() => expect(store.getState().leader?.name).toBe('good.bvh'));
+  });
+
   it.each([
     ['empty.bvh', '', 'empty-file'],
     ['tax.pdf', '%PDF', 'unknown-file'],
-    ['dance.glb', 'glTF', 'other-motion'],
   ])('refuses %s without reading it', async (name, content, code) => {
     await files.open([file(name, content)]);
     expect(store.getState().problem?.code).toBe(code);
@@ -89,15 +106,15 @@ describe('reading files', () => {
 
   it('the newest file of a kind wins, even if an older one is ready later', async () => {
     const answers: (() => void)[] = [];
-    readers.readLeader = ({ text }) =>
+    readers.readLeader = ({ files: [source] }) =>
       new Promise((resolve) => {
-        const frames = text.length;
+        const frames = source!.bytes.length;
         answers.push(() => {
           resolve({ file: leaderFile(frames), motion: still(frames) });
         });
       });
-    const first = files.openLeader('1234', 'first.bvh', null);
-    const second = files.openLeader('12', 'second.bvh', null);
+    const first = files.openLeader(source('first.bvh', '1234'));
+    const second = files.openLeader(source('second.bvh', '12'));
     answers[1]?.();
     await second;
     answers[0]?.();
@@ -108,9 +125,9 @@ describe('reading files', () => {
   it('an older file that fails after a newer one came shows no problem', async () => {
     let fail: (error: Error) => void = () => undefined;
     readers.readLeader = () => new Promise((_, reject) => (fail = reject));
-    const first = files.openLeader(BVH, 'first.bvh', null);
+    const first = files.openLeader(source('first.bvh'));
     readers.readLeader = () => Promise.resolve({ file: leaderFile(3), motion: still(3) });
-    await files.openLeader(BVH, 'second.bvh', null);
+    await files.openLeader(source('second.bvh'));
     fail(new Error('too late'));
     await first;
     expect(store.getState()).toMatchObject({ problem: null, leader: { name: 'second.bvh' } });
@@ -137,15 +154,15 @@ describe('reading files', () => {
     expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
   });
 
-  it('a leader is read again at another frame rate from its stored text', async () => {
-    expect(await files.rereadLeader(60)).toBeNull();
-    await files.openLeader(BVH, 'a.bvh', 'demo leader');
-    await files.rereadLeader(60);
+  it('a leader is read again at another frame rate from its stored bytes', async () => {
+    expect(await files.rereadLeader({ fps: 60 })).toBeNull();
+    await files.openLeader(source('a.bvh', BVH, 'demo leader'));
+    await files.rereadLeader({ fps: 60 });
     expect(store.getState().leader).toMatchObject({
       name: 'a.bvh',
       label: 'demo leader',
-      fps: 60,
-      text: BVH,
+      options: { fps: 60 },
+      files: source('a.bvh').files,
     });
     expect(store.getState().leader?.file.clip.frames).toBe(120);
   });

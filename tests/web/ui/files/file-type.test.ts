@@ -48,8 +48,17 @@ describe('the type of a file', () => {
   it.each([
     ['FBX', bytes('Kaydara FBX Binary  ')],
     ['GLB', bytes('glTF\u0002')],
-  ])('knows %s as motion of another format', (_, head) => {
-    expect(fileKind(head, 'dance.bin', '')).toBe('other-motion');
+  ])('knows %s as a leader', (_, head) => {
+    expect(fileKind(head, 'dance.bin', '')).toBe('leader');
+  });
+
+  it.each([
+    ['PNG', bytes('\u0089PNG')],
+    ['JPEG', Uint8Array.of(0xff, 0xd8, 0xff, 0xe0)],
+    ['WebP', bytes('RIFF\u0001\u0002\u0003\u0004WEBPVP8')],
+    ['HEIC', bytes('\u0000\u0000\u0000\u0020ftypheic')],
+  ])('knows %s as a picture', (_, head) => {
+    expect(fileKind(head, 'song.mp3', 'audio/mpeg')).toBe('picture');
   });
 
   it('is unknown for the rest', () => {

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { readBvh } from '../../../../web/motion/bvh/read';
+import { leaderBvh } from '../../support/leader-bvh';
 import { writeBvh } from '../../../../web/motion/bvh/write';
 import { solve } from '../../../../web/motion/fit/ik';
 import { jointCount, jointText } from '../../../../web/ui/files/joint-text';
@@ -8,7 +8,7 @@ import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bv
 const withoutToes: BodyNames = Object.fromEntries(
   Object.entries(MIXAMO).filter(([part]) => part !== 'toe'),
 ) as unknown as BodyNames;
-const report = (names: BodyNames) => readBvh(madeBvh({ joints: madeBody(names) }).text).report;
+const report = (names: BodyNames) => leaderBvh(madeBvh({ joints: madeBody(names) }).text).report;
 
 test('a whole body with another number of spine joints lacks nothing', () => {
   for (const count of [1, 3, 5]) {
@@ -30,7 +30,7 @@ test('joints that are missing are named', () => {
 });
 
 test('a file that this page wrote has all joints', () => {
-  const { clip } = readBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
-  const own = readBvh(writeBvh(solve(clip))).report;
+  const { clip } = leaderBvh(madeBvh({ joints: madeBody(MIXAMO) }).text);
+  const own = leaderBvh(writeBvh(solve(clip))).report;
   expect(jointText(own)).toBe('all 22 found');
 });

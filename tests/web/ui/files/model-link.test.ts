@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { AppError } from '../../../../web/common/error';
-import type { Generator, ModelFolder, Status } from '../../../../web/model/client';
+import type { Generator, ModelFolder, ReloadFailure, Status } from '../../../../web/model/client';
 import { createModelLink } from '../../../../web/ui/files/model-link';
 import type { LoadedSong } from '../../../../web/ui/store/reaction';
 import { createAppStore } from '../../../../web/ui/store/store';
@@ -12,7 +12,7 @@ const backend = { name: 'wasm', reason: 'Processor, 2 threads: no WebGPU.', thre
 function loading() {
   const store = createAppStore('dark');
   const attempts: {
-    tell: (status: Status) => void;
+    tell: (status: Status | ReloadFailure) => void;
     succeed: (made: Generator) => void;
     fail: (error: Error) => void;
     folder: ModelFolder | null;
@@ -54,6 +54,20 @@ describe('loading the model', () => {
     });
     attempt?.succeed(generator);
     expect(await link.generator()).toBe(generator);
+  });
+
+  it('shows that a model which was there could not be loaded again, and can try again', async () => {
+    const { store, link, attempts } = loading();
+    attempts[0]?.succeed(generator);
+    await link.generator();
+    attempts[0]?.tell({
+      kind: 'failed',
+      error: new AppError('download-failed', 'It stalled.', 'Try again.'),
+    });
+    expect(store.getState().model.phase).toBe('failed');
+    expect(store.getState().problem).toMatchObject({ title: 'It stalled.', remedy: 'model' });
+    link.retry();
+    expect(attempts).toHaveLength(2);
   });
 
   it('shows a failure and can try again, keeping settings', async () => {

@@ -48,6 +48,7 @@ describe('the coarse layer', () => {
       steps: 10,
       seed: 1,
       role: 'reactor' as const,
+      height: null,
     };
     const inputs = { leader: leader(60), song: null, shift: 0, settings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };

@@ -1,6 +1,7 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { oneSet } from '../../../../web/ui/store/actions/counting';
 import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import {
   decoderOf,
@@ -54,23 +55,25 @@ function filled(): change.Store {
     store,
     change.songLoaded({ ...song(4), file: new Blob(['ID3 song'], { type: 'audio/mpeg' }) }),
   );
-  change.apply(store, change.leaderLoaded(leader(60, 'lead_0412.bvh')));
+  change.apply(store, change.leaderLoaded(leader(60, 'leader_0412.bvh')));
   change.apply(store, change.guidanceSet('coarse', 1.2));
   react(2);
   change.apply(store, change.seedSet(99));
+  change.apply(store, change.heightSet(1.7));
   react(3);
   change.apply(store, takeStarred('t1'));
   change.apply(store, takeRenamed('t2', 'Softer hands'));
   change.apply(store, letterGiven('t2', 'B'));
   change.apply(store, change.footLockSet(false));
+  change.apply(store, oneSet(1.1));
   change.apply(store, change.playbackSet({ time: 1.5 }));
   return store;
 }
 
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
-  leader: ({ name, label, text, fps }) =>
-    Promise.resolve({ name, label, text, fps, file: leaderFile(60), motion: still(60) }),
+  leader: ({ name, label, files, options }) =>
+    Promise.resolve({ name, label, files, options, file: leaderFile(60), motion: still(60) }),
 };
 
 function empty(): change.Store {
@@ -99,6 +102,7 @@ const summary = (state: AppState) => ({
   })),
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
+  countings: state.countings,
   time: state.playback.time,
   takesMade: state.takesMade,
 });
@@ -122,7 +126,7 @@ describe('a project', () => {
   it('holds files that other programs open', async () => {
     const files = unzipSync(await writeProject(storedProject(filled().getState())));
     expect(Object.keys(files).sort()).toEqual([
-      'leaders/1-lead-0412.bvh',
+      'leaders/1-leader-0412.bvh',
       'leaders/2-fruher.bvh',
       'project.json',
       'songs/1-descarga.mp3',
@@ -206,7 +210,7 @@ describe('a part that cannot be read any more', () => {
     });
     expect(content.takes?.map(takeTitle)).toEqual(['Take 3', 'Softer hands']);
     expect(losses).toEqual(['The leader früher.bvh could not be read again; its take is left out.']);
-    expect(content.leader?.name).toBe('lead_0412.bvh');
+    expect(content.leader?.name).toBe('leader_0412.bvh');
   });
 
   it('leaves its takes when it is a song', async () => {
@@ -233,6 +237,7 @@ describe('a part that cannot be read any more', () => {
       steps: 10,
       seed: 5,
       role: 'reactor',
+      height: null,
     });
   });
 });

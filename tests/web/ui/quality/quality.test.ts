@@ -16,6 +16,7 @@ const settings = {
   steps: 10,
   seed: 1,
   role: 'reactor' as const,
+  height: null,
 };
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });
@@ -136,14 +137,14 @@ describe('what is shown', () => {
     expect(words.feet.value).toMatch(/^\d+ %$/);
     expect(words.feet.sentence).toContain('(recorded dancers: 33 %)');
     expect(words.feet.sentence).toMatch(
-      /of the dance \(recorded dancers: 48 %\) and move \d\.\d\d m\/s then\.$/,
+      /of the dance \(recorded dancers: 48 %\) and move at \d\.\d\d m\/s there\.$/,
     );
     expect(words.closeness).toEqual({
       value: '1.00 m',
-      sentence: 'At their closest the hips of the two are 1.00 m apart. The bodies never go into each other.',
+      sentence: 'At their closest the hips of the two are 1.00 m apart. The bodies never overlap.',
     });
     expect(words.beats.value).toMatch(/^– \d\.\d\d$/);
-    expect(words.beats.sentence).toContain('no beats of the music');
+    expect(words.beats.sentence).toContain('No beats of the music');
     expect(words.seams.sentence).toContain('blocks of 8 s');
     const slide = { kind: 'slide' as const, frame: 753, value: 0.714, severity: 2 };
     expect(momentLabel(slide, 30)).toBe('Foot slide, 0.71 m/s at 0:25.1');
@@ -151,7 +152,7 @@ describe('what is shown', () => {
 
   it.each([
     ['slide', 0.714, 'Foot slide', /slides at 0\.71 m\/s\. Up to 0\.20 m\/s counts as standing/],
-    ['overlap', 0.041, 'Bodies overlap', /go 4\.1 cm into each other\. Up to 1\.0 cm counts as a touch/],
+    ['overlap', 0.041, 'Bodies overlap', /overlap by 4\.1 cm\. Up to 1\.0 cm counts as a touch/],
     ['leader', 0.05, 'Off the leader’s beat', /beats of the leader: 0\.05 .* would be \d\.\d\d\./],
     ['seam', 3.2, 'Rough seam', /changes 3\.20 times as abruptly/],
   ] as const)('explains a mark: what it is, how bad and when (%s)', (kind, value, title, text) => {

@@ -1,5 +1,6 @@
 import { expect, it } from 'vitest';
-import { dismissLabel } from '../../../../web/ui/shell/problem-dialog';
+import { newerVersion } from '../../../../web/common/page-part';
+import { dismissLabel, hintOf } from '../../../../web/ui/shell/problem-dialog';
 import { emptyFileProblem, fileProblem, fullProblem } from '../../../../web/ui/store/problems';
 import { leader, song } from '../../support/made-state';
 
@@ -14,4 +15,12 @@ it('the button that closes the dialog names the files that stay', () => {
   expect(dismissLabel(unknown, both)).toBe(`Keep ${songName} and ${leaderName}`);
   expect(dismissLabel(unknown, { ...both, song: null })).toBe(`Keep ${leaderName}`);
   expect(dismissLabel(fullProblem(), both)).toBe('Close');
+});
+
+it('a newer version is not the fault of the file, and the hint says what becomes of the work', () => {
+  const problem = fileProblem(newerVersion(), 'leader', 'good.bvh');
+  expect(problem).toMatchObject({ code: 'newer-version', remedy: 'reload', refused: null });
+  expect(problem.title).not.toContain('good.bvh');
+  expect(hintOf(problem, { autosave: 'stored' })).toContain('takes and settings stay');
+  expect(hintOf(problem, { autosave: 'refused' })).toContain('Save your project first');
 });

@@ -20,6 +20,7 @@ test('the foot lock is on at first, and switching it changes the motion that is 
     steps: 10,
     seed: 1,
     role: 'reactor' as const,
+    height: null,
   };
   const inputs = { leader: leader(90), song: null, shift: 0, settings };
   apply(store, reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));

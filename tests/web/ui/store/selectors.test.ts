@@ -4,7 +4,8 @@ import type { Settings } from '../../../../web/ui/store/reaction';
 import type { AppState } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { small } from '../../support/small-manifest';
-import { uniformGuidance, leader, song, still } from '../../support/made-state';
+import { NO_RHYTHM } from '../../../../web/audio/rhythm/rhythm';
+import { uniformGuidance, leader, rhythm, song, still } from '../../support/made-state';
 
 const settings: Settings = {
   guidance: uniformGuidance(1.2, 0.6),
@@ -13,6 +14,7 @@ const settings: Settings = {
   steps: 10,
   seed: 1204,
   role: 'reactor',
+  height: null,
 };
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),
@@ -72,23 +74,6 @@ describe('guidance matrix', () => {
   });
 });
 
-describe('bar and count', () => {
-  const beats = [0.5, 1, 1.5, 2, 2.5];
-  it('counts in four from the first beat', () => {
-    expect(select.barAt(beats, 0.4)).toBeNull();
-    expect(select.barAt(beats, 0.5)).toEqual({ bar: 1, count: 1 });
-    expect(select.barAt(beats, 2.2)).toEqual({ bar: 1, count: 4 });
-    expect(select.barAt([], 1)).toBeNull();
-  });
-  it('ends with the last beat', () => {
-    expect(select.barAt(beats, 2.9)).toEqual({ bar: 2, count: 1 });
-    expect(select.barAt(beats, 3)).toBeNull();
-    expect(select.barAt(beats, 9)).toBeNull();
-    expect(select.barAt([2], 2.4)).toEqual({ bar: 1, count: 1 });
-    expect(select.barAt([2], 2.6)).toBeNull();
-  });
-});
-
 describe('notes', () => {
   it('on lengths: the dance is as long as the leader, and silence is mentioned', () => {
     expect(select.lengthNote(state({}))).toBeNull();
@@ -100,10 +85,16 @@ describe('notes', () => {
 
   it('on silent songs, missing beats, file warnings and notices', () => {
     const texts = (more: Partial<AppState>): string[] => select.notes(state(more)).map(({ text }) => text);
-    expect(texts({ song: song(5, { silent: true, beats: [] }) })).toEqual([
-      'The song is silent: it carries no beat to dance to.',
+    expect(texts({ song: song(5, { silent: true, rhythm: NO_RHYTHM }) })).toEqual([
+      'The song is silent: there is no beat to dance to.',
     ]);
-    expect(texts({ song: song(5, { beats: [] }) })).toEqual(['No steady beat was found in the song.']);
+    expect(texts({ song: song(5, { rhythm: NO_RHYTHM }) })).toEqual([
+      'No steady beat was found in the song.',
+    ]);
+    const unsure = rhythm([0, 1, 2], { sure: false });
+    expect(texts({ song: song(5, { rhythm: unsure }) })).toEqual([
+      expect.stringContaining('check the count'),
+    ]);
     expect(texts({ leader: leader(30, 'a.bvh', ['The feet slide.']), song: song(1) })).toEqual([
       'The feet slide.',
     ]);
@@ -129,13 +120,15 @@ describe('notes', () => {
     };
     const limit = small.leader.unfamiliar_from;
     expect(to(limit)).toEqual([]);
-    expect(to(limit + 0.1)).toEqual([expect.stringContaining('unlike all that the model has learned from')]);
+    expect(to(limit + 0.1)).toEqual([
+      expect.stringContaining('unlike the dancers that the model learned from'),
+    ]);
   });
 
   it('one of them where there is no room for more: what may affect the dance comes first', () => {
-    const silent = song(3, { silent: true, beats: [] });
+    const silent = song(3, { silent: true, rhythm: NO_RHYTHM });
     expect(select.firstNote(state({ leader: leader(300), song: silent }))).toEqual({
-      text: 'The song is silent: it carries no beat to dance to.',
+      text: 'The song is silent: there is no beat to dance to.',
       isWarning: true,
     });
     expect(select.firstNote(state({ leader: leader(300), song: song(60) }))?.text).toContain('not used');

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import * as change from '../../support/actions';
+import { undone } from '../../../../web/ui/store/history';
 import type { Problem } from '../../../../web/ui/store/state';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song, still } from '../../support/made-state';
@@ -20,6 +21,7 @@ describe('settings', () => {
       steps: 10,
       seed: 7,
       role: 'reactor',
+      height: null,
     });
   });
 
@@ -40,6 +42,22 @@ describe('settings', () => {
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0.35));
     change.apply(store, change.guidanceReset());
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0));
+  });
+
+  it('have a height that is clamped, undone and back in proportion', () => {
+    const store = ready();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    const height = () => store.getState().settings?.height;
+    change.apply(store, change.heightSet(1.724));
+    expect(height()).toBe(1.724);
+    change.apply(store, undone());
+    expect(height()).toBeNull();
+    change.apply(store, change.heightSet(99));
+    expect(height()).toBe(2.5);
+    change.apply(store, change.heightSet(NaN));
+    expect(height()).toBe(2.5);
+    change.apply(store, change.heightSet(null));
+    expect(height()).toBeNull();
   });
 
   it('clamp the variety to its own range, and reset it with the rest', () => {

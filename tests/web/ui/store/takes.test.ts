@@ -215,6 +215,59 @@ describe('a drag with the pointer', () => {
     expect([page.titles, steps()]).toEqual([['Take 3', 'Take 2', 'Take 1'], 2]);
     expect(page.state.drag).toBeNull();
   });
+
+  it('makes one take where a reaction to the way there comes after the release, however late the last one is', () => {
+    page.arrive();
+    page.now += 60_000;
+    page.do(change.dragBegun(), change.guidanceSet('coarse', 0.3));
+    const onTheWay = currentInputs(page.state)!;
+    page.do(change.guidanceSet('coarse', 0.4), change.dragEnded());
+    const { motion } = page.state.reaction!;
+    const late = { motion: still(motion.frames), latents: null, inputs: onTheWay, label: null, seconds: 1 };
+    page.do(change.reactionAdded(late, { id: 'late', at: page.now }));
+    page.arrive({ after: 10_000 });
+    expect([page.titles, page.coarse, page.state.drag]).toEqual([['Take 2', 'Take 1'], 0.4, null]);
+  });
+
+  it('that passes the settings of an older take leaves that take as it is', () => {
+    const first = page.arrive();
+    page.now += 60_000;
+    page.do(change.dragBegun());
+    for (const value of [0.1, 0, 0.2]) move(value, 100);
+    page.do(change.dragEnded());
+    expect(page.titles).toEqual(['Take 3', 'Take 1']);
+    expect(page.state.takes.at(-1)?.reaction.inputs).toEqual(first.inputs);
+  });
+});
+
+describe('clearing takes', () => {
+  const seeds = (...values: number[]): void => {
+    for (const seed of values) {
+      page.seed(seed);
+      page.arrive();
+    }
+  };
+
+  it('keeps the starred ones, shows the newest of them, says how many left, and is one step of undo', () => {
+    seeds(1, 2, 3, 4);
+    for (const title of ['Take 1', 'Take 2']) page.do(edit.takeStarred(page.id(title)));
+    page.do(edit.letterGiven(page.id('Take 3'), 'B'), edit.starredKept());
+    expect([page.titles, page.onStage, page.state.other]).toEqual([['Take 2', 'Take 1'], 'Take 2', null]);
+    expect(page.state.toast).toMatch(/^2 takes without a star/);
+    expect(edit.hasTakesToClear(page.state)).toBe(false);
+    page.do(undone());
+    expect([page.titles.length, page.onStage]).toEqual([4, 'Take 4']);
+  });
+
+  it('does nothing without a star, and keeps the stage where no starred take is to its leader', () => {
+    seeds(1, 2);
+    page.do(edit.starredKept());
+    expect(page.titles).toHaveLength(2);
+    page.do(edit.takeStarred(page.id('Take 1')), change.leaderLoaded(leader(90, 'other.bvh')));
+    page.arrive();
+    page.do(edit.starredKept());
+    expect([page.titles, page.onStage]).toEqual([['Take 3', 'Take 1'], 'Take 3']);
+  });
 });
 
 describe('the limit of takes', () => {
@@ -229,6 +282,7 @@ describe('the limit of takes', () => {
     }
     expect(page.titles).toHaveLength(MAX_TAKES);
     expect(page.titles.slice(-3)).toEqual(['Take 7', 'Mine', 'Take 1']);
+    expect(page.state.toast).toMatch(/^“Take 6” left the list, which holds 40 takes/);
   });
 });
 
@@ -343,11 +397,11 @@ describe('A and B', () => {
     expect([page.state.other, page.state.compare]).toEqual([null, 'off']);
     page.arrive();
     const [take] = page.state.takes.filter(({ id }) => id === page.id('Take 1'));
-    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('Dances the other part.');
+    expect(edit.whyNoLetter(take!, 'B', page.state)).toBe('This take dances the other role.');
     page.do(edit.letterGiven(page.id('Take 1'), 'B'));
     expect(page.state.other).toBeNull();
     const [alone] = page.state.takes.filter(({ id }) => id === page.id('Take 4'));
-    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare it with.');
+    expect(edit.whyNoLetter(alone!, 'B', page.state)).toBe('There is no other take to compare with.');
   });
 
   it('are not drawn while another leader is there', () => {

@@ -121,7 +121,7 @@ describe('timeline changes', () => {
     does(change.shiftSet(4));
     expect(shift.shiftAdvice(now())).toMatchObject({
       better: null,
-      summary: 'no better shift',
+      summary: 'timing fits',
       reason: expect.stringMatching(/the best within two seconds/) as string,
     });
   });

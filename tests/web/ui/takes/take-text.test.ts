@@ -14,6 +14,7 @@ const settings = {
   steps: small.diffusion.steps.default,
   seed: 1204,
   role: 'reactor' as const,
+  height: null,
 };
 const inputs: Inputs = { leader: leader(300), song: song(10), shift: 0, settings };
 const page: AppState = { ...initialState('dark'), manifest: small, leader: inputs.leader, song: inputs.song };
@@ -42,13 +43,14 @@ test.each<[string, Partial<Inputs>]>([
   [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
   [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
   [`${guided}, 1.5 variety`, { settings: { ...settings, variety: 1.5 } }],
+  [`${guided}, 172 cm tall`, { settings: { ...settings, height: 1.716 } }],
 ])('what sets a take apart comes first: %s', (words, more) => {
   expect(takeText(take(more), page)).toBe(words);
 });
 
 test('the tooltip of a take names all inputs', () => {
   expect(fullTakeText(take({ shift: 51 }))).toBe(
-    `As reactor to lead_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
+    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, 1.00 variety, seed 1204`,
   );
 });

@@ -1,9 +1,15 @@
 import { describe, expect, it } from 'vitest';
 import { rulerMarks } from '../../../../web/ui/timeline/ruler';
+import type { CountedBeats } from '../../../../web/ui/store/counting';
 import { timeScale } from '../../../../web/ui/store/time-scale';
 
-const beats = (count: number, every: number, first = 0): number[] =>
-  Array.from({ length: count }, (_, index) => first + index * every);
+const beats = (count: number, every: number, begin = 0, more: Partial<CountedBeats> = {}): CountedBeats => ({
+  times: Array.from({ length: count }, (_, index) => begin + index * every),
+  beatsPerBar: 4,
+  first: 0,
+  ...more,
+});
+const NONE = beats(0, 1);
 
 describe('ruler', () => {
   it('numbers every bar from the first beat when there is room', () => {
@@ -43,6 +49,25 @@ describe('ruler', () => {
     expect(marks[0]?.at).toBeCloseTo(0.4 / 2.6);
   });
 
+  it('counts on in the second bar of eight, and to six in bars of three', () => {
+    const near = timeScale({ from: 0, to: 4 }, 600);
+    const texts = (all: CountedBeats): string[] => rulerMarks(all, near).marks.map(({ text }) => text);
+    expect(texts(beats(9, 0.4))).toEqual(['1', '1.2', '1.3', '1.4', '2', '2.6', '2.7', '2.8', '3']);
+    expect(texts(beats(8, 0.4, 0, { beatsPerBar: 3 }))).toEqual([
+      '1',
+      '1.2',
+      '1.3',
+      '2',
+      '2.5',
+      '2.6',
+      '3',
+      '3.2',
+    ]);
+    const upbeats = rulerMarks(beats(8, 0.4, 0, { first: 2 }), near).marks;
+    expect(upbeats.map(({ text }) => text)).toEqual(['·7', '·8', '1', '1.2', '1.3', '1.4', '2', '2.6']);
+    expect(upbeats.findIndex(({ one }) => one)).toBe(2);
+  });
+
   it('leaves room where a short song fills only a part of the dance', () => {
     const { marks } = rulerMarks(beats(16, 0.5), timeScale({ from: 0, to: 30 }, 900));
     expect(marks.map(({ text }) => text)).toEqual(['1', '2', '3', '4']);
@@ -51,7 +76,7 @@ describe('ruler', () => {
   });
 
   it('shows the seconds of a part', () => {
-    const { marks } = rulerMarks([], timeScale({ from: 8.7, to: 11.3 }, 130));
+    const { marks } = rulerMarks(NONE, timeScale({ from: 8.7, to: 11.3 }, 130));
     expect(marks.map(({ text, at }) => [text, Number((at * 2.6).toFixed(3))])).toEqual([
       ['0:09', 0.3],
       ['0:10', 1.3],
@@ -60,7 +85,7 @@ describe('ruler', () => {
   });
 
   it('shows seconds where there are no beats', () => {
-    const { name, marks } = rulerMarks([], timeScale({ from: 0, to: 10 }, 400));
+    const { name, marks } = rulerMarks(NONE, timeScale({ from: 0, to: 10 }, 400));
     expect(name).toBe('Time');
     expect(marks.map(({ text }) => text)).toEqual([
       '0:00',
@@ -74,7 +99,7 @@ describe('ruler', () => {
       '0:08',
       '0:09',
     ]);
-    expect(rulerMarks([], timeScale({ from: 0, to: 100 }, 400)).marks.map(({ text }) => text)).toEqual([
+    expect(rulerMarks(NONE, timeScale({ from: 0, to: 100 }, 400)).marks.map(({ text }) => text)).toEqual([
       '0:00',
       '0:10',
       '0:20',
@@ -89,7 +114,7 @@ describe('ruler', () => {
   });
 
   it('is empty before anything is loaded', () => {
-    expect(rulerMarks([], timeScale({ from: 0, to: 0 }, 1000)).marks).toEqual([]);
-    expect(rulerMarks([], timeScale({ from: 0, to: 10 }, 0)).marks).toEqual([]);
+    expect(rulerMarks(NONE, timeScale({ from: 0, to: 0 }, 1000)).marks).toEqual([]);
+    expect(rulerMarks(NONE, timeScale({ from: 0, to: 10 }, 0)).marks).toEqual([]);
   });
 });

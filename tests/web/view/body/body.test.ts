@@ -2,7 +2,7 @@ import { beforeAll, describe, expect, it } from 'vitest';
 import { Line3, Matrix4, Vector3 } from 'three';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
 import { bindPose } from '../../../../web/view/body/bind-pose';
-import { SOLE } from '../../../../web/view/body/leg';
+import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import { buildBody, CELL, type BodyMesh } from '../../../../web/view/body/mesh';
 import { BUILDS } from '../../../../web/view/body/part';
 import { createPose } from '../../../../web/view/dancer/pose';
@@ -141,6 +141,30 @@ describe('a body', () => {
     expect(toes - lowest).toBeGreaterThan(SOLE - 0.004);
     expect(toes - lowest).toBeLessThan(SOLE + 0.002);
     expect(onSole).toBeGreaterThan(60);
+  });
+
+  it('has a neck clearly narrower than the skull, from the front and from the side', () => {
+    for (const [name, scale] of [
+      ['leader', 1],
+      ['reactor', 0.93],
+    ] as const) {
+      const { positions } = bodies.get(name)!;
+      const head = bindPose(person(scale)).joints[J.head]!;
+      /** Greatest extent along an axis between two heights above the head joint. */
+      const extent = (axis: 0 | 2, low: number, high: number): number => {
+        let [least, most] = [Infinity, -Infinity];
+        for (let v = 0; v < positions.length; v += 3) {
+          if (positions[v + 1]! < head[1] + low || positions[v + 1]! > head[1] + high) continue;
+          [least, most] = [Math.min(least, positions[v + axis]!), Math.max(most, positions[v + axis]!)];
+        }
+        return most - least;
+      };
+      const slices = [-0.06, -0.045, -0.03, -0.015, 0, 0.015];
+      for (const axis of [0, 2] as const) {
+        const narrowest = Math.min(...slices.map((low) => extent(axis, low, low + CELL)));
+        expect(narrowest).toBeLessThan(0.72 * extent(axis, 0.06, 0.14));
+      }
+    }
   });
 
   it('is dark at the shoes only', () => {

@@ -8,6 +8,7 @@ const input: FollowInput = {
   distance: 5,
   fitDistance: 5,
   mayZoom: true,
+  turn: 0,
 };
 
 describe('following smoothly', () => {
@@ -33,6 +34,11 @@ describe('following smoothly', () => {
     expect(followSmoothly({ ...input, offset: [0.5, 0] }, 1e6, true).shift[0]).toBeCloseTo(0.1);
   });
 
+  it('follows the faster the farther they have left', () => {
+    const speed = (x: number): number => followSmoothly({ ...input, offset: [x, 0] }, 1 / 60, true).shift[0];
+    expect(speed(1.4) / 1).toBeGreaterThan(2 * (speed(0.5) / 0.1));
+  });
+
   it('moves back at once, comes closer only while they dance, and keeps a distance that was chosen', () => {
     expect(followSmoothly({ ...input, fitDistance: 6 }, 0.1, false).distance).toBeGreaterThan(5);
     expect(followSmoothly({ ...input, fitDistance: 4 }, 0.1, false).distance).toBeNull();
@@ -41,13 +47,33 @@ describe('following smoothly', () => {
   });
 });
 
+describe('turning', () => {
+  it('goes all the way, gently, and comes to rest', () => {
+    let turn = -1.5;
+    let fastest = 0;
+    for (let frame = 0; frame < 200; frame++) {
+      const step = followSmoothly({ ...input, turn }, 1 / 30, true);
+      fastest = Math.max(fastest, Math.abs(step.turn));
+      turn -= step.turn;
+    }
+    expect(fastest).toBeLessThan(1 / 30);
+    expect(Math.abs(turn)).toBeLessThan(0.005);
+    expect(followSmoothly({ ...input, turn }, 1 / 30, false).moving).toBe(false);
+  });
+
+  it('by jumps waits until one dancer is about to hide the other', () => {
+    expect(followByJumps({ ...input, turn: 0.5 }).turn).toBe(0);
+    expect(followByJumps({ ...input, turn: -1 }).turn).toBe(-1);
+  });
+});
+
 describe('following by jumps', () => {
   it('stands still until the couple has left its place, then jumps', () => {
     for (const view of ['orbit', 'follow', 'top', 'side'] as const) {
       const near = followByJumps({ ...input, view, offset: [0.3, 0.2], fitDistance: 5.2 });
-      expect(near).toEqual({ shift: [0, 0], distance: null, moving: false });
+      expect(near).toEqual({ shift: [0, 0], distance: null, turn: 0, moving: false });
       const far = followByJumps({ ...input, view, offset: [0.4, 0.3], fitDistance: 5.2 });
-      expect(far).toEqual({ shift: [0.4, 0.3], distance: 5.2, moving: false });
+      expect(far).toEqual({ shift: [0.4, 0.3], distance: 5.2, turn: 0, moving: false });
     }
   });
 

@@ -45,15 +45,31 @@ describe('framing', () => {
     expect(couple.radius).toBeLessThan(1.6);
   });
 
-  it('keeps both dancers inside the picture, wide or narrow', () => {
+  it('keeps both dancers inside the picture, wide or narrow, heads too, from any side', () => {
     const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     for (const aspect of [0.5, 1, 1.8])
-      for (const radius of [0.4, 1, 2.2]) {
-        const distance = fitDistance({ radius, height: 1.6 }, aspect);
-        expect(distance * tangent * aspect).toBeGreaterThan(radius);
-        expect(2 * distance * tangent).toBeGreaterThan(1.6 / 0.75);
-      }
-    expect(fitDistance({ radius: 0.5, height: 1.5 }, 1.6)).toBeCloseTo(5.05, 5);
+      for (const apart of [0.4, 1, 2.2])
+        for (const tall of [1, 1.3]) {
+          const dancers = [figure(apart, 0), figure(-apart, 0)].map((joints) =>
+            joints.map((value, i) => (i % 3 === 1 ? value * tall * 1.6 : value)),
+          );
+          const couple = measureCouple(dancers);
+          for (const heading of [0, 0.6, Math.PI / 2]) {
+            const { distance, elevation } = shotOf('orbit', couple, aspect, heading);
+            for (const joints of dancers)
+              for (let j = 0; j < joints.length; j += 3) {
+                const [x, y, z] = [joints[j]!, joints[j + 1]! - 0.84, joints[j + 2]!];
+                const near = x * Math.sin(heading) + z * Math.cos(heading);
+                const depth = distance - near * Math.cos(elevation) - y * Math.sin(elevation);
+                const up = y * Math.cos(elevation) - near * Math.sin(elevation);
+                const across = x * Math.cos(heading) - z * Math.sin(heading);
+                // A skull is higher than its joint.
+                if (j === 3 * J.head) expect((up + 0.2) / depth / tangent).toBeLessThan(1);
+                expect(Math.abs(across) / depth / tangent / aspect).toBeLessThan(1);
+              }
+          }
+        }
+    expect(fitDistance(measureCouple([figure(0.2, 0), figure(-0.2, 0)]), 1.6)).toBeCloseTo(5.05, 5);
   });
 
   it('looks straight down from the top and level from the side', () => {
@@ -74,7 +90,14 @@ describe('framing', () => {
     const couple = measureCouple([figure(0.4, 0), figure(-0.4, 0)]);
     const there = measureCouple([figure(3.4, 2), figure(2.6, 2)]);
     const shot = { target: [0.1, 1, -0.2], distance: 3, heading: 0.7, elevation: 0.3 } as const;
-    const wide = { view: 'orbit', shot, tracked: [0, 0], ownDistance: true, aspect: 1.8 } as const;
+    const wide = {
+      view: 'orbit',
+      shot,
+      tracked: [0, 0],
+      ownDistance: true,
+      ownHeading: true,
+      aspect: 1.8,
+    } as const;
     expect(reframed(wide, there, 1.8)).toEqual({ ...shot, target: [3.1, 1, 1.8] });
     // Narrower: what was seen at the sides still is. Wider: as high as before.
     expect(reframed(wide, couple, 0.9).distance).toBeCloseTo(6, 6);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Vector3 } from 'three';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
-import { gesture } from '../../../../web/view/dancer/gesture';
+import { gesture, levelHead } from '../../../../web/view/dancer/gesture';
 import { createPose, samplePose } from '../../../../web/view/dancer/pose';
 import { createRig, type Rig } from '../../../../web/view/dancer/rig';
 import { person, randomMotion } from '../../support/skeletons';
@@ -35,11 +35,41 @@ describe('gestures', () => {
         samplePose(motion, frame / 30, pose);
         rig.apply(pose);
       }
+      levelHead(rigA);
       gesture(rigA, rigB);
       const joints = rigA.jointPositions(new Float32Array(JOINT_COUNT * 3));
       for (let i = 0; i < joints.length; i++)
         expect(Math.abs(joints[i]! - a.positions[frame * JOINT_COUNT * 3 + i]!)).toBeLessThan(2e-5);
     }
+  });
+
+  it.each([
+    ['forward', new Vector3(1, 0, 0)],
+    ['backward', new Vector3(-1, 0, 0)],
+    ['sideways', new Vector3(0, 0, 1)],
+  ])('hold the head level on a trunk that leans %s, wherever the dancer faces', (_, axis) => {
+    for (const heading of [0, 2, -2.8]) {
+      const rig = standing(0, 0);
+      const [neck, head] = [rig.bones[J.neck]!, rig.bones[J.head]!];
+      rig.root.quaternion.setFromAxisAngle(new Vector3(0, 1, 0), heading);
+      neck.quaternion.setFromAxisAngle(axis, 0.3);
+      rig.root.updateMatrixWorld(true);
+      const before = axisOf(rig, J.head, FORWARD);
+      levelHead(rig);
+      const [gaze, up] = [axisOf(rig, J.head, FORWARD), axisOf(rig, J.head, new Vector3(0, 1, 0))];
+      expect(up.y).toBeGreaterThan(Math.cos(0.1));
+      expect(Math.abs(gaze.y)).toBeLessThan(0.1);
+      expect(Math.atan2(gaze.x, gaze.z)).toBeCloseTo(Math.atan2(before.x, before.z), 1);
+      expect(neck.quaternion.angleTo(head.quaternion)).toBeGreaterThan(0.3);
+    }
+  });
+
+  it('do not turn a head over that looks at the floor', () => {
+    const rig = standing(0, 0);
+    rig.bones[J.neck]!.quaternion.setFromAxisAngle(new Vector3(1, 0, 0), 1.5);
+    rig.root.updateMatrixWorld(true);
+    levelHead(rig);
+    expect(axisOf(rig, J.head, FORWARD).y).toBeLessThan(-0.9);
   });
 
   it('turn the head towards the partner, part of the way', () => {

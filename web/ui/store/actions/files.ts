@@ -1,6 +1,6 @@
 /** Song and leader. */
-import type { LoadedLeader, LoadedSong } from '../reaction';
-import type { AppState, Reading, InputKind } from '../state';
+import type { LeaderSource, LoadedLeader, LoadedSong } from '../reaction';
+import type { AppState, GivenFiles, Reading, InputKind } from '../state';
 import type { Change } from '../store';
 
 export function readingSet(side: InputKind, reading: Reading | null): Change {
@@ -26,9 +26,20 @@ export function leaderLoaded(leader: LoadedLeader): Change {
     zoom: null,
     reaction: null,
     preview: null,
+    refusedLeader: null,
     reading: { ...state.reading, leader: null },
     playback: { ...state.playback, time: 0, playing: false, region: null },
   });
+}
+
+/** Keeps a leader that could not be read, so that it can be read again in another way; null forgets it. */
+export function leaderRefused(refusedLeader: LeaderSource | null): Change {
+  return () => ({ refusedLeader });
+}
+
+/** Shows files that were given together as a list to choose from; null closes it. */
+export function givenSet(given: GivenFiles | null): Change {
+  return () => ({ given });
 }
 
 export function firstVisitEnded(): Change {

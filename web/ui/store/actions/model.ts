@@ -17,6 +17,7 @@ export function manifestLoaded(manifest: Manifest, seed: number): Change {
       steps: manifest.diffusion.steps.default,
       seed,
       role: 'reactor',
+      height: null,
     },
   });
 }
@@ -34,7 +35,7 @@ export function modelOpened(manifest: Manifest, seed: number): Change {
       ...takesForOtherModel(state, sameRecipe),
       // Undo would bring back settings of the other model.
       history: NO_HISTORY,
-      notices: [...state.notices, `The partner is danced by your model “${manifest.name}”.${lost}`],
+      notices: [...state.notices, `Your model “${manifest.name}” now makes the partner.${lost}`],
     };
   };
 }

@@ -46,6 +46,7 @@ export function projectCleared(manifest: Manifest | null, seed: number): Change 
       other: null,
       letter: 'A',
       compare: 'off',
+      countings: [],
       footLock: true,
       firstVisit: true,
       demo: 'loading',

@@ -1,5 +1,5 @@
 /** The settings of a generation. */
-import type { Manifest } from '../../../model/client';
+import { HEIGHTS, type Manifest } from '../../../model/client';
 import { otherRole } from '../roles';
 import {
   columnOf,
@@ -122,6 +122,16 @@ export function rolesSwapped(): Change {
       letter: 'A',
       compare: 'off',
     };
+  };
+}
+
+/** Sets the height of the generated dancer, metres, clamped to what can be asked for; null is in proportion. */
+export function heightSet(height: number | null): Change {
+  return ({ settings }) => {
+    if (!settings || Number.isNaN(height)) return {};
+    const { min, max } = HEIGHTS;
+    const clamped = height === null ? null : Math.min(max, Math.max(min, height));
+    return clamped === settings.height ? {} : { settings: { ...settings, height: clamped } };
   };
 }
 

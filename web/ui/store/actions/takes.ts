@@ -49,6 +49,11 @@ export function takesSwapped(): Change {
   };
 }
 
+/** Whether there are two takes to swap. */
+export function canSwapTakes(state: AppState): boolean {
+  return takeOnStage(state) !== null && comparisonTake(state) !== null;
+}
+
 /** The other take of a comparison; before there is one, the newest that can be it. */
 function comparisonTake(state: AppState): Take | null {
   return otherTake(state) ?? state.takes.find((take) => comparable(take, state)) ?? null;
@@ -59,7 +64,7 @@ export function whyNoLetter(take: Take, letter: Letter, state: AppState): string
   if (letter === stageLetter(state)) return null;
   if (take.reaction !== state.reaction)
     return state.reaction && whyNotComparable(take.reaction, state.reaction);
-  return comparisonTake(state) ? null : 'There is no other take to compare it with.';
+  return comparisonTake(state) ? null : 'There is no other take to compare with.';
 }
 
 /** Gives a letter of the comparison to a take; given again to the compared take, ends the comparison. */
@@ -106,6 +111,45 @@ export function takeStarred(id: string): Change {
   });
 }
 
+/** Whether `starredKept` would remove a take. */
+export function hasTakesToClear(state: AppState): boolean {
+  const kept = takesToKeep(state);
+  return kept.some(({ starred }) => starred) && kept.length < state.takes.length;
+}
+
+/**
+ * Removes all takes without a star and says how many. Was one of them on the stage, the newest starred one to the same
+ * leader is shown; without one it stays.
+ */
+export function starredKept(): Change {
+  return (state) => {
+    if (!hasTakesToClear(state)) return {};
+    const takes = takesToKeep(state);
+    const shown = takeOnStage(state);
+    const next = shown && !takes.includes(shown) ? takes.find(sameLeader(state)) : undefined;
+    const count = state.takes.length - takes.length;
+    const comparisonEnds = next !== undefined || !takes.some(({ id }) => id === state.other);
+    return {
+      takes,
+      toast: `${count} ${count === 1 ? 'take' : 'takes'} without a star removed. Undo brings them back.`,
+      ...(next && withTakeShown(state, next)),
+      ...(comparisonEnds && { other: null, compare: 'off' }),
+    };
+  };
+}
+
+/** The starred takes, and the one on the stage if none of them could be shown in its place. */
+function takesToKeep(state: AppState): readonly Take[] {
+  const shown = takeOnStage(state);
+  const replaceable = state.takes.some((take) => take.starred && sameLeader(state)(take));
+  return state.takes.filter((take) => take.starred || (take === shown && !replaceable));
+}
+
+const sameLeader =
+  ({ leader }: AppState) =>
+  ({ reaction }: Take): boolean =>
+    reaction.inputs.leader === leader;
+
 /** Deletes a take. Was it on the stage, the next one to the same leader is shown; without one the stage stays. */
 export function takeDeleted(id: string): Change {
   return (state) => {
@@ -114,7 +158,7 @@ export function takeDeleted(id: string): Change {
     if (!take) return {};
     const takes = state.takes.filter((one) => one !== take);
     const near = [...takes.slice(at), ...takes.slice(0, at).toReversed()];
-    const next = near.find((one) => one.reaction.inputs.leader === state.leader);
+    const next = near.find(sameLeader(state));
     const moves = take.reaction === state.reaction && next;
     return {
       takes,

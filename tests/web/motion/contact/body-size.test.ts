@@ -1,0 +1,78 @@
+/** The same dance by a body of another size: feet stay where they stand, joined hands stay joined. */
+import { describe, expect, it } from 'vitest';
+import { resized } from '../../../../web/motion/contact/body-size';
+import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { J, JOINT_COUNT, PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
+import { distance, readVec } from '../../../../web/motion/math/vec3';
+import { madeDancer } from '../../support/made-dancer';
+
+const TOE_REST = 0.03;
+const clip: MotionClip = madeDancer({ frames: 60 });
+/** A partner whose hands are out of reach. */
+const far: MotionClip = { ...clip, positions: clip.positions.map((value) => value + 10) };
+
+const at = ({ positions }: MotionClip, frame: number, joint: number) =>
+  readVec(positions, frame * JOINT_COUNT + joint);
+const frames = [...Array(clip.frames).keys()];
+
+describe('resized', () => {
+  it('returns the clip itself for the size that it has', () => {
+    expect(resized(clip, 1, far, TOE_REST)).toBe(clip);
+  });
+
+  it.each([0.8, 0.95, 1.1, 1.3])('multiplies every bone by %f', (factor) => {
+    const other = resized(clip, factor, far, TOE_REST);
+    for (const frame of frames)
+      for (let joint = 1; joint < JOINT_COUNT; joint++) {
+        const bone = (of: MotionClip) => distance(at(of, frame, joint), at(of, frame, PARENTS[joint]!));
+        expect(bone(other), SMPL22[joint]).toBeCloseTo(factor * bone(clip), 5);
+      }
+  });
+
+  it('keeps the pelvis and the middle of each foot above their places on the floor', () => {
+    const other = resized(clip, 1.2, far, TOE_REST);
+    for (const frame of frames) {
+      const [before, after] = [at(clip, frame, J.pelvis), at(other, frame, J.pelvis)];
+      expect([after[0], after[2]]).toEqual([before[0], before[2]]);
+      for (const side of ['left', 'right'] as const)
+        for (const axis of [0, 2] as const) {
+          const middle = (of: MotionClip) =>
+            at(of, frame, J[`${side}_ankle`])[axis] + at(of, frame, J[`${side}_foot`])[axis];
+          expect(middle(other)).toBeCloseTo(middle(clip), 5);
+        }
+    }
+  });
+
+  it('keeps toes that rest on the floor at their height', () => {
+    const toe = at(clip, 0, J.left_foot)[1];
+    const other = resized(clip, 1.2, far, toe);
+    expect(at(other, 0, J.left_foot)[1]).toBeCloseTo(toe, 6);
+  });
+
+  it('keeps a hand at the hand that it holds, and moves one that holds none with the body', () => {
+    const held = 30;
+    // A partner whose left hand is at the dancer's right one, and whose other joints are far away.
+    const partner = { ...far, positions: far.positions.slice() };
+    for (const frame of frames) {
+      const from = (frame * JOINT_COUNT + J.right_wrist) * 3;
+      const hand = clip.positions.subarray(from, from + 3);
+      partner.positions.set(hand, (frame * JOINT_COUNT + J.left_wrist) * 3);
+    }
+    const other = resized(clip, 1.06, partner, TOE_REST);
+    expect(distance(at(other, held, J.right_wrist), at(clip, held, J.right_wrist))).toBeLessThan(0.005);
+    expect(distance(at(other, held, J.left_wrist), at(clip, held, J.left_wrist))).toBeGreaterThan(0.02);
+  });
+
+  it('moves as smoothly as before', () => {
+    const jump = (of: MotionClip) =>
+      Math.max(
+        ...frames
+          .slice(1)
+          .flatMap((frame) =>
+            SMPL22.map((_, joint) => distance(at(of, frame, joint), at(of, frame - 1, joint))),
+          ),
+      );
+    for (const factor of [0.8, 1.3])
+      expect(jump(resized(clip, factor, clip, TOE_REST))).toBeLessThan(2 * jump(clip));
+  });
+});

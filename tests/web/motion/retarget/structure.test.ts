@@ -1,0 +1,108 @@
+import { describe, expect, test } from 'vitest';
+import type { SourceJoint } from '../../../../web/motion/retarget/source';
+import { mapByStructure } from '../../../../web/motion/retarget/structure';
+import { add, type Vec3, ZERO } from '../../../../web/motion/math/vec3';
+import { type MadeJoint, madeBody, MIXAMO } from '../../support/made-bvh';
+
+/** Joints with names that say nothing, where they rest, and which joint each was. */
+function unnamed(body: readonly MadeJoint[], rename: (name: string, index: number) => string) {
+  const joints: SourceJoint[] = [];
+  const places: Vec3[] = [];
+  const truth: string[] = [];
+  const visit = (name: string | null, parent: number): void => {
+    for (const joint of body.filter((one) => one.parent === name)) {
+      const index = joints.push({ name: rename(joint.name, joints.length), parent, endSite: false }) - 1;
+      places.push(add(parent < 0 ? ZERO : places[parent]!, joint.offset));
+      truth.push(joint.name);
+      if (joint.end) {
+        joints.push({ name: 'end', parent: index, endSite: true });
+        places.push(add(places[index]!, joint.end));
+        truth.push(`end of ${joint.name}`);
+      }
+      visit(joint.name, index);
+    }
+  };
+  visit(null, -1);
+  return { joints, places, truth };
+}
+
+const EXPECTED = {
+  left_hip: 'LeftUpLeg',
+  left_knee: 'LeftLeg',
+  left_ankle: 'LeftFoot',
+  left_foot: 'LeftToeBase',
+  left_collar: 'LeftShoulder',
+  left_shoulder: 'LeftArm',
+  left_elbow: 'LeftForeArm',
+  left_wrist: 'LeftHand',
+} as const;
+
+function expectBody(body: readonly MadeJoint[], places?: (place: Vec3) => Vec3): void {
+  const made = unnamed(body, (_, index) => `骨${index}`);
+  const found = mapByStructure(made.joints, places ? made.places.map(places) : made.places);
+  expect(found).not.toBeNull();
+  for (const [joint, name] of Object.entries(EXPECTED)) {
+    const right = joint.replace('left', 'right');
+    const at = (key: string): string => made.truth[found!.nodes.get(key as 'left_hip') ?? -1] ?? 'none';
+    expect([at(joint), at(right)]).toEqual([
+      `mixamorig:${name}`,
+      `mixamorig:${name.replace('Left', 'Right')}`,
+    ]);
+  }
+  expect(made.truth[found!.nodes.get('head')!]).toBe('mixamorig:Head');
+  expect(found!.sidesCertain).toBe(true);
+}
+
+const body = madeBody(MIXAMO);
+
+describe('a body found by its shape', () => {
+  test('in a T-pose', () => expectBody(body));
+
+  test('with z up, turned and small', () => expectBody(body, ([x, y, z]) => [0.01 * z, 0.01 * x, 0.01 * y]));
+
+  test('with fingers, hair and a tail', () => {
+    const side = (name: string): number => (name.includes('Left') ? 1 : -1);
+    const hands = body.filter(({ name }) => name.endsWith('Hand'));
+    const fingers = hands.flatMap(({ name }) =>
+      [0, 1, 2, 3].flatMap((finger): MadeJoint[] => [
+        { name: `${name}${finger}`, parent: name, offset: [side(name) * 0.09, 0, 0.03 * finger] },
+        { name: `${name}${finger}b`, parent: `${name}${finger}`, offset: [side(name) * 0.04, 0, 0] },
+        { name: `${name}${finger}c`, parent: `${name}${finger}b`, offset: [side(name) * 0.03, 0, 0] },
+      ]),
+    );
+    const chain = (name: string, parent: string, step: readonly [number, number, number], count: number) =>
+      Array.from({ length: count }, (_, i): MadeJoint => ({
+        name: `${name}${i}`,
+        parent: i === 0 ? parent : `${name}${i - 1}`,
+        offset: step,
+      }));
+    expectBody([
+      ...body,
+      ...fingers,
+      ...chain('hair', 'mixamorig:Head', [0, -0.05, -0.05], 8),
+      ...chain('tail', 'mixamorig:Hips', [0, -0.02, -0.12], 7),
+    ]);
+  });
+
+  test('names decide between left and right where there are no feet', () => {
+    const barefoot = body
+      .filter(({ name }) => !name.endsWith('ToeBase'))
+      .map((joint) => (joint.name.endsWith('Foot') ? { ...joint, end: [0, -0.05, 0] as const } : joint));
+    const made = unnamed(barefoot, (name, index) => `${name.includes('Left') ? 'L' : 'R'}_${index}`);
+    const found = mapByStructure(made.joints, made.places)!;
+    expect(made.truth[found.nodes.get('left_knee')!]).toBe('mixamorig:LeftLeg');
+    const nameless = unnamed(barefoot, (_, index) => `${index}`);
+    expect(mapByStructure(nameless.joints, nameless.places)!.sidesCertain).toBe(false);
+  });
+
+  test.each(['UpLeg', 'Arm'])('none without its %s', (part) => {
+    const lost = new Set<string>();
+    for (const { name, parent } of body)
+      if (new RegExp(`(Left|Right)${part}$`).test(name) || lost.has(parent ?? '')) lost.add(name);
+    const made = unnamed(
+      body.filter(({ name }) => !lost.has(name)),
+      (_, index) => `${index}`,
+    );
+    expect(mapByStructure(made.joints, made.places)).toBeNull();
+  });
+});

@@ -1,0 +1,45 @@
+/** Figures of the whole app as a visitor meets it. */
+import { writeFile } from 'node:fs/promises';
+import path from 'node:path';
+import { root, runOrThrow } from '../../run.mjs';
+import { measureColdStart } from './cold-start.mjs';
+import { measureLength } from './lengths.mjs';
+import { plotLengths } from './plot.mjs';
+import { measureSlider } from './slider.mjs';
+
+/** @typedef {Awaited<ReturnType<typeof measureApp>>} AppFigures */
+
+/**
+ * @param {string} folder for files that are not kept
+ * @param {{ frames: number, minutes: number[] }} options frames of the dance whose fader is moved; lengths to compare
+ */
+export async function measureApp(folder, { frames, minutes }) {
+  await runOrThrow('vite', ['build', '--logLevel', 'warn']);
+  const coldStart = await measureColdStart();
+  const slider = await measureSlider(folder, frames);
+  const lengths = [];
+  for (const each of minutes) lengths.push(await measureLength(folder, each));
+  await writeFile(path.join(root, 'docs/lengths.svg'), plotLengths(lengths));
+  return { coldStart, slider, lengths };
+}
+
+/** @param {AppFigures} figures @returns {string} tables in Markdown */
+export function appTables({ coldStart, slider, lengths }) {
+  return [
+    '| the page on the processor | |',
+    '|---|---:|',
+    `| cold start until the model is ready | ${coldStart.ready.toFixed(1)} s |`,
+    `| cold start until the first generated dance | ${coldStart.generated.toFixed(1)} s |`,
+    `| sent by the server until then | ${coldStart.megabytes.toFixed(1)} MB |`,
+    `| a moved fader until new frames are drawn, while it plays | ${slider.first.toFixed(0)} ms |`,
+    `| until the whole new dance is drawn | ${slider.whole.toFixed(0)} ms |`,
+    `| one picture meanwhile | ${slider.picture.toFixed(0)} ms |`,
+    '',
+    '| minutes | song read, s | leader read, s | dance made, s | most memory, MB | longest task, ms |',
+    '|---:|---:|---:|---:|---:|---:|',
+    ...lengths.map(
+      ({ minutes, song, leader, dance, memory, longestTask }) =>
+        `| ${[minutes, song.toFixed(1), leader.toFixed(1), dance.toFixed(1), memory.toFixed(0), longestTask.toFixed(0)].join(' | ')} |`,
+    ),
+  ].join('\n');
+}

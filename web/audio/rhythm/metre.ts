@@ -1,0 +1,94 @@
+import { type Accents, strongest } from './accents';
+
+/** Beats in a bar. */
+export type BeatsPerBar = 3 | 4;
+
+/** How beats are grouped. */
+export interface Metre {
+  readonly beatsPerBar: BeatsPerBar;
+  /** Number of the first beat, from 0, that begins a group of two bars: the "1" of a count of eight, or of six. */
+  readonly first: number;
+}
+
+/** Beats that are looked at together, so that a lost beat does not hide the bars of a whole song. */
+const WINDOW = 24;
+/** How much more of the accents bars of three have to explain than bars of four, which are far more common. */
+const THREE_MARGIN = 0.06;
+/** Weights of onset, bass and harmony: a snare drum is loudest between the beats where bass and harmony begin a bar. */
+const WEIGHTS = { onset: 0.5, bass: 1, harmony: 1.5 } as const;
+/** How much more accented, in standard deviations, a later bar has to be than the first one to begin the count. */
+const LATER_MARGIN = 0.25;
+
+/**
+ * Three or four beats a bar, by which of them explains more of the accents' variance, and where the count begins.
+ *
+ * @param beats frames, ascending, not whole
+ */
+export function metreOf(beats: readonly number[], accents: Accents): Metre {
+  const onset = standardized(beats.map((beat) => strongest(accents.onset, beat)));
+  const bass = standardized(beats.map((beat) => strongest(accents.bass, beat)));
+  const harmony = standardized(harmonyChanges(beats, accents));
+  const accent = onset.map(
+    (value, beat) => WEIGHTS.onset * value + WEIGHTS.bass * bass[beat]! + WEIGHTS.harmony * harmony[beat]!,
+  );
+  const explained = (beatsPerBar: BeatsPerBar): number =>
+    [accent, onset, bass, harmony].reduce((sum, each) => sum + meanExplained(each, beatsPerBar), 0) / 4;
+  const beatsPerBar = explained(3) > explained(4) + THREE_MARGIN ? 3 : 4;
+  const bar = strongestPhase(accent, beatsPerBar, 0);
+  const phases = phaseMeans(accent, 2 * beatsPerBar);
+  const later = phases[bar + beatsPerBar]! > phases[bar]! + LATER_MARGIN;
+  return { beatsPerBar, first: later ? bar + beatsPerBar : bar };
+}
+
+/** How much the pitch classes of each beat differ from those of the beat before: 1 less their cosine. */
+function harmonyChanges(beats: readonly number[], { chroma, onset }: Accents): number[] {
+  const pitches = chroma.length / Math.max(1, onset.length);
+  const spectra = beats.map((beat, index) => {
+    const sum = new Float64Array(pitches);
+    const end = Math.min(onset.length, beats[index + 1] ?? onset.length);
+    for (let frame = Math.max(0, Math.round(beat)); frame < end; frame++)
+      for (let pitch = 0; pitch < pitches; pitch++) sum[pitch]! += chroma[frame * pitches + pitch]!;
+    const length = Math.sqrt(sum.reduce((all, value) => all + value ** 2, 0));
+    return sum.map((value) => (length > 0 ? value / length : 0));
+  });
+  return spectra.map((spectrum, beat) => {
+    const before = spectra[beat - 1];
+    return before ? 1 - spectrum.reduce((sum, value, pitch) => sum + value * before[pitch]!, 0) : 0;
+  });
+}
+
+/** The values less their mean, in standard deviations; zeros where all are the same. */
+function standardized(values: readonly number[]): number[] {
+  const mean = values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
+  const variance = values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / Math.max(1, values.length);
+  return values.map((value) => (variance > 1e-12 ? (value - mean) / Math.sqrt(variance) : 0));
+}
+
+/** Means of the values of each phase, `count` of them. */
+function phaseMeans(values: readonly number[], count: number): number[] {
+  return Array.from({ length: count }, (_, phase) => {
+    const own = values.filter((_, index) => index % count === phase);
+    return own.reduce((sum, value) => sum + value, 0) / Math.max(1, own.length);
+  });
+}
+
+function strongestPhase(values: readonly number[], count: number, first: number): number {
+  const means = phaseMeans(values.slice(first), count);
+  return means.indexOf(Math.max(...means));
+}
+
+/** Share of the variance that a period of so many beats explains beyond chance, averaged over windows. */
+function meanExplained(values: readonly number[], period: number): number {
+  const size = Math.min(WINDOW, values.length);
+  const shares: number[] = [];
+  for (let start = 0; start + size <= values.length; start += WINDOW / 2) {
+    const part = values.slice(start, start + size);
+    const mean = part.reduce((sum, value) => sum + value, 0) / size;
+    const whole = part.reduce((sum, value) => sum + (value - mean) ** 2, 0);
+    const means = phaseMeans(part, period);
+    const between = part.reduce((sum, _, index) => sum + (means[index % period]! - mean) ** 2, 0);
+    const chance = (period - 1) / Math.max(1, size - 1);
+    shares.push(whole > 1e-9 ? (between / whole - chance) / (1 - chance) : 0);
+  }
+  return shares.reduce((sum, value) => sum + value, 0) / Math.max(1, shares.length);
+}

@@ -1,0 +1,115 @@
+import { unzipSync } from 'fflate';
+
+/** One array of a NumPy archive; integers and doubles come as doubles. */
+export interface NpzArray {
+  readonly shape: readonly number[];
+  readonly data: Float32Array | Float64Array;
+}
+
+/** Makes the error of a damaged archive or array from a sentence. */
+export type DamageError = (message: string, cause?: unknown) => Error;
+
+type Reader = (view: DataView, count: number) => Float32Array | Float64Array;
+
+const READERS: Record<string, Reader> = {
+  '<f4': (view, count) => Float32Array.from({ length: count }, (_, i) => view.getFloat32(4 * i, true)),
+  '<f8': (view, count) => Float64Array.from({ length: count }, (_, i) => view.getFloat64(8 * i, true)),
+  '<i4': (view, count) => Float64Array.from({ length: count }, (_, i) => view.getInt32(4 * i, true)),
+  '<i8': (view, count) =>
+    Float64Array.from({ length: count }, (_, i) => Number(view.getBigInt64(8 * i, true))),
+};
+
+/** Columns first (Fortran) to rows first, as NumPy writes the result of a transposition. */
+function rowsFirst<T extends NpzArray['data']>(data: T, shape: readonly number[]): T {
+  const out = data.slice() as T;
+  const index = shape.map(() => 0);
+  for (let to = 0; to < out.length; to++) {
+    let from = 0;
+    for (let axis = shape.length - 1; axis >= 0; axis--)
+      from = from * (shape[axis] ?? 1) + (index[axis] ?? 0);
+    out[to] = data[from] ?? NaN;
+    for (let axis = shape.length - 1; axis >= 0; axis--) {
+      const next = (index[axis] ?? 0) + 1;
+      index[axis] = next === shape[axis] ? 0 : next;
+      if (index[axis] !== 0) break;
+    }
+  }
+  return out;
+}
+
+/** Bytes of one value of each type. */
+const ITEM_BYTES: Record<string, number> = { '<f4': 4, '<f8': 8, '<i4': 4, '<i8': 8 };
+const MAGIC = '\u0093NUMPY';
+
+/** The lengths in a header's shape; null where one is no length. */
+function readShape(header: string): number[] | null {
+  const inside = /'shape': \(([^)]*)\)/.exec(header)?.[1];
+  if (inside === undefined) return null;
+  const parts = inside.split(',').map((part) => part.trim());
+  const lengths = parts.filter((text) => text !== '');
+  return lengths.every((text) => /^\d{1,9}$/.test(text)) ? lengths.map(Number) : null;
+}
+
+/**
+ * Reads one .npy file: little-endian float32, float64, int32 or int64, all values finite.
+ *
+ * @param name the array's name in sentences
+ * @throws what `damaged` makes
+ */
+export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): NpzArray {
+  const text = (from: number, to: number): string => String.fromCharCode(...bytes.subarray(from, to));
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const start = bytes.length > 12 && view.getUint8(6) > 1 ? 12 : 10;
+  if (bytes.length <= start || text(0, MAGIC.length) !== MAGIC)
+    throw damaged(`The array "${name}" is no NumPy array.`);
+  const end = start + (start === 12 ? view.getUint32(8, true) : view.getUint16(8, true));
+  const header = new TextDecoder().decode(bytes.subarray(start, end));
+  const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
+  const read = READERS[type];
+  const itemBytes = ITEM_BYTES[type];
+  if (read === undefined || itemBytes === undefined)
+    throw damaged(`The array "${name}" is of a type that is not read here: ${type.slice(0, 24)}.`);
+  const shape = readShape(header);
+  const count = shape?.reduce((product, length) => product * length, 1);
+  if (!shape || count === undefined || bytes.length - end !== count * itemBytes)
+    throw damaged(`The array "${name}" does not have the size that its header states.`);
+  const data = read(new DataView(bytes.buffer, bytes.byteOffset + end), count);
+  if (!data.every((value) => Number.isFinite(value)))
+    throw damaged(`The array "${name}" holds a value that is not a finite number.`);
+  return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
+}
+
+/**
+ * The .npy files in a NumPy archive (numpy.savez, compressed or not), by the names of their arrays. None is unpacked that
+ * would make them larger than `maxBytes`.
+ *
+ * @throws what `damaged` makes
+ */
+export function unzipArrays(
+  bytes: Uint8Array,
+  maxBytes: number,
+  damaged: DamageError,
+): Map<string, Uint8Array> {
+  let total = 0;
+  let tooLarge = false;
+  try {
+    const files = unzipSync(bytes, {
+      filter: ({ originalSize }) => {
+        total += originalSize;
+        tooLarge = total > maxBytes;
+        if (tooLarge) throw new RangeError('too large');
+        return true;
+      },
+    });
+    return new Map(
+      Object.entries(files).map(([file, content]) => [file.replace(/\.npy$/, ''), content] as const),
+    );
+  } catch (cause) {
+    throw damaged(
+      tooLarge
+        ? `The archive holds more than ${maxBytes / 1024 ** 2} MB.`
+        : 'The archive of arrays is damaged: it is no whole zip file.',
+      cause,
+    );
+  }
+}

@@ -1,0 +1,63 @@
+import { LOOKS, type Theme } from '../../view/theme';
+
+/** What is written into a video; empty for nothing. */
+export interface Captions {
+  readonly title: string;
+  readonly credit: string;
+}
+
+/** How long the title stays, and the end of it during which it fades, seconds. */
+const TITLE = { seconds: 4, fade: 0.6 };
+/** Heights of the letters and distance from the edge, shares of the shorter side of the picture. */
+const SIZES = { title: 0.055, credit: 0.026, edge: 0.045 };
+const FONT = '"Hanken Grotesk", system-ui, sans-serif';
+
+/** Opacity of the title at a moment of the video, 0 to 1. */
+export function titleOpacity(seconds: number): number {
+  return Math.min(1, Math.max(0, (TITLE.seconds - seconds) / TITLE.fade));
+}
+
+/** The longest beginning of a text that is not wider than `width`, with an ellipsis where it is cut. */
+export function fitted(text: string, width: number, widthOf: (text: string) => number): string {
+  if (widthOf(text) <= width) return text;
+  let end = text.length - 1;
+  while (end > 0 && widthOf(`${text.slice(0, end).trimEnd()}…`) > width) end--;
+  return `${text.slice(0, end).trimEnd()}…`;
+}
+
+/**
+ * Pictures with a title in their first seconds and a credit line at the bottom. Without either they are the pictures
+ * themselves, which are not copied.
+ *
+ * @returns the canvas to write, and a function that copies the present picture, of the moment `seconds`, to it
+ */
+export function captioned(
+  picture: HTMLCanvasElement,
+  { title, credit }: Captions,
+  theme: Theme,
+): { readonly canvas: HTMLCanvasElement; readonly draw: (seconds: number) => void } {
+  if (title.trim() === '' && credit.trim() === '') return { canvas: picture, draw: () => undefined };
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('2d', { alpha: false });
+  if (!context) return { canvas: picture, draw: () => undefined };
+  const { width, height } = Object.assign(canvas, { width: picture.width, height: picture.height });
+  const side = Math.min(width, height);
+  const edge = SIZES.edge * side;
+  const write = (text: string, share: number, weight: number, y: number, opacity: number): void => {
+    context.font = `${weight} ${Math.round(share * side)}px ${FONT}`;
+    context.globalAlpha = opacity;
+    const line = fitted(text.trim(), width - 2 * edge, (part) => context.measureText(part).width);
+    context.fillText(line, edge, y);
+  };
+  return {
+    canvas,
+    draw: (seconds) => {
+      context.globalAlpha = 1;
+      context.drawImage(picture, 0, 0);
+      context.fillStyle = `#${LOOKS[theme].contrast.toString(16).padStart(6, '0')}`;
+      context.textBaseline = 'alphabetic';
+      write(title, SIZES.title, 600, edge + SIZES.title * side, titleOpacity(seconds));
+      write(credit, SIZES.credit, 500, height - edge, 1);
+    },
+  };
+}

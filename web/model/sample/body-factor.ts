@@ -1,0 +1,25 @@
+import type { MotionClip } from '../../motion/skeleton/clip';
+import { CROWN, restPositions, standingHeight } from '../../motion/skeleton/kinematics';
+import { bodyHeight } from '../../motion/skeleton/scale';
+import type { Manifest } from '../manifest';
+import type { Size, Source } from './inputs';
+
+/**
+ * By what the decoded body is multiplied, so that the dancer has the height that was asked for; by default the one that
+ * the couples of the training had in proportion, because decoded bodies vary with the dance by several percent.
+ *
+ * @param offsets of the decoded body, 22 x 3 metres at the leader's size
+ * @param leader the loaded dancer at their own size
+ */
+export function bodyFactor(
+  offsets: Float32Array,
+  leader: MotionClip,
+  { height, role }: Size & Pick<Source, 'role'>,
+  { reference_height, reactor_height }: Manifest['skeleton'],
+): number {
+  if (height !== undefined) return (height - CROWN) / (standingHeight(offsets) - CROWN);
+  if (reactor_height === undefined) return 1;
+  const proportion = reactor_height / reference_height;
+  const wanted = bodyHeight(leader) * (role === 'leader' ? 1 / proportion : proportion);
+  return wanted / bodyHeight({ fps: leader.fps, frames: 1, positions: restPositions(offsets) });
+}

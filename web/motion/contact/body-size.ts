@@ -1,0 +1,136 @@
+import type { MotionClip } from '../skeleton/clip';
+import { forwardOf } from '../skeleton/heading';
+import { J, JOINT_COUNT } from '../skeleton/skeleton';
+import { rotate } from '../math/quat';
+import {
+  add,
+  cross,
+  direction,
+  distance,
+  dot,
+  length,
+  lerp,
+  perpendicular,
+  readVec,
+  scale,
+  sub,
+  type Vec3,
+  writeVec,
+  X_AXIS,
+} from '../math/vec3';
+import { maxLegLength, twoBoneIk } from './two-bone-ik';
+
+/** A limb by its joints; `bends` is 1 where its lower bone bends forwards, as an arm's, and -1 where backwards. */
+interface Limb {
+  readonly start: number;
+  readonly middle: number;
+  readonly end: number;
+  readonly bends: 1 | -1;
+}
+
+const LEGS: readonly (Limb & { readonly toe: number })[] = [
+  { start: J.left_hip, middle: J.left_knee, end: J.left_ankle, toe: J.left_foot, bends: -1 },
+  { start: J.right_hip, middle: J.right_knee, end: J.right_ankle, toe: J.right_foot, bends: -1 },
+];
+const ARMS: readonly Limb[] = [
+  { start: J.left_shoulder, middle: J.left_elbow, end: J.left_wrist, bends: 1 },
+  { start: J.right_shoulder, middle: J.right_elbow, end: J.right_wrist, bends: 1 },
+];
+const WRISTS = [J.left_wrist, J.right_wrist];
+
+/** Distance of two wrists up to which they count as joined, and from which they do not, metres. */
+const JOINED = 0.15;
+const APART = 0.45;
+/** Weight of the side to which a limb bends, where a right angle has 1: it decides only where the limb is straight. */
+const BEND_WEIGHT = 0.05;
+
+/**
+ * The same dance by a body of another size. The pelvis stays above its place on the floor and rises with the body; feet stay where they stand and hands that are joined with the partner's stay joined, by two-bone inverse
+ * kinematics, as far as the limbs reach. All other bones keep their direction. Pure.
+ *
+ * @param clip of a body with constant bone lengths, on a floor at height 0
+ * @param factor new size / size, above 0
+ * @param partner the other dancer, who stays as they are; as many frames
+ * @param toeRest height of the toes of a standing dancer of any size, metres
+ */
+export function resized(clip: MotionClip, factor: number, partner: MotionClip, toeRest: number): MotionClip {
+  if (factor === 1) return clip;
+  const positions = clip.positions.slice();
+  for (let frame = 0; frame < clip.frames; frame++) {
+    const row = frame * JOINT_COUNT;
+    const raised = (y: number): number => toeRest + factor * (y - toeRest);
+    const before = (joint: number): Vec3 => readVec(clip.positions, row + joint);
+    const root = before(J.pelvis);
+    const grown = (joint: number): Vec3 => {
+      const [x, y, z] = before(joint);
+      return [root[0] + factor * (x - root[0]), raised(y), root[2] + factor * (z - root[2])];
+    };
+    const put = (joint: number, at: Vec3): void => writeVec(positions, row + joint, at);
+    for (let joint = 0; joint < JOINT_COUNT; joint++) put(joint, grown(joint));
+
+    const forward = forwardOf(sub(before(J.left_hip), before(J.right_hip)));
+    for (const leg of LEGS) {
+      const [ankle, toe] = [before(leg.end), before(leg.toe)];
+      // The middle of the foot stays, so that it may turn on its heel as well as on its ball.
+      const [midX, midZ] = [(ankle[0] + toe[0]) / 2, (ankle[2] + toe[2]) / 2];
+      const wanted: Vec3 = [
+        midX + factor * (ankle[0] - midX),
+        raised(ankle[1]),
+        midZ + factor * (ankle[2] - midZ),
+      ];
+      const moved = reach(leg, grown, wanted, forward);
+      put(leg.middle, moved.middle);
+      put(leg.end, moved.end);
+      put(leg.toe, add(moved.end, scale(sub(toe, ankle), factor)));
+    }
+    for (const arm of ARMS) {
+      const wrist = before(arm.end);
+      const nearest = Math.min(
+        ...WRISTS.map((other) => distance(wrist, readVec(partner.positions, row + other))),
+      );
+      const joined = 1 - smoothstep((nearest - JOINED) / (APART - JOINED));
+      if (joined === 0) continue;
+      const moved = reach(arm, grown, lerp(grown(arm.end), wrist, joined), forward);
+      put(arm.middle, moved.middle);
+      put(arm.end, moved.end);
+    }
+  }
+  return { ...clip, positions };
+}
+
+/** Middle and end of a limb whose end is brought to `wanted`, or as far on the way there as the limb reaches. */
+function reach(
+  { start, middle, end, bends }: Limb,
+  at: (joint: number) => Vec3,
+  wanted: Vec3,
+  forward: Vec3,
+): { readonly middle: Vec3; readonly end: Vec3 } {
+  const from = at(start);
+  const upper = sub(at(middle), from);
+  const lower = sub(at(end), at(middle));
+  const along = direction(upper, X_AXIS);
+  const bend = cross(upper, lower);
+  const straight = scale(cross(along, forward), bends * BEND_WEIGHT * length(upper) * length(lower));
+  const hinge = perpendicular(add(bend, straight), along, X_AXIS);
+  const target = within(from, at(end), wanted, maxLegLength(upper, lower));
+  const turns = twoBoneIk({ hip: from, thigh: upper, shin: lower, hinge }, target);
+  const knee = add(from, rotate(turns.thigh, upper));
+  return { middle: knee, end: add(knee, rotate(turns.shin, lower)) };
+}
+
+/** The point nearest to `to` on the way from `from`, which lies within the radius around `centre`, that does so too. */
+function within(centre: Vec3, from: Vec3, to: Vec3, radius: number): Vec3 {
+  const [start, way] = [sub(from, centre), sub(to, from)];
+  // |start + s way|^2 = radius^2, the larger root.
+  const a = dot(way, way);
+  if (a === 0) return to;
+  const b = dot(start, way) / a;
+  const c = (dot(start, start) - radius * radius) / a;
+  const s = Math.sqrt(Math.max(0, b * b - c)) - b;
+  return add(from, scale(way, Math.min(1, Math.max(0, s))));
+}
+
+function smoothstep(t: number): number {
+  const x = Math.min(1, Math.max(0, t));
+  return x * x * (3 - 2 * x);
+}

@@ -1,0 +1,71 @@
+/** Formats of motion files. */
+export type MotionFormat = 'bvh' | 'fbx' | 'gltf' | 'vmd' | 'amc' | 'c3d' | 'numpy' | 'json' | 'csv';
+
+/** Bytes from which `motionFormat` tells a format. */
+export const FORMAT_BYTES = 512;
+
+const ENDINGS: readonly (readonly [RegExp, MotionFormat])[] = [
+  [/\.bvh$/i, 'bvh'],
+  [/\.fbx$/i, 'fbx'],
+  [/\.(glb|gltf|vrm|vrma)$/i, 'gltf'],
+  [/\.vmd$/i, 'vmd'],
+  [/\.(amc|asf)$/i, 'amc'],
+  [/\.c3d$/i, 'c3d'],
+  [/\.(npz|npy)$/i, 'numpy'],
+];
+
+/** Endings of all files that are read, for the system's file chooser. */
+export const MOTION_ENDINGS = '.bvh,.fbx,.glb,.gltf,.bin,.vrm,.vrma,.vmd,.amc,.asf,.c3d,.npz,.npy,.json,.csv';
+
+/**
+ * The format of a motion file from its first bytes, and from its name where they do not tell; null for other files.
+ *
+ * @param head the first `FORMAT_BYTES` bytes, or all of a shorter file
+ */
+export function motionFormat(head: Uint8Array, name: string): MotionFormat | null {
+  const text = String.fromCharCode(...head.subarray(0, FORMAT_BYTES)).replace(/^\u00ef\u00bb\u00bf/, '');
+  if (/^\s*HIERARCHY\b/i.test(text)) return 'bvh';
+  if (text.startsWith('Kaydara FBX Binary') || /^\s*; FBX/.test(text)) return 'fbx';
+  if (text.startsWith('glTF')) return 'gltf';
+  if (text.startsWith('Vocaloid Motion Data')) return 'vmd';
+  if (text.startsWith('\u0093NUMPY')) return 'numpy';
+  if (text.startsWith('PK')) return /\.npz$/i.test(name) ? 'numpy' : null;
+  // A word of 0x50 follows the place of the parameters, and a C3D has no other mark.
+  if (head[1] === 0x50 && /\.c3d$/i.test(name)) return 'c3d';
+  if (/^\s*\{/.test(text) && /\.json$/i.test(name)) return 'json';
+  if (/\.csv$/i.test(name) && /^[\w" .-]+[,;\t]/.test(text)) return 'csv';
+  if (isOtherFile(text)) return null;
+  return ENDINGS.find(([ending]) => ending.test(name))?.[1] ?? null;
+}
+
+/** Whether the first bytes are those of a sound or a picture, whatever the file is called. */
+function isOtherFile(text: string): boolean {
+  return /^(ID3|OggS|fLaC|RIFF|FORM|GIF8|%PDF|\u0089PNG|\u00ff[\u00d8\u00e0-\u00fd]|....ftyp|.E\u00df\u00a3)/s.test(
+    text,
+  );
+}
+
+/** Endings of files that belong to another file of the same name, or to the only other one. */
+const COMPANIONS: readonly (readonly [RegExp, RegExp])[] = [
+  [/\.amc$/i, /\.asf$/i],
+  [/\.vrma$/i, /\.vrm$/i],
+  [/\.gltf$/i, /\.bin$/i],
+];
+
+/**
+ * Files that are read together, the one with the motion first: an AMC with its ASF skeleton, a VRMA with the VRM it
+ * moves, a glTF with its bin. All other files stay alone.
+ */
+export function groupCompanions<T extends { readonly name: string }>(files: readonly T[]): T[][] {
+  const taken = new Set<T>();
+  const groups = files.map((file): T[] => {
+    const [, companion] = COMPANIONS.find(([motion]) => motion.test(file.name)) ?? [];
+    const stem = file.name.replace(/\.\w+$/, '').toLowerCase();
+    const others = companion ? files.filter((other) => companion.test(other.name)) : [];
+    const named = others.filter((other) => other.name.toLowerCase().startsWith(`${stem}.`));
+    const mine = named.length > 0 ? named : others;
+    for (const other of mine) taken.add(other);
+    return [file, ...mine];
+  });
+  return groups.filter(([file]) => !taken.has(file!));
+}

@@ -1,0 +1,126 @@
+import { sourceOfPositions, tooLong } from '../positions';
+import { AppError } from '../../../common/error';
+import { checkedRate } from '../../retarget/frame-rate';
+import type { MotionSource, SourceJoint } from '../../retarget/source';
+import { PARENTS, SMPL22 } from '../../skeleton/skeleton';
+
+const SEPARATOR = /[,;\t]/;
+/** `leader_left_hip_x`, `left_hip.x` or `LeftHip X`: the dancer if there is one, the joint, and the axis. */
+const COLUMN = /^(?:(leader|reactor|follower|dancer\d*)[_. :/])?(.{1,80}?)[_. :/]?\(?([xyz])\)?$/i;
+/** Largest number of columns. */
+const MAX_COLUMNS = 3000;
+
+function invalid(what: string): AppError {
+  return new AppError(
+    'not-motion',
+    `This CSV file is no motion: ${what}.`,
+    'The first line names a column for every joint and axis, as left_hip_x; one line a frame follows.',
+  );
+}
+
+interface Column {
+  readonly dancer: string;
+  readonly joint: string;
+  readonly axis: number;
+  readonly column: number;
+}
+
+function columnsOf(titles: readonly string[]): Column[] {
+  return titles.flatMap((title, column) => {
+    const match = COLUMN.exec(title.trim());
+    const [, dancer = '', joint = '', axis = ''] = match ?? [];
+    return match ? [{ dancer, joint, axis: 'xyz'.indexOf(axis.toLowerCase()), column }] : [];
+  });
+}
+
+const isSmplJoint = (name: string): boolean => (SMPL22 as readonly string[]).includes(name.toLowerCase());
+
+/** Joints under their names; the 22 keep the parents that they have in their own skeleton. */
+function jointsOf(names: readonly string[]): SourceJoint[] {
+  const all = names.length === SMPL22.length && names.every((name, i) => name.toLowerCase() === SMPL22[i]);
+  return names.map((name, i) => ({ name, parent: all ? PARENTS[i]! : -1, endSite: false }));
+}
+
+/** Frames per second from a column of seconds, or from a comment `# fps: 30`; null where neither is there. */
+function rateOf(comments: readonly string[], times: readonly number[]): number | null {
+  const stated = /fps\W+(\d+(?:\.\d+)?)/i.exec(comments.join('\n'))?.[1];
+  if (stated !== undefined) return Number(stated);
+  const [first, last] = [times[0], times.at(-1)];
+  if (first === undefined || last === undefined || times.length < 2 || !(last > first)) return null;
+  return Math.round(((times.length - 1) / (last - first)) * 1000) / 1000;
+}
+
+/** Positions, frames x joints x 3, and the seconds of every frame where there is a column of them. */
+function readRows(
+  rows: readonly string[],
+  separator: string,
+  titles: readonly string[],
+  columns: readonly Column[],
+  names: readonly string[],
+): { places: Float32Array; times: number[] } {
+  const places = new Float32Array(rows.length * names.length * 3);
+  const time = titles.findIndex((title) => /^(time|seconds|t)(\W.*)?$/i.test(title));
+  const times: number[] = [];
+  const slots = new Map(names.map((name, joint) => [name, joint]));
+  const wanted = columns.filter(({ joint }) => slots.has(joint));
+  rows.forEach((row, frame) => {
+    const cells = row.split(separator);
+    for (const { joint, axis, column } of wanted) {
+      const cell = cells[column]?.trim() ?? '';
+      const value = cell === '' ? NaN : Number(cell);
+      if (!Number.isFinite(value)) throw badCell(frame, cell, titles[column]!);
+      places[(frame * names.length + slots.get(joint)!) * 3 + axis] = value;
+    }
+    if (time >= 0) times.push(Number(cells[time]));
+  });
+  return { places, times };
+}
+
+function badCell(frame: number, cell: string, title: string): AppError {
+  return new AppError(
+    'bad-number',
+    `Frame ${frame + 1}: "${cell.slice(0, 24)}" is not a number (${title.slice(0, 40)}).`,
+    'Export the table again, with a decimal point and every cell filled.',
+  );
+}
+
+/**
+ * Reads joint positions from a table: a line of titles, then one line a frame. Lines that begin with # are comments.
+ *
+ * @param part number of the dancer in a table with several
+ * @throws {AppError} `not-motion`, `bad-number`, `too-long`, `too-few-frames` or `bad-frame-time`
+ */
+export function readCsv(text: string, part: number): MotionSource {
+  const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);
+  const comments = lines.filter((line) => line.startsWith('#'));
+  const rows = lines.filter((line) => line.trim() !== '' && !line.startsWith('#'));
+  const separator = SEPARATOR.exec(rows[0] ?? '')?.[0] ?? ',';
+  const titles = (rows[0] ?? '').split(separator).map((title) => title.replaceAll('"', '').trim());
+  if (titles.length > MAX_COLUMNS) throw invalid(`it has ${titles.length} columns`);
+  const columns = columnsOf(titles);
+  const dancers = [...new Set(columns.map(({ dancer }) => dancer))];
+  const at = part < dancers.length ? part : 0;
+  const mine = columns.filter(({ dancer }) => dancer === dancers[at]);
+  const names = [...new Set(mine.map(({ joint }) => joint))].filter(
+    (joint) =>
+      isSmplJoint(joint) ||
+      new Set(mine.filter((one) => one.joint === joint).map(({ axis }) => axis)).size === 3,
+  );
+  if (names.length < 3) throw invalid('its first line names no joints with x, y and z');
+  const error = tooLong(rows.length - 1, names.length * 3);
+  if (error) throw error;
+  const { places, times } = readRows(rows.slice(1), separator, titles, mine, names);
+  const rate = rateOf(comments, times);
+  return sourceOfPositions(
+    { joints: jointsOf(names), places },
+    {
+      format: 'CSV',
+      frameRate: () => checkedRate(rate ?? 30),
+      rateAssumed: rate === null,
+      unit: null,
+      upAxis: null,
+      parts: dancers.length > 1 ? dancers : [],
+      part: at,
+    },
+  );
+}

@@ -1,0 +1,86 @@
+import { sourceOfPositions, SMPL_JOINTS, tooLong } from '../positions';
+import { AppError } from '../../../common/error';
+import { checkedRate } from '../../retarget/frame-rate';
+import type { MotionSource, SourceJoint } from '../../retarget/source';
+
+/** Largest number of joints of one dancer. */
+const MAX_JOINTS = 1000;
+const METRES = { name: 'metres', metres: 1 } as const;
+
+function invalid(what: string): AppError {
+  return new AppError(
+    'not-motion',
+    `This JSON file is no motion: ${what}.`,
+    'Use a file that this page wrote as JSON, or the same form: "fps", "joints" and "positions" by dancer.',
+  );
+}
+
+const isList = (value: unknown): value is unknown[] => Array.isArray(value);
+
+/** The joints that the file names, or the 22. */
+function jointsOf(names: unknown, parents: unknown): readonly SourceJoint[] {
+  if (!isList(names)) return SMPL_JOINTS;
+  if (names.length === 0 || names.length > MAX_JOINTS) throw invalid(`it names ${names.length} joints`);
+  return names.map((name, joint) => {
+    const parent: unknown = isList(parents) ? parents[joint] : -1;
+    const before = typeof parent === 'number' && Number.isInteger(parent) && parent >= 0 && parent < joint;
+    return { name: String(name).slice(0, 80), parent: before ? parent : -1, endSite: false };
+  });
+}
+
+/** The positions of one dancer: a list of frames of points. */
+function placesOf(frames: readonly unknown[], joints: number): Float32Array {
+  const error = tooLong(frames.length, joints * 3);
+  if (error) throw error;
+  const places = new Float32Array(frames.length * joints * 3);
+  frames.forEach((frame, i) => {
+    if (!isList(frame) || frame.length !== joints) throw invalid(`frame ${i + 1} has not ${joints} points`);
+    frame.forEach((point: unknown, joint) => {
+      for (let axis = 0; axis < 3; axis++) {
+        const value: unknown = isList(point) && point.length === 3 ? point[axis] : undefined;
+        if (typeof value !== 'number') throw invalid(`point ${joint + 1} of frame ${i + 1} is not [x, y, z]`);
+        places[(i * joints + joint) * 3 + axis] = value;
+      }
+    });
+  });
+  return places;
+}
+
+/**
+ * Reads the JSON that this page writes: metadata, and positions by dancer.
+ *
+ * @param part number of the dancer
+ * @throws {AppError} `not-motion`, `too-long`, `too-few-frames` or `bad-frame-time`
+ */
+export function readJsonMotion(text: string, part: number): MotionSource {
+  let json: unknown;
+  try {
+    json = JSON.parse(text);
+  } catch {
+    throw invalid('it is not whole');
+  }
+  if (json === null || typeof json !== 'object') throw invalid('it holds no object');
+  const { fps, joints: names, parents, positions } = json as Record<string, unknown>;
+  if (positions === null || typeof positions !== 'object') throw invalid('it has no "positions"');
+  const dancers = isList(positions) ? [['dancer', positions] as const] : Object.entries(positions);
+  const lists = dancers
+    .filter((entry): entry is [string, unknown[]] => isList(entry[1]))
+    .sort(([a], [b]) => Number(b === 'leader') - Number(a === 'leader'));
+  const at = part < lists.length ? part : 0;
+  const frames = lists[at]?.[1];
+  if (!frames) throw invalid('its "positions" hold no dancer');
+  const joints = jointsOf(names, parents);
+  const rate = typeof fps === 'number' ? fps : null;
+  return sourceOfPositions(
+    { joints, places: placesOf(frames, joints.length) },
+    {
+      format: 'JSON',
+      frameRate: () => checkedRate(rate ?? 30),
+      rateAssumed: rate === null,
+      unit: METRES,
+      upAxis: 'y',
+      parts: lists.length > 1 ? lists.map(([name]) => name.slice(0, 80)) : [],
+      part: at,
+    },
+  );
+}

@@ -1,0 +1,72 @@
+import { mapJoints } from './joint-map';
+import { worldPose } from './sample';
+import type { LocalPoses, MotionSource } from './source';
+
+/** The joints below a root, itself included, in the order of the file. */
+function below(source: MotionSource, root: number): number[] {
+  const inside = new Set([root]);
+  source.joints.forEach(({ parent }, joint) => {
+    if (inside.has(parent)) inside.add(joint);
+  });
+  return [...inside].sort((a, b) => a - b);
+}
+
+/** The source with only some joints; a kept joint's ancestors are kept too. */
+function withJoints(source: MotionSource, kept: readonly number[]): MotionSource {
+  const places = new Map(kept.map((joint, place) => [joint, place]));
+  const count = source.joints.length;
+  const pick = ({ rotations, translations }: LocalPoses): LocalPoses => {
+    const frames = translations.length / 3 / count;
+    const out = {
+      rotations: new Float32Array(frames * kept.length * 4),
+      translations: new Float32Array(frames * kept.length * 3),
+    };
+    for (let frame = 0; frame < frames; frame++) {
+      kept.forEach((joint, place) => {
+        const [from, to] = [frame * count + joint, frame * kept.length + place];
+        out.rotations.set(rotations.subarray(4 * from, 4 * from + 4), 4 * to);
+        out.translations.set(translations.subarray(3 * from, 3 * from + 3), 3 * to);
+      });
+    }
+    return out;
+  };
+  return {
+    ...source,
+    joints: kept.map((joint) => {
+      const { name, parent, endSite } = source.joints[joint]!;
+      return { name, endSite, parent: parent < 0 ? -1 : places.get(parent)! };
+    }),
+    rest: pick(source.rest),
+    localPoses: (frames) => pick(source.localPoses(frames)),
+  };
+}
+
+/** Fewest joints below a root that may be a dancer. */
+const MIN_JOINTS = 12;
+
+/**
+ * One dancer of a file with several roots; as it is where at most one of them carries a body. A prop beside the only
+ * dancer is left out.
+ *
+ * @param part number of the dancer among those found
+ */
+export function pickDancer(source: MotionSource, part: number): MotionSource {
+  const roots = source.joints.flatMap(({ parent }, joint) => (parent < 0 ? [joint] : []));
+  if (roots.length < 2) return source;
+  const dancers = roots
+    .map((root) => ({ root, joints: below(source, root) }))
+    .filter(({ joints }) => joints.length >= MIN_JOINTS && hasBody(withJoints(source, joints)));
+  const chosen = dancers[part] ?? dancers[0];
+  if (chosen === undefined) return source;
+  const parts = dancers.map(({ root }) => source.joints[root]!.name);
+  return { ...withJoints(source, chosen.joints), parts, part: dancers.indexOf(chosen) };
+}
+
+function hasBody({ joints, rest }: MotionSource): boolean {
+  try {
+    mapJoints(joints, worldPose(joints, rest, 0).places);
+    return true;
+  } catch {
+    return false;
+  }
+}

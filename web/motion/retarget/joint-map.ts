@@ -1,0 +1,313 @@
+import { CONVENTIONS, LIMB_JOINTS, type LimbJoint, type SkeletonConvention } from './conventions';
+import type { JointChoice } from './options';
+import type { SourceJoint } from './source';
+import { mapByStructure } from './structure';
+import { BVH_NAMES, isOwnSkeleton, OWN_CONVENTION } from '../bvh/names';
+import { AppError } from '../../common/error';
+import { type JointName, SMPL22 } from '../skeleton/skeleton';
+import { distance, type Vec3 } from '../math/vec3';
+
+/** How joints were found: by their names, by the shape of the body, or set by hand. */
+export type MappedBy = 'names' | 'structure' | 'hand';
+
+/** The joint of a file for each of the 22 joints. */
+export interface JointMap {
+  /** Name of the skeleton convention. */
+  readonly convention: string;
+  readonly by: MappedBy;
+  /** How certain the map is, 0 to 1. */
+  readonly confidence: number;
+  /** Why it is not certain, as sentences. */
+  readonly doubts: readonly string[];
+  /** Every joint that the file has; the others are estimated. */
+  readonly nodes: ReadonlyMap<JointName, number>;
+  /** Whether the file has exactly the trunk of the SMPL skeleton, so that pelvis and spine are not estimated. */
+  readonly hasSmplTrunk: boolean;
+  /** Joints of the spine between the hips and the neck, upwards. */
+  readonly spine: readonly number[];
+}
+
+/** Name in the SMPL skeleton of a limb's joint. */
+const SMPL_NAMES: Readonly<Record<LimbJoint, string>> = {
+  hip: 'hip',
+  knee: 'knee',
+  ankle: 'ankle',
+  toe: 'foot',
+  shoulder: 'shoulder',
+  elbow: 'elbow',
+  wrist: 'wrist',
+  collar: 'collar',
+};
+/** The joints of the trunk, which nearly every convention places differently. */
+export const TRUNK_JOINTS: readonly JointName[] = ['pelvis', 'spine1', 'spine2', 'spine3'];
+const LEG: readonly LimbJoint[] = ['hip', 'knee', 'ankle'];
+const ARM: readonly LimbJoint[] = ['shoulder', 'elbow', 'wrist'];
+const REQUIRED = new Set<LimbJoint>([...LEG, ...ARM]);
+
+/** A node's name in the form that is compared; null where it lacks the convention's prefix. */
+function normalisedName(name: string, convention: SkeletonConvention, shared: string): string | null {
+  if (convention.prefix !== undefined) {
+    return convention.prefix.test(name) ? normalise(name.replace(convention.prefix, '')) : null;
+  }
+  return normalise(name.startsWith(shared) ? name.slice(shared.length) : name);
+}
+
+function normalise(name: string): string {
+  return name
+    .normalize('NFKC')
+    .replace(/^.*[:|]/, '')
+    .replace(/^(DEF|ORG)-/, '')
+    .toLowerCase()
+    .replaceAll(/[^\p{L}\p{N}]/gu, '');
+}
+
+/** Least share of a file's joints that a prefix belongs to. */
+const PREFIX_SHARE = 0.8;
+
+/** The beginning that nearly all names share, up to a separator: `Character1_`. */
+function sharedPrefix(nodes: readonly SourceJoint[]): string {
+  const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
+  const counts = new Map<string, number>();
+  for (const name of names) {
+    const prefix = /^.{2,40}?[_:.|-]/u.exec(name)?.[0];
+    if (prefix !== undefined) counts.set(prefix, (counts.get(prefix) ?? 0) + 1);
+  }
+  return [...counts].find(([, count]) => count >= PREFIX_SHARE * names.length)?.[0] ?? '';
+}
+
+/** The node of every joint that a convention has a name for; no node stands for two joints. */
+function findJoints(
+  nodes: readonly SourceJoint[],
+  convention: SkeletonConvention,
+  sides: readonly [string, string],
+): Map<JointName, number> {
+  const found = new Map<JointName, number>();
+  const byName = new Map<string, number>();
+  const shared = sharedPrefix(nodes);
+  nodes.forEach((node, index) => {
+    const word = node.endSite ? null : normalisedName(node.name, convention, shared);
+    if (word !== null && !byName.has(word)) byName.set(word, index);
+  });
+  const take = (joint: JointName, words: readonly string[]): void => {
+    for (const word of words) {
+      const node = byName.get(word);
+      if (node === undefined || [...found.values()].includes(node)) continue;
+      found.set(joint, node);
+      return;
+    }
+  };
+  for (const limb of LIMB_JOINTS) {
+    (['left', 'right'] as const).forEach((side, i) => {
+      take(
+        `${side}_${SMPL_NAMES[limb]}` as JointName,
+        convention.limbs[limb].map((word) => word.replace('*', sides[i]!)),
+      );
+    });
+  }
+  take('neck', convention.neck);
+  take('head', convention.head);
+  TRUNK_JOINTS.forEach((joint, i) => convention.trunk && take(joint, [convention.trunk[i]!]));
+  return found;
+}
+
+/** Number of required joints that were found; 0 where the convention has a trunk of which a joint is missing. */
+function score(convention: SkeletonConvention, found: ReadonlyMap<JointName, number>): number {
+  if (convention.trunk !== undefined && !TRUNK_JOINTS.every((joint) => found.has(joint))) return 0;
+  const limbs = [...REQUIRED].flatMap(
+    (limb) => [`left_${SMPL_NAMES[limb]}`, `right_${SMPL_NAMES[limb]}`] as JointName[],
+  );
+  return limbs.filter((joint) => found.has(joint)).length + (found.has('head') || found.has('neck') ? 1 : 0);
+}
+
+function ancestors(nodes: readonly SourceJoint[], node: number): number[] {
+  const chain: number[] = [];
+  for (let at = nodes[node]!.parent; at >= 0; at = nodes[at]!.parent) chain.push(at);
+  return chain;
+}
+
+/** The error that names the missing joints, whole limbs before single joints; null when none is missing. */
+function missingJoints(
+  nodes: readonly SourceJoint[],
+  found: ReadonlyMap<JointName, number>,
+): AppError | null {
+  const missingOf = (limb: readonly LimbJoint[]): string[] =>
+    ['left', 'right'].flatMap((side) =>
+      limb
+        .filter((joint) => !found.has(`${side}_${SMPL_NAMES[joint]}` as JointName))
+        .map((joint) => `${side} ${joint}`),
+    );
+  const [legs, arms] = [missingOf(LEG), missingOf(ARM)];
+  const top = found.has('head') || found.has('neck') ? [] : ['neck or head'];
+  const missing = [...legs, ...arms, ...top];
+  if (missing.length === 0) return null;
+  const limbs = [legs.length === 6 ? 'legs' : '', arms.length === 6 ? 'arms' : ''].filter(
+    (limb) => limb !== '',
+  );
+  const whole =
+    limbs.length > 0
+      ? `The body in this file has no ${limbs.join(' and no ')}`
+      : 'The body in this file is incomplete';
+  const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
+  const seen = names.slice(0, 8).join(', ') + (names.length > 8 ? ` and ${names.length - 8} more` : '');
+  return new AppError(
+    'missing-joints',
+    `${whole}: no joint was found for ${missing.join(', ')}.`,
+    `Its joints are called ${seen}. Say which joint is which under “Joints and units”, or export a whole body.`,
+  );
+}
+
+/** A way in which joints were found. */
+type Found = Pick<JointMap, 'convention' | 'by' | 'confidence' | 'doubts' | 'hasSmplTrunk'> & {
+  readonly nodes: Map<JointName, number>;
+};
+
+/** The joints by the names of the convention of which most are found. */
+function findByNames(nodes: readonly SourceJoint[]): Found {
+  let best: { convention: SkeletonConvention; found: Map<JointName, number> } | null = null;
+  for (const convention of CONVENTIONS) {
+    for (const sides of convention.sides) {
+      const found = findJoints(nodes, convention, sides);
+      if (best === null || score(convention, found) > score(best.convention, best.found))
+        best = { convention, found };
+    }
+  }
+  const { convention, found } = best!;
+  const hasSmplTrunk = convention.trunk !== undefined;
+  return { convention: convention.name, by: 'names', confidence: 1, doubts: [], nodes: found, hasSmplTrunk };
+}
+
+/** Certainty of a body that was found by its shape, and of one whose sides are a guess. */
+const SHAPE_CONFIDENCE = 0.8;
+const SIDES_CONFIDENCE = 0.5;
+
+/** The joints by the shape of the body; null where it has none. */
+function findByStructure(nodes: readonly SourceJoint[], places: readonly Vec3[]): Found | null {
+  const found = mapByStructure(nodes, places);
+  if (found === null) return null;
+  const doubts = ['Not all joints have known names; the body was found by its shape.'];
+  if (!found.sidesCertain) doubts.push('Nothing tells left from right in this file; they may be exchanged.');
+  return {
+    convention: 'found by shape',
+    by: 'structure',
+    confidence: SHAPE_CONFIDENCE * found.symmetry * (found.sidesCertain ? 1 : SIDES_CONFIDENCE),
+    doubts,
+    nodes: new Map(found.nodes),
+    hasSmplTrunk: false,
+  };
+}
+
+/** Long bones of a limb, by the joints at their ends. */
+const BONES = [
+  ['thigh', 'hip', 'knee'],
+  ['shin', 'knee', 'ankle'],
+  ['upper arm', 'shoulder', 'elbow'],
+  ['forearm', 'elbow', 'wrist'],
+] as const;
+/** Largest share by which the bones of the two sides differ in a body that is believed. */
+const MAX_ASYMMETRY = 0.15;
+
+/** Doubts about bones of different lengths, and the share of the most unlike ones. */
+function asymmetry(
+  found: ReadonlyMap<JointName, number>,
+  places: readonly Vec3[],
+): { doubts: string[]; share: number } {
+  const doubts: string[] = [];
+  let share = 1;
+  for (const [bone, from, to] of BONES) {
+    const [left, right] = (['left', 'right'] as const).map((side) => {
+      const ends = [from, to].map((joint) => found.get(`${side}_${joint}`));
+      return ends.includes(undefined) ? NaN : distance(places[ends[0]!]!, places[ends[1]!]!);
+    }) as [number, number];
+    const ratio = Math.min(left, right) / Math.max(left, right);
+    if (!(ratio < 1 - MAX_ASYMMETRY)) continue;
+    share = Math.min(share, ratio);
+    doubts.push(`The left and the right ${bone} differ in length by ${Math.round(100 * (1 - ratio))} %.`);
+  }
+  return { doubts, share };
+}
+
+/** The joints that were chosen by hand, in place of those that were found. */
+function withChoice(nodes: readonly SourceJoint[], found: Found, choice: JointChoice): Found {
+  const chosen = new Map(found.nodes);
+  for (const [joint, name] of Object.entries(choice) as [JointName, string | null][]) {
+    const node = name === null ? -1 : nodes.findIndex((one) => one.name === name);
+    if (node < 0) chosen.delete(joint);
+    else chosen.set(joint, node);
+  }
+  const hasSmplTrunk = TRUNK_JOINTS.every((joint) => chosen.has(joint));
+  if (!hasSmplTrunk) for (const joint of TRUNK_JOINTS) chosen.delete(joint);
+  return { ...found, nodes: chosen, by: 'hand', confidence: 1, doubts: [], hasSmplTrunk };
+}
+
+/** A file that `writeBvh` wrote. */
+function findOwn(nodes: readonly SourceJoint[]): Found {
+  const own = new Map(
+    SMPL22.map((joint) => [
+      joint,
+      nodes.findIndex(({ name, endSite }) => !endSite && name === BVH_NAMES[joint]),
+    ]),
+  );
+  return {
+    convention: OWN_CONVENTION,
+    by: 'names',
+    confidence: 1,
+    doubts: [],
+    nodes: own,
+    hasSmplTrunk: true,
+  };
+}
+
+/** What can be found without an error, however little; for the panel in which joints are set by hand. */
+export function findAnyJoints(
+  nodes: readonly SourceJoint[],
+  places: readonly Vec3[],
+  choice: JointChoice = {},
+): Found {
+  const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
+  let found = isOwnSkeleton(names) ? findOwn(nodes) : findByNames(nodes);
+  if (missingJoints(nodes, found.nodes)) found = findByStructure(nodes, places) ?? found;
+  return Object.keys(choice).length > 0 ? withChoice(nodes, found, choice) : found;
+}
+
+/**
+ * Finds the 22 joints among those of a file: by the names of the convention of which most joints are found, else by the
+ * shape of the body. What was chosen by hand is taken before both.
+ *
+ * @param places rest position of every joint
+ * @throws {AppError} `missing-joints` when a limb's joint or both neck and head cannot be found
+ */
+export function mapJoints(
+  nodes: readonly SourceJoint[],
+  places: readonly Vec3[],
+  choice: JointChoice = {},
+): JointMap {
+  const found = findAnyJoints(nodes, places, choice);
+  const error = missingJoints(nodes, found.nodes);
+  if (error) throw error;
+  const { doubts, share } = asymmetry(found.nodes, places);
+  return {
+    ...found,
+    confidence: found.confidence * share,
+    doubts: [...found.doubts, ...doubts],
+    spine: found.convention === OWN_CONVENTION ? [] : spineOf(nodes, found.nodes),
+  };
+}
+
+/** The joints between the hips and the neck, upwards. */
+function spineOf(nodes: readonly SourceJoint[], found: ReadonlyMap<JointName, number>): number[] {
+  const top = found.get('neck') ?? found.get('head')!;
+  const below = new Set([
+    ...ancestors(nodes, found.get('left_hip')!),
+    ...ancestors(nodes, found.get('right_hip')!),
+  ]);
+  const chain = ancestors(nodes, top);
+  const fork = chain.findIndex((node) => below.has(node));
+  return chain.slice(0, Math.max(0, fork)).reverse();
+}
+
+/** The map with the two sides exchanged. */
+export function withSidesExchanged(map: JointMap): JointMap {
+  const other = (joint: JointName): JointName =>
+    joint.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left')) as JointName;
+  return { ...map, nodes: new Map([...map.nodes].map(([joint, node]) => [other(joint), node])) };
+}

@@ -1,0 +1,262 @@
+import { ALL_UNITS, type AxisName, findUnit, findUp, floorHeight, UP_AXES } from './axes-and-units';
+import { type Body, measureBody, nodesOfBody, retarget, withToes } from './retarget';
+import { sampleNodes, worldPose } from './sample';
+import { type MotionSource, withoutFirst } from './source';
+import { type ImportOptions, type RememberedJoints, skeletonFingerprint } from './options';
+import type { MotionClip } from '../skeleton/clip';
+import { OWN_CONVENTION } from '../bvh/names';
+import { AppError } from '../../common/error';
+import { checkedRate } from './frame-rate';
+import { type JointMap, mapJoints, type MappedBy, TRUNK_JOINTS, withSidesExchanged } from './joint-map';
+import { restFrames } from './t-pose';
+import { checkPlausible } from '../skeleton/plausible';
+import { J, JOINT_COUNT, type JointName, SMPL22 } from '../skeleton/skeleton';
+import { median } from '../math/statistics';
+import { aboutAxis, multiply } from '../math/quat';
+import { add, distance, lerp, readVec, scale, type Vec3, Y_AXIS, ZERO } from '../math/vec3';
+
+/** Frames per second of every clip past this reader. */
+const FPS = 30;
+/**
+ * Median acceleration of the mean joint above which the frame rate is doubted, m/s^2: salsa has 1.5 to 3, leaps up to 6.
+ */
+const MAX_ACCELERATION = 5.5;
+/** A file that `writeBvh` wrote has its floor at 0; only one moved by more than this is put there again, metres. */
+const OWN_FLOOR_TOLERANCE = 0.1;
+
+/** Import report of a motion file. */
+export interface LeaderReport {
+  /** Name of the format. */
+  readonly format: string;
+  /** Clips or dancers in the file, and the number of the one that was read. */
+  readonly parts: readonly string[];
+  readonly part: number;
+  /** How the joints were found, and how certain that is, 0 to 1. */
+  readonly mappedBy: MappedBy;
+  readonly confidence: number;
+  /** Identifies the file's skeleton, see `skeletonFingerprint`. */
+  readonly skeleton: string;
+  /** Name of the skeleton convention that fits the joint names. */
+  readonly convention: string;
+  /** Name in the file of each joint; null where it was estimated. */
+  readonly joints: Readonly<Record<JointName, string | null>>;
+  /** Joints that were estimated. */
+  readonly estimated: readonly JointName[];
+  /** Those of them that were placed along the spine of the file: pelvis and spine. */
+  readonly retargeted: readonly JointName[];
+  /** Frame rate that was used: the file's, or the one given. */
+  readonly sourceFps: number;
+  /** Frames of the file that were used. */
+  readonly sourceFrames: number;
+  /** Seconds at `sourceFps`. */
+  readonly sourceDuration: number;
+  readonly unit: string;
+  /** 'y' or 'z', rarely another axis with its sign. */
+  readonly upAxis: AxisName;
+  /** Height in the file of the floor that was put at 0, metres. */
+  readonly floor: number;
+  /** Sentences about what may be wrong. */
+  readonly warnings: readonly string[];
+  /** Sentences about changes to the motion that are no problem. */
+  readonly remarks: readonly string[];
+}
+
+/** A dancer from a file: 22 joints, 30 fps, metres, y up, floor at 0, the file's own body size. */
+export interface LeaderFile {
+  readonly clip: MotionClip;
+  readonly report: LeaderReport;
+}
+
+/** Mean vector from the feet to the head over the clip, in the file's unit. */
+function meanUpright(body: Body): Vec3 {
+  let sum = ZERO;
+  for (let frame = 0; frame < body.motion.frames; frame++) sum = add(sum, measureBody(body, frame).upright);
+  return scale(sum, 1 / body.motion.frames);
+}
+
+/** Median over the clip of a value that `measureBody` gives. */
+function medianOf(body: Body, value: (measured: ReturnType<typeof measureBody>) => number): number {
+  return median(
+    Float64Array.from({ length: body.motion.frames }, (_, frame) => value(measureBody(body, frame))),
+  );
+}
+
+/** Median acceleration of the mean joint, m/s^2. */
+function medianAcceleration(clip: MotionClip): number {
+  const middles = Array.from({ length: clip.frames }, (_, frame) => {
+    let sum = ZERO;
+    for (let joint = 0; joint < JOINT_COUNT; joint++) {
+      sum = add(sum, readVec(clip.positions, frame * JOINT_COUNT + joint));
+    }
+    return scale(sum, 1 / JOINT_COUNT);
+  });
+  const accelerations = middles.slice(2).map((after, frame) => {
+    const before = middles[frame]!;
+    return distance(lerp(before, after, 0.5), middles[frame + 1]!) * 2 * clip.fps * clip.fps;
+  });
+  return median(accelerations);
+}
+
+/** Height of the floor in the file's positions, which are in metres. */
+function findFloor(positions: Float32Array, own: boolean): number {
+  const frames = positions.length / (JOINT_COUNT * 3);
+  const lower = Float64Array.from({ length: frames }, (_, frame) => {
+    const height = (joint: number): number => positions[(frame * JOINT_COUNT + joint) * 3 + 1]!;
+    return Math.min(height(J.left_foot), height(J.right_foot));
+  });
+  const floor = floorHeight(lower);
+  return own && Math.abs(floor) < OWN_FLOOR_TOLERANCE ? 0 : floor;
+}
+
+/** The positions in metres. */
+const inMetres = (positions: Float64Array, metres: number): Float32Array =>
+  Float32Array.from(positions, (value) => value * metres);
+
+/** The file's name of every joint; null where it was estimated. */
+function sourceNames(source: MotionSource, map: JointMap, body: Body, estimated: readonly JointName[]) {
+  const nodes = new Map<JointName, number>(map.nodes);
+  if (body.toes.left !== null) nodes.set('left_foot', body.toes.left);
+  if (body.toes.right !== null) nodes.set('right_foot', body.toes.right);
+  return Object.fromEntries(
+    SMPL22.map((name) => [name, estimated.includes(name) ? null : source.joints[nodes.get(name)!]!.name]),
+  ) as Record<JointName, string | null>;
+}
+
+/** The remark on `frames` left out at the beginning. */
+function restPoseRemark(frames: number): string {
+  const first = 'The first frame is a rest pose and is left out';
+  if (frames === 1) return `${first}.`;
+  const landing = frames === 2 ? 'the next one' : `the ${frames - 1} after it`;
+  return `${first}, with ${landing}, in which the body jumps from it into the dance.`;
+}
+
+/** The body of a source with the axes that were found or set. */
+function orientedBody(source: MotionSource, map: JointMap, fps: number, options: ImportOptions) {
+  const motion = sampleNodes(source, nodesOfBody(source.joints, map), fps, FPS);
+  if (motion.frames < 2) throw tooShort(source, fps);
+  const asWritten = withToes(source.joints, map, motion);
+  const found = findUp(meanUpright(asWritten));
+  const named = (name: AxisName | null | undefined) => UP_AXES.find((axis) => axis.name === name);
+  const up = named(options.up) ?? (found.certain ? found : (named(source.upAxis) ?? found));
+  const certain = options.up !== undefined || found.certain || source.upAxis !== null;
+  const turn = aboutAxis(Y_AXIS, ((options.turn ?? 0) * Math.PI) / 180);
+  const body: Body = { ...asWritten, up: multiply(turn, up.turn) };
+  return { body, up: up.name, certain };
+}
+
+function tooShort({ frames, truncated }: MotionSource, fps: number): AppError {
+  if (truncated)
+    return new AppError(
+      'truncated',
+      `The file breaks off: only ${frames} whole frames are there, too few for a dance.`,
+      'The file is incomplete: download, copy or export it again.',
+    );
+  return new AppError(
+    'too-few-frames',
+    `At ${Number(fps.toFixed(2))} frames per second the ${frames} frames last less than two frames at ${FPS}.`,
+    'Choose a longer dance, or correct the frame rate.',
+  );
+}
+
+/** The body's size in metres per unit of the file. */
+function unitOf(source: MotionSource, body: Body, options: ImportOptions) {
+  const size = medianOf(body, (measured) => measured.size);
+  if (!(size > 0)) {
+    throw new AppError(
+      'not-a-body',
+      'The joints of this file all lie in one place: its skeleton has no size.',
+      'Export the file again with the offsets of the skeleton.',
+    );
+  }
+  const chosen = ALL_UNITS.find(({ name }) => name === options.unit);
+  return chosen ? { ...chosen, known: true } : findUnit(size, source.unit);
+}
+
+/** Mean of the cosines by which feet point backwards, from which on left and right are exchanged. */
+const FEET_BACKWARDS = -0.3;
+
+/** Sentences about what may be wrong with the clip. */
+function motionWarnings(clip: MotionClip, fps: number): string[] {
+  if (clip.frames <= FPS || medianAcceleration(clip) <= MAX_ACCELERATION) return [];
+  return [
+    `The dancer moves hastily for a person. If the dance looks hurried, the frame rate of the file (${Number(fps.toFixed(2))}) is wrong: set half of it.`,
+  ];
+}
+
+/**
+ * Retargets the dancer of a motion file to the 22 joints.
+ *
+ * Joints are found by name or by the shape of the body, missing ones are estimated, exchanged sides are put right, a rest
+ * pose before the dance is left out, unit and up axis are inferred from the body, the motion is resampled to 30 fps and
+ * its floor put at 0.
+ *
+ * @param options what was set by hand
+ * @param remembered joints that were chosen for skeletons of earlier files
+ * @throws {AppError} if the motion is no dance, with a sentence and a hint
+ */
+export function leaderOf(
+  whole: MotionSource,
+  options: ImportOptions = {},
+  remembered: RememberedJoints = {},
+): LeaderFile {
+  const skeleton = skeletonFingerprint(whole.joints.map(({ name }) => name));
+  const choice = options.joints ?? remembered[skeleton];
+  const named = mapJoints(whole.joints, worldPose(whole.joints, whole.rest, 0).places, choice);
+  const rest = restFrames(whole, named);
+  const source = withoutFirst(whole, rest);
+  const fps = options.fps === undefined ? source.frameRate() : checkedRate(options.fps);
+  let { body, up, certain } = orientedBody(source, named, fps, options);
+  const warnings = [...source.warnings];
+  if (medianOf(body, (measured) => measured.footAhead) < FEET_BACKWARDS) {
+    if (named.by === 'hand') {
+      warnings.push('The feet point backwards: left and right of the chosen joints may be exchanged.');
+    } else {
+      ({ body, up, certain } = orientedBody(source, withSidesExchanged(named), fps, options));
+      warnings.push(
+        'The feet pointed backwards: left and right of this file were exchanged, and are put right.',
+      );
+    }
+  }
+  const { map } = body;
+  const unit = unitOf(source, body, options);
+  const own = map.convention === OWN_CONVENTION;
+  const { positions, estimated } = retarget(body);
+  const placed = inMetres(positions, unit.metres);
+  const floor = options.floor ?? findFloor(placed, own);
+  const clip: MotionClip = {
+    fps: FPS,
+    frames: body.motion.frames,
+    positions: placed.map((value, i) => (i % 3 === 1 ? value - floor : value)),
+  };
+  checkPlausible(clip);
+
+  if (!certain) warnings.push(`It is not clear which way is up; ${up} was taken.`);
+  if (!unit.known) warnings.push('No unit gives this body the size of a person; it was scaled to one.');
+  // The frame rate of a file that `writeBvh` wrote is right.
+  if (!own) warnings.push(...motionWarnings(clip, fps));
+  warnings.push(...map.doubts);
+  const remarks = rest > 0 ? [restPoseRemark(rest)] : [];
+  if (source.rateAssumed && options.fps === undefined)
+    remarks.push(`The file states no frame rate; ${Number(fps.toFixed(2))} was taken.`);
+  const report: LeaderReport = {
+    format: source.format,
+    parts: source.parts,
+    part: source.part,
+    mappedBy: map.by,
+    confidence: map.confidence,
+    skeleton,
+    convention: map.convention,
+    joints: sourceNames(source, map, body, estimated),
+    estimated,
+    retargeted: map.spine.length > 0 ? estimated.filter((name) => TRUNK_JOINTS.includes(name)) : [],
+    sourceFps: fps,
+    sourceFrames: source.frames,
+    sourceDuration: source.frames / fps,
+    unit: unit.name,
+    upAxis: up,
+    floor,
+    warnings,
+    remarks,
+  };
+  return { clip, report };
+}

@@ -1,0 +1,198 @@
+import { forwardOf } from '../skeleton/heading';
+import type { NodeMotion } from './sample';
+import type { SourceJoint } from './source';
+import type { JointMap } from './joint-map';
+import { conjugate, IDENTITY, multiply, type Quat, readQuat, rotate } from '../math/quat';
+import { J, type JointName, SMPL22 } from '../skeleton/skeleton';
+import { add, direction, distance, length, lerp, readVec, scale, sub, type Vec3, ZERO } from '../math/vec3';
+
+/**
+ * Place of pelvis and spine joints along the spine, from the middle of the hips (0) to the neck (1): the proportions of
+ * the SMPL body, which body height and the models expect. Other conventions place these joints differently.
+ */
+const TRUNK_SHARES: readonly (readonly [JointName, number])[] = [
+  ['pelvis', 0.18],
+  ['spine1', 0.4],
+  ['spine2', 0.61],
+  ['spine3', 0.72],
+];
+/** Place of a missing neck from the middle of the shoulders to the head, and of a missing collar from neck to shoulder. */
+const NECK_SHARE = 0.4;
+const COLLAR_SHARE = 0.4;
+/** Distance of a missing head from the neck, and of a missing toe forward and down from the ankle, as shares of the trunk. */
+const HEAD_LENGTH = 0.17;
+const TOE_FORWARD = 0.17;
+const TOE_DOWN = 0.07;
+/** A toe nearer to the ankle than this share of the body's size is a duplicate of the ankle. */
+const MIN_FOOT_LENGTH = 0.04;
+
+const SIDES = ['left', 'right'] as const;
+
+/** The body in a file: its joint map, the motion of its nodes and the rotation to y up. */
+export interface Body {
+  readonly map: JointMap;
+  readonly motion: NodeMotion;
+  /** Rotation of the file's axes that makes y up. */
+  readonly up: Quat;
+  /** Node of each side's toe, or null where it is estimated. */
+  readonly toes: Readonly<Record<(typeof SIDES)[number], number | null>>;
+}
+
+/** The toe joint, or else the end site below the ankle; null where the file has neither. */
+function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: (typeof SIDES)[number]): number | null {
+  const ankle = map.nodes.get(`${side}_ankle`)!;
+  const end = nodes.findIndex(({ endSite, parent }) => endSite && parent === ankle);
+  return map.nodes.get(`${side}_foot`) ?? (end < 0 ? null : end);
+}
+
+/** Nodes whose motion is read from the file. */
+export function nodesOfBody(nodes: readonly SourceJoint[], map: JointMap): number[] {
+  const toes = SIDES.flatMap((side) => toeNode(nodes, map, side) ?? []);
+  return [...new Set([...map.nodes.values(), ...map.spine, ...toes])];
+}
+
+/** Position of a node in a frame, y up. */
+function nodeAt(body: Body, frame: number, node: number): Vec3 {
+  return rotate(body.up, readVec(body.motion.position(node), frame));
+}
+
+/** Position of a joint that the file has, y up. */
+function jointAt(body: Body, frame: number, name: JointName): Vec3 {
+  return nodeAt(body, frame, body.map.nodes.get(name)!);
+}
+
+/** Points along the spine: middle of the hips, the file's spine joints, neck. */
+function spineLine(body: Body, frame: number, neck: Vec3): Vec3[] {
+  const hips = lerp(jointAt(body, frame, 'left_hip'), jointAt(body, frame, 'right_hip'), 0.5);
+  return [hips, ...body.map.spine.map((node) => nodeAt(body, frame, node)), neck];
+}
+
+/** The point at a share of a polyline's length. */
+function pointAlong(line: readonly Vec3[], share: number): Vec3 {
+  const steps = line.slice(1).map((point, i) => distance(point, line[i]!));
+  let left = share * steps.reduce((sum, step) => sum + step, 0);
+  for (let i = 0; i < steps.length; i++) {
+    if (left <= steps[i]!) return lerp(line[i]!, line[i + 1]!, steps[i]! > 0 ? left / steps[i]! : 0);
+    left -= steps[i]!;
+  }
+  return line.at(-1)!;
+}
+
+/** Neck and head of a frame; one of them may be missing in the file. */
+function neckAndHead(body: Body, frame: number): { neck: Vec3; head: Vec3 } {
+  const shoulders = lerp(jointAt(body, frame, 'left_shoulder'), jointAt(body, frame, 'right_shoulder'), 0.5);
+  if (!body.map.nodes.has('neck')) {
+    const head = jointAt(body, frame, 'head');
+    return { neck: lerp(shoulders, head, NECK_SHARE), head };
+  }
+  const neck = jointAt(body, frame, 'neck');
+  if (body.map.nodes.has('head')) return { neck, head: jointAt(body, frame, 'head') };
+  const [hips] = spineLine(body, frame, neck) as [Vec3];
+  const trunk = sub(neck, hips);
+  return { neck, head: add(neck, scale(trunk, HEAD_LENGTH)) };
+}
+
+/** Heading of the hips: unit vector level with the floor. */
+function hipForward(body: Body, frame: number): Vec3 {
+  return forwardOf(sub(jointAt(body, frame, 'left_hip'), jointAt(body, frame, 'right_hip')));
+}
+
+/**
+ * Measures of a frame from which unit and axes are inferred, in the file's own unit: leg plus trunk plus neck, the vector
+ * from the feet to the head, and how far the feet point ahead (1) or backwards (-1).
+ */
+export function measureBody(body: Body, frame: number): { size: number; upright: Vec3; footAhead: number } {
+  const { neck, head } = neckAndHead(body, frame);
+  const [hips] = spineLine(body, frame, neck) as [Vec3];
+  const legs = SIDES.map((side) => {
+    const knee = jointAt(body, frame, `${side}_knee`);
+    return (
+      distance(jointAt(body, frame, `${side}_hip`), knee) +
+      distance(knee, jointAt(body, frame, `${side}_ankle`))
+    );
+  });
+  const ankles = SIDES.map((side) => jointAt(body, frame, `${side}_ankle`)) as [Vec3, Vec3];
+  const ahead = SIDES.map((side, i) => {
+    const toe = body.toes[side];
+    const foot = toe === null ? ZERO : direction(sub(nodeAt(body, frame, toe), ankles[i]!), ZERO);
+    const front = hipForward(body, frame);
+    return foot[0] * front[0] + foot[2] * front[2];
+  });
+  return {
+    size: (legs[0]! + legs[1]!) / 2 + distance(hips, neck) + distance(neck, head),
+    upright: sub(head, lerp(ankles[0], ankles[1], 0.5)),
+    footAhead: (ahead[0]! + ahead[1]!) / 2,
+  };
+}
+
+/** The body with its toes; a node that lies on the ankle is not taken for one. */
+export function withToes(nodes: readonly SourceJoint[], map: JointMap, motion: NodeMotion): Body {
+  const bare: Body = { map, motion, up: IDENTITY, toes: { left: null, right: null } };
+  const { size } = measureBody(bare, 0);
+  const [left, right] = SIDES.map((side) => {
+    const toe = toeNode(nodes, map, side);
+    const foot = toe === null ? 0 : distance(nodeAt(bare, 0, toe), jointAt(bare, 0, `${side}_ankle`));
+    return foot > MIN_FOOT_LENGTH * size ? toe : null;
+  }) as [number | null, number | null];
+  return { ...bare, toes: { left, right } };
+}
+
+/**
+ * Offset of an estimated toe from the ankle: ahead and below on average over the clip. In the ankle's own axes, so that
+ * the foot turns with it, and in the file's unit.
+ */
+function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): Vec3 {
+  const turns = body.motion.rotation(body.map.nodes.get(`${side}_ankle`)!);
+  let sum = ZERO;
+  for (let frame = 0; frame < body.motion.frames; frame++) {
+    const front = add(scale(hipForward(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
+    sum = add(sum, rotate(conjugate(multiply(body.up, readQuat(turns, frame))), front));
+  }
+  return scale(direction(sum, [0, 0, 1]), trunk * Math.hypot(TOE_FORWARD, TOE_DOWN));
+}
+
+/**
+ * Retargets the body of a file to the SMPL skeleton: its 22 joints over time, in the file's unit, y up; those that the
+ * file lacks are estimated.
+ *
+ * @returns frames x 22 x 3, and the names of the estimated joints
+ */
+export function retarget(body: Body): { positions: Float64Array; estimated: JointName[] } {
+  const { map, motion, toes } = body;
+  const estimatedToes = new Map<string, Vec3>();
+  const trunk = length(sub(neckAndHead(body, 0).neck, spineLine(body, 0, ZERO)[0]!));
+  for (const side of SIDES) if (toes[side] === null) estimatedToes.set(side, estimatedToe(body, side, trunk));
+
+  const positions = new Float64Array(motion.frames * SMPL22.length * 3);
+  for (let frame = 0; frame < motion.frames; frame++) {
+    const put = (name: JointName, place: Vec3): void =>
+      positions.set(place, (frame * SMPL22.length + J[name]) * 3);
+    for (const [name, node] of map.nodes) put(name, nodeAt(body, frame, node));
+    const { neck, head } = neckAndHead(body, frame);
+    put('neck', neck);
+    put('head', head);
+    if (!map.hasSmplTrunk) {
+      const line = spineLine(body, frame, neck);
+      for (const [name, share] of TRUNK_SHARES) put(name, pointAlong(line, share));
+    }
+    for (const side of SIDES) {
+      const collar = `${side}_collar` as const;
+      if (!map.nodes.has(collar))
+        put(collar, lerp(neck, jointAt(body, frame, `${side}_shoulder`), COLLAR_SHARE));
+      const ankle = map.nodes.get(`${side}_ankle`)!;
+      const toe = toes[side];
+      const turn = multiply(body.up, readQuat(motion.rotation(ankle), frame));
+      const foot =
+        toe === null
+          ? add(nodeAt(body, frame, ankle), rotate(turn, estimatedToes.get(side)!))
+          : nodeAt(body, frame, toe);
+      put(`${side}_foot`, foot);
+    }
+  }
+  const read = new Set<JointName>(map.nodes.keys());
+  for (const side of SIDES) {
+    if (toes[side] === null) read.delete(`${side}_foot`);
+    else read.add(`${side}_foot`);
+  }
+  return { positions, estimated: SMPL22.filter((name) => !read.has(name)) };
+}

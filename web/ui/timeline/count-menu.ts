@@ -1,0 +1,136 @@
+import { countingSet, oneSet, settingOneSet } from '../store/actions/counting';
+import { panelToggled } from '../store/actions/view';
+import { barAt, countedBeats, countingOf, isOf, tempoText } from '../store/counting';
+import type { AppState } from '../store/state';
+import { apply, type Store, watch, watchAll } from '../store/store';
+import { textButton } from '../widgets/button';
+import { combineDisposers, el, setAttribute, setText } from '../widgets/dom';
+import { radioGroup } from '../widgets/radio-group';
+
+const RATES = [
+  ['0.5', 'Half'],
+  ['1', 'As found'],
+  ['2', 'Double'],
+] as const;
+const BARS = [
+  ['4', 'Eight'],
+  ['3', 'Six'],
+] as const;
+
+/** Bar and count at the playhead; a click opens what is counted and how. */
+export function createCountMenu(store: Store): {
+  readonly element: HTMLElement;
+  readonly dispose: () => void;
+} {
+  const toggle = (): void => {
+    apply(store, panelToggled('counting'));
+  };
+  const { button, showPlace } = createButton(toggle);
+  const { menu, showChoices } = createMenu(store);
+  const element = el('div', { class: 'count-corner' }, button, menu);
+  const closeOutside = ({ target }: PointerEvent): void => {
+    if (!menu.hidden && !element.contains(target as Node)) toggle();
+  };
+  document.addEventListener('pointerdown', closeOutside);
+  const dispose = combineDisposers(
+    watchAll(
+      store,
+      (state) => [state.playback.time, state.song, state.countings, state.shift, state.leader],
+      showPlace,
+    ),
+    watchAll(store, (state) => [state.song, state.countings, state.settingOne], showChoices),
+    watch(
+      store,
+      (state) => state.openPanel === 'counting',
+      (open) => {
+        const focusInside = menu.contains(document.activeElement);
+        menu.hidden = !open;
+        button.setAttribute('aria-expanded', String(open));
+        if (open) menu.querySelector('button')?.focus();
+        else if (focusInside) button.focus();
+      },
+    ),
+    () => {
+      document.removeEventListener('pointerdown', closeOutside);
+    },
+  );
+  return { element, dispose };
+}
+
+function createButton(toggle: () => void): {
+  readonly button: HTMLButtonElement;
+  readonly showPlace: (state: AppState) => void;
+} {
+  const bar = el('b');
+  const count = el('b');
+  const button = el(
+    'button',
+    {
+      class: 'count',
+      attributes: { type: 'button', 'aria-haspopup': 'dialog', title: 'How the song is counted' },
+      on: { click: toggle },
+    },
+    'Bar ',
+    bar,
+    'Count ',
+    count,
+  );
+  const showPlace = (state: AppState): void => {
+    const beats = countedBeats(state);
+    // Only its words are hidden, so that nothing beside it moves when a song comes.
+    button.classList.toggle('none', beats.times.length === 0);
+    const place = barAt(beats, state.playback.time);
+    setText(bar, place && place.bar > 0 ? String(place.bar) : '–');
+    setText(count, place ? String(place.count) : '–');
+  };
+  return { button, showPlace };
+}
+
+function createMenu(store: Store): {
+  readonly menu: HTMLElement;
+  readonly showChoices: (state: AppState) => void;
+} {
+  const tempo = el('span', { class: 'tempo' });
+  const click = textButton('btn', 'Click a beat', () => {
+    apply(store, settingOneSet(!store.getState().settingOne));
+  });
+  const here = textButton('btn', 'At the playhead', () => {
+    apply(store, oneSet(store.getState().playback.time));
+  });
+  const bars = radioGroup<'3' | '4'>('Counts of', BARS, (value) => {
+    apply(store, countingSet({ beatsPerBar: value === '3' ? 3 : 4 }));
+  });
+  const rates = radioGroup<'0.5' | '1' | '2'>('Tempo of the count', RATES, (value) => {
+    apply(store, countingSet({ rate: value === '0.5' ? 0.5 : value === '1' ? 1 : 2 }));
+  });
+  const found = textButton('btn', 'Count as found', () => {
+    apply(store, countingSet(null));
+  });
+  const hint = el('p', { attributes: { role: 'status' } });
+  const menu = el(
+    'div',
+    { class: 'float count-menu', attributes: { role: 'dialog', 'aria-label': 'How the song is counted' } },
+    el('div', { class: 'head' }, el('h2', { text: 'Count' }), tempo),
+    row('The “1”', el('div', { class: 'group' }, click, here)),
+    row('Counts of', bars.element),
+    row('Tempo', rates.element),
+    hint,
+    found,
+  );
+  menu.hidden = true;
+  const showChoices = ({ song, countings, settingOne }: AppState): void => {
+    if (!song) return;
+    const { beatsPerBar, rate } = countingOf(song, countings);
+    setText(tempo, tempoText(song, countings));
+    bars.show(beatsPerBar === 3 ? '3' : '4');
+    rates.show(rate === 0.5 ? '0.5' : rate === 1 ? '1' : '2');
+    found.disabled = !countings.some((counting) => isOf(counting, song));
+    setAttribute(click, 'aria-pressed', String(settingOne));
+    setText(hint, settingOne ? 'Now click the beat in the ruler or on the song; Esc cancels.' : '');
+  };
+  return { menu, showChoices };
+}
+
+function row(name: string, control: HTMLElement): HTMLElement {
+  return el('div', { class: 'row' }, el('span', { text: name }), control);
+}

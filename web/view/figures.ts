@@ -1,0 +1,128 @@
+import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import type { SolvedMotion } from '../motion/skeleton/clip';
+import type { BodyLibrary } from './body/library';
+import { perPixelMaterial, perVertexMaterial } from './dancer/body-material';
+import { Dancer } from './dancer/dancer';
+import { createLights } from './lights';
+import { LOOKS, type Role, type Theme } from './theme';
+
+/** A dancer in one moment, as a small picture shows it. */
+export interface Figure {
+  readonly motion: SolvedMotion;
+  readonly seconds: number;
+  readonly role: Role;
+  /** Direction from which it is seen, radians about y; 0 looks from +z. */
+  readonly heading: number;
+  readonly theme: Theme;
+}
+
+/** Draws dancers alone, on nothing, into canvases of the page. */
+export interface Figures {
+  /** Draws a figure as soon as its body is there, or clears the canvas (null); a later call for a canvas replaces it. */
+  readonly draw: (canvas: HTMLCanvasElement, figure: Figure | null) => void;
+}
+
+const FIELD_OF_VIEW = 22;
+/** The middle of what is seen, the eye, and the height of the picture there, metres. */
+const [TARGET_HEIGHT, EYE_HEIGHT, VIEW_HEIGHT] = [0.84, 1.15, 1.9];
+/** Time between two looks whether a picture is finished, milliseconds. */
+const POLL_MS = 4;
+
+/**
+ * @param library of bodies, shared with the stage
+ * @param softwareRendered whether WebGL is drawn by software, without a graphics card
+ */
+export function createFigures(library: BodyLibrary, softwareRendered: boolean): Figures {
+  const pending = new Map<HTMLCanvasElement, Figure | null>();
+  let studio: Studio | null = null;
+  let running = false;
+
+  async function drawPending(): Promise<void> {
+    for (;;) {
+      const [next] = pending;
+      if (!next) return;
+      const [canvas, figure] = next;
+      pending.delete(canvas);
+      const picture =
+        figure && (await (studio ??= new Studio(library, softwareRendered)).picture(figure, canvas));
+      if (pending.has(canvas)) continue;
+      const context = canvas.getContext('2d');
+      context?.clearRect(0, 0, canvas.width, canvas.height);
+      if (picture) context?.drawImage(picture, 0, 0);
+    }
+  }
+
+  return {
+    draw(canvas, figure) {
+      pending.set(canvas, figure);
+      if (running) return;
+      running = true;
+      void drawPending()
+        // Without its pictures the page works as before.
+        .catch((error: unknown) => console.warn('Figures can not be drawn:', error))
+        .finally(() => (running = false));
+    },
+  };
+}
+
+/** A renderer of its own, with lights and one dancer of each role. */
+class Studio {
+  private readonly renderer = new WebGLRenderer({
+    alpha: true,
+    antialias: true,
+    preserveDrawingBuffer: true,
+  });
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 1, 12);
+  private readonly lights = createLights();
+  private readonly dancers: Readonly<Record<Role, Dancer>>;
+
+  constructor(library: BodyLibrary, softwareRendered: boolean) {
+    const material = softwareRendered ? perVertexMaterial : perPixelMaterial;
+    const dancer = (role: Role): Dancer => new Dancer(role, library, material(), () => undefined);
+    this.dancers = { leader: dancer('leader'), reactor: dancer('reactor') };
+    this.scene.add(this.lights.object);
+    for (const { object, body } of Object.values(this.dancers)) {
+      body.setLowDetail(true);
+      this.scene.add(object);
+    }
+  }
+
+  /** A canvas with the picture, of the size of `canvas`, until the next picture. */
+  async picture(figure: Figure, { width, height }: HTMLCanvasElement): Promise<HTMLCanvasElement> {
+    const { renderer, scene, camera, dancers } = this;
+    const dancer = dancers[figure.role];
+    for (const one of Object.values(dancers)) one.show(one === dancer);
+    dancer.setMotion(figure.motion);
+    await dancer.bodyReady();
+    dancer.body.setLook(LOOKS[figure.theme]);
+    dancer.pose(figure.seconds);
+    this.aim(dancer.jointPositions(), figure);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    renderer.setSize(width, height, false);
+    await renderer.compileAsync(scene, camera);
+    renderer.render(scene, camera);
+    await this.finished();
+    return renderer.domElement;
+  }
+
+  /** Places camera and lights before a dancer. */
+  private aim([x = 0, , z = 0]: Float32Array, { heading, theme }: Figure): void {
+    const distance = VIEW_HEIGHT / 2 / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    this.camera.position.set(x + Math.sin(heading) * distance, EYE_HEIGHT, z + Math.cos(heading) * distance);
+    this.camera.lookAt(x, TARGET_HEIGHT, z);
+    this.lights.setLook(LOOKS[theme]);
+    this.lights.place(x, z, heading);
+  }
+
+  /** Resolves when the picture is drawn: to fetch it before would block the page where software draws. */
+  private async finished(): Promise<void> {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost())
+      await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+    gl.deleteSync(fence);
+  }
+}
