@@ -4,7 +4,7 @@
  */
 import { AudioPlayer, loadSong } from './audio/client';
 import { createGenerator } from './model/client';
-import { readLeader } from './motion/client';
+import { inspectLeader, type LeaderRequest, readLeader } from './motion/client';
 import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
@@ -21,6 +21,8 @@ import { FileLoader } from './ui/files/file-loader';
 import { isProject } from './ui/files/file-type';
 import { mountGivenDialog } from './ui/files/given-dialog';
 import { openGiven } from './ui/files/given-files';
+import { mountImportPanel } from './ui/files/joints/import-panel';
+import { RememberedJointsStorage } from './ui/files/joints/remembered';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
 import { readParameters } from './ui/files/parameters';
@@ -32,6 +34,8 @@ import { mountOptions } from './ui/generation/options';
 import { mountProgress } from './ui/generation/progress';
 import { VariationMaker } from './ui/generation/variations';
 import { mountGuidance } from './ui/guidance/guidance';
+import { tabMeans } from './ui/project/editing-right';
+import { mountKeptNote } from './ui/project/kept-note';
 import { Project } from './ui/project/project';
 import { ProjectDatabase } from './ui/project/storage';
 import { createQuality } from './ui/quality/quality';
@@ -70,7 +74,13 @@ const { manifestUrl, backend } = readParameters(location.search, document.baseUR
 const model = createModelLink(store, (onStatus, folder) =>
   createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
 );
-const readers = { loadSong, readLeader, manifest: model.manifest };
+const rememberedJoints = new RememberedJointsStorage(() => localStorage);
+const readers = {
+  loadSong,
+  readLeader: (request: LeaderRequest, signal?: AbortSignal) =>
+    readLeader({ ...request, remembered: rememberedJoints.read() }, signal),
+  manifest: model.manifest,
+};
 const files = new FileLoader(store, readers, (file) => video.open(file));
 const video = createVideoFeature(
   store,
@@ -78,7 +88,11 @@ const video = createVideoFeature(
   () => place('stage'),
   { seek: (seconds) => playback.seek(seconds), togglePlay: () => playback.toggle() },
 );
-const project = new Project(store, files, readers, new ProjectDatabase());
+const project = new Project(store, files, readers, {
+  storage: new ProjectDatabase(),
+  tabs: tabMeans(globalThis),
+  persistence: navigator.storage,
+});
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
@@ -109,6 +123,11 @@ const services: Services = {
   recordVideo: () => void video.record(),
   rereadLeader: (options) => void files.rereadLeader(options),
   readAgain: files.readAgain,
+  inspectLeader: async () => {
+    const { refusedLeader, leader } = store.getState();
+    const { files, options } = refusedLeader ?? leader ?? { files: [], options: {} };
+    return inspectLeader({ files, options, remembered: rememberedJoints.read() });
+  },
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {
@@ -131,6 +150,7 @@ const services: Services = {
     stageSize: () => stage?.pictureSize() ?? null,
   }),
   saveProject: () => void saveProject(),
+  storeHere: project.takeOver,
   clearProject: () => {
     generation.cancel();
     project.clear();
@@ -156,6 +176,7 @@ for (const mount of [
   mountProgress,
   mountToast,
   mountNewVersion,
+  mountKeptNote,
   mountProblemDialog,
   mountGivenDialog,
   mountDropTarget,
@@ -165,6 +186,7 @@ mountTransport(place('time'), store, services);
 mountTimeline(place('time'), store, services, mountQualityStrip);
 for (const mount of [mountGuidance, mountOptions, mountFootLock, mountTakes, mountImportReport])
   mount(place('panel'), store, services);
+mountImportPanel(rememberedJoints)(document.body, store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
 mountUndoKeys(store);

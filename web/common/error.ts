@@ -58,7 +58,6 @@ export type ErrorCode =
   | 'not-a-project'
   | 'damaged-project'
   | 'newer-project'
-  | 'missing-part'
   | 'too-large';
 
 /** A failure that was foreseen: what is wrong, and what the visitor can do about it. */

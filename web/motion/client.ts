@@ -1,5 +1,6 @@
 import { AppError } from '../common/error';
 import { runInWorker } from '../common/run-in-worker';
+import type { Inspection } from './import/inspect';
 import type { FileBytes } from './import/read';
 import type { LeaderFile } from './retarget/leader';
 import type { ImportOptions, RememberedJoints } from './retarget/options';
@@ -37,4 +38,13 @@ function workerError(reason: string): AppError {
     `The reading of the motion stopped unexpectedly (${reason}).`,
     'Try again. If it happens again, close other tabs or use a shorter motion.',
   );
+}
+
+/**
+ * Reads only the joints of a motion file, and which of the 22 they are taken for.
+ * @throws {AppError} what is wrong with the file itself
+ */
+export async function inspectLeader(request: LeaderRequest): Promise<Inspection> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'leader' });
+  return runInWorker<MotionTasks, 'inspect'>(worker, 'inspect', request);
 }

@@ -1,7 +1,8 @@
-/** Reads and solves one motion file off the main thread, so that a long one does not freeze the page. */
+/** Reads and solves one motion file, or only its joints, off the main thread, so that a long one does not freeze the page. */
 import { serve } from '../common/run-in-worker';
 import type { LeaderRequest, ReadLeader } from './client';
 import { solve } from './fit/ik';
+import { type Inspection, inspectMotion } from './import/inspect';
 import { readLeaderFile } from './import/read';
 
 const tasks = {
@@ -9,6 +10,8 @@ const tasks = {
     const file = await readLeaderFile(files, options, remembered);
     return { file, motion: solve(file.clip) };
   },
+  inspect: ({ files, options, remembered }: LeaderRequest): Promise<Inspection> =>
+    inspectMotion(files, options, remembered),
 };
 export type MotionTasks = typeof tasks;
 

@@ -2,6 +2,7 @@ import type { Song } from '../../../web/audio/client';
 import { NO_RHYTHM, type Rhythm } from '../../../web/audio/rhythm/rhythm';
 import type { LeaderFile } from '../../../web/motion/retarget/leader';
 import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
+import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { uniform } from '../../../web/ui/store/guidance-matrix';
 import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/reaction';
@@ -12,14 +13,14 @@ export function uniformGuidance(coarse: number, fine: number): Guidance {
   return uniform(small.latent.streams, small.latent.layers, (layer) => (layer === 'coarse' ? coarse : fine));
 }
 
-/** A motion of zeros. */
+/** A motion without movement, all joints in one place. */
 export function still(frames: number): SolvedMotion {
   return {
     fps: 30,
     frames,
     offsets: new Float32Array(66),
     root: new Float32Array(frames * 3),
-    rotations: new Float32Array(frames * 88),
+    rotations: Float32Array.from({ length: frames * 88 }, (_, i) => (i % 4 === 3 ? 1 : 0)),
     positions: new Float32Array(frames * 66),
     fitError: 0.002,
   };
@@ -49,6 +50,21 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
       remarks,
     } as unknown as LeaderFile['report'],
   };
+}
+
+/** A motion of a short-boned dancer in which every number is another one. */
+export function numbered(frames: number, from: number): SolvedMotion {
+  let value = from;
+  const next = (most: number): number => most * Math.sin((value += 0.1));
+  const offsets = Float32Array.from({ length: 66 }, () => next(0.1));
+  const root = Float32Array.from({ length: frames * 3 }, () => next(1));
+  const rotations = new Float32Array(frames * 88);
+  for (let at = 0; at < rotations.length; at += 4) {
+    const quaternion = [next(1), next(1), next(1), next(1)];
+    rotations.set(quaternion.map((part) => part / Math.hypot(...quaternion)), at);
+  }
+  const positions = forwardKinematics(offsets, root, rotations);
+  return { fps: 30, frames, offsets, root, rotations, positions, fitError: 0.002 };
 }
 
 export function leader(

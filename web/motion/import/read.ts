@@ -19,10 +19,30 @@ const MAX_BYTES = 512 * 1024 * 1024;
 const text = (file: FileBytes): string => new TextDecoder().decode(file.bytes);
 
 /** The readers by format, each in a part of the page of its own that is loaded when it is needed. */
-const READERS: Readonly<Partial<Record<MotionFormat, () => Promise<Reader>>>> = {
+const READERS: Readonly<Record<MotionFormat, () => Promise<Reader>>> = {
   bvh: async () => {
     const { readBvh } = await import('./bvh/read');
     return ([file], part) => readBvh(text(file), part);
+  },
+  fbx: async () => {
+    const { readFbx } = await import('./fbx/read');
+    return ([file], part) => readFbx(file.bytes, part);
+  },
+  gltf: async () => {
+    const { readGltf } = await import('./gltf/read');
+    return readGltf;
+  },
+  vmd: async () => {
+    const { readVmd } = await import('./vmd/read');
+    return ([file]) => readVmd(file.bytes);
+  },
+  amc: async () => {
+    const { readAmc } = await import('./amc/read');
+    return readAmc;
+  },
+  c3d: async () => {
+    const { readC3d } = await import('./c3d/read');
+    return ([file], part) => readC3d(file.bytes, part);
   },
   numpy: async () => {
     const { readNumpy } = await import('./numpy/read');
@@ -49,8 +69,7 @@ export async function readMotion(
 ): Promise<MotionSource> {
   const [file, ...companions] = files;
   const format = file && motionFormat(file.bytes.subarray(0, FORMAT_BYTES), file.name);
-  const open = format && READERS[format];
-  if (!file || !open) {
+  if (!file || !format) {
     throw new AppError(
       'not-motion',
       'This is no motion file of a known format.',
@@ -64,7 +83,7 @@ export async function readMotion(
       'Export the motion alone, without meshes and textures, or a shorter part of it.',
     );
   }
-  const read = await open();
+  const read = await READERS[format]();
   return read([file, ...companions], options.part ?? 0);
 }
 

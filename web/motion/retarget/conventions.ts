@@ -203,7 +203,7 @@ export const CONVENTIONS: readonly SkeletonConvention[] = [
       hip: ['*hip'],
       knee: ['*knee'],
       ankle: ['*ankle'],
-      toe: ['*toe'],
+      toe: ['*toe', '*foot'],
       shoulder: ['*shoulder'],
       elbow: ['*elbow'],
       wrist: ['*wrist'],

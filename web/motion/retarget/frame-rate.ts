@@ -34,6 +34,11 @@ export function frameRate(frameTime: string): number {
   return matches.sort((a, b) => deviation(a) - deviation(b))[0] ?? 1 / seconds;
 }
 
+/** The common rate that is within `TOLERANCE` of one that was measured; null where none is. */
+export function nearestRate(fps: number): number | null {
+  return COMMON_RATES.find((rate) => Math.abs(rate / fps - 1) < TOLERANCE) ?? null;
+}
+
 /**
  * Checks a frame rate that the user has set.
  *

@@ -11,7 +11,8 @@ import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
 import type { AppState, ModelState } from '../store/state';
-import { watchAll } from '../store/store';
+import { panelToggled } from '../store/actions/view';
+import { apply, type Store, watchAll } from '../store/store';
 
 /** Common frame rates of motion capture, for files whose own is wrong. */
 export const RATES = [24, 25, 30, 50, 60, 90, 100, 120, 240];
@@ -37,7 +38,7 @@ export const mountImportReport: Mount = (root, store, services) => {
     const focused = document.activeElement?.id;
     facts.replaceChildren(
       ...songFacts(state),
-      ...leaderFacts(state, services),
+      ...leaderFacts(state, store, services),
       ...(state.reaction ? reactionFacts(state.reaction) : []),
       ...(state.manifest ? modelFacts(state.manifest, state.model) : []),
     );
@@ -53,6 +54,7 @@ export const mountImportReport: Mount = (root, store, services) => {
         state.song,
         state.countings,
         state.leader,
+        state.refusedLeader,
         ...isReading(state),
         state.reaction,
         state.manifest,
@@ -90,20 +92,43 @@ function songFacts(state: AppState): HTMLElement[] {
   ];
 }
 
-function leaderFacts(state: AppState, services: Services): HTMLElement[] {
+function leaderFacts(state: AppState, store: Store, services: Services): HTMLElement[] {
   const { leader, reading } = state;
   const role = loadedRole(state);
   const head = group(role, roleName(role));
-  if (!leader) return [head, ...fact('File', reading.leader ? 'being read' : 'none yet')];
+  if (!leader) {
+    const file = fact('File', reading.leader ? 'being read' : 'none yet');
+    return state.refusedLeader ? [head, ...file, ...fact('Change', importButton(store))] : [head, ...file];
+  }
   const { clip, report } = leader.file;
   return [
     head,
     ...fact('Length', `${clockTime(clip.frames / clip.fps)}, ${clip.frames} frames`),
     ...fact('Frame rate', rateSelect(leader, services)),
-    ...fact('Skeleton', report.convention),
+    ...fact('Format', formatText(report)),
+    ...fact('Skeleton', `${report.convention}, ${Math.round(100 * report.confidence)} % certain`),
     ...fact('Joints', jointText(report)),
     ...fact('Units', `${report.unit}, ${report.upAxis} up`),
+    ...fact('Change', importButton(store)),
   ];
+}
+
+/** Opens the panel in which joints, unit, axes and clip are set by hand. */
+function importButton(store: Store): HTMLElement {
+  return el('button', {
+    class: 'btn ghost',
+    text: 'Joints and units',
+    attributes: { id: 'open-import', type: 'button' },
+    on: {
+      click: () => {
+        apply(store, panelToggled('import'));
+      },
+    },
+  });
+}
+
+function formatText({ format, parts, part }: LoadedLeader['file']['report']): string {
+  return parts.length > 1 ? `${format}, ${parts[part] ?? ''} (${part + 1} of ${parts.length})` : format;
 }
 
 /** The file's frame rate; choosing another one reads the file again. */

@@ -1,105 +1,181 @@
 import { fullProblem } from '../store/problems';
+import type { Take } from '../store/reaction';
 import type { AppState, AutosaveStatus } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { currentInputs } from '../store/take';
 import { autosaveChanged } from '../store/actions/project';
-import { hasVisitorContent, type StoredProject, storedProject } from './schema';
-import { isFull, type ProjectStorage } from './storage';
+import { EditingRight, type TabMeans } from './editing-right';
+import type { FoundProject } from './records';
+import { hasVisitorContent, storedProject } from './schema';
+import { isFull, isNewer, type ProjectStorage } from './storage';
 
-/** Time without a change before the last one is written, so that a drag is written once. */
-const DEBOUNCE_MS = 700;
 /** Time between two attempts after a failure: space may have been freed in another tab. */
 const RETRY_MS = 20_000;
+/** Time in which a tab that has nothing to write gives way to this one. */
+const PATIENCE_MS = 500;
+
+interface Callbacks {
+  /**
+   * Puts on the page what another tab has written while this one could not write.
+   * @param synced the takes as this tab last read or wrote them
+   */
+  readonly merge: (synced: readonly Take[]) => Promise<void>;
+  /** A take that was made in this visit is stored. */
+  readonly takeStored: () => void;
+}
 
 /**
- * Writes songs, leaders, takes and settings to the browser's storage whenever they change, one write after the other,
- * and says in the store whether that works.
+ * Writes songs, leaders, takes and settings to the browser's storage as soon as they change, and says in the store
+ * whether that works. While one change is being written, the newest one waits. Of several tabs one writes.
  */
 export class Autosave {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private unsubscribe = (): void => undefined;
-  /** The parts of the state that were written last, or that the timer will write. */
+  private readonly right: EditingRight;
+  /** The parts of the state that were written last, or are being written. */
   private seen: readonly unknown[] = [];
-  private writing: Promise<void> = Promise.resolve();
+  private synced: readonly Take[] = [];
+  private busy = false;
+  /** There is a newer change than the one that is being written. */
+  private changed = false;
   private anythingStored = false;
+  /** The visitor has emptied the page, and with it the storage; else what could not be restored stays there. */
+  private cleared = false;
   /** Whether a write has ever fitted: a full storage is a problem only for who has something to lose. */
   private hasFitted = false;
+  /** Before the page is restored, and where a newer page has written the storage, nothing is written. */
+  private mayWrite = false;
 
   constructor(
     private readonly store: Store,
     private readonly storage: ProjectStorage,
+    tabs: TabMeans,
+    private readonly callbacks: Callbacks,
   ) {
+    this.right = new EditingRight(tabs, {
+      gained: () => void this.goOn(),
+      lost: this.wait,
+      needed: () => this.anythingStored || hasVisitorContent(store.getState()),
+    });
     globalThis.document?.addEventListener('visibilitychange', this.writeWhenHidden);
   }
 
-  /** What an earlier visit stored; null when there is nothing or the browser gives no storage. */
-  async read(): Promise<StoredProject | null> {
+  /** What an earlier visit stored, unchecked; null when there is nothing or the browser gives no storage. */
+  async read(): Promise<FoundProject | null> {
     try {
-      const stored = await this.storage.read();
-      if (stored) this.anythingStored = this.hasFitted = true;
-      return stored;
-    } catch {
-      this.report('refused');
+      await this.right.takeIfFree();
+      const found = await this.storage.read();
+      if (found) this.anythingStored = this.hasFitted = true;
+      return found;
+    } catch (error) {
+      this.report(isNewer(error) ? 'newer' : 'refused');
       return null;
     }
   }
 
   /** Writes the state as it is and every change from now on. */
   start(): void {
+    if (this.store.getState().autosave === 'newer') return;
+    this.mayWrite = true;
+    this.noteSynced();
     this.write();
     this.unsubscribe = this.store.subscribe((state) => {
       const parts = storedParts(state);
-      // The playhead moves all the time: a pending write must not wait for it to stop.
-      if (parts.every((part, index) => part === this.seen[index])) return;
-      this.seen = parts;
-      this.writeAfter(DEBOUNCE_MS);
+      // The playhead moves all the time; it is written with what else changes, and when the page is left.
+      if (!parts.every((part, index) => part === this.seen[index])) this.write();
     });
+  }
+
+  /** Empties the storage of everything once the page is empty, also of what could not be restored. */
+  clear(): void {
+    this.cleared = true;
+  }
+
+  /** The takes on the page are those that are stored. */
+  noteSynced(): void {
+    this.synced = this.store.getState().takes;
+  }
+
+  /** Writes from here, no longer from the tab that does. */
+  takeOver(): Promise<void> {
+    return this.right.takeOver();
   }
 
   dispose(): void {
     clearTimeout(this.timer);
     this.unsubscribe();
+    this.right.dispose();
     globalThis.document?.removeEventListener('visibilitychange', this.writeWhenHidden);
   }
 
   private readonly writeWhenHidden = (): void => {
-    if (this.timer !== undefined && document.visibilityState === 'hidden') this.write();
+    if (document.visibilityState === 'hidden') this.write();
   };
 
-  private writeAfter(milliseconds: number): void {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => {
-      this.write();
-    }, milliseconds);
-  }
-
-  /** Queues a write of the state as it is now. */
+  /** Writes the state as it is now, or as it is once the write that is under way has ended. */
   private write(): void {
-    clearTimeout(this.timer);
-    this.timer = undefined;
+    if (!this.mayWrite) return;
     const state = this.store.getState();
     this.seen = storedParts(state);
-    this.writing = this.writing.then(() => this.save(state));
+    if (!this.right.held) {
+      if (hasVisitorContent(state)) this.wait();
+    } else if (this.busy) this.changed = true;
+    else void this.save();
   }
 
-  private async save(state: AppState): Promise<void> {
+  private async save(): Promise<void> {
+    clearTimeout(this.timer);
+    this.busy = true;
+    do {
+      this.changed = false;
+      await this.saveNow(this.store.getState());
+    } while (this.changed && this.right.held);
+    this.busy = false;
+  }
+
+  private async saveNow(state: AppState): Promise<void> {
     try {
       if (hasVisitorContent(state)) {
         this.anythingStored = true;
         await this.storage.write(storedProject(state));
         this.hasFitted = true;
-        this.report('stored');
+        const isNew = ({ id, reaction }: Take): boolean =>
+          reaction.label === null && !this.synced.some((take) => take.id === id);
+        if (state.takes.some(isNew)) this.callbacks.takeStored();
       } else if (this.anythingStored) {
-        await this.storage.clear();
+        await (this.cleared ? this.storage.clear() : this.storage.removeOwn());
         this.anythingStored = false;
-        this.report('stored');
-      }
+      } else return;
+      this.synced = state.takes;
+      this.cleared = false;
+      this.report('stored');
     } catch (error) {
+      if (isNewer(error)) {
+        this.mayWrite = false;
+        this.report('newer');
+        return;
+      }
       this.report(isFull(error) ? 'full' : 'refused');
-      // Unless a newer change is about to be written anyway.
-      if (this.timer === undefined) this.writeAfter(RETRY_MS);
+      this.timer = setTimeout(() => this.write(), RETRY_MS);
     }
+  }
+
+  /** Waits for the right to write; says so unless the tab that has it gives way at once. */
+  private readonly wait = (): void => {
+    this.right.wait();
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      if (!this.right.held) this.report('elsewhere');
+    }, PATIENCE_MS);
+  };
+
+  /** This tab has got the right to write after another one had it. */
+  private async goOn(): Promise<void> {
+    clearTimeout(this.timer);
+    await this.callbacks.merge(this.synced).catch(() => undefined);
+    if (this.store.getState().autosave === 'elsewhere') this.report('stored');
+    this.write();
   }
 
   /** Puts the status into the store; a storage that has become full is also reported as a problem, once. */

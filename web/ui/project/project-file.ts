@@ -1,87 +1,35 @@
 import { strFromU8, strToU8, type Unzipped, unzipSync, type Zippable, zipSync } from 'fflate';
 import * as v from 'valibot';
 import { slug } from '../store/format';
-import type { StoredProject, StoredInputs } from './schema';
+import { checked } from './records';
+import { type StoredProject, VERSION } from './schema';
 import { motionBytes, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 import { AppError } from '../../common/error';
 
-/** Raised when older pages can no longer read the file. */
-const VERSION = 1;
 const FORMAT = 'reactdance-project';
 const MANIFEST = 'project.json';
 
-const text = v.pipe(v.string(), v.minLength(1));
-const label = v.nullable(v.string());
-const count = v.pipe(v.number(), v.integer(), v.minValue(0));
-const inputs = v.custom<StoredInputs>(
-  (value) => value !== null && typeof value === 'object' && !Array.isArray(value),
-);
-const shape = {
-  fps: v.pipe(v.number(), v.gtValue(0)),
-  frames: v.pipe(count, v.minValue(1)),
-  fitError: v.number(),
-};
+/** Most bytes of an archive's files together; a small archive can claim to hold any number. */
+const MAX_BYTES = 2 ** 30;
 
-/** What is set by hand about a leader. Files of earlier pages have the frame rate alone, beside it. */
-const options = v.optional(v.record(v.string(), v.unknown()), {});
-const fps = v.optional(v.nullable(v.number()), null);
-/** Files that belong to a leader's, as the skeleton of an AMC. */
-const companions = v.optional(v.array(v.object({ name: text, file: text })), []);
+const list = v.array(v.unknown());
 
-/** The latents of a motion, in a file of their own. */
-const latents = v.object({ decoder: text, count, file: text });
-
-/** How a song is counted. */
-const counting = v.object({
-  song: text,
-  bytes: count,
-  beatsPerBar: v.picklist([3, 4]),
-  rate: v.picklist([0.5, 1, 2]),
-  one: v.pipe(v.number(), v.finite()),
-});
-
-/** project.json: the page, the takes, and which file of the archive holds what. */
+/** project.json: the page, the takes, and which file of the archive holds what. Each entry is checked by itself. */
 const schema = v.object({
   format: v.literal(FORMAT),
   version: v.number(),
-  songs: v.array(v.object({ id: text, name: text, label, type: v.string(), file: text })),
-  leaders: v.array(v.object({ id: text, name: text, label, file: text, companions, options, fps })),
-  motions: v.array(v.object({ id: text, file: text, ...shape, latents: v.optional(latents) })),
-  takes: v.array(
-    v.object({
-      id: text,
-      number: count,
-      name: label,
-      starred: v.boolean(),
-      createdAt: v.number(),
-      label,
-      seconds: v.nullable(v.number()),
-      motion: text,
-      leader: text,
-      song: v.nullable(text),
-      inputs,
-    }),
-  ),
-  page: v.object({
-    leader: v.nullable(text),
-    song: v.nullable(text),
-    inputs: v.nullable(inputs),
-    shown: v.nullable(text),
-    other: v.nullable(text),
-    letter: v.picklist(['A', 'B']),
-    compare: v.picklist(['off', 'side', 'ghost']),
-    takesMade: count,
-    footLock: v.boolean(),
-    countings: v.optional(v.array(counting), []),
-    time: v.number(),
-  }),
+  songs: list,
+  leaders: list,
+  motions: list,
+  takes: list,
+  page: v.unknown(),
 });
 
 type Manifest = v.InferOutput<typeof schema>;
 
 /**
- * Writes a project: a zip archive with project.json, the songs as they were given, leaders as they were given, motion and latents
- * of takes as float32.
+ * Writes a project: a zip archive with project.json, songs and leaders as they were given, and motion and latents of
+ * takes as float32.
  */
 export async function writeProject(project: StoredProject): Promise<Uint8Array<ArrayBuffer>> {
   const files: Zippable = {};
@@ -90,7 +38,7 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
     files[file] = [bytes, { level }];
     return file;
   };
-  const songs: Manifest['songs'] = [];
+  const songs: unknown[] = [];
   for (const [index, { id, name, label, file }] of project.songs.entries()) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const ending = /\.[a-z0-9]{1,5}$/i.exec(name)?.[0] ?? '';
@@ -119,13 +67,13 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
       },
     };
   });
-  const manifest = {
+  const manifest: Manifest = {
     format: FORMAT,
     version: VERSION,
     songs,
     leaders,
     motions,
-    takes: project.takes,
+    takes: [...project.takes],
     page: project.page,
   };
   add(MANIFEST, strToU8(JSON.stringify(manifest, null, 2)), 1);
@@ -133,51 +81,70 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
 }
 
 /**
- * Reads a project.
- * @throws {AppError} what is wrong with the file, and which part of it
+ * Reads a project; entries that do not fit are left out and said, see `checked`.
+ * @throws {AppError} what is wrong with the file
  */
-export function readProject(bytes: Uint8Array): StoredProject {
+export function readProject(bytes: Uint8Array): ReturnType<typeof checked> {
   const files = unzip(bytes);
-  const manifest = readManifest(files);
-  const part = (file: string): Uint8Array<ArrayBuffer> => {
-    const content = files[file];
-    if (content) return content;
-    throw new AppError('missing-part', `The project lacks its part ${file}.`, HINT_AGAIN);
-  };
-  const partOf = (file: string, bytes: number, what: string): Uint8Array<ArrayBuffer> => {
-    const content = part(file);
-    if (content.byteLength === bytes) return content;
-    throw new AppError(
-      'damaged-project',
-      `${file} in the project has ${content.byteLength} bytes where ${what} have ${bytes}.`,
-      HINT_AGAIN,
-    );
-  };
+  const { songs, leaders, motions, takes, page } = readManifest(files);
+  const read = checked({
+    songs: songs.map((entry) => withFile(entry, files, (content) => ({ bytes: content }))),
+    leaders: leaders.map((entry) =>
+      withFile(entry, files, (content) => leaderOf(entry as Entry, content, files)),
+    ),
+    motions: motions.map((entry) =>
+      withFile(entry, files, (content) => motionOf(entry as Entry, content, files)),
+    ),
+    takes,
+    page,
+  });
+  const { project, losses } = read;
+  if (project.songs.length > 0 || project.leaders.length > 0) return read;
+  throw new AppError(
+    'damaged-project',
+    `The project holds no song and no leader that can be read. ${losses.join(' ')}`.trim(),
+    HINT_AGAIN,
+  );
+}
+
+type Entry = Readonly<Record<string, unknown>>;
+
+/** An entry with what its file in the archive holds; as it is, and thus incomplete, where there is no such file. */
+function withFile(
+  entry: unknown,
+  files: Unzipped,
+  read: (content: Uint8Array<ArrayBuffer>) => Entry,
+): unknown {
+  if (entry === null || typeof entry !== 'object') return entry;
+  const { file, ...rest } = entry as Entry;
+  const content = contentOf(files, file);
+  return content ? { ...rest, ...read(content) } : rest;
+}
+
+function contentOf(files: Unzipped, file: unknown): Uint8Array<ArrayBuffer> | null {
+  return typeof file === 'string' && Object.hasOwn(files, file) ? files[file]! : null;
+}
+
+/** Files of earlier pages have the frame rate alone, beside the file. */
+function leaderOf({ name, fps, companions, options }: Entry, content: Uint8Array, files: Unzipped): Entry {
+  const others = Array.isArray(companions) ? (companions as readonly unknown[]) : [];
   return {
-    songs: manifest.songs.map(({ id, name, label, type, file }) => ({
-      id,
-      name,
-      label,
-      file: new Blob([part(file)], { type }),
-    })),
-    leaders: manifest.leaders.map(({ id, name, label, fps, file, companions, options }) => ({
-      id,
-      name,
-      label,
-      files: [{ name, file }, ...companions].map((one) => ({ name: one.name, bytes: part(one.file) })),
-      options: { ...(fps !== null && { fps }), ...options },
-    })),
-    motions: manifest.motions.map(({ id, fps, frames, fitError, file, latents }) => {
-      const content = partOf(file, motionBytes(frames), `${frames} frames`);
-      const motion = unpackMotion(content, { fps, frames, fitError });
-      if (!latents) return { id, motion };
-      const { decoder, count } = latents;
-      const values = unpackFloats(partOf(latents.file, 4 * count, `${count} latents`));
-      return { id, motion, latents: { decoder, values } };
-    }),
-    takes: manifest.takes,
-    page: manifest.page,
+    files: [
+      { name, bytes: content },
+      ...others.map((other) => withFile(other, files, (bytes) => ({ bytes }))),
+    ],
+    options: { ...(typeof fps === 'number' && { fps }), ...(options as object | null | undefined) },
   };
+}
+
+function motionOf({ frames, fps, fitError, latents }: Entry, content: Uint8Array, files: Unzipped): Entry {
+  if (typeof frames !== 'number' || content.byteLength !== motionBytes(frames)) return {};
+  const motion = unpackMotion(content, { frames, fps: fps as number, fitError: fitError as number });
+  if (latents === null || typeof latents !== 'object') return { motion };
+  const { decoder, count, file } = latents as Entry;
+  const values = contentOf(files, file);
+  const isWhole = values !== null && typeof count === 'number' && values.byteLength === 4 * count;
+  return { motion, latents: isWhole ? { decoder, values: unpackFloats(values) } : undefined };
 }
 
 const HINT_AGAIN =
@@ -187,11 +154,21 @@ const HINT_SAVED = 'Open a file that was saved here with “Save project”. Wha
 function unzip(bytes: Uint8Array): Unzipped {
   const isZip = bytes[0] === 0x50 && bytes[1] === 0x4b;
   if (!isZip) throw new AppError('not-a-project', 'The file is not a ReactDance project.', HINT_SAVED);
+  let total = 0;
+  const fits = ({ originalSize }: { readonly originalSize: number }): boolean =>
+    (total += originalSize) <= MAX_BYTES;
+  let files: Unzipped;
   try {
-    return unzipSync(bytes);
+    files = unzipSync(bytes, { filter: fits });
   } catch {
     throw new AppError('damaged-project', 'The project is cut off or damaged.', HINT_AGAIN);
   }
+  if (total <= MAX_BYTES) return files;
+  throw new AppError(
+    'too-large',
+    `The project unpacks to ${Math.ceil(total / 1e6)} MB; up to ${Math.round(MAX_BYTES / 1e6)} MB are read.`,
+    'Open a file that was saved here with “Save project”, with fewer or shorter songs. What is on the page stays.',
+  );
 }
 
 function readManifest(files: Unzipped): Manifest {

@@ -5,18 +5,22 @@ import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
 import { panelToggled } from '../store/actions/view';
+import { persistenceText } from '../store/selectors';
 import { hasVisitorContent } from './schema';
 
 const HEADINGS: Readonly<Record<AutosaveStatus, string>> = {
   stored: 'Kept in this browser until you start afresh',
   full: 'Not all of it is kept: this browser’s space is full',
   refused: 'This browser keeps nothing for the page',
+  elsewhere: 'Another tab keeps its work; this one is not kept',
+  newer: 'A newer version of the page keeps its work; this one is not kept',
 };
 
 interface Elements {
   readonly opener: HTMLButtonElement;
   readonly menu: HTMLElement;
   readonly head: HTMLElement;
+  readonly persistence: HTMLElement;
   readonly save: HTMLButtonElement;
   readonly open: HTMLButtonElement;
   readonly clear: HTMLButtonElement;
@@ -28,7 +32,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     apply(store, panelToggled('project'));
   };
   const elements = build(services, toggle);
-  const { opener, menu, head, save, clear } = elements;
+  const { opener, menu, head, persistence, save, clear } = elements;
   root.append(opener, menu);
   return combineDisposers(
     watch(
@@ -38,11 +42,14 @@ export const mountProjectMenu: Mount = (root, store, services) => {
         showOpen(elements, isOpen);
       },
     ),
-    watch(
+    watchAll(
       store,
-      (state) => state.autosave,
-      (status) => {
-        setText(head, HEADINGS[status]);
+      (state) => [state.autosave, state.persistent],
+      (state) => {
+        setText(head, HEADINGS[state.autosave]);
+        const sentence = persistenceText(state);
+        setText(persistence, sentence ?? '');
+        persistence.hidden = sentence === null;
       },
     ),
     watchAll(
@@ -98,20 +105,22 @@ function build(services: Services, toggle: () => void): Elements {
   const clear = entry(
     'remove',
     'Start afresh',
-    'Empties the page; undo brings it back',
+    'Empties the page; undo brings it back until you make a take',
     services.clearProject,
   );
   const head = el('h2');
+  const persistence = el('p', { class: 'persistence' });
   const menu = el(
     'div',
     { class: 'float menu project', attributes: { role: 'dialog', 'aria-label': 'Project' } },
     el('div', { class: 'row' }, head, closeButton(toggle)),
+    persistence,
     save,
     open,
     clear,
   );
   menu.hidden = true;
-  return { opener, menu, head, save, open, clear };
+  return { opener, menu, head, persistence, save, open, clear };
 }
 
 function menuEntry(symbol: IconName, name: string, hint: string, run: () => void): HTMLButtonElement {

@@ -1,18 +1,38 @@
 import { randomSeed } from '../store/actions/settings';
 import type { Files, FileReaders } from '../store/services';
-import { projectProblem } from '../store/problems';
+import { leaderlessProblem, projectProblem } from '../store/problems';
 import { slug } from '../store/format';
+import type { Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
-import { projectCleared, projectOpened, takesRestored, visitRestored } from '../store/actions/project';
+import {
+  persistenceAnswered,
+  projectCleared,
+  projectOpened,
+  restoringSet,
+  songRestored,
+  takesMerged,
+  takesRestored,
+  visitRestored,
+} from '../store/actions/project';
+import { askPersistence, isPersistent, type Persistence } from '../../offline/persistence';
 import { Autosave } from './autosave';
-import { assignId, storedProject } from './schema';
+import type { TabMeans } from './editing-right';
+import { checked } from './records';
+import { assignId, loadedParts, storedProject } from './schema';
 import { readProject, writeProject } from './project-file';
-import { Restorer, type StoredFileReaders } from './restore';
+import { Restorer, restoringOf, type StoredFileReaders } from './restore';
 import type { ProjectStorage } from './storage';
 import { AppError } from '../../common/error';
+
+/** What the browser gives the page to store with. */
+export interface ProjectMeans {
+  readonly storage: ProjectStorage;
+  readonly tabs: TabMeans;
+  readonly persistence: Persistence;
+}
 
 /** Songs, leaders, takes and settings between two visits, in the browser's storage, and in project files. */
 export class Project {
@@ -21,14 +41,18 @@ export class Project {
   private readonly foreground: StoredFileReaders;
   /** Reads without changing the page; null for what fails. */
   private readonly background: StoredFileReaders;
+  private persistenceAsked = false;
 
   constructor(
     private readonly store: Store,
     files: Files,
     private readonly readers: FileReaders,
-    storage: ProjectStorage,
+    private readonly means: ProjectMeans,
   ) {
-    this.autosave = new Autosave(store, storage);
+    this.autosave = new Autosave(store, means.storage, means.tabs, {
+      merge: (synced) => this.merge(synced),
+      takeStored: () => void this.askPersistence(),
+    });
     this.foreground = {
       song: ({ file, name, label }) => files.readSong(file, name, label),
       leader: ({ name, label, files: leader, options }) =>
@@ -37,29 +61,35 @@ export class Project {
     this.background = backgroundReaders(readers);
   }
 
-  /** Restores what an earlier visit stored and starts autosave; false when there is nothing to restore. */
+  /**
+   * Restores what an earlier visit stored and starts autosave; false when there is nothing to restore. What is there is
+   * said at once, the couple is shown as soon as the leader is read, and the song and the other takes come after them.
+   */
   async restore(): Promise<boolean> {
     const { store } = this;
-    const stored = await this.autosave.read();
-    if (!stored) {
+    const found = await this.autosave.read();
+    const { project, losses } = found ? checked(found) : NOTHING;
+    for (const loss of losses) apply(store, noticeAdded(loss));
+    if (!project || (project.leaders.length === 0 && project.songs.length === 0)) {
       this.autosave.start();
       return false;
     }
+    void isPersistent(this.means.persistence).then((answer) => apply(store, persistenceAnswered(answer)));
     apply(store, firstVisitEnded());
+    apply(store, restoringSet(restoringOf(project)));
     const before = store.getState();
-    await this.readers.manifest();
-    const restorer = new Restorer(stored, assignId);
-    await restorer.readPage(this.foreground);
+    const restorer = new Restorer(project, assignId);
+    const song = restorer.readPageSong(this.foreground);
+    await Promise.all([this.readers.manifest(), restorer.readPageLeader(this.foreground)]);
     const now = store.getState();
     // Files that the visitor has chosen in the meantime stay.
     const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
     const content = restorer.content(now);
     apply(store, superseded ? takesRestored(content.takes ?? []) : visitRestored(content));
+    await song;
+    this.showPageSong(restorer);
     this.autosave.start();
-    void restorer.readRest(this.background).then(() => {
-      apply(store, takesRestored(restorer.content(store.getState()).takes ?? []));
-      for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
-    });
+    void this.restoreRest(restorer);
     return true;
   }
 
@@ -68,26 +98,33 @@ export class Project {
     const { store } = this;
     apply(store, problemClosed());
     try {
-      const stored = readProject(new Uint8Array(await file.arrayBuffer()));
+      const { project, losses } = readProject(new Uint8Array(await file.arrayBuffer()));
+      apply(store, restoringSet(restoringOf(project)));
       await this.readers.manifest();
       const before = store.getState();
-      const restorer = new Restorer(stored);
-      await restorer.readPage(this.foreground);
+      const restorer = new Restorer(project);
+      await Promise.all([restorer.readPageLeader(this.foreground), restorer.readPageSong(this.foreground)]);
       await restorer.readRest(this.background);
       const now = store.getState();
       // Files that the visitor has chosen in the meantime are the newer request.
       if (now.leader !== before.leader || now.song !== before.song) return false;
       const content = restorer.content(now);
-      if (stored.page.leader !== null && !content.leader) return false;
+      if (project.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
       apply(store, toastShown(openedText(store.getState())));
-      for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
+      for (const loss of [...losses, ...restorer.losses()]) apply(store, noticeAdded(loss));
+      if (!content.leader) apply(store, problemShown(leaderlessProblem(file.name)));
       return true;
     } catch (error) {
       apply(store, problemShown(projectProblem(error, file.name, 'any-file')));
       return false;
+    } finally {
+      apply(store, restoringSet(null));
     }
   }
+
+  /** Lets this tab store its work instead of the tab that does; what that one has stored comes onto this page too. */
+  readonly takeOver = (): void => void this.autosave.takeOver();
 
   /** The project file of everything on the page; null when writing it fails, which is reported in the store. */
   async toFile(): Promise<{ readonly name: string; readonly bytes: Uint8Array<ArrayBuffer> } | null> {
@@ -107,13 +144,50 @@ export class Project {
 
   /** Empties the page and, by autosave, the storage; undo brings everything back. */
   clear(): void {
+    this.autosave.clear();
     apply(this.store, projectCleared(this.store.getState().manifest, randomSeed()));
   }
 
   dispose(): void {
     this.autosave.dispose();
   }
+
+  private showPageSong(restorer: Restorer): void {
+    const read = restorer.pageSong();
+    if (read) apply(this.store, songRestored(read.song, read.takes));
+  }
+
+  /** Restores the takes of other songs and leaders than the page's. */
+  private async restoreRest(restorer: Restorer): Promise<void> {
+    const { store } = this;
+    await restorer.readRest(this.background);
+    apply(store, takesRestored(restorer.takes(store.getState())));
+    this.showPageSong(restorer);
+    apply(store, restoringSet(null));
+    this.autosave.noteSynced();
+    for (const loss of restorer.losses()) apply(store, noticeAdded(loss));
+  }
+
+  /** Puts the takes on the page that another tab has stored since this one last did. */
+  private async merge(synced: readonly Take[]): Promise<void> {
+    const { store } = this;
+    const found = await this.means.storage.read();
+    if (!found) return;
+    await this.readers.manifest();
+    const restorer = new Restorer(checked(found).project, assignId, loadedParts(store.getState()));
+    await restorer.readRest(this.background);
+    apply(store, takesMerged(restorer.takes(store.getState()), synced));
+  }
+
+  private async askPersistence(): Promise<void> {
+    if (this.persistenceAsked) return;
+    this.persistenceAsked = true;
+    const answer = await askPersistence(this.means.persistence);
+    apply(this.store, persistenceAnswered(answer));
+  }
 }
+
+const NOTHING = { project: null, losses: [] };
 
 function backgroundReaders(readers: FileReaders): StoredFileReaders {
   return {

@@ -1,16 +1,16 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Inputs, LoadedLeader, LoadedSong, Reaction, Take } from '../store/reaction';
-import type { AppState } from '../store/state';
-import { currentInputs } from '../store/take';
+import type { AppState, Restoring } from '../store/state';
+import { takeTitle } from '../store/take';
+import { restoredInputs } from './inputs';
 import {
   decoderOf,
+  type LoadedParts,
   type StoredProject,
-  type StoredInputs,
   type StoredLeader,
   type StoredMotion,
   type StoredSong,
   type StoredTake,
-  storedInputs,
 } from './schema';
 
 /** How stored songs and leaders are read again; null for one that can't be read any more. */
@@ -19,29 +19,59 @@ export interface StoredFileReaders {
   readonly leader: (leader: StoredLeader) => Promise<LoadedLeader | null>;
 }
 
+/** What can be said of a stored project before its songs and leaders are read. */
+export function restoringOf({ songs, leaders, takes, page }: StoredProject): Restoring {
+  const name = (all: readonly (StoredSong | StoredLeader)[], id: string | null): string[] =>
+    all.filter((part) => part.id === id).map((part) => part.name);
+  const count = takes.length === 1 ? '1 take' : `${takes.length} takes`;
+  return {
+    what: [
+      ...name(songs, page.song),
+      ...name(leaders, page.leader),
+      ...(takes.length > 0 ? [count] : []),
+    ].join(', '),
+    takes: takes
+      .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number)
+      .map(({ id, number, name, label }) => ({
+        id,
+        title: takeTitle({ number, name, reaction: { label } }),
+      })),
+  };
+}
+
 /** Turns a stored project back into state, while its songs and leaders are read one after the other. */
 export class Restorer {
   /** By id, as far as they have been read; null for one that could not be read. */
-  private readonly songs = new Map<string, LoadedSong | null>();
-  private readonly leaders = new Map<string, LoadedLeader | null>();
+  private readonly songs: Map<string, LoadedSong | null>;
+  private readonly leaders: Map<string, LoadedLeader | null>;
   private readonly motions: ReadonlyMap<string, StoredMotion>;
+  /** Ids of takes whose settings were beyond what the model takes. */
+  private readonly changed = new Set<string>();
 
-  /** @param onRestored called with each part that is restored and its id */
+  /**
+   * @param onRestored called with each part that is restored and its id
+   * @param loaded parts that the page has already, which are not read again
+   */
   constructor(
-    private readonly stored: StoredProject,
+    readonly stored: StoredProject,
     private readonly onRestored: (part: object, id: string) => void = () => undefined,
+    loaded: LoadedParts = { songs: new Map(), leaders: new Map() },
   ) {
+    this.songs = new Map(loaded.songs);
+    this.leaders = new Map(loaded.leaders);
     this.motions = new Map(stored.motions.map((motion) => [motion.id, motion]));
     for (const [id, { motion }] of this.motions) onRestored(motion, id);
   }
 
-  /** Reads the song and the leader of the page. */
-  async readPage(readers: StoredFileReaders): Promise<void> {
-    const { songs, leaders, page } = this.stored;
-    await Promise.all([
-      ...songs.filter(({ id }) => id === page.song).map((song) => this.readSong(song, readers)),
-      ...leaders.filter(({ id }) => id === page.leader).map((leader) => this.readLeader(leader, readers)),
-    ]);
+  /** Reads the leader of the page; with it, and without its song, the page can be shown. */
+  async readPageLeader(readers: StoredFileReaders): Promise<void> {
+    const { leaders, page } = this.stored;
+    for (const leader of leaders) if (leader.id === page.leader) await this.readLeader(leader, readers);
+  }
+
+  async readPageSong(readers: StoredFileReaders): Promise<void> {
+    const { songs, page } = this.stored;
+    for (const song of songs) if (song.id === page.song) await this.readSong(song, readers);
   }
 
   /** Reads those that only takes refer to, and tries again what failed. */
@@ -51,22 +81,33 @@ export class Restorer {
     for (const song of songs) if (!this.songs.get(song.id)) await this.readSong(song, readers);
   }
 
+  /** The song of the page and the ids of its takes; null while it is not read. */
+  pageSong(): { readonly song: LoadedSong; readonly takes: ReadonlySet<string> } | null {
+    const { page, takes } = this.stored;
+    const song = page.song === null ? null : this.songs.get(page.song);
+    if (!song) return null;
+    return { song, takes: new Set(takes.filter((take) => take.song === page.song).map(({ id }) => id)) };
+  }
+
   /**
    * The part of the state that has been restored so far.
-   * @param state the page's, with its settings and manifest: a stored input that is missing or of another type than
-   *   the page's takes the page's value, and latents of another decoder than the manifest's are left out
+   * @param state the page's, with its settings and manifest, see `restoredInputs`; latents of another decoder than the
+   *   manifest's are left out
    */
   content(state: AppState): Partial<AppState> {
     const { page } = this.stored;
     const takes = this.takes(state);
     const leader = (page.leader !== null && this.leaders.get(page.leader)) || null;
-    const song = (page.song !== null && this.songs.get(page.song)) || null;
+    const song = this.pageSong()?.song ?? null;
     const onStage = takes.find(({ id }) => id === page.shown)?.reaction ?? null;
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
-    const { letter, takesMade, footLock, countings = [], time } = page;
+    const { letter, takesMade, footLock, countings, time } = page;
+    const inputs: Partial<Inputs> =
+      leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song };
     return {
-      ...(leader && page.inputs ? restoredInputs(page.inputs, state, leader, song) : { leader, song }),
+      ...inputs,
+      leader,
       takes,
       takesMade: Math.max(takesMade, ...takes.map(({ number }) => number)),
       reaction,
@@ -83,9 +124,22 @@ export class Restorer {
     };
   }
 
+  /**
+   * The takes whose leader, song and motion have been read, the newest first; those of the page's song are there before
+   * it, without a song.
+   */
+  takes(state: AppState): readonly Take[] {
+    return this.stored.takes
+      .map((take) => this.take(take, state))
+      .filter((take) => take !== null)
+      .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number);
+  }
+
   /** Sentences about what could not be restored. */
   losses(): string[] {
     const { leaders, songs, takes } = this.stored;
+    const shorter = takes.filter((take) => this.isOfOtherLength(take)).length;
+    const changed = this.changed.size;
     return [
       ...leaders
         .filter(({ id }) => this.leaders.get(id) === null)
@@ -98,6 +152,19 @@ export class Restorer {
       ...songs
         .filter(({ id }) => this.songs.get(id) === null)
         .map(({ name }) => `The song ${name} could not be read again; its takes are there without it.`),
+      ...(shorter > 0
+        ? [
+            shorter === 1
+              ? 'A take of another length than the leader is left out.'
+              : `${shorter} takes of another length than their leader are left out.`,
+          ]
+        : []),
+      ...(changed > 0
+        ? [
+            `The settings of ${changed === 1 ? 'a take' : `${changed} takes`} are beyond what this model takes; the ` +
+              'nearest are shown.',
+          ]
+        : []),
     ];
   }
 
@@ -113,67 +180,36 @@ export class Restorer {
     this.leaders.set(leader.id, read);
   }
 
-  /** The takes whose leader, song and motion have been read, the newest first. */
-  private takes(state: AppState): readonly Take[] {
-    return this.stored.takes
-      .map((take) => this.take(take, state))
-      .filter((take) => take !== null)
-      .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number);
-  }
-
   /** Null until the take's leader is there; a song that could not be read leaves it without one. */
   private take(stored: StoredTake, state: AppState): Take | null {
     const leader = this.leaders.get(stored.leader);
     const song = stored.song === null ? null : this.songs.get(stored.song);
+    const isComing = song === undefined && stored.song !== this.stored.page.song;
     const made = this.motions.get(stored.motion);
-    if (!leader || song === undefined || !made) return null;
+    if (!leader || isComing || !made || this.isOfOtherLength(stored)) return null;
     const { id, number, name, starred, createdAt, label, seconds } = stored;
-    const reaction: Reaction = {
-      motion: made.motion,
-      latents: readableLatents(made, state),
-      inputs: restoredInputs(stored.inputs, state, leader, song),
-      label,
-      seconds,
-    };
+    const { inputs, changed } = restoredInputs(stored.inputs, state, leader, song ?? null);
+    if (changed) this.changed.add(id);
+    const { motion } = made;
+    const reaction: Reaction = { motion, latents: readableLatents(made, state), inputs, label, seconds };
     return { id, number, name, starred, createdAt, reaction };
+  }
+
+  /** Whether a take's motion does not last as long as its leader, as far as that is read. */
+  private isOfOtherLength({ leader, motion }: StoredTake): boolean {
+    const [led, made] = [this.leaders.get(leader)?.motion, this.motions.get(motion)?.motion];
+    return led !== undefined && made !== undefined && (led.frames !== made.frames || led.fps !== made.fps);
   }
 }
 
-/** Latents of the loaded model's decoder; null for those of another model, which this one can't decode. */
-function readableLatents({ latents }: StoredMotion, { manifest }: AppState): Float32Array | null {
-  return latents && manifest && latents.decoder === decoderOf(manifest) ? latents.values : null;
+/** Latents of the loaded model's decoder; null for those of another model or length, which it can't decode. */
+function readableLatents({ motion, latents }: StoredMotion, { manifest }: AppState): Float32Array | null {
+  if (!latents || !manifest || latents.decoder !== decoderOf(manifest)) return null;
+  const { stride, layers, channels } = manifest.latent;
+  const length = Math.ceil(motion.frames / stride) * layers.length * channels;
+  return latents.values.length === length ? latents.values : null;
 }
 
 function seconds({ frames, fps }: SolvedMotion): number {
   return frames / fps;
-}
-
-/** Stored inputs in the form that inputs have now. */
-function restoredInputs(
-  stored: StoredInputs,
-  state: AppState,
-  leader: LoadedLeader,
-  song: LoadedSong | null,
-): Inputs {
-  // In proportion, where a height is missing.
-  const settings = state.settings && { ...state.settings, height: null };
-  const present = currentInputs({ ...state, leader, song, settings });
-  if (!present) throw new Error('Inputs are restored once the settings are there.');
-  return { ...(conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>), leader, song };
-}
-
-/** The value where it is of the example's type, part by part; the example elsewhere. */
-function conform(example: unknown, value: unknown): unknown {
-  if (typeof example === 'number')
-    return typeof value === 'number' && Number.isFinite(value) ? value : example;
-  // A number that need not be there.
-  if (example === null) return typeof value === 'number' && Number.isFinite(value) ? value : null;
-  if (example === null || typeof example !== 'object')
-    return typeof value === typeof example ? value : example;
-  if (value === null || typeof value !== 'object') return example;
-  const parts = Object.entries(example).map(([key, part]) => [
-    key,
-    conform(part, (value as StoredInputs)[key]),
-  ]);
-  return Array.isArray(example) ? parts.map(([, part]) => part) : Object.fromEntries(parts);
 }

@@ -4,6 +4,12 @@ import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction } from '.
 import type { AppState, Compare, Letter, SongCounting } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 
+/**
+ * Version of the records, in the database and in project files. Raised when pages of the version before can't read
+ * them any more, or would leave out something when they write them again.
+ */
+export const VERSION = 2;
+
 /** A song: the file that it was read from. */
 export interface StoredSong {
   readonly id: string;
@@ -20,7 +26,7 @@ export interface StoredMotion {
   readonly id: string;
   readonly motion: SolvedMotion;
   /** Left out where the motion came ready-made, or was stored by a page that did not store latents. */
-  readonly latents?: StoredLatents;
+  readonly latents?: StoredLatents | undefined;
 }
 
 /** What a motion was decoded from, as in `Reaction`. */
@@ -65,8 +71,7 @@ export interface StoredPage {
   readonly compare: Compare;
   readonly takesMade: number;
   readonly footLock: boolean;
-  /** Left out by pages that did not store it. */
-  readonly countings?: readonly SongCounting[];
+  readonly countings: readonly SongCounting[];
   /** Seconds. */
   readonly time: number;
 }
@@ -97,6 +102,23 @@ function idOf(part: object): string {
 /** Gives a restored object the id under which it is stored already. */
 export function assignId(part: object, id: string): void {
   ids.set(part, id);
+}
+
+/** Songs and leaders by the ids under which they are stored. */
+export interface LoadedParts {
+  readonly songs: ReadonlyMap<string, LoadedSong>;
+  readonly leaders: ReadonlyMap<string, LoadedLeader>;
+}
+
+/** Those on the page and those of its takes. */
+export function loadedParts({ takes, song, leader }: AppState): LoadedParts {
+  const songs = new Map<string, LoadedSong>();
+  const leaders = new Map<string, LoadedLeader>();
+  for (const parts of [{ song, leader }, ...takes.map(({ reaction }) => reaction.inputs)]) {
+    if (parts.song) songs.set(idOf(parts.song), parts.song);
+    if (parts.leader) leaders.set(idOf(parts.leader), parts.leader);
+  }
+  return { songs, leaders };
 }
 
 /** The part of the state that is stored, with songs, leaders and motions referred to by id. */

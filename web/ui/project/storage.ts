@@ -2,11 +2,21 @@ import {
   type DBSchema,
   type IDBPDatabase,
   type IDBPObjectStore,
+  type IDBPTransaction,
   openDB,
   type OpenDBCallbacks,
   type StoreNames,
 } from 'idb';
-import type { StoredProject, StoredLeader, StoredMotion, StoredPage, StoredSong, StoredTake } from './schema';
+import type { FoundProject } from './records';
+import {
+  type StoredProject,
+  type StoredLeader,
+  type StoredMotion,
+  type StoredPage,
+  type StoredSong,
+  type StoredTake,
+  VERSION,
+} from './schema';
 
 /** A song in the database: its bytes, because not every browser can store blobs in private windows. */
 interface SongRecord extends Omit<StoredSong, 'file'> {
@@ -23,20 +33,35 @@ interface Schema extends DBSchema {
 }
 
 const PARTS = ['songs', 'leaders', 'motions', 'takes'] as const;
+const STORES = [...PARTS, 'page'] as const;
 type Part = (typeof PARTS)[number];
 type Ids = Record<Part, Set<string>>;
-/** Parts to add to the database: all that are given, or none. */
-type Addition = Omit<StoredProject, 'page'>;
+
+/** What one transaction changes. */
+interface Difference {
+  readonly songs: readonly SongRecord[];
+  readonly leaders: readonly StoredLeader[];
+  readonly motions: readonly StoredMotion[];
+  readonly takes: readonly StoredTake[];
+  readonly page: StoredPage | null;
+  readonly removed: readonly { readonly part: Part; readonly id: string }[];
+}
+
+const NOTHING: Difference = { songs: [], leaders: [], motions: [], takes: [], page: null, removed: [] };
 
 /** Songs, leaders, takes and settings in the browser between two visits. */
 export interface ProjectStorage {
-  /** Everything that is stored, or null when there is nothing. */
-  readonly read: () => Promise<StoredProject | null>;
+  /** Everything that is stored, unchecked, or null when there is nothing. */
+  readonly read: () => Promise<FoundProject | null>;
   /**
-   * Removes what an earlier call was given and this one is not, and writes what is new or has changed. Where the space
-   * is full, it writes what fits and then rejects; a stored take never loses its motion, leader or song.
+   * Removes what an earlier call was given and this one is not, and writes what is new or has changed, all of it or
+   * nothing. Where the space is full, it writes what fits and then rejects; a stored take never loses its motion,
+   * leader or song.
    */
   readonly write: (project: StoredProject) => Promise<void>;
+  /** Removes all that was written in this visit or restored from an earlier one. */
+  readonly removeOwn: () => Promise<void>;
+  /** Removes everything. */
   readonly clear: () => Promise<void>;
 }
 
@@ -45,9 +70,15 @@ export function isFull(error: unknown): error is DOMException {
   return error instanceof DOMException && error.name === 'QuotaExceededError';
 }
 
+/** Whether what is stored was written by a newer version of the page, which this one leaves alone. */
+export function isNewer(error: unknown): error is DOMException {
+  return error instanceof DOMException && error.name === 'VersionError';
+}
+
 /**
- * The page's database. Every call rejects with the browser's own error where it gives no storage, as in private
- * windows, or when its space is full (`isFull`).
+ * The page's database; its version is that of the records. Every call rejects with the browser's own error where it
+ * gives no storage, as in private windows, when its space is full (`isFull`) or when a newer page has written it
+ * (`isNewer`).
  */
 export class ProjectDatabase implements ProjectStorage {
   private readonly open: () => Promise<IDBPDatabase<Schema>>;
@@ -62,8 +93,8 @@ export class ProjectDatabase implements ProjectStorage {
     this.open = connection(name);
   }
 
-  async read(): Promise<StoredProject | null> {
-    const transaction = (await this.open()).transaction([...PARTS, 'page']);
+  async read(): Promise<FoundProject | null> {
+    const transaction = (await this.open()).transaction(STORES);
     const [page, songs, leaders, motions, takes] = await Promise.all([
       transaction.objectStore('page').get('now'),
       transaction.objectStore('songs').getAll(),
@@ -72,30 +103,46 @@ export class ProjectDatabase implements ProjectStorage {
       transaction.objectStore('takes').getAll(),
       transaction.done,
     ]);
-    if (!page) return null;
     this.present = idsOf({ songs, leaders, motions, takes });
     this.storedTakes = new Map(takes.map((take) => [take.id, take]));
-    this.storedPage = page;
-    const files = songs.map(({ bytes, type, ...song }) => ({ ...song, file: new Blob([bytes], { type }) }));
-    return { page, songs: files, leaders, motions, takes };
+    this.storedPage = page ?? null;
+    return page || takes.length > 0 ? { page, songs, leaders, motions, takes } : null;
   }
 
   async write(project: StoredProject): Promise<void> {
     const wanted = idsOf(project);
-    await this.open();
     for (const part of PARTS) for (const id of wanted[part]) this.own[part].add(id);
-    // In a transaction of its own: a full storage frees no space for what is added in the same one.
-    await this.remove(wanted);
-    const full = await this.addWhatFits(project);
-    await this.writePage(project.page);
-    await this.remove(wanted);
-    if (full) throw full;
+    const songs = this.missing('songs', project.songs);
+    const difference = {
+      ...this.difference(project, songs.length > 0 ? await recordsOf(songs) : []),
+      page: isSame(project.page, this.storedPage) ? null : project.page,
+      removed: this.unused(wanted, project.takes, project.page),
+    };
+    try {
+      await this.commit(difference);
+    } catch (error) {
+      if (!isFull(error)) throw error;
+      await this.writeWhatFits(project, wanted);
+    }
+  }
+
+  async removeOwn(): Promise<void> {
+    if (PARTS.every((part) => this.own[part].size === 0)) return;
+    await this.atOnce((transaction, send) => {
+      for (const part of PARTS)
+        for (const id of this.own[part]) send(transaction.objectStore(part).delete(id));
+      send(transaction.objectStore('page').delete('now'));
+    });
+    for (const part of PARTS) for (const id of this.own[part]) this.present[part].delete(id);
+    for (const id of this.own.takes) this.storedTakes.delete(id);
+    this.own = noIds();
+    this.storedPage = null;
   }
 
   async clear(): Promise<void> {
-    const transaction = (await this.open()).transaction([...PARTS, 'page'], 'readwrite');
-    const clears = [...PARTS, 'page' as const].map((part) => transaction.objectStore(part).clear());
-    await settled([transaction.done, ...clears]);
+    await this.atOnce((transaction, send) => {
+      for (const part of STORES) send(transaction.objectStore(part).clear());
+    });
     this.present = noIds();
     this.own = noIds();
     this.storedTakes = new Map();
@@ -103,100 +150,141 @@ export class ProjectDatabase implements ProjectStorage {
   }
 
   /**
-   * Adds take by take, each with its parts, so that those that still fit are stored, and the page's files last.
-   * @returns the browser's error when something did not fit
+   * What does not fit in one transaction, in several: what has left the page first, because a full storage frees no
+   * space for what is added in the same transaction, then take by take, each with its parts, and the page last.
+   * @throws the browser's error when something did not fit
    */
-  private async addWhatFits({ songs, leaders, motions, takes, page }: StoredProject): Promise<Error | null> {
-    const additions: Addition[] = takes.map((take) => ({
+  private async writeWhatFits(project: StoredProject, wanted: Ids): Promise<void> {
+    const { songs, leaders, motions, takes, page } = project;
+    await this.removeUnused(wanted);
+    const additions = takes.map((take) => ({
       songs: withId(songs, take.song),
       leaders: withId(leaders, take.leader),
       motions: withId(motions, take.motion),
       takes: [take],
     }));
     const pageFiles = { songs: withId(songs, page.song), leaders: withId(leaders, page.leader) };
-    additions.push({ ...pageFiles, motions: [], takes: [] });
     let full: Error | null = null;
-    for (const addition of additions)
+    for (const addition of [...additions, { ...pageFiles, motions: [], takes: [] }])
       try {
-        await this.add(addition);
+        const newSongs = await recordsOf(this.missing('songs', addition.songs));
+        await this.commit(this.difference(addition, newSongs));
       } catch (error) {
         if (!isFull(error)) throw error;
         full ??= error;
       }
-    return full;
+    const { present } = this;
+    const complete =
+      (page.song === null || present.songs.has(page.song)) &&
+      (page.leader === null || present.leaders.has(page.leader));
+    if (complete) await this.commit({ ...NOTHING, page });
+    await this.removeUnused(wanted);
+    if (full) throw full;
   }
 
-  /** Writes what the database lacks of these, all of it or nothing. */
-  private async add({ songs, leaders, motions, takes }: Addition): Promise<void> {
-    const newSongs: SongRecord[] = [];
-    // Before the transaction, which does not wait for it.
-    for (const { file, ...song } of this.missing('songs', songs))
-      newSongs.push({ ...song, bytes: await file.arrayBuffer(), type: file.type });
-    const newLeaders = this.missing('leaders', leaders);
-    const newMotions = this.missing('motions', motions);
-    const newTakes = takes.filter((take) => !isSameTake(take, this.storedTakes.get(take.id)));
-    if ([newSongs, newLeaders, newMotions, newTakes].every(({ length }) => length === 0)) return;
-    const transaction = (await this.open()).transaction(PARTS, 'readwrite');
-    await settled([
-      transaction.done,
-      ...newSongs.map((song) => transaction.objectStore('songs').put(song)),
-      ...newLeaders.map((leader) => transaction.objectStore('leaders').put(leader)),
-      ...newMotions.map((motion) => transaction.objectStore('motions').put(motion)),
-      ...newTakes.map((take) => transaction.objectStore('takes').put(take)),
-    ]);
-    const added = idsOf({ songs: newSongs, leaders: newLeaders, motions: newMotions, takes: newTakes });
-    for (const part of PARTS) for (const id of added[part]) this.present[part].add(id);
-    for (const take of newTakes) this.storedTakes.set(take.id, take);
+  /** What the database lacks of these. */
+  private difference(
+    { leaders, motions, takes }: Pick<StoredProject, 'leaders' | 'motions' | 'takes'>,
+    songs: readonly SongRecord[],
+  ): Difference {
+    return {
+      ...NOTHING,
+      songs,
+      leaders: this.missing('leaders', leaders),
+      motions: this.missing('motions', motions),
+      takes: takes.filter((take) => !isSame(take, this.storedTakes.get(take.id))),
+    };
   }
 
   private missing<T extends { readonly id: string }>(part: Part, all: readonly T[]): T[] {
     return all.filter(({ id }) => !this.present[part].has(id));
   }
 
-  /** Writes the page unless its song or its leader did not fit. */
-  private async writePage(page: StoredPage): Promise<void> {
-    const { songs, leaders } = this.present;
-    const complete =
-      (page.song === null || songs.has(page.song)) && (page.leader === null || leaders.has(page.leader));
-    if (!complete) return;
-    await (await this.open()).put('page', page, 'now');
-    this.storedPage = page;
-  }
-
-  /** Removes takes that have left the page, and then what nothing in the database refers to any more. */
-  private async remove(wanted: Ids): Promise<void> {
-    for (const id of this.own.takes) if (!wanted.takes.has(id)) this.storedTakes.delete(id);
-    const referred = this.referredIds();
-    const unused = PARTS.flatMap((part) =>
-      [...this.own[part]]
-        .filter((id) => !wanted[part].has(id) && !referred[part].has(id))
-        .map((id) => ({ part, id })),
-    );
-    if (unused.length === 0) return;
-    const transaction = (await this.open()).transaction(PARTS, 'readwrite');
-    await settled([
-      transaction.done,
-      ...unused.map(({ part, id }) => transaction.objectStore(part).delete(id)),
-    ]);
-    for (const { part, id } of unused) {
+  private async commit({ songs, leaders, motions, takes, page, removed }: Difference): Promise<void> {
+    if (!page && [songs, leaders, motions, takes, removed].every(({ length }) => length === 0)) return;
+    await this.atOnce((transaction, send) => {
+      for (const song of songs) send(transaction.objectStore('songs').put(song));
+      for (const leader of leaders) send(transaction.objectStore('leaders').put(leader));
+      for (const motion of motions) send(transaction.objectStore('motions').put(motion));
+      for (const take of takes) send(transaction.objectStore('takes').put(take));
+      if (page) send(transaction.objectStore('page').put(page, 'now'));
+      for (const { part, id } of removed) send(transaction.objectStore(part).delete(id));
+    });
+    const added = idsOf({ songs, leaders, motions, takes });
+    for (const part of PARTS) for (const id of added[part]) this.present[part].add(id);
+    for (const take of takes) this.storedTakes.set(take.id, take);
+    if (page) this.storedPage = page;
+    for (const { part, id } of removed) {
       this.own[part].delete(id);
       this.present[part].delete(id);
+      if (part === 'takes') this.storedTakes.delete(id);
     }
   }
 
-  /** Ids that takes and page in the database refer to; they may differ from what the page is about to write. */
-  private referredIds(): Ids {
-    const ids = noIds();
-    for (const { id, song, leader, motion } of this.storedTakes.values()) {
-      ids.takes.add(id);
-      ids.motions.add(motion);
-      ids.leaders.add(leader);
-      if (song !== null) ids.songs.add(song);
+  /**
+   * Makes all of a change or nothing, in one transaction. Its requests and its commit are sent in the same task: a page
+   * that is reloaded or ends the next moment is sure of what was committed, and of nothing else.
+   */
+  private async atOnce(
+    request: (
+      transaction: IDBPTransaction<Schema, typeof STORES, 'readwrite'>,
+      send: (request: Promise<unknown>) => void,
+    ) => void,
+  ): Promise<void> {
+    const transaction = (await this.open()).transaction(STORES, 'readwrite');
+    const sent: Promise<unknown>[] = [transaction.done];
+    try {
+      request(transaction, (one) => sent.push(one));
+      transaction.commit();
+    } catch (error) {
+      // Else what was sent before would be kept.
+      transaction.abort();
+      await settled(sent).catch(() => undefined);
+      throw error;
     }
-    if (this.storedPage?.song) ids.songs.add(this.storedPage.song);
-    if (this.storedPage?.leader) ids.leaders.add(this.storedPage.leader);
-    return ids;
+    await settled(sent);
   }
+
+  private async removeUnused(wanted: Ids): Promise<void> {
+    const stored = [...this.storedTakes.values()].filter(({ id }) => wanted.takes.has(id));
+    const removed = this.unused(wanted, stored, this.storedPage);
+    await this.commit({ ...NOTHING, removed });
+  }
+
+  /**
+   * This page's takes that have left it, and what neither the page nor anything in the database will refer to.
+   * @param takes of this page, as they will be in the database
+   */
+  private unused(wanted: Ids, takes: readonly StoredTake[], page: StoredPage | null): Difference['removed'] {
+    const foreign = [...this.storedTakes.values()].filter(({ id }) => !this.own.takes.has(id));
+    const referred = referredIds([...foreign, ...takes], page);
+    return PARTS.flatMap((part) =>
+      [...this.own[part]]
+        .filter((id) => !wanted[part].has(id) && !referred[part].has(id))
+        .filter((id) => this.present[part].has(id))
+        .map((id) => ({ part, id })),
+    );
+  }
+}
+
+/** Ids that takes and page refer to. */
+function referredIds(takes: readonly StoredTake[], page: StoredPage | null): Ids {
+  const ids = noIds();
+  for (const { id, song, leader, motion } of takes) {
+    ids.takes.add(id);
+    ids.motions.add(motion);
+    ids.leaders.add(leader);
+    if (song !== null) ids.songs.add(song);
+  }
+  if (page?.song) ids.songs.add(page.song);
+  if (page?.leader) ids.leaders.add(page.leader);
+  return ids;
+}
+
+async function recordsOf(songs: readonly StoredSong[]): Promise<SongRecord[]> {
+  return Promise.all(
+    songs.map(async ({ file, ...song }) => ({ ...song, bytes: await file.arrayBuffer(), type: file.type })),
+  );
 }
 
 /** Opens the database once, and again after it was closed. */
@@ -219,7 +307,7 @@ function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
     terminated: reset,
   };
   return () => {
-    opening ??= openDB<Schema>(name, 2, options).catch((error: unknown) => {
+    opening ??= openDB<Schema>(name, VERSION, options).catch((error: unknown) => {
       reset();
       throw error;
     });
@@ -247,8 +335,8 @@ async function settled(all: readonly Promise<unknown>[]): Promise<void> {
   if (failed) throw failed.reason;
 }
 
-function isSameTake(take: StoredTake, other: StoredTake | undefined): boolean {
-  return JSON.stringify(take) === JSON.stringify(other);
+function isSame(one: unknown, other: unknown): boolean {
+  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 function withId<T extends { readonly id: string }>(all: readonly T[], wanted: string | null): T[] {

@@ -6,6 +6,7 @@ import type { ModelState } from '../store/state';
 import type { StorageUsage } from '../../offline/storage-usage';
 import { apply, watch, watchAll, type Store } from '../store/store';
 import { panelToggled } from '../store/actions/view';
+import { persistenceText } from '../store/selectors';
 
 const PARTS = [
   ['page', 'Page and demo'],
@@ -18,6 +19,7 @@ interface Elements {
   readonly why: HTMLElement;
   readonly facts: HTMLElement;
   readonly sum: HTMLElement;
+  readonly work: HTMLElement;
   readonly clear: HTMLButtonElement;
   readonly close: HTMLButtonElement;
 }
@@ -33,7 +35,7 @@ export function mountDeviceCard(
     apply(store, panelToggled('device'));
   };
   const elements = build(toggle, () => void empty(elements, services));
-  const { card, why } = elements;
+  const { card, why, work } = elements;
   root.append(card);
   const closeOutside = ({ target }: PointerEvent): void => {
     const inside = [card, opener].some((part) => part.contains(target as Node));
@@ -59,6 +61,10 @@ export function mountDeviceCard(
         });
       },
     ),
+    watch(store, persistenceText, (sentence) => {
+      setText(work, sentence === null ? '' : `Your songs, leaders and takes: ${sentence}`);
+      work.hidden = sentence === null;
+    }),
     () => {
       document.removeEventListener('pointerdown', closeOutside);
       card.remove();
@@ -70,6 +76,7 @@ function build(toggle: () => void, empty: () => void): Elements {
   const why = el('p', { class: 'reason' });
   const facts = el('dl', { class: 'facts' });
   const sum = el('p', { attributes: { role: 'status' } });
+  const work = el('p', { class: 'reason' });
   const clear = el('button', {
     class: 'btn tint',
     text: 'Clear',
@@ -84,9 +91,10 @@ function build(toggle: () => void, empty: () => void): Elements {
     why,
     facts,
     el('div', { class: 'sum' }, sum, clear),
+    work,
   );
   card.hidden = true;
-  return { card, why, facts, sum, clear, close };
+  return { card, why, facts, sum, work, clear, close };
 }
 
 function showOpen({ card, close }: Elements, opener: HTMLElement, open: boolean): void {

@@ -4,6 +4,7 @@ import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
 import { problemClosed } from '../store/actions/notices';
+import { panelToggled } from '../store/actions/view';
 
 /** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {
@@ -69,6 +70,11 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
       { class: 'actions' },
       remedy && action(remedy.text, 'primary', remedy.run),
       losesWork(problem, state) ? action('Save project', 'tint', services.saveProject) : null,
+      problem.remedy === 'leader' && state.refusedLeader
+        ? action('Joints and units', 'ghost', () => {
+            apply(store, panelToggled('import'));
+          })
+        : null,
       action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
     ),
   );

@@ -1,7 +1,7 @@
 import { differOnlyInWeights, sameInputs } from './selectors';
 import type { Reaction, Take } from './reaction';
 import type { AppState } from './state';
-import { sealed } from './history';
+import { sealed, withoutCleared } from './history';
 import { currentInputs, takeOnStage, takeTitle, withTake } from './take';
 
 /** Identity and creation time of a new take, the latter in milliseconds since 1970. */
@@ -73,7 +73,7 @@ export function withReaction(
   return {
     takes: withTake(takes, take).filter((one) => !oldest.includes(one)),
     takesMade: Math.max(takesMade, number),
-    history,
+    history: reaction.label === null ? withoutCleared(history) : history,
     drag: dragged(take.id),
     toast: oldest.length > 0 ? removedText(oldest) : toast,
   };

@@ -88,9 +88,13 @@ function shiftTo(values: readonly number[], mean: number, { min, max }: Range): 
   return Math.round(high * 1e9) / 1e9;
 }
 
+export function clampedTo(value: number, { min, max }: Pick<Range, 'min' | 'max'>): number {
+  return Math.min(max, Math.max(min, value));
+}
+
 /** The value, clamped to the range and rounded to the step. */
-export function clampedToStep(value: number, { min, max, step }: Range): number {
-  return toStep(Math.min(max, Math.max(min, value)), step, min);
+export function clampedToStep(value: number, range: Range): number {
+  return toStep(clampedTo(value, range), range.step, range.min);
 }
 
 /** `1.20 coarse, 0.60 fine, 3.00 music, 1.00 variety`, with `about` where the body parts differ. */

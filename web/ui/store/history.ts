@@ -1,3 +1,4 @@
+import { countWithin } from './history-bytes';
 import { danceDuration, sameSettings } from './selectors';
 import type { Inputs, Settings, Take } from './reaction';
 import type { AppState } from './state';
@@ -19,6 +20,8 @@ interface Step {
   /** The parts of the state as they were. */
   readonly back: Partial<AppState>;
   readonly edits: readonly Edit[];
+  /** Brings back what starting afresh has removed. */
+  readonly cleared?: boolean;
   /** The take that was on the stage; a newer reaction of the same drag may have replaced it since. */
   readonly stage: Take | null;
 }
@@ -34,6 +37,9 @@ export interface History {
 export const NO_HISTORY: History = { past: [], future: [], open: false };
 
 const MAX_STEPS = 100;
+
+/** Most bytes of songs, leaders and motions that only steps of undo hold, besides those of the last step. */
+const MAX_BYTES = 64e6;
 
 /** Longest pause between two changes of one gesture, such as a drag of a fader. */
 const SAME_GESTURE_MS = 1000;
@@ -73,8 +79,29 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
         edits,
         stage: takeOnStage(before),
       };
-  const kept = continues ? past.slice(0, -1) : past.slice(1 - MAX_STEPS);
-  return { ...patch, history: { past: [...kept, step], future: [], open: true } };
+  const kept = continues ? past.slice(0, -1) : past;
+  return { ...patch, history: { past: newest([...kept, step], after), future: [], open: true } };
+}
+
+/** The last steps, as many as there may be. */
+function newest(past: readonly Step[], present: AppState): readonly Step[] {
+  const holders = past
+    .slice(-MAX_STEPS)
+    .toReversed()
+    .map(({ back, edits, stage }) => ({
+      ...back,
+      takes: [...(back.takes ?? []), ...edits.flatMap(({ before, after }) => [before, after]), stage].filter(
+        (take) => take !== null,
+      ),
+    }));
+  return past.slice(-countWithin(MAX_BYTES, present, holders));
+}
+
+/** Without the step that would bring back what starting afresh removed: something new has been made since. */
+export function withoutCleared(history: History): History {
+  const isOther = ({ cleared = false }: Step): boolean => !cleared;
+  if (history.past.every(isOther) && history.future.every(isOther)) return history;
+  return { ...history, past: history.past.filter(isOther), future: history.future.filter(isOther) };
 }
 
 /** A change that the page makes by itself, such as loading its demo, and that is no step of undo. */
@@ -88,10 +115,20 @@ const COMPARISON = ['other', 'letter', 'compare'] as const;
 export function withUndoOfAll(before: AppState, patch: Partial<AppState>): Partial<AppState> {
   const nothing = before.takes.length === 0 && !before.leader && !before.song;
   if (nothing) return { ...patch, history: NO_HISTORY };
-  const keys = Object.keys(patch) as (keyof AppState)[];
-  const step: Step = { kind: null, at: 0, back: pick(before, keys), edits: [], stage: null };
-  const past = [...before.history.past.slice(1 - MAX_STEPS), step];
+  const step = stepOfAll(before, patch);
+  const past = newest([...before.history.past, step], { ...before, ...patch });
   return { ...patch, history: { past, future: [], open: false } };
+}
+
+/** A change that empties the page, with the one step that undoes it; what only earlier steps hold is freed. */
+export function withUndoOfClearing(before: AppState, patch: Partial<AppState>): Partial<AppState> {
+  const step: Step = { ...stepOfAll(before, patch), cleared: true };
+  return { ...patch, history: { past: [step], future: [], open: false } };
+}
+
+function stepOfAll(before: AppState, patch: Partial<AppState>): Step {
+  const keys = Object.keys(patch) as (keyof AppState)[];
+  return { kind: null, at: 0, back: pick(before, keys), edits: [], stage: null };
 }
 
 /** Goes back one step. */
@@ -146,6 +183,7 @@ function inverse(step: Step, state: AppState): Step {
     kind: null,
     at: 0,
     back: pick(state, Object.keys(step.back) as (keyof AppState)[]),
+    ...(step.cleared && { cleared: true }),
     edits: step.edits.map(({ before, after }) => ({ before: after, after: before })),
     stage: takeOnStage(state),
   };

@@ -66,6 +66,17 @@ export function projectProblem(error: unknown, name: string, remedy: Problem['re
   };
 }
 
+/** An opened project in which there is no leader. */
+export function leaderlessProblem(name: string): Problem {
+  return {
+    code: 'no-leader',
+    title: `${name} came without a leader that can be read.`,
+    hint: 'Its song is here. Choose the leader’s motion, as BVH, and a partner is made again.',
+    remedy: 'leader',
+    refused: null,
+  };
+}
+
 /** The browser has no more space for autosave. */
 export function fullProblem(): Problem {
   return {

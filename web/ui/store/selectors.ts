@@ -115,7 +115,23 @@ const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
     'Delete takes that you don’t need, or save a project file.',
   refused:
     'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
+  // These two are over the stage, with what to do about them.
+  elsewhere: null,
+  newer: null,
 };
+
+const PERSISTENT = 'The browser has promised to keep it, also when this device runs out of space.';
+const NOT_PERSISTENT =
+  'The browser may remove it when this device runs out of space. A project file is safe from that.';
+
+/** Whether the browser has promised to keep what is stored, in a sentence; null while nobody has asked it. */
+export function persistenceText({
+  persistent,
+  autosave,
+}: Pick<AppState, 'persistent' | 'autosave'>): string | null {
+  if (persistent === null || autosave === 'refused' || autosave === 'newer') return null;
+  return persistent ? PERSISTENT : NOT_PERSISTENT;
+}
 
 /** A sentence about the inputs; a warning is about something that may make the result worse. */
 export interface Note {

@@ -2,6 +2,7 @@ import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
 import type { LeaderRequest, ReadLeader } from '../../motion/client';
+import type { Inspection } from '../../motion/import/inspect';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { StorageUsage } from '../../offline/storage-usage';
 import type { Report } from '../../quality/client';
@@ -69,6 +70,8 @@ export interface Services {
   readonly rereadLeader: (options: ImportOptions) => void;
   /** Reads the song or leader again whose reading failed last. */
   readonly readAgain: (kind: InputKind) => void;
+  /** The joints of the leader on the page, or of the one that was refused last; rejects where its file can't be read. */
+  readonly inspectLeader: () => Promise<Inspection>;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */
@@ -102,6 +105,8 @@ export interface Services {
   readonly stageSize: () => { readonly width: number; readonly height: number } | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
+  /** Stores the work of this tab from now on, no longer that of another tab. */
+  readonly storeHere: () => void;
   /** Empties the page and loads the demo; undo brings back what was there. */
   readonly clearProject: () => void;
   /** Bytes of the page that are cached on this device; null where the browser gives no storage. */

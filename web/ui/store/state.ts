@@ -16,8 +16,25 @@ export type InputKind = 'song' | 'leader';
 /** The two takes of a comparison; one is on the stage. */
 export type Letter = 'A' | 'B';
 
-/** Whether autosave works: everything is stored, the browser's space is full, or it gives the page none. */
-export type AutosaveStatus = 'stored' | 'full' | 'refused';
+/**
+ * Whether autosave works: everything is stored, the browser's space is full, it gives the page none, another tab
+ * stores its own work, or a newer version of the page has stored work that this one leaves alone.
+ */
+export type AutosaveStatus = 'stored' | 'full' | 'refused' | 'elsewhere' | 'newer';
+
+/** A take of an earlier visit whose leader and song are still being read. */
+export interface ComingTake {
+  readonly id: string;
+  readonly title: string;
+}
+
+/** What an earlier visit stored, while it is being read. */
+export interface Restoring {
+  /** Song, leader and number of takes: `descarga.mp3, lead_0412.bvh, 3 takes`. */
+  readonly what: string;
+  /** The newest first; those that are among `takes` already are there. */
+  readonly takes: readonly ComingTake[];
+}
 
 /** How the other take is drawn: not at all, beside the one on the stage, or as a ghost in the same place. */
 export type Compare = 'off' | 'side' | 'ghost';
@@ -192,7 +209,8 @@ export interface AppState {
   /** The first-visit block is on the stage. */
   readonly firstVisit: boolean;
   readonly demo: 'loading' | 'ready' | 'missing';
-  readonly openPanel: 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
+  readonly openPanel:
+    'import' | 'download' | 'keys' | 'project' | 'takes' | 'device' | 'overlays' | 'counting' | null;
   /** A newer build of the page is cached and can be loaded. */
   readonly update: boolean;
   readonly model: ModelState;
@@ -229,6 +247,9 @@ export interface AppState {
   readonly compare: Compare;
   readonly history: History;
   readonly autosave: AutosaveStatus;
+  /** Whether the browser keeps what is stored even when space is short; null while nobody has asked it. */
+  readonly persistent: boolean | null;
+  readonly restoring: Restoring | null;
   /** Whether feet in contact with the floor are kept from sliding (see `lockFeet`). */
   readonly footLock: boolean;
   /** Of the motion that was measured last, which may be the one before the one on the stage. */

@@ -41,6 +41,8 @@ export function initialState(theme: Theme): AppState {
     compare: 'off',
     history: NO_HISTORY,
     autosave: 'stored',
+    persistent: null,
+    restoring: null,
     footLock: true,
     quality: null,
     reference: null,

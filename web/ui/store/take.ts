@@ -47,7 +47,11 @@ export function otherLetter(letter: Letter): Letter {
 }
 
 /** `Softer hands` when it was named so, else `Demo reaction` or `Take 3`. */
-export function takeTitle({ name, number, reaction }: Take): string {
+export function takeTitle({
+  name,
+  number,
+  reaction,
+}: Pick<Take, 'name' | 'number'> & { readonly reaction: Pick<Reaction, 'label'> }): string {
   if (name !== null) return name;
   const { label } = reaction;
   return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
@@ -57,6 +61,23 @@ export function takeTitle({ name, number, reaction }: Take): string {
 export function withTake(takes: readonly Take[], take: Take): readonly Take[] {
   if (takes.some(({ id }) => id === take.id)) return takes.map((old) => (old.id === take.id ? take : old));
   return [...takes, take].sort((a, b) => b.createdAt - a.createdAt || b.number - a.number);
+}
+
+/**
+ * The takes of this page together with those that another tab has stored in the meantime, each as it was changed last.
+ * @param synced this page's takes as they were last stored or restored here: those that are still the same objects are
+ *   unchanged
+ */
+export function mergedTakes(
+  here: readonly Take[],
+  synced: readonly Take[],
+  stored: readonly Take[],
+): readonly Take[] {
+  const changed = here.filter((take) => !synced.includes(take));
+  const deleted = synced.filter(({ id }) => !here.some((take) => take.id === id));
+  return stored
+    .filter(({ id }) => ![...changed, ...deleted].some((take) => take.id === id))
+    .reduce(withTake, changed);
 }
 
 /**

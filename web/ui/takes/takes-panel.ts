@@ -17,6 +17,7 @@ export const mountTakes: Mount = (root, store, services) => {
     class: 'empty-line',
     text: 'Each new dance is kept here as a take. Mark two takes A and B to compare them at the same moment.',
   });
+  const coming = createComingList();
   const count = el('span', { class: 'muted' });
   const close = closeButton(() => {
     apply(store, panelToggled('takes'));
@@ -39,6 +40,7 @@ export const mountTakes: Mount = (root, store, services) => {
     { class: 'sec takes-sec', attributes: { 'aria-labelledby': 'takes-head' } },
     head,
     list.root,
+    coming,
     empty,
   );
   const undo = mountUndo(head, store, services);
@@ -48,14 +50,19 @@ export const mountTakes: Mount = (root, store, services) => {
   const show = (state: AppState): void => {
     const { takes } = state;
     list.show(state);
-    empty.hidden = takes.some(({ reaction }) => reaction.label === null);
-    setText(count, takes.length > 1 ? String(takes.length) : '');
+    const missing = comingTitles(state);
+    coming.replaceChildren(...missing.map((title) => el('li', { text: title })));
+    coming.hidden = missing.length === 0;
+    empty.hidden = !coming.hidden || takes.some(({ reaction }) => reaction.label === null);
+    const all = takes.length + missing.length;
+    setText(count, all > 1 ? String(all) : '');
     clear.hidden = !hasTakesToClear(state);
   };
   return combineDisposers(
     watchAll(
       store,
-      ({ takes, reaction, other, letter, leader, song, manifest }) => [
+      ({ takes, reaction, other, letter, leader, song, manifest, restoring }) => [
+        restoring,
         takes,
         reaction,
         other,
@@ -89,6 +96,16 @@ export const mountTakes: Mount = (root, store, services) => {
     },
   );
 };
+
+function createComingList(): HTMLElement {
+  return el('ul', { class: 'takes-coming', attributes: { 'aria-label': 'Takes that are being read' } });
+}
+
+/** Titles of the takes of an earlier visit that are still being read. */
+function comingTitles({ takes, restoring }: AppState): string[] {
+  const there = new Set(takes.map(({ id }) => id));
+  return restoring?.takes.filter(({ id }) => !there.has(id)).map(({ title }) => title) ?? [];
+}
 
 /** On the phone, the button that opens the sheet of takes, with their number. */
 export const mountTakesButton: Mount = (root, store) => {

@@ -1,4 +1,15 @@
+import { AnimationMixer, Vector3 } from 'three';
+import { FBXLoader } from 'three/addons/loaders/FBXLoader.js';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { describe, expect, test } from 'vitest';
+import { readFbx } from '../../../../web/motion/import/fbx/read';
+import { readGltf } from '../../../../web/motion/import/gltf/read';
+import { aboutAxis } from '../../../../web/motion/math/quat';
+import { add, distance, scale, sub, type Vec3 } from '../../../../web/motion/math/vec3';
+import { writeGlb, writeGltf } from '../../support/motion-files/glb';
+import { madeBody, MIXAMO } from '../../support/made-bvh';
+import { worldPose } from '../../../../web/motion/retarget/sample';
+import { writeFbxAscii, writeFbxBinary } from '../../support/motion-files/fbx';
 import { writeJson } from '../../../../web/export/json';
 import { writeNpz } from '../../../../web/export/npz';
 import { solve } from '../../../../web/motion/fit/ik';
@@ -95,5 +106,165 @@ describe('arrays and tables of joints', () => {
     const data = positionsOf(joints, swapped);
     const file = await read({}, ['a.npz', writeArchive({ leader: { shape: [40, 22, 3], data } })]);
     expect(worstMillimetres(file, joints)).toBeGreaterThan(200);
+  });
+});
+
+describe('FBX', () => {
+  const dance = madeMotion();
+  test.each([
+    ['centimetres, y up', {}],
+    ['metres, z up', { unitsPerMetre: 1, up: 'z' as const }],
+    ['inches, with pre-rotations', { unitsPerMetre: 1 / 0.0254, preRotation: true }],
+    ['z up, with pre-rotations', { up: 'z' as const, preRotation: true }],
+  ])('%s', async (_, options) => {
+    for (const bytes of [writeFbxBinary(dance, options), writeFbxAscii(dance, options)]) {
+      const file = await read({}, ['a.fbx', bytes]);
+      expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+      expect(file.report).toMatchObject({ format: 'FBX', convention: 'Mixamo', sourceFps: 30, warnings: [] });
+    }
+  });
+
+  test('one of several clips, at 60 frames per second', async () => {
+    const fast = madeMotion({ fps: 60, frames: 81 });
+    const bytes = writeFbxBinary(fast, { clips: ['dance', 'still'] }, false);
+    const file = await read({}, ['a.fbx', bytes]);
+    expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0, sourceFps: 60 });
+    expect((await read({ part: 1 }, ['a.fbx', bytes])).report.part).toBe(1);
+  });
+
+  test('three reads the same from the same file', () => {
+    const options = { preRotation: true, up: 'z' as const };
+    const bytes = writeFbxBinary(dance, options);
+    const group = new FBXLoader().parse(bytes.buffer, '');
+    const mixer = new AnimationMixer(group);
+    mixer.clipAction(group.animations[0]!).play();
+    for (const frame of [0, 17, 33]) {
+      mixer.setTime(frame / 30);
+      group.updateMatrixWorld(true);
+      const source = readFbx(bytes, 0);
+      const { places } = worldPose(source.joints, source.localPoses([frame]), 0);
+      source.joints.forEach(({ name }, joint) => {
+        const bone = group.getObjectByName(name.replaceAll(/[:.]/g, ''))!;
+        // The loader turns the whole group where z is up.
+        const place = bone.getWorldPosition(new Vector3()).applyMatrix4(group.matrixWorld.clone().invert());
+        expect(distance([place.x, place.y, place.z], places[joint]!)).toBeLessThan(0.01);
+      });
+    }
+  });
+});
+
+/** Bones of a VRM humanoid by the names of the plain made body. */
+const VRM_BONES = new Map([
+  ['mixamorig:Hips', 'hips'],
+  ['mixamorig:Spine', 'spine'],
+  ['mixamorig:Spine1', 'chest'],
+  ['mixamorig:Spine2', 'upperChest'],
+  ['mixamorig:Neck', 'neck'],
+  ['mixamorig:Head', 'head'],
+  ...['Left', 'Right'].flatMap((side): [string, string][] =>
+    [
+      ['UpLeg', 'UpperLeg'],
+      ['Leg', 'LowerLeg'],
+      ['Foot', 'Foot'],
+      ['ToeBase', 'Toes'],
+      ['Shoulder', 'Shoulder'],
+      ['Arm', 'UpperArm'],
+      ['ForeArm', 'LowerArm'],
+      ['Hand', 'Hand'],
+    ].map(([from, to]) => [`mixamorig:${side}${from!}`, `${side.toLowerCase()}${to!}`]),
+  ),
+]);
+
+describe('glTF and VRM', () => {
+  const dance = madeMotion();
+  const turned = aboutAxis([0.6, 0, 0.8], 1.1);
+
+  test.each([
+    ['plain', {}],
+    ['cubic splines', { interpolation: 'CUBICSPLINE' as const }],
+    ['turned rest pose', { restTurn: turned }],
+    ['a scaled armature with z up above the root', { armature: true }],
+  ])('GLB, %s', async (_, options) => {
+    const file = await read({}, ['a.glb', writeGlb(dance, options)]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ format: 'glTF', convention: 'Mixamo', sourceFps: 30, warnings: [] });
+  });
+
+  test('glTF with its numbers inside, and in a file beside it', async () => {
+    const inside = await read({}, ['a.gltf', writeGltf(dance, null).gltf]);
+    expect(worstMillimetres(inside, dance)).toBeLessThan(WORST);
+    const { gltf, bin } = writeGltf(dance, 'numbers.bin');
+    const beside = await read({}, ['a.gltf', gltf], ['numbers.bin', bin]);
+    expect(worstMillimetres(beside, dance)).toBeLessThan(WORST);
+    await expect(read({}, ['a.gltf', gltf])).rejects.toMatchObject({ code: 'missing-file' });
+  });
+
+  test('one of several clips', async () => {
+    const bytes = writeGlb(dance, { clips: ['dance', 'still'] });
+    expect(worstMillimetres(await read({}, ['a.glb', bytes]), dance)).toBeLessThan(WORST);
+    const still = await read({ part: 1 }, ['a.glb', bytes]);
+    expect(still.report).toMatchObject({ parts: ['dance', 'still'], part: 1 });
+    expect(worstMillimetres(still, dance)).toBeGreaterThan(50);
+  });
+
+  test('VRMA names its bones, whatever the nodes are called', async () => {
+    const anonymous = {
+      ...dance,
+      joints: dance.joints.map((joint, i) => ({ ...joint, name: `node ${i}` })),
+    };
+    const bones = new Map(
+      [...VRM_BONES].map(([name, bone]) => {
+        const joint = dance.joints.findIndex((one) => one.name === name);
+        return [`node ${joint}`, bone];
+      }),
+    );
+    const humanoid = { extension: 'VRMC_vrm_animation', bones };
+    const file = await read({}, ['a.vrma', writeGlb(anonymous, { humanoid, restTurn: turned })]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ format: 'VRMA', convention: 'VRM / Unity' });
+  });
+
+  test('a VRM lends a VRMA its body', async () => {
+    const vrma = writeGlb(dance, {
+      humanoid: { extension: 'VRMC_vrm_animation', bones: VRM_BONES },
+      restTurn: turned,
+    });
+    const vrm = writeGlb(dance, {
+      humanoid: { extension: 'VRMC_vrm', bones: VRM_BONES },
+      clips: [],
+      grown: 0.8,
+    });
+    const file = await read({}, ['a.vrma', vrma], ['a.vrm', vrm]);
+    const small = madeMotion({
+      body: madeBody(MIXAMO).map((joint) => ({
+        ...joint,
+        offset: joint.offset.map((value) => value * 0.8) as unknown as Vec3,
+      })),
+    });
+    const expected = { ...small, root: dance.root.map((place) => scale(place, 0.8)) };
+    const shifted = expected.root.map((place, frame) => sub(place, small.root[frame]!));
+    const places = small.places.map((row, frame) => row.map((place) => add(place, shifted[frame]!)));
+    expect(file.report.format).toBe('VRMA on a VRM');
+    expect(worstMillimetres(file, { ...expected, places })).toBeLessThan(WORST);
+    await expect(read({}, ['a.vrm', vrm])).rejects.toMatchObject({ code: 'no-motion' });
+  });
+
+  test('three reads the same from the same file', async () => {
+    const bytes = writeGlb(dance, { interpolation: 'CUBICSPLINE', armature: true, restTurn: turned });
+    const { scene, animations } = await new GLTFLoader().parseAsync(bytes.buffer, '');
+    const mixer = new AnimationMixer(scene);
+    mixer.clipAction(animations[0]!).play();
+    const source = readGltf([{ name: 'a.glb', bytes }], 0);
+    for (const frame of [0, 17, 33]) {
+      mixer.setTime(frame / 30);
+      scene.updateMatrixWorld(true);
+      const { places } = worldPose(source.joints, source.localPoses([frame]), 0);
+      source.joints.forEach(({ name }, joint) => {
+        const bone = scene.getObjectByName(name.replaceAll(/[:.]/g, ''))!;
+        const { x, y, z } = bone.getWorldPosition(new Vector3());
+        expect(distance([x, y, z], places[joint]!)).toBeLessThan(1e-5);
+      });
+    }
   });
 });

@@ -43,7 +43,7 @@ describe('files that are given together', () => {
     expect(unused).toEqual([
       '40 files are pictures.',
       'nothing.bvh is empty.',
-      'notes.txt is neither a song nor a motion.',
+      'notes.txt is neither a song, a video nor a motion.',
     ]);
     const { given, problem } = await opened(...photos, song('a.mp3'));
     expect(given).toMatchObject({ leaders: [], unused: ['40 files are pictures.'] });

@@ -3,7 +3,7 @@ import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
 import type { StoredProject } from '../../../../web/ui/project/schema';
 import { Project } from '../../../../web/ui/project/project';
-import { notes } from '../../../../web/ui/store/selectors';
+import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
 import { currentInputs } from '../../../../web/ui/store/take';
@@ -21,6 +21,10 @@ describe('autosave', () => {
   /** Takes that the browser has room for, and what it says when they are more. */
   let room: number;
   let failure: Error;
+  /** The write that is under way. */
+  let writing: Promise<void>;
+  /** How often the browser was asked to keep what is stored. */
+  let asked: number;
   const made = (id: string): void => {
     const inputs = currentInputs(store.getState())!;
     const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
@@ -39,14 +43,27 @@ describe('autosave', () => {
     change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
     project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
-      read: () => Promise.resolve(null),
-      write: ({ takes }: StoredProject) => {
-        if (takes.length > room) return Promise.reject(failure);
-        writes.push(takes.map(({ name }) => name));
-        return Promise.resolve();
+      storage: {
+        read: () => Promise.resolve(null),
+        write: ({ takes }: StoredProject) => {
+          if (takes.length > room) return Promise.reject(failure);
+          writes.push(takes.map(({ name }) => name));
+          return writing;
+        },
+        removeOwn: () => Promise.resolve(),
+        clear: () => Promise.resolve(),
       },
-      clear: () => Promise.resolve(),
+      tabs: { locks: undefined, channel: undefined },
+      persistence: {
+        persisted: () => Promise.resolve(false),
+        persist: () => {
+          asked++;
+          return Promise.resolve(true);
+        },
+      },
     });
+    asked = 0;
+    writing = Promise.resolve();
     await project.restore();
     await pass(1000);
     writes = [];
@@ -61,14 +78,41 @@ describe('autosave', () => {
     vi.useRealTimers();
   });
 
-  it('writes a change once it has stopped for a moment, also while the playhead moves all the time', async () => {
+  it('writes a take in the moment in which it is made, and asks the browser to keep it, once', async () => {
+    change.apply(store, change.seedSet(5));
+    await pass(0);
+    writes = [];
+    expect(asked).toBe(0);
+    const inputs = currentInputs(store.getState())!;
+    const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };
+    change.apply(store, change.reactionAdded(reaction, { id: 'a', at: 1e6 }));
+    expect(writes).toEqual([[null]]);
+    await pass(0);
+    expect(asked).toBe(1);
+    made('bb');
+    await pass(0);
+    expect(asked).toBe(1);
+    expect(persistenceText(store.getState())).toMatch(/promised to keep it/);
+  });
+
+  it('writes the newest change after the one that is being written, and not each playhead', async () => {
     made('a');
-    change.apply(store, takeRenamed('a', 'One'));
+    await pass(0);
+    writes = [];
+    let written = (): void => undefined;
+    writing = new Promise((resolve) => (written = resolve));
+    for (const name of ['One', 'Two', 'Three']) change.apply(store, takeRenamed('a', name));
+    await pass(1000);
+    expect(writes).toEqual([['One']]);
+    writing = Promise.resolve();
+    written();
+    await pass(0);
+    expect(writes).toEqual([['One'], ['Three']]);
     for (let frame = 0; frame < 60; frame++) {
       change.apply(store, change.playbackSet({ time: frame / 60 }));
       await pass(16);
     }
-    expect(writes).toEqual([['One']]);
+    expect(writes).toHaveLength(2);
   });
 
   it('reports once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
@@ -80,6 +124,7 @@ describe('autosave', () => {
     expect(warnings()).toEqual([{ isWarning: true, text: expect.stringContaining('is full') as string }]);
     change.apply(store, change.problemClosed());
     change.apply(store, takeRenamed('a', 'One'));
+    writes = [];
     await pass(30_000);
     expect(store.getState().problem).toBeNull();
     expect(writes).toEqual([]);
@@ -97,6 +142,7 @@ describe('autosave', () => {
     made('a');
     made('bb');
     await pass(1000);
+    writes = [];
     change.apply(store, takeDeleted('a'));
     await pass(1000);
     expect(writes).toEqual([[null]]);

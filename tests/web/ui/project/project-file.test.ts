@@ -1,6 +1,5 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { oneSet } from '../../../../web/ui/store/actions/counting';
 import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import {
@@ -9,6 +8,7 @@ import {
   storedProject,
   hasVisitorContent,
 } from '../../../../web/ui/project/schema';
+import { checked } from '../../../../web/ui/project/records';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
 import type { AppState } from '../../../../web/ui/store/state';
@@ -17,17 +17,16 @@ import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/
 import { redone, undone } from '../../../../web/ui/store/history';
 import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
-import { uniformGuidance, songData, leader, leaderFile, song, still } from '../../support/made-state';
+import {
+  uniformGuidance,
+  songData,
+  leader,
+  leaderFile,
+  numbered,
+  song,
+  still,
+} from '../../support/made-state';
 import { AppError } from '../../../../web/common/error';
-
-/** A motion in which every number is another one. */
-function numbered(frames: number, from: number): SolvedMotion {
-  const motion = still(frames);
-  let value = from;
-  for (const part of [motion.offsets, motion.root, motion.rotations, motion.positions])
-    for (let i = 0; i < part.length; i++) part[i] = Math.fround((value += 0.1));
-  return motion;
-}
 
 /** Latents of a dance, each of them another number; not all have a short form. */
 const latents = (frames: number, from: number): Float32Array =>
@@ -72,9 +71,10 @@ function filled(): change.Store {
 
 const readers: StoredFileReaders = {
   song: ({ name, label, file }) => Promise.resolve({ name, label, file, data: songData(4) }),
-  leader: ({ name, label, files, options }) =>
-    Promise.resolve({ name, label, files, options, file: leaderFile(60), motion: still(60) }),
+  leader: (one) =>
+    Promise.resolve({ ...one, file: leaderFile(frames(one.name)), motion: still(frames(one.name)) }),
 };
+const frames = (name: string): number => (name === 'früher.bvh' ? 30 : 60);
 
 function empty(): change.Store {
   const store = change.createAppStore('dark');
@@ -84,7 +84,8 @@ function empty(): change.Store {
 
 async function contentOf(kept: StoredProject, state: AppState, how = readers) {
   const restorer = new Restorer(kept);
-  await restorer.readPage(how);
+  await restorer.readPageLeader(how);
+  await restorer.readPageSong(how);
   await restorer.readRest(how);
   return { content: restorer.content(state), losses: restorer.losses() };
 }
@@ -110,7 +111,7 @@ const summary = (state: AppState) => ({
 describe('a project', () => {
   it('restores everything from its file, bit by bit', async () => {
     const before = filled().getState();
-    const kept = readProject(await writeProject(storedProject(before)));
+    const kept = readProject(await writeProject(storedProject(before))).project;
     const store = empty();
     const { content, losses } = await contentOf(kept, store.getState());
     change.apply(store, projectOpened(content));
@@ -141,7 +142,7 @@ describe('a project', () => {
   });
 
   it('replaces what is there, and undo brings that back', async () => {
-    const kept = readProject(await writeProject(storedProject(filled().getState())));
+    const kept = readProject(await writeProject(storedProject(filled().getState()))).project;
     const store = filled();
     const before = store.getState();
     const { content } = await contentOf(kept, before);
@@ -196,7 +197,7 @@ describe('latents', () => {
     };
     for (const motion of manifest.motions) delete motion['latents'];
     const bytes = zipSync({ ...files, 'project.json': strToU8(JSON.stringify(manifest)) });
-    expect(await latentsIn(readProject(bytes), empty().getState())).toEqual([null, null, null]);
+    expect(await latentsIn(readProject(bytes).project, empty().getState())).toEqual([null, null, null]);
   });
 });
 
@@ -242,20 +243,131 @@ describe('a part that cannot be read any more', () => {
   });
 });
 
-describe('a broken project', () => {
-  const whole = writeProject(storedProject(filled().getState()));
-  const changed = async (alter: (files: Record<string, Uint8Array>) => void): Promise<Uint8Array> => {
-    const files = unzipSync(await whole);
-    alter(files);
-    return zipSync(files);
-  };
-  const json = async (alter: (manifest: Record<string, unknown>) => void): Promise<Uint8Array> =>
-    changed((files) => {
-      const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as Record<string, unknown>;
-      alter(manifest);
-      files['project.json'] = strToU8(JSON.stringify(manifest));
-    });
+const whole = writeProject(storedProject(filled().getState()));
+const changed = async (alter: (files: Record<string, Uint8Array>) => void): Promise<Uint8Array> => {
+  const files = unzipSync(await whole);
+  alter(files);
+  return zipSync(files);
+};
+const json = async (alter: (manifest: Record<string, unknown>) => void): Promise<Uint8Array> =>
+  changed((files) => {
+    const manifest = JSON.parse(new TextDecoder().decode(files['project.json'])) as Record<string, unknown>;
+    alter(manifest);
+    files['project.json'] = strToU8(JSON.stringify(manifest));
+  });
 
+/** One of the entries of project.json. */
+type Entries = Record<string, unknown>[];
+const entry = (list: string, at: number, change: object) =>
+  json((manifest) => void Object.assign((manifest[list] as Entries)[at]!, change));
+
+describe('what does not fit', () => {
+  it.each<[string, () => Promise<Uint8Array>, readonly number[], RegExp]>([
+    ['a take without a name', () => entry('takes', 0, { id: 5 }), [2, 1], /left out: 1 take\./],
+    [
+      'a take twice',
+      () =>
+        json(
+          (manifest) => void (manifest['takes'] as Entries).push({ ...(manifest['takes'] as Entries)[0] }),
+        ),
+      [3, 2, 1],
+      /1 take\./,
+    ],
+    [
+      'a take of a date that no calendar has',
+      () => entry('takes', 0, { createdAt: 1e300 }),
+      [2, 1],
+      /1 take\./,
+    ],
+    [
+      'half a motion',
+      () => changed((files) => (files['takes/2.f32'] = new Uint8Array(100))),
+      [3, 1],
+      /1 motion, 1 take\./,
+    ],
+    [
+      'a motion of a billion frames',
+      () => entry('motions', 0, { frames: 1e9 }),
+      [2, 1],
+      /1 motion, 1 take\./,
+    ],
+    [
+      'a motion in a file with the name of a method',
+      () => entry('motions', 0, { file: '__proto__' }),
+      [2, 1],
+      /1 motion, 1 take\./,
+    ],
+    ['no song', () => changed((files) => delete files['songs/1-descarga.mp3']), [3, 2, 1], /1 song\./],
+  ])('%s is left out and said', async (_, make, numbers, words) => {
+    const { project, losses } = readProject(await make());
+    expect(losses.join(' ')).toMatch(words);
+    const { content } = await contentOf(project, empty().getState());
+    expect(content.takes?.map(({ number }) => number)).toEqual(numbers);
+  });
+
+  it('are latents of another number, without which a take is whole', async () => {
+    const bytes = await changed((files) => (files['takes/1-latents.f32'] = new Uint8Array(80)));
+    const { content } = await contentOf(readProject(bytes).project, empty().getState());
+    expect(content.takes?.map(({ reaction }) => reaction.latents?.length)).toEqual([
+      undefined,
+      90,
+      undefined,
+    ]);
+  });
+
+  it.each([1e9, -5, 2.5])(
+    '%d steps become the nearest number that the model takes, which is said',
+    async (steps) => {
+      const bytes = await json(({ takes, page }: Record<string, unknown>) => {
+        for (const { inputs } of [...(takes as Entries), page] as { inputs: { settings: Entries[0] } }[])
+          inputs.settings['steps'] = steps;
+      });
+      const { content, losses } = await contentOf(readProject(bytes).project, empty().getState());
+      const nearest = Math.min(50, Math.max(1, Math.round(steps)));
+      expect(content.settings?.steps).toBe(nearest);
+      expect(content.takes?.map(({ reaction }) => reaction.inputs.settings.steps)).toEqual([
+        nearest,
+        nearest,
+        nearest,
+      ]);
+      expect(losses).toEqual([expect.stringContaining('settings of 3 takes are beyond')]);
+    },
+  );
+
+  it('is a motion of another length than its leader', async () => {
+    const { content, losses } = await contentOf(readProject(await whole).project, empty().getState(), {
+      ...readers,
+      leader: (one) => Promise.resolve({ ...one, file: leaderFile(60), motion: still(60) }),
+    });
+    expect(content.takes?.map(({ number }) => number)).toEqual([3, 2]);
+    expect(losses).toEqual(['A take of another length than the leader is left out.']);
+  });
+
+  it('is a page without its leader, which gets that of the newest take', async () => {
+    const bytes = await changed((files) => delete files['leaders/1-lead-0412.bvh']);
+    const { project, losses } = readProject(bytes);
+    expect(losses.join(' ')).toContain('1 leader, 2 takes');
+    const { content } = await contentOf(project, empty().getState());
+    expect(content).toMatchObject({ leader: { name: 'früher.bvh' }, takes: [{ number: 1 }] });
+    expect(content.reaction).toBe(content.takes?.[0]?.reaction);
+  });
+
+  it('is a leader beyond the hundredth', () => {
+    const files = [{ name: 'a.bvh', bytes: new Uint8Array(3) }];
+    const ids = Array.from({ length: 1000 }, (_, i) => `${i}`);
+    const kept = storedProject(filled().getState());
+    const { project, losses } = checked({
+      ...kept,
+      leaders: ids.map((id) => ({ id, name: id, label: null, files, options: {} })),
+      takes: ids.map((id) => ({ ...kept.takes[0]!, id, leader: id, createdAt: Number(id) })),
+    });
+    expect(project.leaders).toHaveLength(100);
+    expect(project.takes[0]?.id).toBe('999');
+    expect(losses.join()).toContain('900 takes');
+  });
+});
+
+describe('a broken project', () => {
   it.each<[string, () => Promise<Uint8Array>, string, RegExp]>([
     [
       'that is something else',
@@ -279,33 +391,21 @@ describe('a broken project', () => {
     ],
     [
       'from a newer page',
-      () => json((manifest) => (manifest['version'] = 2)),
+      () => json((manifest) => void Object.assign(manifest, { version: 3 })),
       'newer-project',
       /newer version/,
     ],
     [
-      'with a wrong value',
-      () => json((manifest) => (manifest['takes'] = [{ id: 5 }])),
+      'with a list that is none',
+      () => json((manifest) => void Object.assign(manifest, { takes: 5 })),
       'damaged-project',
-      /takes\.0\.id/,
+      /takes: Invalid type/,
     ],
     [
-      'without its song',
-      () => changed((files) => delete files['songs/1-descarga.mp3']),
-      'missing-part',
-      /songs\/1/,
-    ],
-    [
-      'with half the latents',
-      () => changed((files) => (files['takes/1-latents.f32'] = new Uint8Array(80))),
+      'without song and leader',
+      () => json((manifest) => void Object.assign(manifest, { songs: [], leaders: [] })),
       'damaged-project',
-      /takes\/1-latents\.f32 .* 80 bytes where 90 latents have 360/,
-    ],
-    [
-      'with half a take',
-      () => changed((files) => (files['takes/2.f32'] = new Uint8Array(100))),
-      'damaged-project',
-      /takes\/2\.f32 .* 100 bytes/,
+      /no song and no leader .* left out: 3 takes/,
     ],
   ])('%s says so', async (_, make, code, words) => {
     const bytes = await make();

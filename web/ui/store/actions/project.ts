@@ -1,14 +1,24 @@
 import type { Manifest } from '../../../model/client';
-import type { Take } from '../reaction';
-import type { AppState, AutosaveStatus } from '../state';
+import type { LoadedSong, Take } from '../reaction';
+import type { AppState, AutosaveStatus, Restoring } from '../state';
 import { manifestLoaded } from './model';
 import { type Change } from '../store';
-import { NO_HISTORY, withUndoOfAll } from '../history';
-import { withTake } from '../take';
+import { NO_HISTORY, withUndoOfAll, withUndoOfClearing } from '../history';
+import { mergedTakes, withTake } from '../take';
 
 /** Whether autosave works has changed. */
 export function autosaveChanged(autosave: AutosaveStatus): Change {
   return () => ({ autosave });
+}
+
+/** The browser has answered whether it keeps what is stored when space is short. */
+export function persistenceAnswered(persistent: boolean | null): Change {
+  return () => ({ persistent });
+}
+
+/** Says what is being restored; null when all of it is there. */
+export function restoringSet(restoring: Restoring | null): Change {
+  return (state) => (restoring || state.restoring ? { restoring } : {});
 }
 
 /** What an earlier visit stored is on the page again. */
@@ -28,15 +38,57 @@ export function takesRestored(more: readonly Take[]): Change {
   });
 }
 
+/** The song of restored takes has been read, which are there without it; it is the page's too, unless it has another. */
+export function songRestored(song: LoadedSong, ids: ReadonlySet<string>): Change {
+  return (state) => {
+    const { history, reaction } = state;
+    const isTheirs = ({ id, reaction: made }: Take): boolean => ids.has(id) && made.inputs.song === null;
+    const takes = state.takes.map((take) => {
+      const { inputs } = take.reaction;
+      return isTheirs(take) ? { ...take, reaction: { ...take.reaction, inputs: { ...inputs, song } } } : take;
+    });
+    const shown = state.takes.findIndex((take) => take.reaction === reaction);
+    const belongs = shown < 0 || takes[shown] !== state.takes[shown];
+    return {
+      takes,
+      reaction: takes[shown]?.reaction ?? reaction,
+      song: state.song ?? (belongs ? song : null),
+      history,
+    };
+  };
+}
+
+/**
+ * Takes that another tab has stored are on this page too (see `mergedTakes`); what is on the stage stays.
+ * @param synced see `mergedTakes`
+ */
+export function takesMerged(stored: readonly Take[], synced: readonly Take[]): Change {
+  return (state) => {
+    const takes = mergedTakes(state.takes, synced, stored);
+    const shown = state.takes.find(({ reaction }) => reaction === state.reaction);
+    const reaction = takes.find(({ id }) => id === shown?.id)?.reaction ?? state.reaction;
+    return {
+      takes,
+      reaction,
+      // A take that the other tab made anew, by the same drag for example, has other settings.
+      ...(reaction !== state.reaction && reaction?.inputs),
+      takesMade: Math.max(state.takesMade, ...takes.map(({ number }) => number)),
+      history: state.history,
+    };
+  };
+}
+
 /** A project replaces everything on the page; undo brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
   return (state) => withUndoOfAll(state, { ...content, firstVisit: false });
 }
 
-/** The page is emptied, as if it were opened for the first time; undo brings everything back. */
+/**
+ * The page is emptied, as if it were opened for the first time; undo brings everything back until a take is made.
+ */
 export function projectCleared(manifest: Manifest | null, seed: number): Change {
   return (state) =>
-    withUndoOfAll(state, {
+    withUndoOfClearing(state, {
       ...(manifest && manifestLoaded(manifest, seed)(state)),
       song: null,
       leader: null,

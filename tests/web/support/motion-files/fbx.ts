@@ -1,0 +1,288 @@
+import { zlibSync } from 'fflate';
+import { Euler, Quaternion } from 'three';
+import { inFile, type MadeMotion } from './made-motion';
+import { aboutAxis, conjugate, multiply, type Quat } from '../../../../web/motion/math/quat';
+import { X_AXIS, Y_AXIS, Z_AXIS, type Vec3 } from '../../../../web/motion/math/vec3';
+
+/** A value with its FBX type. */
+type Value = ['I' | 'L' | 'D' | 'S', number | string] | ['l' | 'f' | 'd', readonly number[]];
+
+interface Node {
+  readonly name: string;
+  readonly values: readonly Value[];
+  readonly children: readonly Node[];
+}
+
+const node = (name: string, values: readonly Value[] = [], children: readonly Node[] = []): Node => ({
+  name,
+  values,
+  children,
+});
+
+const TICKS = 46_186_158_000;
+const DEGREES = 180 / Math.PI;
+
+interface Options {
+  readonly up?: 'y' | 'z';
+  readonly unitsPerMetre?: number;
+  /** Rotation of each joint's own axes before its animation, as Mixamo and MotionBuilder write it. */
+  readonly preRotation?: boolean;
+  /** Names of clips; the second one stands still. */
+  readonly clips?: readonly string[];
+}
+
+const property = (name: string, type: string, ...values: Value[]): Node =>
+  node('P', [['S', name], ['S', type], ['S', ''], ['S', 'A'], ...values]);
+
+const vector = (name: string, v: Vec3): Node =>
+  property(name, name.startsWith('Lcl') ? name : 'Vector3D', ...v.map((value): Value => ['D', value]));
+
+/** Angles about x, then y, then z, degrees. */
+function eulerXyz(q: Quat): Vec3 {
+  const { x, y, z } = new Euler().setFromQuaternion(new Quaternion(...q), 'ZYX');
+  return [x * DEGREES, y * DEGREES, z * DEGREES];
+}
+
+const native = (q: Quat, up: 'y' | 'z'): Quat => (up === 'y' ? q : [q[0], -q[2], q[1], q[3]]);
+
+/** Nodes of a file with the made motion. */
+function nodesOf(motion: MadeMotion, options: Options): Node[] {
+  const { up = 'y', unitsPerMetre = 100, preRotation = false, clips = ['Take 001'] } = options;
+  const objects: Node[] = [];
+  const links: Node[] = [];
+  const link = (child: number, parent: number, prop?: string): void => {
+    const values: Value[] = [
+      ['S', prop === undefined ? 'OO' : 'OP'],
+      ['L', child],
+      ['L', parent],
+    ];
+    links.push(node('C', prop === undefined ? values : [...values, ['S', prop]]));
+  };
+  const pre = motion.joints.map((_, i): Quat =>
+    preRotation
+      ? multiply(
+          aboutAxis(Z_AXIS, 0.4 * i),
+          multiply(aboutAxis(Y_AXIS, 0.9 - 0.2 * i), aboutAxis(X_AXIS, 0.3 * i)),
+        )
+      : [0, 0, 0, 1],
+  );
+  // The axes of a joint are those of its parent turned by both pre-rotations of the chain.
+  const world: Quat[] = [];
+  motion.joints.forEach(({ parent }, i) =>
+    world.push(parent < 0 ? pre[i]! : multiply(world[parent]!, pre[i]!)),
+  );
+  const above = (joint: number): Quat => {
+    const { parent } = motion.joints[joint]!;
+    return parent < 0 ? [0, 0, 0, 1] : world[parent]!;
+  };
+  const local = (v: Vec3, joint: number): Vec3 => {
+    const rotated = multiply(multiply(conjugate(above(joint)), [...v, 0] as unknown as Quat), above(joint));
+    return [rotated[0], rotated[1], rotated[2]];
+  };
+  const id = (joint: number): number => 1_000_000 + joint;
+  motion.joints.forEach(({ name, parent, offset }, joint) => {
+    objects.push(
+      node(
+        'Model',
+        [
+          ['L', id(joint)],
+          ['S', `${name}\0\u0001Model`],
+          ['S', 'LimbNode'],
+        ],
+        [
+          node(
+            'Properties70',
+            [],
+            [
+              property('RotationActive', 'bool', ['I', 1]),
+              vector('PreRotation', eulerXyz(pre[joint]!)),
+              vector('Lcl Translation', local(inFile(offset, unitsPerMetre, up), joint)),
+            ],
+          ),
+        ],
+      ),
+    );
+    link(id(joint), parent < 0 ? 0 : id(parent));
+  });
+  let next = 2_000_000;
+  const times = Array.from({ length: motion.frames }, (_, frame) => Math.round((frame / motion.fps) * TICKS));
+  clips.forEach((clip, number) => {
+    const [stack, layer] = [next++, next++];
+    objects.push(
+      node('AnimationStack', [
+        ['L', stack],
+        ['S', `${clip}\0\u0001AnimStack`],
+        ['S', ''],
+      ]),
+    );
+    objects.push(
+      node('AnimationLayer', [
+        ['L', layer],
+        ['S', 'Base\0\u0001AnimLayer'],
+        ['S', ''],
+      ]),
+    );
+    link(layer, stack);
+    const animate = (joint: number, name: string, rows: readonly Vec3[]): void => {
+      const curves = next++;
+      objects.push(
+        node('AnimationCurveNode', [
+          ['L', curves],
+          ['S', `${name.at(4)!}\0\u0001AnimCurveNode`],
+          ['S', ''],
+        ]),
+      );
+      link(curves, layer);
+      link(curves, id(joint), name);
+      (['X', 'Y', 'Z'] as const).forEach((axis, i) => {
+        const curve = next++;
+        const values = rows.map((row) => row[i]!);
+        objects.push(
+          node(
+            'AnimationCurve',
+            [
+              ['L', curve],
+              ['S', '\0\u0001AnimCurve'],
+              ['S', ''],
+            ],
+            [
+              node('KeyTime', [['l', times]]),
+              node('KeyValueFloat', [['f', number === 0 ? values : values.map(() => values[0]!)]]),
+            ],
+          ),
+        );
+        link(curve, curves, `d|${axis}`);
+      });
+    };
+    animate(
+      0,
+      'Lcl Translation',
+      motion.root.map((place) => local(inFile(place, unitsPerMetre, up), 0)),
+    );
+    motion.joints.forEach((_, joint) => {
+      // World axes of the joint before its own rotation are those of the chain of pre-rotations.
+      const w = world[joint]!;
+      animate(
+        joint,
+        'Lcl Rotation',
+        motion.rotations.map((turns) =>
+          eulerXyz(multiply(multiply(conjugate(w), native(turns[joint]!, up)), w)),
+        ),
+      );
+    });
+  });
+  const settings = node(
+    'GlobalSettings',
+    [],
+    [
+      node(
+        'Properties70',
+        [],
+        [
+          property('UpAxis', 'int', ['I', up === 'y' ? 1 : 2]),
+          property('UpAxisSign', 'int', ['I', 1]),
+          property('UnitScaleFactor', 'double', ['D', 100 / unitsPerMetre]),
+          property('TimeMode', 'enum', ['I', 6]),
+        ],
+      ),
+    ],
+  );
+  return [settings, node('Objects', [], objects), node('Connections', [], links)];
+}
+
+class Bytes {
+  private readonly parts: number[] = [];
+  get length(): number {
+    return this.parts.length;
+  }
+  push(...bytes: readonly number[]): void {
+    for (const byte of bytes) this.parts.push(byte);
+  }
+  number(bytes: number, write: (view: DataView) => void): void {
+    const view = new DataView(new ArrayBuffer(bytes));
+    write(view);
+    this.push(...new Uint8Array(view.buffer));
+  }
+  uint32(value: number): void {
+    this.number(4, (view) => view.setUint32(0, value, true));
+  }
+  patch(at: number, value: number): void {
+    for (let i = 0; i < 4; i++) this.parts[at + i] = (value >>> (8 * i)) & 255;
+  }
+  result(): Uint8Array<ArrayBuffer> {
+    return Uint8Array.from(this.parts);
+  }
+}
+
+function writeValue(out: Bytes, [type, value]: Value, packed: boolean): void {
+  out.push(type.charCodeAt(0));
+  if (typeof value === 'string') {
+    const bytes = new TextEncoder().encode(value);
+    out.uint32(bytes.length);
+    out.push(...bytes);
+  } else if (typeof value === 'number') {
+    if (type === 'I') out.number(4, (view) => view.setInt32(0, value, true));
+    else if (type === 'L') out.number(8, (view) => view.setBigInt64(0, BigInt(value), true));
+    else out.number(8, (view) => view.setFloat64(0, value, true));
+  } else {
+    const size = type === 'f' ? 4 : 8;
+    const view = new DataView(new ArrayBuffer(size * value.length));
+    value.forEach((one, i) => {
+      if (type === 'f') view.setFloat32(size * i, one, true);
+      else if (type === 'l') view.setBigInt64(size * i, BigInt(one), true);
+      else view.setFloat64(size * i, one, true);
+    });
+    const plain = new Uint8Array(view.buffer);
+    const content = packed ? zlibSync(plain) : plain;
+    out.uint32(value.length);
+    out.uint32(packed ? 1 : 0);
+    out.uint32(content.length);
+    out.push(...content);
+  }
+}
+
+function writeNode(out: Bytes, { name, values, children }: Node, packed: boolean): void {
+  const start = out.length;
+  out.push(...new Array<number>(12).fill(0), name.length, ...new TextEncoder().encode(name));
+  const valuesStart = out.length;
+  for (const value of values) writeValue(out, value, packed);
+  out.patch(start + 4, values.length);
+  out.patch(start + 8, out.length - valuesStart);
+  for (const child of children) writeNode(out, child, packed);
+  if (children.length > 0) out.push(...new Array<number>(13).fill(0));
+  out.patch(start, out.length);
+}
+
+/** The motion as a binary FBX file of version 7.4. */
+export function writeFbxBinary(
+  motion: MadeMotion,
+  options: Options = {},
+  packed = true,
+): Uint8Array<ArrayBuffer> {
+  const out = new Bytes();
+  out.push(...new TextEncoder().encode('Kaydara FBX Binary  \0'), 0x1a, 0);
+  out.uint32(7400);
+  for (const top of nodesOf(motion, options)) writeNode(out, top, packed);
+  out.push(...new Array<number>(13).fill(0));
+  return out.result();
+}
+
+function asciiNode({ name, values, children }: Node, indent: string): string {
+  const array =
+    values.length === 1 && Array.isArray(values[0]![1]) ? (values[0]![1] as readonly number[]) : null;
+  if (array) return `${indent}${name}: *${array.length} {\n${indent}\ta: ${array.join(',')}\n${indent}}`;
+  const words = values.map(([type, value]) => {
+    if (type !== 'S') return String(value);
+    const [plain = '', kind] = String(value).split('\0\u0001');
+    return kind === undefined ? `"${plain}"` : `"${kind}::${plain}"`;
+  });
+  const head = `${indent}${name}: ${words.join(', ')}`;
+  if (children.length === 0) return head;
+  return `${head} {\n${children.map((child) => asciiNode(child, `${indent}\t`)).join('\n')}\n${indent}}`;
+}
+
+/** The motion as the text form of FBX. */
+export function writeFbxAscii(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
+  const nodes = nodesOf(motion, options).map((top) => asciiNode(top, ''));
+  return new TextEncoder().encode(`; FBX 7.4.0 project file\n; ----\n\n${nodes.join('\n')}\n`);
+}

@@ -1,0 +1,186 @@
+import type { MadeMotion } from './made-motion';
+import { conjugate, multiply, type Quat, rotate } from '../../../../web/motion/math/quat';
+import type { Vec3 } from '../../../../web/motion/math/vec3';
+
+interface Options {
+  /** Names of clips; all but the first stand still. */
+  readonly clips?: readonly string[];
+  readonly interpolation?: 'LINEAR' | 'CUBICSPLINE';
+  /** Bones of a VRM humanoid by the joints' names, for a VRMA or a VRM file. */
+  readonly humanoid?: { readonly extension: string; readonly bones: ReadonlyMap<string, string> };
+  /** A scaled and turned node above the root, as Blender writes armatures. */
+  readonly armature?: boolean;
+  /** Rest rotation of every joint, as avatars have them. */
+  readonly restTurn?: Quat;
+  /** Sizes of the rest offsets, for a body of other proportions. */
+  readonly grown?: number;
+}
+
+/** Numbers in a buffer, as accessors of a glTF file. */
+class Buffers {
+  readonly accessors: object[] = [];
+  readonly views: object[] = [];
+  private readonly parts: Float32Array[] = [];
+  private length = 0;
+
+  add(values: readonly number[], type: 'SCALAR' | 'VEC3' | 'VEC4', width: number): number {
+    const data = Float32Array.from(values);
+    this.views.push({ buffer: 0, byteOffset: this.length, byteLength: data.byteLength });
+    this.parts.push(data);
+    this.length += data.byteLength;
+    return (
+      this.accessors.push({
+        bufferView: this.views.length - 1,
+        componentType: 5126,
+        count: values.length / width,
+        type,
+        ...(type === 'SCALAR' && { min: [Math.min(...values)], max: [Math.max(...values)] }),
+      }) - 1
+    );
+  }
+
+  bytes(): Uint8Array<ArrayBuffer> {
+    const out = new Float32Array(this.length / 4);
+    let at = 0;
+    for (const part of this.parts) {
+      out.set(part, at);
+      at += part.length;
+    }
+    return new Uint8Array(out.buffer);
+  }
+}
+
+/** Doubled quaternions of opposite sign are the same rotation; a spline must not go through zero. */
+function continuous(rows: readonly Quat[]): Quat[] {
+  const out: Quat[] = [];
+  for (const q of rows) {
+    const before = out.at(-1);
+    const dot = before ? q.reduce((sum, value, i) => sum + value * before[i]!, 0) : 1;
+    out.push(dot < 0 ? (q.map((value) => -value) as unknown as Quat) : q);
+  }
+  return out;
+}
+
+/** The JSON and the numbers of a glTF file with the made motion. */
+function contentOf(motion: MadeMotion, options: Options): { json: object; bytes: Uint8Array<ArrayBuffer> } {
+  const { clips = ['dance'], interpolation = 'LINEAR', armature = false, restTurn = [0, 0, 0, 1] } = options;
+  const { humanoid, grown = 1 } = options;
+  const buffers = new Buffers();
+  // World rest rotation of joint j is restTurn for all but the root's parent.
+  const above = (joint: number): Quat => (motion.joints[joint]!.parent < 0 ? [0, 0, 0, 1] : restTurn);
+  const place = (joint: number, v: Vec3): Vec3 => {
+    const scaled: Vec3 = [v[0] * grown, v[1] * grown, v[2] * grown];
+    const [x, y, z] = rotate(conjugate(above(joint)), scaled);
+    return armature && motion.joints[joint]!.parent < 0 ? [100 * x, -100 * z, 100 * y] : [x, y, z];
+  };
+  const quarter: Quat = [-Math.SQRT1_2, 0, 0, Math.SQRT1_2];
+  const turn = (joint: number, q: Quat): Quat => {
+    const local = multiply(multiply(conjugate(above(joint)), q), restTurn);
+    return armature && motion.joints[joint]!.parent < 0 ? multiply(conjugate(quarter), local) : local;
+  };
+  const rootPlaces = motion.root.map((v) => place(0, v));
+  const nodes: Record<string, unknown>[] = motion.joints.map(({ name, offset }, joint) => ({
+    name,
+    translation: place(joint, offset),
+    rotation: turn(joint, [0, 0, 0, 1]),
+    children: motion.joints.flatMap(({ parent }, child) => (parent === joint ? [child] : [])),
+  }));
+  if (armature) {
+    // One hundredth of the size; the first joint is a hundred times larger again.
+    nodes[0]!['scale'] = [100, 100, 100];
+    nodes.push({ name: 'Armature', rotation: quarter, scale: [0.01, 0.01, 0.01], children: [0] });
+  }
+  for (const one of nodes) if ((one['children'] as unknown[]).length === 0) delete one['children'];
+  const times = buffers.add(
+    motion.root.map((_, frame) => frame / motion.fps),
+    'SCALAR',
+    1,
+  );
+  const spline = (rows: readonly (readonly number[])[]): number[] =>
+    interpolation === 'LINEAR'
+      ? rows.flat()
+      : rows.flatMap((row, i) => {
+          const [before, after] = [rows[Math.max(0, i - 1)]!, rows[Math.min(rows.length - 1, i + 1)]!];
+          const tangent = row.map((_, axis) => ((after[axis]! - before[axis]!) / 2) * motion.fps);
+          return [...tangent, ...row, ...tangent];
+        });
+  const animations = clips.map((name, clip) => {
+    const samplers: object[] = [];
+    const channels: object[] = [];
+    const animate = (
+      node: number,
+      path: string,
+      rows: readonly (readonly number[])[],
+      type: 'VEC3' | 'VEC4',
+    ) => {
+      const kept = clip === 0 ? rows : rows.map(() => rows[0]!);
+      const output = buffers.add(spline(kept), type, type === 'VEC3' ? 3 : 4);
+      channels.push({
+        sampler: samplers.push({ input: times, output, interpolation }) - 1,
+        target: { node, path },
+      });
+    };
+    animate(0, 'translation', rootPlaces, 'VEC3');
+    motion.joints.forEach((_, joint) =>
+      animate(
+        joint,
+        'rotation',
+        continuous(motion.rotations.map((turns) => turn(joint, turns[joint]!))),
+        'VEC4',
+      ),
+    );
+    return { name, samplers, channels };
+  });
+  const bytes = buffers.bytes();
+  const bones =
+    humanoid &&
+    [...humanoid.bones].flatMap(([joint, bone]) => {
+      const node = motion.joints.findIndex(({ name }) => name === joint);
+      return node < 0 ? [] : [[bone, { node }] as const];
+    });
+  const json = {
+    asset: { version: '2.0' },
+    scene: 0,
+    scenes: [{ nodes: [armature ? motion.joints.length : 0] }],
+    nodes,
+    animations: clips.length > 0 ? animations : undefined,
+    accessors: buffers.accessors,
+    bufferViews: buffers.views,
+    buffers: [{ byteLength: bytes.length }],
+    ...(humanoid &&
+      bones && {
+        extensionsUsed: [humanoid.extension],
+        extensions: {
+          [humanoid.extension]: { specVersion: '1.0', humanoid: { humanBones: Object.fromEntries(bones) } },
+        },
+      }),
+  };
+  return { json, bytes };
+}
+
+const utf8 = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode(text);
+
+/** The motion as a GLB file. */
+export function writeGlb(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
+  const { json, bytes } = contentOf(motion, options);
+  const plain = JSON.stringify(json);
+  const text = utf8(plain.padEnd(Math.ceil(plain.length / 4) * 4));
+  const out = new Uint8Array(12 + 8 + text.length + 8 + bytes.length);
+  const view = new DataView(out.buffer);
+  [0x46546c67, 2, out.length, text.length, 0x4e4f534a].forEach((word, i) =>
+    view.setUint32(4 * i, word, true),
+  );
+  out.set(text, 20);
+  view.setUint32(20 + text.length, bytes.length, true);
+  view.setUint32(24 + text.length, 0x004e4942, true);
+  out.set(bytes, 28 + text.length);
+  return out;
+}
+
+/** The motion as a glTF file, its numbers within it or in a file beside it. */
+export function writeGltf(motion: MadeMotion, uri: string | null): { gltf: Uint8Array; bin: Uint8Array } {
+  const { json, bytes } = contentOf(motion, {});
+  const address = uri ?? `data:application/octet-stream;base64,${Buffer.from(bytes).toString('base64')}`;
+  const whole = { ...json, buffers: [{ byteLength: bytes.length, uri: address }] };
+  return { gltf: utf8(JSON.stringify(whole)), bin: bytes };
+}

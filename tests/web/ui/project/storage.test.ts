@@ -1,0 +1,96 @@
+import 'fake-indexeddb/auto';
+import { openDB } from 'idb';
+import { expect, it } from 'vitest';
+import { checked } from '../../../../web/ui/project/records';
+import { storedProject, VERSION } from '../../../../web/ui/project/schema';
+import { isNewer, ProjectDatabase } from '../../../../web/ui/project/storage';
+import * as change from '../../support/actions';
+import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
+import { currentInputs } from '../../../../web/ui/store/take';
+import { leader, numbered, song } from '../../support/made-state';
+import { small } from '../../support/small-manifest';
+
+function withTakes(...ids: string[]): change.Store {
+  const store = change.createAppStore('dark');
+  change.apply(store, change.manifestLoaded(small, 7));
+  change.apply(store, change.leaderLoaded(leader(30)));
+  change.apply(store, change.songLoaded(song(2)));
+  ids.forEach((id, index) => {
+    change.apply(store, change.seedSet(index));
+    const inputs = currentInputs(store.getState())!;
+    const reaction = { motion: numbered(30, index), latents: null, inputs, label: null, seconds: 1 };
+    change.apply(store, change.reactionAdded(reaction, { id, at: 1e6 * (index + 1) }));
+  });
+  return store;
+}
+
+const read = async (name: string) => checked((await new ProjectDatabase(name).read())!).project;
+const count = async (name: string, part: string) => (await openDB(name)).count(part);
+
+it('keeps everything, writes what has changed, and removes what has left', async () => {
+  const database = new ProjectDatabase('all');
+  const store = withTakes('a', 'b');
+  expect(await database.read()).toBeNull();
+  await database.write(storedProject(store.getState()));
+  const { takes, motions, page } = storedProject(store.getState());
+  expect(await read('all')).toMatchObject({ takes: [takes[0], takes[1]], page });
+  expect(new Set((await read('all')).motions)).toEqual(new Set(motions));
+  change.apply(store, takeRenamed('a', 'Softer hands'));
+  change.apply(store, takeDeleted('b'));
+  await database.write(storedProject(store.getState()));
+  expect((await read('all')).takes).toMatchObject([{ id: 'a', name: 'Softer hands' }]);
+  expect(await count('all', 'motions')).toBe(1);
+});
+
+it('a write that fails in the middle changes nothing', async () => {
+  const database = new ProjectDatabase('atomic');
+  await database.write(storedProject(withTakes('a').getState()));
+  const broken = storedProject(withTakes('b', 'c').getState());
+  // A function can't be stored: the transaction ends there.
+  const takes = [broken.takes[0]!, { ...broken.takes[1]!, seconds: (() => 1) as unknown as number }];
+  await expect(database.write({ ...broken, takes })).rejects.toThrow();
+  expect((await read('atomic')).takes.map(({ id }) => id)).toEqual(['a']);
+  expect(await count('atomic', 'motions')).toBe(1);
+});
+
+it('leaves what a newer page has written alone', async () => {
+  const newer = await openDB('newer', VERSION + 1, {
+    upgrade: (database) => void database.createObjectStore('takes'),
+  });
+  await newer.put('takes', 'of tomorrow', 'a');
+  newer.close();
+  const database = new ProjectDatabase('newer');
+  await expect(database.read()).rejects.toSatisfy(isNewer);
+  await expect(database.write(storedProject(withTakes('b').getState()))).rejects.toSatisfy(isNewer);
+  await expect(database.clear()).rejects.toSatisfy(isNewer);
+  const again = await openDB('newer');
+  expect(await again.getAll('takes')).toEqual(['of tomorrow']);
+});
+
+it('converts the leaders that the first version of the page stored', async () => {
+  const first = await openDB('first', 1, {
+    upgrade: (database) => {
+      for (const part of ['songs', 'leaders', 'motions', 'takes'])
+        database.createObjectStore(part, { keyPath: 'id' });
+      database.createObjectStore('page');
+    },
+  });
+  await first.put('leaders', { id: 'a', name: 'old.bvh', label: null, text: 'HIERARCHY', fps: 60 });
+  await first.put('page', { leader: 'a' }, 'now');
+  first.close();
+  const { leaders } = await read('first');
+  expect(leaders).toMatchObject([{ name: 'old.bvh', options: { fps: 60 } }]);
+  expect(new TextDecoder().decode(leaders[0]?.files[0]?.bytes)).toBe('HIERARCHY');
+});
+
+it('removes its own records, and leaves what it could not restore until everything is cleared', async () => {
+  const database = new ProjectDatabase('own');
+  await database.write(storedProject(withTakes('a').getState()));
+  const raw = await openDB('own');
+  await raw.put('takes', { id: 'torn', number: 'first' });
+  await database.removeOwn();
+  expect(await raw.getAllKeys('takes')).toEqual(['torn']);
+  await database.clear();
+  expect(await raw.count('takes')).toBe(0);
+  raw.close();
+});

@@ -1,0 +1,91 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { LoadedLeader } from '../../../../web/ui/store/reaction';
+import * as change from '../../support/actions';
+import { projectCleared } from '../../../../web/ui/store/actions/project';
+import { redone, undone } from '../../../../web/ui/store/history';
+import { currentInputs } from '../../../../web/ui/store/take';
+import { leader, still } from '../../support/made-state';
+import { small } from '../../support/small-manifest';
+
+/** A leader that takes so many megabytes. */
+const large = (megabytes: number): LoadedLeader => ({
+  ...leader(30),
+  files: [{ name: 'large.bvh', bytes: new Uint8Array(megabytes * 1e6) }],
+});
+
+function page(): change.Store {
+  const store = change.createAppStore('dark');
+  change.apply(store, change.manifestLoaded(small, 7));
+  return store;
+}
+
+/** Puts one leader after the other on the page, each at a time of its own. */
+function load(store: change.Store, times: number, megabytes: number): void {
+  for (let number = 0; number < times; number++) {
+    vi.advanceTimersByTime(2000);
+    change.apply(store, change.leaderLoaded(large(megabytes)));
+  }
+}
+
+function react(store: change.Store, id: string): void {
+  const inputs = currentInputs(store.getState())!;
+  const motion = still(inputs.leader.motion.frames);
+  const reaction = { motion, latents: null, inputs, label: null, seconds: 1 };
+  change.apply(store, change.reactionAdded(reaction, { id, at: Number(id) * 1e6 }));
+}
+
+const steps = (store: change.Store): number => store.getState().history.past.length;
+
+describe('the history of undo', () => {
+  beforeEach(() => void vi.useFakeTimers());
+  afterEach(() => void vi.useRealTimers());
+
+  it('frees the oldest steps whose songs, leaders and motions together take too much', () => {
+    const store = page();
+    load(store, 8, 20);
+    // The leader on the page is no part of it; three before it are 60 MB.
+    expect(steps(store)).toBe(3);
+    load(store, 8, 20);
+    expect(steps(store)).toBe(3);
+  });
+
+  it('keeps a hundred small steps, and the last one however large', () => {
+    const store = page();
+    load(store, 150, 0);
+    expect(steps(store)).toBe(100);
+    load(store, 1, 200);
+    load(store, 1, 0);
+    expect(steps(store)).toBe(1);
+    change.apply(store, undone());
+    expect(store.getState().leader?.files[0]?.bytes).toHaveLength(200e6);
+  });
+
+  it('counts what the page holds anyway as nothing', () => {
+    const store = page();
+    load(store, 1, 200);
+    react(store, '1');
+    for (let seed = 10; seed < 30; seed++) {
+      vi.advanceTimersByTime(2000);
+      change.apply(store, change.seedSet(seed));
+    }
+    expect(steps(store)).toBe(20);
+  });
+
+  it('after starting afresh has that step alone, until a take is made', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    react(store, '1');
+    change.apply(store, change.seedSet(9));
+    change.apply(store, projectCleared(small, 3));
+    expect(steps(store)).toBe(1);
+    change.apply(store, undone());
+    expect(store.getState().takes).toHaveLength(1);
+    change.apply(store, redone());
+    expect(store.getState().takes).toHaveLength(0);
+    change.apply(store, change.leaderLoaded(leader(60)));
+    react(store, '2');
+    change.apply(store, undone());
+    change.apply(store, undone());
+    expect(store.getState().takes.map(({ id }) => id)).toEqual(['2']);
+  });
+});

@@ -1,0 +1,106 @@
+import { type C3d, readC3dFile } from './file';
+import { jointsOfMarkers, NEEDED, OPTIONAL } from './plug-in-gait';
+import { sourceOfPositions } from '../positions';
+import { AppError } from '../../../common/error';
+import { checkedRate } from '../../retarget/frame-rate';
+import type { MotionSource } from '../../retarget/source';
+import type { JointName } from '../../skeleton/skeleton';
+import { lerp, readVec, type Vec3, writeVec, ZERO } from '../../math/vec3';
+
+const UNITS: Readonly<Record<string, number>> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254 };
+
+/** A dancer's name before the label of a marker: `Anna:LASI`. */
+const SUBJECT = /^(.*?)[:_](?=[^:_]+$)/;
+const markerOf = (label: string): string => label.replace(SUBJECT, '').toUpperCase();
+const subjectOf = (label: string): string => SUBJECT.exec(label)?.[1] ?? '';
+
+/** A marker's places over time; where it was not seen, between those before and after. Null where it was never seen. */
+function filled({ places, frames, labels }: C3d, marker: number): Vec3[] | null {
+  const at = (frame: number): Vec3 => readVec(places, frame * labels.length + marker);
+  const seen = Array.from({ length: frames }, (_, frame) => frame).filter((frame) =>
+    at(frame).every(Number.isFinite),
+  );
+  if (seen.length === 0) return null;
+  let next = 0;
+  return Array.from({ length: frames }, (_, frame) => {
+    while (next < seen.length - 1 && seen[next]! < frame) next++;
+    const [before, after] = [seen[Math.max(0, seen[next]! > frame ? next - 1 : next)]!, seen[next]!];
+    const share = after > before ? Math.min(1, Math.max(0, (frame - before) / (after - before))) : 0;
+    return lerp(at(before), at(after), share);
+  });
+}
+
+/** The needed markers that a subject lacks. */
+function lacking(has: (label: string) => boolean): string[] {
+  const missing = NEEDED.filter((label) => !has(label));
+  if (!has('SACR') && !(has('LPSI') && has('RPSI'))) missing.push('LPSI, RPSI or SACR');
+  for (const side of ['L', 'R'])
+    if (!has(`${side}FIN`) && !(has(`${side}WRA`) && has(`${side}WRB`)))
+      missing.push(`${side}WRA and ${side}WRB`);
+  return missing;
+}
+
+/**
+ * Reads a C3D file with markers of Plug-in Gait.
+ *
+ * @param part number of the dancer in a recording of several
+ * @throws {AppError} `unreadable-file`, `missing-joints`, `too-long` or `too-few-frames`
+ */
+export function readC3d(bytes: Uint8Array, part: number): MotionSource {
+  const file = readC3dFile(bytes);
+  const subjects = [...new Set(file.labels.map(subjectOf))];
+  const wanted = new Set([...NEEDED, ...OPTIONAL]);
+  const tracksOf = (subject: string): Map<string, Vec3[]> =>
+    new Map(
+      file.labels.flatMap((label, marker) => {
+        if (subjectOf(label) !== subject || !wanted.has(markerOf(label))) return [];
+        const track = filled(file, marker);
+        return track ? [[markerOf(label), track] as const] : [];
+      }),
+    );
+  const dancers = subjects
+    .map((subject) => ({ subject, tracks: tracksOf(subject) }))
+    .filter(({ tracks }) => lacking((label) => tracks.has(label)).length === 0);
+  const chosen = dancers[part] ?? dancers[0];
+  if (!chosen) throw missingMarkers(file, subjects.map(tracksOf));
+  const metres = UNITS[file.unit.toLowerCase()] ?? 0.001;
+  const { tracks } = chosen;
+  const frames = Array.from({ length: file.frames }, (_, frame) =>
+    jointsOfMarkers(
+      (label) => tracks.get(label)?.[frame] ?? ZERO,
+      (label) => tracks.has(label),
+      metres,
+    ),
+  );
+  const names = [...(frames[0]?.keys() ?? [])];
+  const places = new Float32Array(frames.length * names.length * 3);
+  frames.forEach((joints, frame) =>
+    names.forEach((name: JointName, joint) =>
+      writeVec(places, frame * names.length + joint, joints.get(name)!),
+    ),
+  );
+  return sourceOfPositions(
+    { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
+    {
+      format: 'C3D (Plug-in Gait)',
+      frameRate: () => checkedRate(file.rate),
+      rateAssumed: false,
+      unit: { name: file.unit.slice(0, 12), metres },
+      upAxis: 'z',
+      parts: dancers.length > 1 ? dancers.map(({ subject }) => subject.slice(0, 80)) : [],
+      part: dancers.indexOf(chosen),
+    },
+  );
+}
+
+function missingMarkers(file: C3d, subjects: readonly ReadonlyMap<string, unknown>[]): AppError {
+  const missing = subjects
+    .map((tracks) => lacking((label) => tracks.has(label)))
+    .reduce((best, one) => (one.length < best.length ? one : best), [...NEEDED]);
+  const seen = file.labels.slice(0, 8).map((label) => label.slice(0, 24));
+  return new AppError(
+    'missing-joints',
+    `The C3D file lacks markers of Plug-in Gait: ${missing.slice(0, 6).join(', ')}${missing.length > 6 ? ' and others' : ''}.`,
+    `Its markers are called ${seen.join(', ')}. Label them as Plug-in Gait, or export a solved skeleton as BVH or FBX.`,
+  );
+}

@@ -1,0 +1,81 @@
+import type { Gltf } from './container';
+import { humanoidNames } from './humanoid';
+import { posesOf, skeletonOf } from './skeleton';
+import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';
+import { readVec, scale, sub, type Vec3, writeVec, ZERO } from '../../math/vec3';
+import { worldPose } from '../../retarget/sample';
+import { type LocalPoses, type MotionSource, restOf } from '../../retarget/source';
+
+/** A humanoid with its axes along those of the world: every bone's rest place, and the bone above it. */
+interface Humanoid {
+  readonly names: readonly string[];
+  readonly parents: readonly number[];
+  readonly places: readonly Vec3[];
+}
+
+/** The bones that both a body and a motion have, as the body has them. */
+function humanoidOf(body: Gltf, moved: ReadonlySet<string>): Humanoid {
+  const bones = humanoidNames(body);
+  const { joints, nodes, rest } = skeletonOf(body, bones);
+  const { places } = worldPose(joints, posesOf({ joints, nodes, rest }, new Map(), [null]), 0);
+  const isBone = (joint: number): boolean => bones.has(nodes[joint]!) && moved.has(joints[joint]!.name);
+  const kept = [...joints.keys()].filter(isBone);
+  return {
+    names: kept.map((joint) => joints[joint]!.name),
+    places: kept.map((joint) => places[joint]!),
+    parents: kept.map((joint) => {
+      let at = joints[joint]!.parent;
+      while (at >= 0 && !isBone(at)) at = joints[at]!.parent;
+      return kept.indexOf(at);
+    }),
+  };
+}
+
+/**
+ * The motion of a VRMA file on the body of a VRM: rotations relative to the rest pose, in axes of the world, are those of
+ * the motion; the hips' way is scaled by the heights of both hips.
+ */
+export function onBody(source: MotionSource, body: Gltf): MotionSource {
+  const index = new Map(source.joints.map(({ name }, joint) => [name, joint]));
+  const { names, parents, places } = humanoidOf(body, new Set(index.keys()));
+  const hips = names.indexOf('hips');
+  const from = names.map((name) => index.get(name)!);
+  if (hips < 0) return source;
+  const rest = worldPose(source.joints, source.rest, 0);
+  const height = rest.places[from[hips]!]![1];
+  const ratio = height > 0 ? places[hips]![1] / height : 1;
+  const offsets = new Float32Array(
+    places.flatMap((place, joint) => sub(place, parents[joint]! < 0 ? ZERO : places[parents[joint]!]!)),
+  );
+  const localPoses = (wanted: readonly number[]): LocalPoses => {
+    const poses = source.localPoses(wanted);
+    const out = {
+      rotations: new Float32Array(wanted.length * names.length * 4),
+      translations: new Float32Array(wanted.length * names.length * 3),
+    };
+    wanted.forEach((_, frame) => {
+      const { turns, places: moved } = worldPose(source.joints, poses, frame);
+      /** Rotation of a bone from its rest pose, in axes of the world. */
+      const delta = (joint: number): Quat =>
+        multiply(turns[from[joint]!]!, conjugate(rest.turns[from[joint]!]!));
+      names.forEach((_name, joint) => {
+        const parent = parents[joint]!;
+        const local = parent < 0 ? delta(joint) : multiply(conjugate(delta(parent)), delta(joint));
+        writeQuat(out.rotations, frame * names.length + joint, local);
+        writeVec(
+          out.translations,
+          frame * names.length + joint,
+          joint === hips ? scale(moved[from[hips]!]!, ratio) : readVec(offsets, joint),
+        );
+      });
+    });
+    return out;
+  };
+  return {
+    ...source,
+    format: 'VRMA on a VRM',
+    joints: names.map((name, joint) => ({ name, parent: parents[joint]!, endSite: false })),
+    rest: restOf(offsets),
+    localPoses,
+  };
+}

@@ -1,0 +1,84 @@
+import { timingOf, tracksOf } from './animation';
+import { type Gltf, readContainer } from './container';
+import { humanoidNames } from './humanoid';
+import { posesOf, skeletonOf } from './skeleton';
+import { onBody } from './on-body';
+import { tooLong } from '../positions';
+import type { FileBytes } from '../read';
+import { AppError } from '../../../common/error';
+import { pickDancer } from '../../retarget/dancers';
+import type { MotionSource } from '../../retarget/source';
+
+/** The name of the format by the extensions that a file has. */
+function formatOf({ extensions }: Gltf): string {
+  if ('VRMC_vrm_animation' in extensions) return 'VRMA';
+  return 'VRMC_vrm' in extensions || 'VRM' in extensions ? 'VRM' : 'glTF';
+}
+
+/**
+ * Reads a GLB, glTF, VRM or VRMA file: the hierarchy of its nodes and one of its clips. Meshes and pictures are left out.
+ * A VRM beside a VRMA lends it its body.
+ *
+ * @param part number of the clip; of the dancer in a file with one clip and several dancers
+ * @throws {AppError} `unreadable-file`, `missing-file`, `no-motion`, `too-few-frames` or `too-long`
+ */
+export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: number): MotionSource {
+  const [main, ...companions] = files;
+  const file = readContainer(main, companions);
+  const { json } = file;
+  const format = formatOf(json);
+  const clips = json.animations.filter(({ channels }) => channels.length > 0);
+  const clip = clips[part] ?? clips[0];
+  if (!clip) throw noMotion(format);
+  const skeleton = skeletonOf(json, humanoidNames(json));
+  const tracks = tracksOf(file, clip);
+  const { start, frames, fps } = timingOf(tracks);
+  if (frames < 2) {
+    throw new AppError(
+      'too-few-frames',
+      'The animation in the file has no length.',
+      'Export the whole animation, not only its current frame.',
+    );
+  }
+  const error = tooLong(frames, skeleton.joints.length * 6);
+  if (error) throw error;
+  const names = clips.map(({ name }, i) => (name ?? `clip ${i + 1}`).slice(0, 80));
+  const source: MotionSource = {
+    format,
+    joints: skeleton.joints,
+    rest: posesOf(skeleton, tracks, [null]),
+    frames,
+    frameRate: () => fps,
+    rateAssumed: false,
+    unit: { name: 'metres', metres: 1 },
+    upAxis: 'y',
+    parts: clips.length > 1 ? names : [],
+    part: clips.indexOf(clip),
+    warnings: [],
+    truncated: false,
+    localPoses: (wanted) =>
+      posesOf(
+        skeleton,
+        tracks,
+        wanted.map((frame) => start + frame / fps),
+      ),
+  };
+  const body = format === 'VRMA' ? companions.find(({ name }) => /\.vrm$/i.test(name)) : undefined;
+  if (body) return onBody(source, readContainer(body, []).json);
+  if (clips.length > 1) return { ...pickDancer(source, 0), parts: source.parts, part: source.part };
+  return pickDancer(source, part);
+}
+
+function noMotion(format: string): AppError {
+  return format === 'VRM'
+    ? new AppError(
+        'no-motion',
+        'The VRM file holds a body without a motion.',
+        'Choose it together with the VRMA file that moves it.',
+      )
+    : new AppError(
+        'no-motion',
+        'The file holds no animation.',
+        'Export it again with its animation: in Blender, mark “Animation” among the export settings.',
+      );
+}

@@ -1,0 +1,109 @@
+import { damagedGltf, type Gltf } from './container';
+import { Matrix4, Quaternion, Vector3 } from 'three';
+import { normaliseQuat, type Quat, writeQuat } from '../../math/quat';
+import { type Vec3, writeVec } from '../../math/vec3';
+import type { LocalPoses, SourceJoint } from '../../retarget/source';
+import { type Tracks, valueAt } from './animation';
+
+/** Largest number of nodes. */
+const MAX_NODES = 5000;
+
+/** Translation, rotation and scale of a node from its parent. */
+interface Transform {
+  readonly place: Vec3;
+  readonly turn: Quat;
+  readonly size: Vec3;
+}
+
+/** The nodes of a file in an order in which parents come first. */
+export interface Skeleton {
+  readonly joints: readonly SourceJoint[];
+  /** Number in the file of each joint. */
+  readonly nodes: readonly number[];
+  readonly rest: readonly Transform[];
+}
+
+function transformOf(node: Gltf['nodes'][number]): Transform {
+  if (node.matrix) {
+    const [place, turn, size] = [new Vector3(), new Quaternion(), new Vector3()];
+    new Matrix4().fromArray(node.matrix).decompose(place, turn, size);
+    return {
+      place: place.toArray(),
+      turn: normaliseQuat(turn.toArray()),
+      size: size.toArray(),
+    };
+  }
+  const { translation = [0, 0, 0], rotation = [0, 0, 0, 1], scale = [1, 1, 1] } = node;
+  return {
+    place: translation as unknown as Vec3,
+    turn: normaliseQuat(rotation as unknown as Quat),
+    size: scale as unknown as Vec3,
+  };
+}
+
+/**
+ * @param names names of nodes in place of their own, as a VRM gives them
+ * @throws {AppError} `unreadable-file`
+ */
+export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>): Skeleton {
+  if (nodes.length > MAX_NODES)
+    throw damagedGltf(`it has ${nodes.length} nodes; up to ${MAX_NODES} are read`);
+  const parents = nodes.map(() => -1);
+  nodes.forEach(({ children }, parent) => {
+    for (const child of children) {
+      if (child >= nodes.length || parents[child] !== -1)
+        throw damagedGltf('a node hangs on two others, or is missing');
+      parents[child] = parent;
+    }
+  });
+  const places = new Map<number, number>();
+  const order: number[] = [];
+  const waiting = parents.flatMap((parent, node) => (parent < 0 ? [node] : []));
+  while (waiting.length > 0) {
+    const node = waiting.pop()!;
+    places.set(node, order.push(node) - 1);
+    waiting.push(...nodes[node]!.children.toReversed());
+  }
+  if (order.length < nodes.length) throw damagedGltf('its nodes hang on one another in a circle');
+  return {
+    nodes: order,
+    joints: order.map((node) => ({
+      name: names.get(node) ?? (nodes[node]!.name ?? `node ${node}`).slice(0, 200),
+      parent: parents[node]! < 0 ? -1 : places.get(parents[node]!)!,
+      endSite: false,
+    })),
+    rest: order.map((node) => transformOf(nodes[node]!)),
+  };
+}
+
+/** Poses at times in seconds; a node's scale is handed to the places of what hangs on it. Null is the rest pose. */
+export function posesOf(
+  { joints, nodes, rest }: Skeleton,
+  tracks: Tracks,
+  times: readonly (number | null)[],
+): LocalPoses {
+  const rotations = new Float32Array(times.length * joints.length * 4);
+  const translations = new Float32Array(times.length * joints.length * 3);
+  times.forEach((time, frame) => {
+    const sizes: Vec3[] = [];
+    joints.forEach(({ parent }, joint) => {
+      const still = rest[joint]!;
+      const value = (path: string): number[] | null => {
+        const track = time === null ? undefined : tracks.get(`${nodes[joint]!} ${path}`);
+        return track && time !== null ? valueAt(track, time) : null;
+      };
+      const place = (value('translation') ?? still.place) as Vec3;
+      const turn = (value('rotation') ?? still.turn) as unknown as Quat;
+      const size = (value('scale') ?? still.size) as Vec3;
+      const above: Vec3 = parent < 0 ? [1, 1, 1] : sizes[parent]!;
+      sizes.push([above[0] * size[0], above[1] * size[1], above[2] * size[2]]);
+      writeQuat(rotations, frame * joints.length + joint, normaliseQuat(turn));
+      writeVec(translations, frame * joints.length + joint, [
+        place[0] * above[0],
+        place[1] * above[1],
+        place[2] * above[2],
+      ]);
+    });
+  });
+  return { rotations, translations };
+}

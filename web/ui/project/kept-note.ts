@@ -1,0 +1,59 @@
+import { el, setText, combineDisposers } from '../widgets/dom';
+import type { Mount } from '../store/services';
+import type { AutosaveStatus } from '../store/state';
+import { watch, watchAll } from '../store/store';
+
+/** Where the work of this tab is not kept although the browser would keep it: why, and what the button offers. */
+const NOTES: Readonly<Partial<Record<AutosaveStatus, { readonly text: string; readonly button: string }>>> = {
+  elsewhere: {
+    text: 'Your work is open in another tab, which keeps it. What you change here is not kept.',
+    button: 'Keep it here instead',
+  },
+  newer: {
+    text: 'A newer version of this page has kept work here. This older one leaves it as it is, and keeps nothing.',
+    button: 'Reload',
+  },
+};
+
+/** Over the stage: what is being restored, and a note where another tab or version keeps its work instead of this one. */
+export const mountKeptNote: Mount = (root, store, services) => {
+  const text = el('span');
+  const button = el('button', {
+    class: 'btn tint',
+    attributes: { type: 'button' },
+    on: {
+      click: () => {
+        if (store.getState().autosave === 'newer') location.reload();
+        else services.storeHere();
+      },
+    },
+  });
+  const note = el('div', { class: 'float update kept', attributes: { role: 'status' } }, text, button);
+  const coming = el('div', { class: 'float toast restoring', attributes: { role: 'status' } });
+  root.append(note, coming);
+  return combineDisposers(
+    watch(
+      store,
+      (state) => state.autosave,
+      (status) => {
+        const shown = NOTES[status];
+        note.hidden = !shown;
+        setText(text, shown?.text ?? '');
+        setText(button, shown?.button ?? '');
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [state.restoring, state.leader],
+      ({ restoring, leader }) => {
+        // Once the couple is there, the rest comes quietly.
+        coming.hidden = !restoring || leader !== null;
+        setText(coming, restoring && !coming.hidden ? `Bringing back your work: ${restoring.what}` : '');
+      },
+    ),
+    () => {
+      note.remove();
+      coming.remove();
+    },
+  );
+};
