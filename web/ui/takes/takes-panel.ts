@@ -23,10 +23,7 @@ export const mountTakes: Mount = (root, store, services) => {
     apply(store, panelToggled('takes'));
   });
   close.classList.add('phone-only');
-  const clear = textButton('btn ghost', 'Keep starred', () => {
-    apply(store, starredKept());
-  });
-  clear.title = 'Removes all takes without a star. Undo brings them back.';
+  const clear = createClearButton(store);
   const head = el(
     'div',
     { class: 'head' },
@@ -96,6 +93,15 @@ export const mountTakes: Mount = (root, store, services) => {
     },
   );
 };
+
+/** Removes all takes without a star. */
+function createClearButton(store: Store): HTMLButtonElement {
+  const button = textButton('btn ghost', 'Keep starred', () => {
+    apply(store, starredKept());
+  });
+  button.title = 'Removes all takes without a star. Undo brings them back.';
+  return button;
+}
 
 function createComingList(): HTMLElement {
   return el('ul', { class: 'takes-coming', attributes: { 'aria-label': 'Takes that are being read' } });

@@ -81,10 +81,11 @@ describe('C3D', () => {
 });
 
 describe('AMASS', () => {
+  const hips: Vec3 = [0, 0.95, 0];
   const body = SMPL22.map((name, joint) => ({
     name,
     parent: joint === 0 ? null : SMPL22[PARENTS[joint]!]!,
-    offset: joint === 0 ? ([0, 0.95, 0] as const) : AVERAGE_BODY[name],
+    offset: joint === 0 ? hips : AVERAGE_BODY[name],
   }));
   const dance = madeMotion({ names: SMPL_NAMES, body, fps: 60, frames: 61 });
   const index = new Map(dance.joints.map(({ name }, joint) => [name, joint]));

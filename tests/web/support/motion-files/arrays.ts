@@ -24,7 +24,12 @@ export const SMPL_NAMES: BodyNames = {
 /** The motion as a .npy file: (T, 22, 3), more joints after them, or flat. */
 export function writeNpy(
   motion: MadeMotion,
-  { joints = 22, flat = false, up = 'y' as 'y' | 'z', unitsPerMetre = 1 } = {},
+  {
+    joints = 22,
+    flat = false,
+    up = 'y',
+    unitsPerMetre = 1,
+  }: { joints?: number; flat?: boolean; up?: 'y' | 'z'; unitsPerMetre?: number } = {},
 ): Uint8Array {
   const names = Array.from({ length: joints }, (_, joint) => SMPL22[joint] ?? null);
   const data = positionsOf(motion, names, unitsPerMetre, up);

@@ -1,7 +1,7 @@
 import type { Inspection } from '../../../motion/import/inspect';
 import { type AxisName, UP_AXES } from '../../../motion/retarget/axes-and-units';
 import { rotate } from '../../../motion/math/quat';
-import { readVec } from '../../../motion/math/vec3';
+import { direction, dot, readVec, sub, X_AXIS } from '../../../motion/math/vec3';
 
 const MARGIN = 16;
 
@@ -14,7 +14,7 @@ const MARGIN = 16;
  */
 export function drawSkeleton(
   canvas: HTMLCanvasElement,
-  { joints, places }: Inspection,
+  { joints, places, found }: Inspection,
   up: AxisName,
   mapped: ReadonlySet<number>,
   marked: number | null,
@@ -22,10 +22,12 @@ export function drawSkeleton(
   const context = canvas.getContext('2d');
   if (!context) return;
   const { turn } = UP_AXES.find(({ name }) => name === up)!;
-  const points = joints.map((_, joint) => {
-    const [x, y] = rotate(turn, readVec(places, joint));
-    return { x, y: -y };
-  });
+  const upright = joints.map((_, joint) => rotate(turn, readVec(places, joint)));
+  // Seen from the front: the way from the right hip to the left one goes to the right.
+  const [leftHip, rightHip] = [found.left_hip, found.right_hip].map((joint) => upright[joint ?? -1]);
+  const across = leftHip && rightHip ? sub(leftHip, rightHip) : X_AXIS;
+  const level = direction([across[0], 0, across[2]], X_AXIS);
+  const points = upright.map((place) => ({ x: dot(place, level), y: -place[1] }));
   // Props and roots far from the body would make it small.
   const shown = points.filter((_, joint) => mapped.size === 0 || mapped.has(joint));
   const [left, top] = [Math.min(...shown.map(({ x }) => x)), Math.min(...shown.map(({ y }) => y))];
