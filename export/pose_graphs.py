@@ -73,7 +73,11 @@ class Conversion:
         dtype = {0: np.float32, 1: np.float16, 2: np.int32}[entry.Type()]
         values = np.frombuffer(self.model.Buffers(entry.Buffer()).DataAsNumpy().tobytes(), dtype)
         sparsity = entry.Sparsity()
-        return values.reshape(self.shape(tensor)) if sparsity is None else dense(values, sparsity, self.shape(tensor))
+        return (
+            values.reshape(self.shape(tensor))
+            if sparsity is None
+            else dense(values, sparsity, self.shape(tensor))
+        )
 
     def add(self, kind: str, inputs: list[str], output: str, **attributes: Any) -> str:
         self.nodes.append(helper.make_node(kind, inputs, [output], **attributes))
@@ -140,9 +144,7 @@ def dense(values: np.ndarray, sparsity: Any, shape: list[int]) -> np.ndarray:
 
 def same_pads(size: list[int], kernel: list[int], strides: list[int]) -> list[int]:
     """Padding as TensorFlow's SAME has it: the odd one at the end."""
-    total = [
-        max(0, (-(-n // s) - 1) * s + k - n) for n, k, s in zip(size, kernel, strides, strict=True)
-    ]
+    total = [max(0, (-(-n // s) - 1) * s + k - n) for n, k, s in zip(size, kernel, strides, strict=True)]
     return [n // 2 for n in total] + [n - n // 2 for n in total]
 
 
@@ -162,9 +164,7 @@ def convolution(c: Conversion, inputs: list[int], output: int, options: Any, dep
     arguments = [c.name(source), c.weights(f"{name}_w", weights), c.weights(f"{name}_b", c.constant(bias))]
     group = weights.shape[0] if depthwise else 1
     attributes = {**window(c, source, list(weights.shape[2:]), options), "group": group}
-    c.activate(
-        options.FusedActivationFunction(), name, lambda to: c.add("Conv", arguments, to, **attributes)
-    )
+    c.activate(options.FusedActivationFunction(), name, lambda to: c.add("Conv", arguments, to, **attributes))
 
 
 def add(c: Conversion, inputs: list[int], output: int, options: Any) -> None:

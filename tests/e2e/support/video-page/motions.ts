@@ -3,7 +3,7 @@ import { solve } from '../../../../web/motion/fit/ik';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import demo from '../../../../web/public/demo/leader.bvh?raw';
 import { leaderBvh } from '../../../web/support/leader-bvh';
-import { walker } from '../../../web/support/walker';
+import { walker } from '../../../web/support/filmed/walker';
 
 export type MotionName = 'salsa' | 'turning' | 'spinning' | 'walking';
 

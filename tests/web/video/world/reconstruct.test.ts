@@ -5,8 +5,8 @@ import type { Observations } from '../../../../web/video/observations';
 import { reconstruct, STATURE } from '../../../../web/video/world/reconstruct';
 import { checkSeen } from '../../../../web/video/checks';
 import { confidenceOf } from '../../../../web/video/world/advice';
-import { projected, type Camera } from '../../support/projected';
-import { walker } from '../../support/walker';
+import { projected, type Camera } from '../../support/filmed/projected';
+import { walker } from '../../support/filmed/walker';
 
 const CAMERA: Camera = { width: 640, height: 480, focal: 560, position: [0, 1.3, 4], pitch: 0.1 };
 const truth = walker({ seconds: 4, turn: 0.4, distance: 0.8 });

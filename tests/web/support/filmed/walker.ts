@@ -1,7 +1,7 @@
-import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
-import { solve } from '../../../web/motion/fit/ik';
-import { J, JOINT_COUNT } from '../../../web/motion/skeleton/skeleton';
-import { person } from './skeletons';
+import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { solve } from '../../../../web/motion/fit/ik';
+import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { person } from '../skeletons';
 
 export interface WalkOptions {
   readonly seconds: number;
