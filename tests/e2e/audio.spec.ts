@@ -2,9 +2,9 @@ import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
 import { servePage } from '../../tools/bench/built-page.mjs';
-import { agreement, beatAgreement, beatFrames } from '../web/support/feature-parity';
-import { fixture, recipe } from '../web/support/audio-fixtures';
-import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/real-songs';
+import { agreement, beatAgreement, beatFrames } from '../web/support/audio/feature-parity';
+import { fixture, recipe } from '../web/support/audio/audio-fixtures';
+import { absence, loadRealSongs, realSongFolder, realSongs } from '../web/support/audio/real-songs';
 import type { ErrorData, SongData, Source } from './support/audio-page/main';
 
 /** Seconds of the clicks in the files of tests/fixtures/make_audio.py. */

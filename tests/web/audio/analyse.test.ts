@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { analyse, mixDown } from '../../../web/audio/analyse';
 import { encodeWav } from '../../../web/audio/wav';
-import { recipe, songs } from '../support/audio-fixtures';
+import { recipe, songs } from '../support/audio/audio-fixtures';
 import { processorSeconds } from '../support/processor-time';
 
 const second = 48000;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { musicFeatures } from '../../../web/audio/features';
-import { recipe, songs } from '../support/audio-fixtures';
+import { recipe, songs } from '../support/audio/audio-fixtures';
 
 describe('music features of odd songs', () => {
   it.each([1, 100, recipe.hop - 1, recipe.hop, recipe.n_fft - 1, 3 * recipe.n_fft])(

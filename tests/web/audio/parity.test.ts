@@ -1,8 +1,8 @@
 import { afterAll, describe, expect, it } from 'vitest';
 import { type MusicFeatures, musicFeatures } from '../../../web/audio/features';
-import { agreement, beatAgreement, beatFrames, columnGroups } from '../support/feature-parity';
-import { recipe, type ReferenceSong, songs } from '../support/audio-fixtures';
-import { absence, loadRealSongs, realSongs } from '../support/real-songs';
+import { agreement, beatAgreement, beatFrames, columnGroups } from '../support/audio/feature-parity';
+import { recipe, type ReferenceSong, songs } from '../support/audio/audio-fixtures';
+import { absence, loadRealSongs, realSongs } from '../support/audio/real-songs';
 import { processorSeconds } from '../support/processor-time';
 
 /**

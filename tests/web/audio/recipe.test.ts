@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { readRecipe } from '../../../web/audio/recipe';
-import { recipe } from '../support/audio-fixtures';
+import { recipe } from '../support/audio/audio-fixtures';
 
 describe('the audio recipe', () => {
   it('is accepted as Python writes it', () => {

@@ -17,8 +17,8 @@ export interface Rhythm extends Metre {
   readonly sure: boolean;
 }
 
-/** Clarity from which there is a beat: noise, rain, speech and whales reach 0.11. */
-const MIN_CLARITY = 0.15;
+/** Clarity from which there is a beat: noise, rain and speech reach 0.12, whales 0.17. */
+const MIN_CLARITY = 0.19;
 /** Clarity from which the beat is sure: songs with a steady beat have 0.31 and more, strings in free time 0.21. */
 const SURE_CLARITY = 0.25;
 /** Ratio of the bass halfway between the beats to that on them from which those are the beats. */

@@ -1,5 +1,5 @@
 import type { MotionClip } from '../../motion/skeleton/clip';
-import { CROWN, restPositions, standingHeight } from '../../motion/skeleton/kinematics';
+import { CROWN, restPositions, SOLE, standingHeight } from '../../motion/skeleton/kinematics';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { Manifest } from '../manifest';
 import type { Size, Source } from './inputs';
@@ -17,7 +17,9 @@ export function bodyFactor(
   { height, role }: Size & Pick<Source, 'role'>,
   { reference_height, reactor_height }: Manifest['skeleton'],
 ): number {
-  if (height !== undefined) return (height - CROWN) / (standingHeight(offsets) - CROWN);
+  // What is under the toes and above the head keeps its size.
+  const fixed = SOLE + CROWN;
+  if (height !== undefined) return (height - fixed) / (standingHeight(offsets) - fixed);
   if (reactor_height === undefined) return 1;
   const proportion = reactor_height / reference_height;
   const wanted = bodyHeight(leader) * (role === 'leader' ? 1 / proportion : proportion);

@@ -7,7 +7,7 @@ import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { playbackSet } from '../store/actions/view';
-import { withoutUndo } from '../store/history';
+import { withoutUndo } from '../store/history/history';
 
 const text = v.pipe(v.string(), v.minLength(1));
 const named = { file: text, name: text, label: text };

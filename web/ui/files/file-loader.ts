@@ -9,7 +9,7 @@ import type { InputKind } from '../store/state';
 import { leaderLoaded, leaderRefused, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
 import { problemShown, problemClosed } from '../store/actions/notices';
-import { withoutUndo } from '../store/history';
+import { withoutUndo } from '../store/history/history';
 
 /**
  * Least time between two changes of a progress line: where the processor draws the picture, each of them takes time

@@ -1,7 +1,7 @@
 import { differOnlyInWeights, sameInputs } from './selectors';
 import type { Reaction, Take } from './reaction';
 import type { AppState } from './state';
-import { sealed, withoutCleared } from './history';
+import { sealed, withoutCleared } from './history/history';
 import { currentInputs, takeOnStage, takeTitle, withTake } from './take';
 
 /** Identity and creation time of a new take, the latter in milliseconds since 1970. */

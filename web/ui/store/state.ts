@@ -5,7 +5,7 @@ import type { MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
-import type { History } from './history';
+import type { History } from './history/history';
 import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 

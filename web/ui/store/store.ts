@@ -1,6 +1,6 @@
 import { NO_OVERLAYS } from '../../common/visible-overlays';
 import type { AppState, Theme } from './state';
-import { NO_HISTORY, withUndo } from './history';
+import { NO_HISTORY, withUndo } from './history/history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 
 /** A pure function from the state to the fields that change. */

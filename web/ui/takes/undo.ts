@@ -3,7 +3,7 @@ import { listen, combineDisposers } from '../widgets/dom';
 import type { IconName } from '../widgets/icons';
 import type { Mount } from '../store/services';
 import { apply, type Change, type Store, watchAll } from '../store/store';
-import { redone, undone } from '../store/history';
+import { redone, undone } from '../store/history/history';
 
 /** Undo and redo as two buttons. */
 export const mountUndo: Mount = (root, store) => {

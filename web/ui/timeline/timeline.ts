@@ -1,5 +1,5 @@
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { DancerLanes } from './dancer-lanes';
+import { DancerLanes } from './lanes/dancer-lanes';
 import { reactorMotion } from '../store/reactor-motion';
 import type { Role } from '../store/reaction';
 import { generatedRole } from '../store/roles';
@@ -12,7 +12,7 @@ import { createRulerLane } from './ruler';
 import { isReading, isSampling } from '../store/selectors';
 import type { Services } from '../store/services';
 import { createSongLabel } from './song-label';
-import { SongLane } from './song-lane';
+import { SongLane } from './lanes/song-lane';
 import { musicBeats } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { type Store, watch, watchAll } from '../store/store';

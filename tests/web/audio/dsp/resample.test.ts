@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { resample } from '../../../../web/audio/dsp/resample';
-import { fixture, readFloats, readWav, recipe } from '../../support/audio-fixtures';
+import { fixture, readFloats, readWav, recipe } from '../../support/audio/audio-fixtures';
 
 function tone(hz: number, rate: number): Float32Array {
   return Float32Array.from({ length: rate }, (_, i) => Math.sin((2 * Math.PI * hz * i) / rate));

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { musicFeatures } from '../../../../web/audio/features';
 import { NO_RHYTHM, type Rhythm, rhythmOf } from '../../../../web/audio/rhythm/rhythm';
-import { recipe } from '../../support/audio-fixtures';
-import * as make from '../../support/made-song';
+import { recipe } from '../../support/audio/audio-fixtures';
+import * as make from '../../support/audio/made-song';
 import { processorSeconds } from '../../support/processor-time';
-import { absence, decodeRealSongs, realSongs } from '../../support/real-songs';
+import { absence, decodeRealSongs, realSongs } from '../../support/audio/real-songs';
 
 const heard = (song: Float32Array): Rhythm => rhythmOf(musicFeatures(song, recipe).features, recipe);
 

@@ -78,6 +78,8 @@ describe('the coarse layer', () => {
     expect(model.calls[0]?.request).toEqual({
       leader: shown.inputs.leader.file.clip,
       latents: shown.latents,
+      role: 'reactor',
+      height: undefined,
     });
     const motion = still(60);
     model.calls[0]?.answer(motion);

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { createEarlierDance } from '../../../../web/ui/generation/earlier-dance';
 import { compareSet, letterGiven } from '../../../../web/ui/store/actions/takes';
-import { undone } from '../../../../web/ui/store/history';
+import { undone } from '../../../../web/ui/store/history/history';
 import { earlierMotion } from '../../../../web/ui/store/reactor-motion';
 import { readyInputs } from '../../../../web/ui/store/selectors';
 import type { Reaction } from '../../../../web/ui/store/reaction';

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { VariationMaker } from '../../../../web/ui/generation/variations';
 import { Generation } from '../../../../web/ui/generation/generation';
-import { undone } from '../../../../web/ui/store/history';
+import { undone } from '../../../../web/ui/store/history/history';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';

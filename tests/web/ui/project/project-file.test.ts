@@ -14,7 +14,7 @@ import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/res
 import type { AppState } from '../../../../web/ui/store/state';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
-import { redone, undone } from '../../../../web/ui/store/history';
+import { redone, undone } from '../../../../web/ui/store/history/history';
 import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import {
@@ -344,7 +344,7 @@ describe('what does not fit', () => {
   });
 
   it('is a page without its leader, which gets that of the newest take', async () => {
-    const bytes = await changed((files) => delete files['leaders/1-lead-0412.bvh']);
+    const bytes = await changed((files) => delete files['leaders/1-leader-0412.bvh']);
     const { project, losses } = readProject(bytes);
     expect(losses.join(' ')).toContain('1 leader, 2 takes');
     const { content } = await contentOf(project, empty().getState());

@@ -10,7 +10,7 @@ import {
   snapped,
   tempoText,
 } from '../../../../web/ui/store/counting';
-import { redone, undone } from '../../../../web/ui/store/history';
+import { redone, undone } from '../../../../web/ui/store/history/history';
 import { apply, createAppStore, type Store } from '../../../../web/ui/store/store';
 import { leader, rhythm, song } from '../../support/made-state';
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import * as change from '../../support/actions';
-import { undone } from '../../../../web/ui/store/history';
+import { undone } from '../../../../web/ui/store/history/history';
 import type { Problem } from '../../../../web/ui/store/state';
 import { small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song, still } from '../../support/made-state';

@@ -5,7 +5,7 @@ import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
 import { MAX_TAKES } from '../../../../web/ui/store/add-take';
 import * as edit from '../../../../web/ui/store/actions/takes';
-import { redone, undone, withoutUndo } from '../../../../web/ui/store/history';
+import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
 import { letterOf, currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';

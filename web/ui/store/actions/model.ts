@@ -3,7 +3,7 @@ import type { Manifest } from '../../../model/client';
 import { defaultGuidance } from '../guidance-matrix';
 import type { ModelState } from '../state';
 import type { Change } from '../store';
-import { NO_HISTORY } from '../history';
+import { NO_HISTORY } from '../history/history';
 import { takesForOtherModel } from '../take';
 
 /** A manifest gives all settings their defaults, also where a model was there before. */

@@ -3,7 +3,7 @@ import type { LoadedSong, Take } from '../reaction';
 import type { AppState, AutosaveStatus, Restoring } from '../state';
 import { manifestLoaded } from './model';
 import { type Change } from '../store';
-import { NO_HISTORY, withUndoOfAll, withUndoOfClearing } from '../history';
+import { NO_HISTORY, withUndoOfAll, withUndoOfClearing } from '../history/history';
 import { mergedTakes, withTake } from '../take';
 
 /** Whether autosave works has changed. */

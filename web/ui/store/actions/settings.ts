@@ -10,7 +10,7 @@ import {
   withCell,
   withColumn,
 } from '../guidance-matrix';
-import { sealed } from '../history';
+import { sealed } from '../history/history';
 import { sameSettings, upToDate } from '../selectors';
 import type { Guidance, Layer, Settings } from '../reaction';
 import type { Change } from '../store';

@@ -1,6 +1,6 @@
 import { newStamp, type TakeStamp } from '../add-take';
 import { clampedToStep } from '../guidance-matrix';
-import { withUndo } from '../history';
+import { withUndo } from '../history/history';
 import { sameInputs } from '../selectors';
 import type { Inputs, Reaction } from '../reaction';
 import type { AppState, Variations } from '../state';

@@ -1,5 +1,5 @@
-import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { LoadedLeader, LoadedSong, Reaction, Take } from './reaction';
+import type { SolvedMotion } from '../../../motion/skeleton/clip';
+import type { LoadedLeader, LoadedSong, Reaction, Take } from '../reaction';
 
 /** Parts of the state that refer to songs, leaders and motions. */
 interface Holder {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { peaks, speedCurve } from '../../../../web/ui/timeline/curves';
+import { peaks, speedCurve } from '../../../../../web/ui/timeline/lanes/curves';
 
 describe('waveform', () => {
   it('keeps the lowest and highest sample of each column', () => {

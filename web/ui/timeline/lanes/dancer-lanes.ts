@@ -1,13 +1,13 @@
-import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Manifest } from '../../model/client';
-import { createBlockRow } from './block-row';
+import type { SolvedMotion } from '../../../motion/skeleton/clip';
+import type { Manifest } from '../../../model/client';
+import { createBlockRow } from '../block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
-import { generatedRole, otherRole } from '../store/roles';
-import { isSampling, jobText } from '../store/selectors';
-import type { Role } from '../store/reaction';
-import type { AppState } from '../store/state';
-import type { TimeScale } from '../store/time-scale';
-import { el } from '../widgets/dom';
+import { generatedRole, otherRole } from '../../store/roles';
+import { isSampling, jobText } from '../../store/selectors';
+import type { Role } from '../../store/reaction';
+import type { AppState } from '../../store/state';
+import type { TimeScale } from '../../store/time-scale';
+import { el } from '../../widgets/dom';
 
 /** Speed that the upper edge of a lane stands for at least, m/s, so that standing still looks still. */
 const MIN_TOP_SPEED = 1;

@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { LoadedLeader } from '../../../../web/ui/store/reaction';
-import * as change from '../../support/actions';
-import { projectCleared } from '../../../../web/ui/store/actions/project';
-import { redone, undone } from '../../../../web/ui/store/history';
-import { currentInputs } from '../../../../web/ui/store/take';
-import { leader, still } from '../../support/made-state';
-import { small } from '../../support/small-manifest';
+import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
+import * as change from '../../../support/actions';
+import { projectCleared } from '../../../../../web/ui/store/actions/project';
+import { redone, undone } from '../../../../../web/ui/store/history/history';
+import { currentInputs } from '../../../../../web/ui/store/take';
+import { leader, still } from '../../../support/made-state';
+import { small } from '../../../support/small-manifest';
 
 /** A leader that takes so many megabytes. */
 const large = (megabytes: number): LoadedLeader => ({

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
-import { readRecipe } from '../../../web/audio/recipe';
+import { readRecipe } from '../../../../web/audio/recipe';
 
 /** A song with librosa's features of it. */
 export interface ReferenceSong {

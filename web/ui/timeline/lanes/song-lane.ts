@@ -1,15 +1,15 @@
 import { loudest, peaks } from './curves';
-import { el, setText } from '../widgets/dom';
-import { drawBeats, drawWave, surface, token } from '../widgets/lane-canvas';
-import { accentOf, type CountedBeats } from '../store/counting';
-import { danceDuration } from '../store/selectors';
-import type { Services } from '../store/services';
-import { ShiftHandle, type ShiftHandleOptions } from './shift-handle';
-import { songStart } from '../store/song-shift';
-import type { LoadedSong } from '../store/reaction';
-import type { AppState } from '../store/state';
-import type { Store } from '../store/store';
-import type { TimeScale } from '../store/time-scale';
+import { el, setText } from '../../widgets/dom';
+import { drawBeats, drawWave, surface, token } from '../../widgets/lane-canvas';
+import { accentOf, type CountedBeats } from '../../store/counting';
+import { danceDuration } from '../../store/selectors';
+import type { Services } from '../../store/services';
+import { ShiftHandle, type ShiftHandleOptions } from '../shift-handle';
+import { songStart } from '../../store/song-shift';
+import type { LoadedSong } from '../../store/reaction';
+import type { AppState } from '../../store/state';
+import type { Store } from '../../store/store';
+import type { TimeScale } from '../../store/time-scale';
 
 /** How the lane is drawn; `shift` may be one that is still being dragged. */
 interface SongLaneView {

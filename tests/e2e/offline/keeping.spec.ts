@@ -1,7 +1,7 @@
 import type { Page } from '@playwright/test';
-import { bvh } from './support/files';
-import { App } from './support/app-page';
-import { expect, test } from './support/fixtures';
+import { bvh } from '../support/files';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
 
 /** A page with a take of its own. */
 async function withTake(page: Page): Promise<App> {

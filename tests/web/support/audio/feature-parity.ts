@@ -1,4 +1,4 @@
-import type { AudioRecipe } from '../../../web/audio/recipe';
+import type { AudioRecipe } from '../../../../web/audio/recipe';
 
 /** How close two feature matrices are, for one group of columns. */
 export interface GroupAgreement {

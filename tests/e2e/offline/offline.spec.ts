@@ -2,10 +2,10 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
-import { writeServiceWorker } from '../../tools/vite/service-worker.mjs';
-import { App } from './support/app-page';
-import { expect } from './support/fixtures';
-import { test } from './support/host';
+import { writeServiceWorker } from '../../../tools/vite/service-worker.mjs';
+import { App } from '../support/app-page';
+import { expect } from '../support/fixtures';
+import { test } from '../support/host';
 
 /** Waits until the service worker has cached the page. */
 async function serviceWorkerReady(page: Page): Promise<void> {

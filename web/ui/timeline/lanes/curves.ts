@@ -1,6 +1,6 @@
-import type { Peaks } from '../widgets/lane-canvas';
-import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Span } from '../store/time-scale';
+import type { Peaks } from '../../widgets/lane-canvas';
+import type { SolvedMotion } from '../../../motion/skeleton/clip';
+import type { Span } from '../../store/time-scale';
 
 /**
  * The lowest and highest sample of each column of a drawn waveform.

@@ -1,9 +1,9 @@
 /** A newer version put on the server while a tab is open never breaks that tab. */
-import { App } from './support/app-page';
-import { deployOtherVersion } from './support/deploy';
-import { bvh, wav } from './support/files';
-import { expect } from './support/fixtures';
-import { test } from './support/host';
+import { App } from '../support/app-page';
+import { deployOtherVersion } from '../support/deploy';
+import { bvh, wav } from '../support/files';
+import { expect } from '../support/fixtures';
+import { test } from '../support/host';
 
 test.describe('without a service worker', () => {
   test.use({ serviceWorkers: 'block' });

@@ -1,9 +1,9 @@
 import { countWithin } from './history-bytes';
-import { danceDuration, sameSettings } from './selectors';
-import type { Inputs, Settings, Take } from './reaction';
-import type { AppState } from './state';
-import type { Change } from './store';
-import { currentInputs, takeOnStage, withTake } from './take';
+import { danceDuration, sameSettings } from '../selectors';
+import type { Inputs, Settings, Take } from '../reaction';
+import type { AppState } from '../state';
+import type { Change } from '../store';
+import { currentInputs, takeOnStage, withTake } from '../take';
 
 /** A take as it was before and after a step; null where it was not there. */
 interface Edit {
