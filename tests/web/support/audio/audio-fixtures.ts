@@ -15,7 +15,7 @@ export interface ReferenceSong {
 
 /** Path of a file that tests/fixtures/make_audio.py made. */
 export function fixture(name: string): string {
-  return fileURLToPath(new URL(`../../fixtures/audio/${name}`, import.meta.url));
+  return fileURLToPath(new URL(`../../../fixtures/audio/${name}`, import.meta.url));
 }
 
 const golden = JSON.parse(readFileSync(fixture('golden.json'), 'utf8')) as {

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { readFloats, type ReferenceSong } from './audio-fixtures';
 
-const repository = fileURLToPath(new URL('../../../../..', import.meta.url));
+const repository = fileURLToPath(new URL('../../../../', import.meta.url));
 /** Folder of the real songs, whether it is there or not. */
 export const realSongFolder = join(repository, '../shared/data/music');
 const python = join(repository, '.venv/bin/python');
