@@ -8,7 +8,7 @@ export function steps(...afterFirst: Node[]): HTMLElement {
   return el(
     'ol',
     { class: 'steps' },
-    el('li', {}, 'Choose a song and a leader: one dancer’s motion as BVH. ', ...afterFirst),
+    el('li', {}, 'Choose a song and a leader: a video of one dancer, or a motion file. ', ...afterFirst),
     el('li', {
       text: 'Your browser makes the partner. The sliders change how it dances.',
     }),
@@ -57,14 +57,17 @@ export function howItWorks(): HTMLElement {
       'ul',
       {},
       item('Song', 'mp3, wav, ogg, flac, m4a or opus. Without one the couple dances in silence.'),
-      item('Leader', 'a BVH file, or joints as NPZ, NPY, JSON or CSV. The dance is as long as the leader.'),
+      item(
+        'Leader',
+        'a video of one dancer, or a motion file: BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV. The dance is as long as the leader.',
+      ),
     ),
     el('h3', { text: 'Where a leader comes from' }),
     el(
       'ul',
       {},
       item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
-      item('Mixamo', 'download a dance as FBX, import it into Blender, export it as BVH.'),
+      item('Mixamo', 'download a dance as FBX.'),
       item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),
       item('This page', 'a reactor downloaded here can be the leader of the next dance.'),
     ),

@@ -71,7 +71,7 @@ export function leaderlessProblem(name: string): Problem {
   return {
     code: 'no-leader',
     title: `${name} came without a leader that can be read.`,
-    hint: 'Its song is here. Choose the leader’s motion, as BVH, and a partner is made again.',
+    hint: 'Its song is here. Choose the leader’s video or motion file, and a partner is made again.',
     remedy: 'leader',
     refused: null,
   };
