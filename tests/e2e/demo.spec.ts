@@ -42,6 +42,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
     const { clip } = leaderBvh(readFileSync(await (await coming).path(), 'utf8'));
     const saved = Array.from(clip.positions.subarray(frame * 66, (frame + 1) * 66));
     expect(maxDistance(shown, saved)).toBeLessThan(0.001);
+    await page.keyboard.press('Escape');
     await lock.click();
   }
 });

@@ -38,7 +38,7 @@ test.describe('files', () => {
     [
       'an FBX',
       () => ({ name: 'dance.fbx', mimeType: '', buffer: Buffer.from('Kaydara FBX Binary  \0') }),
-      /^dance\.fbx is a motion/,
+      /^dance\.fbx: The FBX file is damaged/,
     ],
     ['a truncated BVH', brokenLeaders.truncated, /^cut off\.bvh/],
     ['a BVH without legs', brokenLeaders.noLegs, /^arms only\.bvh/],
