@@ -161,7 +161,7 @@ test('the seed is chosen at random, locked and kept, and swapped roles are named
 
 test('three reactions that differ most are made, to pick from', async ({ page }) => {
   const app = new App(page);
-  await app.openWithoutPicture();
+  await app.open();
   await app.settled();
   await app.chooseLeader(bvh({ frames: 900, name: 'mine.bvh' }));
   await app.reaction('mine.bvh');
@@ -205,8 +205,8 @@ test('three reactions that differ most are made, to pick from', async ({ page })
     cards
       .locator('canvas')
       .evaluateAll((list) => list.map((canvas) => (canvas as HTMLCanvasElement).toDataURL()));
+  await expect.poll(async () => new Set(await pictures()).size).toBe(3);
   const drawn = await pictures();
-  expect(new Set(drawn).size).toBe(3);
   await page.keyboard.press('End');
   await expect(cards.first()).toBeFocused();
   await page.getByRole('slider', { name: 'Playhead' }).press('End');
