@@ -48,7 +48,10 @@ for (const [width, height] of [
     });
     await serveDemo(page, demoSettings);
     await app.openWithoutPicture();
-    await app.until(({ demo, reading }) => demo === 'ready' && !reading.song && !reading.leader);
+    await app.until(
+      ({ demo, reading, settings }) =>
+        demo === 'ready' && !reading.song && !reading.leader && settings?.seed === 77,
+    );
     await expectStable('the page with its demo', NOTHING);
 
     release();
