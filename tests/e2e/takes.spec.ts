@@ -23,7 +23,7 @@ async function withTwoTakes(page: Page, frames = 90, before?: (app: App) => Prom
   const app = new App(page);
   await app.openWithoutPicture();
   await before?.(app);
-  await app.drop(wav({ seconds: 2, name: 'my song.wav' }), bvh({ frames, name: 'mine.bvh' }));
+  await app.drop(wav({ seconds: 6, name: 'my song.wav' }), bvh({ frames, name: 'mine.bvh' }));
   await app.until(({ reaction, song, job }) => reaction?.inputs.song === song && song && !job);
   await page.getByRole('spinbutton', { name: 'Seed' }).fill('77');
   await page.keyboard.press('Enter');
