@@ -88,6 +88,8 @@ export class ProjectDatabase implements ProjectStorage {
   private own: Ids = noIds();
   private storedTakes = new Map<string, StoredTake>();
   private storedPage: StoredPage | null = null;
+  /** The last write did not fit. */
+  private isFull = false;
 
   constructor(name = 'reactdance') {
     this.open = connection(name);
@@ -118,12 +120,16 @@ export class ProjectDatabase implements ProjectStorage {
       page: isSame(project.page, this.storedPage) ? null : project.page,
       removed: this.unused(wanted, project.takes, project.page),
     };
-    try {
-      await this.commit(difference);
-    } catch (error) {
-      if (!isFull(error)) throw error;
-      await this.writeWhatFits(project, wanted);
-    }
+    // Browsers free the space of a transaction that did not fit only later, so a full storage is not tried at once.
+    if (!this.isFull)
+      try {
+        return await this.commit(difference);
+      } catch (error) {
+        if (!isFull(error)) throw error;
+        this.isFull = true;
+      }
+    await this.writeWhatFits(project, wanted);
+    this.isFull = false;
   }
 
   async removeOwn(): Promise<void> {
@@ -151,7 +157,8 @@ export class ProjectDatabase implements ProjectStorage {
 
   /**
    * What does not fit in one transaction, in several: what has left the page first, because a full storage frees no
-   * space for what is added in the same transaction, then take by take, each with its parts, and the page last.
+   * space for what is added in the same transaction, then take by take, each with its parts, first those whose motion
+   * is there, since they are small, and the page last.
    * @throws the browser's error when something did not fit
    */
   private async writeWhatFits(project: StoredProject, wanted: Ids): Promise<void> {
@@ -163,6 +170,9 @@ export class ProjectDatabase implements ProjectStorage {
       motions: withId(motions, take.motion),
       takes: [take],
     }));
+    const hasNewMotion = ({ motions }: { motions: StoredProject['motions'] }): number =>
+      this.missing('motions', motions).length;
+    additions.sort((a, b) => hasNewMotion(a) - hasNewMotion(b));
     const pageFiles = { songs: withId(songs, page.song), leaders: withId(leaders, page.leader) };
     let full: Error | null = null;
     for (const addition of [...additions, { ...pageFiles, motions: [], takes: [] }])
