@@ -139,9 +139,9 @@ test.describe('refusals', () => {
     await expect.poll(() => page.workers().length).toBe(0);
   });
 
-  test('a crashed worker, and the next song gets a new one', async ({ page }) => {
+  test('a worker whose script does not come, and the next song gets a new one', async ({ page }) => {
     await page.route(/worker-.*\.js/, (route) => route.abort());
-    expect(await refusal(page, { url: SONG })).toMatchObject({ name: 'AppError', code: 'worker-crashed' });
+    expect(await refusal(page, { url: SONG })).toMatchObject({ name: 'AppError', code: 'page-part-missing' });
     await page.unroute(/worker-.*\.js/);
     expect((await load(page, { url: SONG })).frames).toBe(301);
   });

@@ -251,9 +251,9 @@ test('a ready-made reaction says that it has no layers, and how to get them', as
   await page.keyboard.press('Space');
   await page.keyboard.press('g');
   const menu = page.getByRole('dialog', { name: 'Show on the stage' });
-  await expect(menu).toContainText('came ready-made');
+  await expect(menu).toContainText('The demo reaction has no coarse layer to show.');
   expect(await app.read(({ coarse }) => coarse.motion)).toBeNull();
   await menu.getByRole('button', { name: 'Generate it here' }).click();
   await app.until(({ coarse, reaction }) => coarse.motion && reaction?.label === null);
-  await expect(menu).not.toContainText('ready-made');
+  await expect(menu).not.toContainText('no coarse layer');
 });
