@@ -190,7 +190,9 @@ test('everything is restored after a reload, and from a project file after the p
   await test.step('a reload', async () => {
     await takeStored(page, 'Softer hands');
     await page.reload();
-    await app.until(({ takes }) => takes.length === 2);
+    await app.until(
+      ({ takes, song, reaction }) => takes.length === 2 && song && reaction?.inputs.song === song,
+    );
     await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
     expect(await summary()).toEqual(before);
     expect(maxDistance(motion, await app.reactor())).toBe(0);
@@ -228,7 +230,9 @@ test('everything is restored after a reload, and from a project file after the p
 
   await test.step('the project is opened, and an error of a broken one is explained', async () => {
     await app.drop({ name: 'dance.reactdance', mimeType: '', buffer: saved });
-    await app.until(({ takes }) => takes.length === 2);
+    await app.until(
+      ({ takes, song, reaction }) => takes.length === 2 && song && reaction?.inputs.song === song,
+    );
     await expect(page.getByText('Opened: my song.wav, mine.bvh, 2 takes').first()).toBeVisible();
     expect(await summary()).toEqual(before);
     expect(maxDistance(motion, await app.reactor())).toBe(0);

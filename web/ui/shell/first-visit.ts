@@ -92,7 +92,7 @@ function demoText(state: AppState): string {
 
 function cameraButton(services: Services): HTMLElement {
   return el('button', {
-    class: 'btn ghost',
+    class: 'btn ghost camera',
     text: 'Use the camera',
     attributes: { type: 'button' },
     on: {
