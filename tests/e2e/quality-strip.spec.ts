@@ -25,7 +25,7 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
   await expect(mark).toHaveText('1');
   // No alarm before someone looks at the strip.
   await expect(mark).toHaveCSS('opacity', '0');
-  await feet.hover();
+  await page.locator('.lane.quality-feet').hover();
   await expect(mark).toHaveCSS('opacity', '1');
   await page.mouse.move(400, 5);
   await expect(mark).toHaveCSS('opacity', '0');
