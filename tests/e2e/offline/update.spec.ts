@@ -34,6 +34,8 @@ test.describe('without a service worker', () => {
     await page.getByRole('button', { name: 'Download', exact: true }).click();
     await page.getByRole('button', { name: /GLB/ }).click();
     await told();
+    // The dialog of the download is over the panel.
+    await page.keyboard.press('Escape');
     // The model itself goes on until it has to be started again.
     await page.getByRole('slider', { name: 'Fine guidance' }).fill('1');
     await app.until(
