@@ -75,7 +75,8 @@ def joints(mocap: Bvh, frame: int) -> np.ndarray:
             if channel.endswith("rotation"):
                 local = local @ turn(channel[0], value)
             else:
-                place["XYZ".index(channel[0])] += value
+                # In the place of the offset, as Blender, MotionBuilder and Maya take it.
+                place["XYZ".index(channel[0])] = value
         if parent is not None and parent.name in turns:
             place = places[parent.name] + turns[parent.name] @ place
             local = turns[parent.name] @ local
