@@ -341,8 +341,11 @@ async function convertLeaders(
 
 /** Waits for all; throws the first failure, and leaves no rejection unhandled. */
 async function settled(all: readonly Promise<unknown>[]): Promise<void> {
-  const failed = (await Promise.allSettled(all)).find((result) => result.status === 'rejected');
-  if (failed) throw failed.reason;
+  const errors = (await Promise.allSettled(all)).flatMap((result): unknown[] =>
+    result.status === 'rejected' ? [result.reason] : [],
+  );
+  // A full storage also aborts the requests beside the one that did not fit.
+  if (errors.length > 0) throw errors.find(isFull) ?? errors[0];
 }
 
 function isSame(one: unknown, other: unknown): boolean {
