@@ -13,6 +13,8 @@ export interface Analysis extends Pick<MusicFeatures, 'frames' | 'features'> {
   readonly pcm: Float32Array;
   /** The decoded sound as a WAV file, for playing. */
   readonly sound: Blob;
+  /** Largest absolute sample of `pcm`. */
+  readonly peak: number;
   /** Whether no sample of the song is louder than -80 decibels. */
   readonly silent: boolean;
 }
@@ -46,13 +48,15 @@ export function analyse(
   const { frames, features } = musicFeatures(pcm, recipe, (fraction) =>
     onProgress(RESAMPLING_SHARE + (1 - RESAMPLING_SHARE) * fraction),
   );
+  const peak = pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 0);
   return {
     frames,
     features,
     rhythm: rhythmOf(features, recipe),
     pcm,
     sound: encodeWav(channels, sampleRate),
-    silent: pcm.every((sample) => Math.abs(sample) <= MAX_SILENT_AMPLITUDE),
+    peak,
+    silent: peak <= MAX_SILENT_AMPLITUDE,
   };
 }
 

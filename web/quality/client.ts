@@ -1,3 +1,4 @@
+import { yieldToPage } from '../common/yield-to-events';
 import { runInWorker } from '../common/run-in-worker';
 import type { Report } from './measure';
 import type { Duet, Rules } from './rules';
@@ -17,6 +18,8 @@ export interface QualityRequest {
  * @throws the signal's reason
  */
 export async function measureDance(request: QualityRequest, signal: AbortSignal): Promise<Report> {
+  // Copying the dance to the worker is a task of its own: the dance has just been put on the stage.
+  await yieldToPage();
   signal.throwIfAborted();
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'quality' });
   return runInWorker<QualityTasks, 'measure'>(worker, 'measure', request, { signal });

@@ -24,7 +24,10 @@ describe('what is computed from decoded samples', () => {
     const quiet = Float32Array.from({ length: second }, (_, i) => 5e-5 * Math.sin(i / 10));
     expect(analyse([quiet], second, recipe, ignore).silent).toBe(true);
     const loud = quiet.map((sample) => sample * 100);
-    expect(analyse([loud], second, recipe, ignore).silent).toBe(false);
+    const { silent, pcm, peak } = analyse([loud], second, recipe, ignore);
+    expect(silent).toBe(false);
+    expect(peak).toBe(pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 0));
+    expect(peak).toBeGreaterThan(0);
   });
 
   it('reports progress that ascends to 1', () => {

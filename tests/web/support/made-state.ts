@@ -100,6 +100,7 @@ export function songData(seconds: number, more: Partial<Song> = {}): Song {
     duration: seconds,
     sampleRate: 15360,
     pcm: new Float32Array(0),
+    peak: 0,
     sound: new Blob(),
     features: new Float32Array(frames * 54),
     frames,

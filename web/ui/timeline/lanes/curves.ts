@@ -29,11 +29,6 @@ export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, colum
   return { low, high };
 }
 
-/** The largest absolute sample of a song, at least 0.001 so that it can be divided by. */
-export function loudest(pcm: Float32Array): number {
-  return pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 1e-3);
-}
-
 /** Speed of a dancer in each frame: the mean over the joints, m/s, smoothed over about 0.2 s. */
 export function speedCurve({
   positions,

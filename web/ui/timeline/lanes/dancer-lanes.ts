@@ -24,6 +24,8 @@ export class DancerLanes {
     reactor: createMotionLane('reactor', 'lane motion', this.#blocks.root),
   };
   readonly #motions: Record<Role, DrawnMotion | null> = { leader: null, reactor: null };
+  /** Motions that came since the last `draw`: finding their beats can wait until then. */
+  readonly #newMotions = new Map<Role, () => DrawnMotion | null>();
   /** Speed at the upper edge of both lanes, m/s. */
   #topSpeed = MIN_TOP_SPEED;
 
@@ -42,14 +44,12 @@ export class DancerLanes {
 
   /** Takes another motion, which the next `draw` shows. */
   setMotion(role: Role, motion: SolvedMotion | null, manifest: Manifest | null): void {
-    this.#motions[role] = motion && drawnMotion(motion, manifest);
-    const { leader, reactor } = this.#motions;
-    const usual = usualTopSpeed([...(leader?.speed ?? []), ...(reactor?.speed ?? [])]);
-    this.#topSpeed = Math.max(MIN_TOP_SPEED, HEADROOM * usual);
+    this.#newMotions.set(role, () => motion && drawnMotion(motion, manifest));
   }
 
   /** @param musicBeats seconds of the dance */
   draw(state: AppState, scale: TimeScale, musicBeats: readonly number[]): void {
+    this.#takeNewMotions();
     const made = generatedRole(state);
     const loadedView: MotionLaneView = {
       scale,
@@ -65,6 +65,13 @@ export class DancerLanes {
     if (this.#blocks.root.parentElement !== root) root.prepend(this.#blocks.root);
     this.#blocks.draw(state, scale);
     this.#showText(state);
+  }
+
+  #takeNewMotions(): void {
+    if (this.#newMotions.size === 0) return;
+    for (const [role, read] of this.#newMotions) this.#motions[role] = read();
+    this.#newMotions.clear();
+    this.#topSpeed = Math.max(MIN_TOP_SPEED, HEADROOM * usualTopSpeed(Object.values(this.#motions)));
   }
 
   /** Shows how far the job has come. */
@@ -85,9 +92,10 @@ export class DancerLanes {
   }
 }
 
-/** The largest of the usual speeds; `speeds` are sorted in place. */
-function usualTopSpeed(speeds: number[]): number {
-  return speeds.sort((a, b) => a - b)[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
+/** The largest of the usual speeds, m/s. */
+function usualTopSpeed(motions: readonly (DrawnMotion | null)[]): number {
+  const speeds = Float32Array.from(motions.flatMap((motion) => (motion ? [...motion.speed] : []))).sort();
+  return speeds[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
 }
 
 function capitalised(text: string): string {

@@ -1,4 +1,4 @@
-import { loudest, peaks } from './curves';
+import { peaks } from './curves';
 import { el, setText } from '../../widgets/dom';
 import { drawBeats, drawWave, surface, token } from '../../widgets/lane-canvas';
 import { accentOf, type CountedBeats } from '../../store/counting';
@@ -10,6 +10,9 @@ import type { LoadedSong } from '../../store/reaction';
 import type { AppState } from '../../store/state';
 import type { Store } from '../../store/store';
 import type { TimeScale } from '../../store/time-scale';
+
+/** Sample value that fills the lane's height at least, so that a silent song stays flat. */
+const MIN_PEAK = 1e-3;
 
 /** How the lane is drawn; `shift` may be one that is still being dragged. */
 interface SongLaneView {
@@ -56,15 +59,13 @@ function createWaveform(): {
   const played = el('div', { class: 'played' }, playedCanvas);
   const note = el('div', { class: 'none' });
   const root = el('div', { class: 'waveform', attributes: { role: 'img' } }, canvas, played, note);
-  /** The song whose loudest sample is known; finding it reads all of the song. */
-  let measured: { readonly song: LoadedSong; readonly loudest: number } | null = null;
 
   const drawSong = (song: LoadedSong, state: AppState, { scale, shift, beats }: SongLaneView): void => {
-    if (measured?.song !== song) measured = { song, loudest: loudest(song.data.pcm) };
     const start = songStart({ leader: state.leader, shift });
     const columns = Math.max(1, Math.round(scale.width * Math.min(2, window.devicePixelRatio)));
     const span = { from: scale.from - start, to: scale.to - start };
-    const shape = peaks(song.data.pcm, song.data.sampleRate, span, columns);
+    const { pcm, sampleRate, peak } = song.data;
+    const shape = peaks(pcm, sampleRate, span, columns);
     const colours = {
       bar: token(root, '--text-2'),
       beat: token(root, '--control-line'),
@@ -78,7 +79,7 @@ function createWaveform(): {
       const on = surface(each);
       if (!on) continue;
       drawBeats(on, marks, scale, colours);
-      drawWave(on, shape, measured.loudest, token(root, colour));
+      drawWave(on, shape, Math.max(peak, MIN_PEAK), token(root, colour));
     }
   };
   return {
