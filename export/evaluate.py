@@ -34,6 +34,7 @@ from training.data.sources import read_split
 from training.data.splits import Split
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import Request, react
+from training.evaluation.cached_model import CachedModel
 from training.evaluation.evaluate import evaluate
 from training.evaluation.out_of_distribution import read_leaders
 from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings, Solver
@@ -218,7 +219,7 @@ def main(options: Options) -> None:
     }
     every_step = reactor_generator(checkpoint, options.steps, at_every_step=True) if checkpoint else None
     evaluation = evaluate(
-        reactor_generator(model, options.steps),
+        reactor_generator(CachedModel(model), options.steps),
         held_out,
         duets.train,
         options.settings,
