@@ -66,6 +66,8 @@ class Options:
     music_cache: Path | None = None
     out_of_distribution: tuple[Path, ...] = ()
     """Leaders of other dances, without a partner: npz archives of solo dances, single BVH files."""
+    controlled: tuple[Path, ...] = ()
+    """Further leaders beside whom controls are moved: npz archives of solo dances, single BVH files."""
     steps: int | None = None
     """Sampling steps; the model's default when left out."""
     threads: int = 0
@@ -226,6 +228,7 @@ def main(options: Options) -> None:
         given,
         SOLVERS if options.solve else None,
         read_leaders(options.out_of_distribution),
+        read_leaders(options.controlled),
         defaults,
         every_step,
         console.print,

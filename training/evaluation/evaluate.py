@@ -59,6 +59,7 @@ def evaluate(
     given: Mapping[str, Motions] | None = None,
     solvers: Mapping[str, Solver] | None = None,
     out_of_distribution: Sequence[Solo] = (),
+    controlled: Sequence[Solo] = (),
     control_defaults: Mapping[str, float] | None = None,
     guided_at_every_step: ReactorGenerator | None = None,
     log: Log = lambda _: None,
@@ -68,7 +69,7 @@ def evaluate(
     train: duets that the baselines learn from. given: further rows whose motions exist already, such as
     reconstructions. solvers: each gives a row of its name, the generated motions on a skeleton of constant bone
     lengths; the last is what is drawn and exported, and controls are measured on it. out_of_distribution: leaders of
-    other dances, without a partner.
+    other dances, without a partner. controlled: further leaders beside whom controls are moved.
     control_defaults: the model's weight of every control, needed where the settings ask for controls.
     guided_at_every_step: the model with the paper's form of guidance, for the settings' grid.
     Raises ValueError without a held-out duet.
@@ -109,7 +110,7 @@ def evaluate(
         assert control_defaults is not None, "controls need the model's defaults"
         numbers["controls"] = measure_controls(
             generate,
-            _controlled(held_out, out_of_distribution, settings),
+            _controlled(held_out, out_of_distribution, controlled, settings),
             control_defaults,
             settings.seeds,
             drawn,
@@ -157,9 +158,11 @@ def _probes(
 
 
 def _controlled(
-    held_out: Sequence[HeldOutDuet], leaders: Sequence[Solo], settings: Settings
+    held_out: Sequence[HeldOutDuet], leaders: Sequence[Solo], further: Sequence[Solo], settings: Settings
 ) -> list[ControlledDance]:
-    """The held-out duets and the leaders that the settings name; the other song is that of the next duet."""
+    """The held-out duets, the leaders that the settings name and further ones; the other song is that of the next
+    duet.
+    """
     songs = [item.music for item in held_out]
 
     def dance(index: int, leader: np.ndarray, reactor: np.ndarray | None) -> ControlledDance:
@@ -174,5 +177,5 @@ def _controlled(
         raise ValueError(f"no out-of-distribution leader is called {', '.join(sorted(missing))}")
     return [
         *(dance(i, item.duet.leader, item.duet.reactor) for i, item in enumerate(held_out)),
-        *(dance(i, leader.motion, None) for i, leader in enumerate(named)),
+        *(dance(i, leader.motion, None) for i, leader in enumerate([*named, *further])),
     ]

@@ -189,11 +189,12 @@ def test_evaluation_moves_the_controls_beside_held_out_duets_and_named_leaders(
         train,
         settings,
         out_of_distribution=leaders,
+        controlled=[Solo("demo", made_duet(240, 7).leader)],
         control_defaults=DEFAULTS,
         guided_at_every_step=beside,
     ).numbers
     # Each dance with its own song, whose beats are 20 and 24 frames apart, and with the next one's.
-    assert heard == [(560, 20), (560, 24), (500, 24), (500, 20), (300, 20), (300, 24)]
+    assert heard == [(560, 20), (560, 24), (500, 24), (500, 20), (300, 20), (300, 24), (240, 24), (240, 20)]
     # This generator hears the song and no weight.
     assert at_end("coarse", "lower", "pose_moved_mm")(numbers) == 0
     assert (at_end("music", "upper", "songs_apart_mm")(numbers) or 0) > 0.5

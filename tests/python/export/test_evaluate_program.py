@@ -10,11 +10,21 @@ import numpy as np
 import pytest
 
 from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
+from export.golden import Scene
+from export.manifest import Card
 from export.runtime import open_model
 from export.tiny import tiny_model
+from export.write import write_model
 from tests.python.support.duets import made_duet
 from tests.python.support.real_data import real_file
-from training.checkpoint import save_denoiser, save_hfsq, write_first_card
+from training.checkpoint import (
+    load_model,
+    read_card,
+    read_config,
+    save_denoiser,
+    save_hfsq,
+    write_first_card,
+)
 from training.data.sources import read_split
 from training.evaluation.metrics.duet import duet_metrics
 from training.evaluation.metrics.errors import bone_variation
@@ -24,6 +34,7 @@ from training.motion.skeleton import JOINTS
 
 TINY = Path(__file__).parents[2] / "fixtures/tiny-model"
 SHIPPED = Path(__file__).parents[3] / "web/public/models/salsa"
+CHECKPOINTS = Path(__file__).parents[3] / "training/checkpoints"
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
@@ -85,14 +96,29 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
         main(Options(data=tmp_path / "duets.npz", out=tmp_path / "out"))
 
 
-def test_the_shipped_numbers_are_those_of_the_shipped_graphs():
-    """metrics.json beside the manifest: same graphs, and one dance of it measured again."""
-    model = open_model(SHIPPED, threads=1)
+def test_the_shipped_model_is_that_of_the_held_out_recipe():
+    """Both checkpoints have the same networks, schedule and sampling; they differ in the dances that they saw."""
+    for stage in ("hfsq", "denoiser"):
+        shipped, held_out = (
+            {k: v for k, v in read_config(CHECKPOINTS / name, stage).items() if k != "provenance"}
+            for name in ("salsa", "salsa-held-out")
+        )
+        assert shipped == held_out
+
+
+def test_the_shipped_numbers_are_those_of_the_held_out_checkpoint(tmp_path: Path):
+    """metrics.json beside the manifest: one dance of it generated and measured again."""
+    checkpoint = CHECKPOINTS / "salsa-held-out"
     stored = json.loads((SHIPPED / "metrics.json").read_text())
-    assert stored["graphs"] == {k: g["files"]["wasm"]["sha256"] for k, g in model.manifest["graphs"].items()}
+    assert stored["model"] == json.loads((checkpoint / "card.json").read_text())["id"]
     assert all(result["passed"] for result in stored["bars"])
+    data = real_file("cmu_salsa/duets.npz")
+    write_model(
+        load_model(checkpoint), Card(**read_card(checkpoint)), tmp_path, Scene(240, 1, silent_from=200)
+    )
+    model = open_model(tmp_path, threads=1)
     val, test = (tuple(stored["split"][part]) for part in ("val", "test"))
-    options = Options(data=real_file("cmu_salsa/duets.npz"), out=Path(), val=val, test=test)
+    options = Options(data=data, out=Path(), val=val, test=test)
     held_out = paired_duets(options, read_split(options.data, options.val, options.test))[0]
     sampling = stored["sampling"]
     made = reactor_generator(model, sampling["steps"])(
