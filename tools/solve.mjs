@@ -4,8 +4,8 @@
  *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] motion.f32 [motion.f32 ...]
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
- * form, and its fit error printed in millimetres. With --beside collisions with the leader are avoided and the root's
- * speed is limited; body.json has the capsules of both bodies (quality.penetration of a manifest). With --foot-lock
+ * form, and its fit error printed in millimetres. With --beside collisions with the leader are avoided, the root's
+ * speed is limited and who stays off the floor is brought down; body.json has the capsules of both bodies (quality.penetration of a manifest). With --foot-lock
  * feet in contact do not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -44,6 +44,8 @@ const { solve } = await loadWeb('motion/fit/ik.ts');
 const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
 /** @type {typeof import('../web/motion/contact/root-speed')} */
 const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
+/** @type {typeof import('../web/motion/contact/bring-down')} */
+const { bringDown } = await loadWeb('motion/contact/bring-down.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const leader = values.beside === undefined ? null : read(values.beside);
@@ -56,7 +58,7 @@ for (const file of positionals) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
       process.exit(2);
     }
-    motion = limitRootSpeed(avoidCollisions(motion, leader, body), leader);
+    motion = bringDown(limitRootSpeed(avoidCollisions(motion, leader, body), leader));
   }
   if (values['foot-lock']) motion = lockFeet(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));

@@ -1,5 +1,6 @@
 /** From blended latents to the solved dancer: a whole dance, or a part of it as it is in the whole. */
 import { yieldToEvents } from '../../common/yield-to-events';
+import { bringDown } from '../../motion/contact/bring-down';
 import { avoidCollisions, sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
 import { lockFeet } from '../../motion/contact/foot-lock';
@@ -118,8 +119,8 @@ export class Assembler {
   }
 
   /**
-   * Gives the dancer their size, fits the body to the joints, moves it out of the other dancer's and limits the root's
-   * speed.
+   * Gives the dancer their size, fits the body to the joints, moves it out of the other dancer's, limits the root's
+   * speed and brings down who stays off the floor.
    * @param leader the frames of the loaded dancer that belong to the clip's
    */
   #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
@@ -130,7 +131,8 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    return limitRootSpeed(avoidCollisions(solved, leader, quality.penetration), leader);
+    const apart = avoidCollisions(solved, leader, quality.penetration);
+    return bringDown(limitRootSpeed(apart, leader));
   }
 }
 

@@ -25,15 +25,28 @@ export interface SolvedMotion {
 
 /** The motion shifted level with the floor: by x and z metres in each frame. */
 export function shiftedLevel(motion: SolvedMotion, x: Float64Array, z: Float64Array): SolvedMotion {
-  const shifted = (points: Float32Array): Float32Array => {
+  return shifted(motion, (points, i, frame) => {
+    points[i]! += x[frame]!;
+    points[i + 2]! += z[frame]!;
+  });
+}
+
+/** The motion brought down by so many metres in each frame. */
+export function lowered(motion: SolvedMotion, down: Float64Array): SolvedMotion {
+  return shifted(motion, (points, i, frame) => {
+    points[i + 1]! -= down[frame]!;
+  });
+}
+
+function shifted(
+  motion: SolvedMotion,
+  shift: (points: Float32Array, i: number, frame: number) => void,
+): SolvedMotion {
+  const all = (points: Float32Array): Float32Array => {
     const moved = points.slice();
     const row = points.length / motion.frames;
-    for (let i = 0; i < moved.length; i += 3) {
-      const frame = Math.floor(i / row);
-      moved[i]! += x[frame]!;
-      moved[i + 2]! += z[frame]!;
-    }
+    for (let i = 0; i < moved.length; i += 3) shift(moved, i, Math.floor(i / row));
     return moved;
   };
-  return { ...motion, root: shifted(motion.root), positions: shifted(motion.positions) };
+  return { ...motion, root: all(motion.root), positions: all(motion.positions) };
 }
