@@ -64,7 +64,9 @@ import { mountUndoKeys } from './ui/takes/undo';
 import { PlaybackControl } from './ui/timeline/playback';
 import { mountTimeline } from './ui/timeline/timeline';
 import { mountTransport } from './ui/timeline/transport';
+import { openBeside } from './ui/video/beside';
 import { createVideoFeature } from './ui/video/open';
+import { mountVideoLane, VideoTrack } from './ui/video/video-lane';
 
 // ---- the store and the features that change it ----
 
@@ -82,11 +84,13 @@ const readers = {
   manifest: model.manifest,
 };
 const files = new FileLoader(store, readers, (file) => video.open(file));
+const videoTrack = new VideoTrack();
 const video = createVideoFeature(
   store,
   () => files,
   () => place('stage'),
   { seek: (seconds) => playback.seek(seconds), togglePlay: () => playback.toggle() },
+  videoTrack,
 );
 const project = new Project(store, files, readers, {
   storage: new ProjectDatabase(),
@@ -147,8 +151,15 @@ const services: Services = {
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
     openVideoStage: stage && ((size) => openCamera(stage, store, size)),
+    openBesideVideo: () => {
+      const shown = videoTrack.video;
+      return stage && shown
+        ? (size) => openBeside(size, shown, (half) => openCamera(stage, store, half))
+        : null;
+    },
     stageSize: () => stage?.pictureSize() ?? null,
   }),
+  hasLeaderVideo: () => videoTrack.video !== null,
   saveProject: () => void saveProject(),
   storeHere: project.takeOver,
   clearProject: () => {
@@ -183,7 +194,7 @@ for (const mount of [
 ])
   mount(stageHost, store, services);
 mountTransport(place('time'), store, services);
-mountTimeline(place('time'), store, services, mountQualityStrip);
+mountTimeline(place('time'), store, services, [mountVideoLane(videoTrack), mountQualityStrip]);
 for (const mount of [mountGuidance, mountOptions, mountFootLock, mountTakes, mountImportReport])
   mount(place('panel'), store, services);
 mountImportPanel(rememberedJoints)(document.body, store, services);

@@ -43,6 +43,14 @@ test('WebAssembly has the licences of the libraries that it was linked with', ()
       expect(section(name), name).toContain(library);
 });
 
+test('the page has the licence of the networks that find a dancer in a video', () => {
+  const [, pose = ''] = written.split('\n@mediapipe/pose 0.5.1675469404\n');
+  const [own = ''] = pose.split(`\n${'='.repeat(80)}\n`);
+  expect(own).toContain('Apache License\n                           Version 2.0, January 2004');
+  expect(own).toContain('END OF TERMS AND CONDITIONS');
+  expect(own).toContain('converted to ONNX');
+});
+
 test('all that meyda has bundled is named', () => {
   const { sources } = JSON.parse(read('node_modules/meyda/dist/web/meyda.min.js.map')) as {
     sources: string[];

@@ -15,6 +15,22 @@ const BUNDLED = new Map([
   ['onnxruntime-web', ['onnxruntime-common']],
 ]);
 
+/**
+ * Files of the page that were made from a package which is not installed: its facts, as a package.json has them.
+ * `licence-texts/NAME/*.txt` are its terms.
+ */
+const CONVERTED = [
+  {
+    name: '@mediapipe/pose',
+    version: '0.5.1675469404',
+    license: 'Apache-2.0',
+    author: 'Google LLC',
+    repository: 'google/mediapipe',
+    changed:
+      'The weights of its networks, pose_detection and pose_landmark_full, were converted to ONNX: models/pose/detector.onnx and models/pose/landmarks.onnx.',
+  },
+];
+
 /** Packages with WebAssembly that Emscripten compiled: it contains parts of Emscripten's libraries. */
 const EMSCRIPTEN = new Set(['onnxruntime-web', '@mediabunny/aac-encoder']);
 
@@ -32,7 +48,7 @@ const PACKAGE = /^.*\/node_modules\/((?:@[^/]+\/)?[^/]+)(?=\/)/;
 
 /**
  * Two plugins that together write licences.txt into a built page: our own licence, then name, version, licence, author,
- * source and full licence texts of every package that has code, WebAssembly, styles or fonts in the page or its
+ * source and full licence texts of every package that has code, WebAssembly, styles, fonts or weights in the page or its
  * workers. The build fails when one of them has no text or is under a licence that is not allowed.
  *
  * @returns {{ page: import('vite').Plugin, worker: () => import('vite').Plugin }} `worker` goes to Vite's
@@ -99,10 +115,13 @@ async function licenceTexts(folders) {
     const modules = folder.slice(0, -name.length);
     return (BUNDLED.get(name) ?? []).map((other) => modules + other);
   });
-  const sections = await Promise.all([...new Set([...folders, ...inner])].map(packageSection));
+  const sections = await Promise.all([
+    ...[...new Set([...folders, ...inner])].map(packageSection),
+    ...CONVERTED.map((facts) => section(facts, [])),
+  ]);
   const project = await readFile(new URL('../../LICENSE', import.meta.url), 'utf8');
   const line = '='.repeat(80);
-  const introduction = `ReactDance\n\n${project.trim()}\n\nThe page contains software and a font of others, under the terms below.`;
+  const introduction = `ReactDance\n\n${project.trim()}\n\nThe page contains software, a font and weights of networks of others, under the terms below.`;
   return `${[introduction, ...sections.sort()].join(`\n\n${line}\n`)}\n`;
 }
 
@@ -112,15 +131,26 @@ async function licenceTexts(folders) {
  * @throws when it has no licence text or its licence is not allowed
  */
 async function packageSection(folder) {
-  const { name, version, license, author, repository } = JSON.parse(
-    await readFile(path.join(folder, 'package.json'), 'utf8'),
-  );
+  const facts = JSON.parse(await readFile(path.join(folder, 'package.json'), 'utf8'));
+  return section(facts, await textsIn(folder, LICENCE_FILE));
+}
+
+/**
+ * @param {{
+ *   name: string, version: string, license: string, author?: string | { name: string },
+ *   repository?: string | { url: string }, changed?: string
+ * }} facts as in a package.json, and what was changed
+ * @param {string[]} own licence texts that the package brings
+ * @returns {Promise<string>} its part of licences.txt
+ * @throws when it has no licence text or its licence is not allowed
+ */
+async function section({ name, version, license, author, repository, changed }, own) {
   if (!ALLOWED.has(license))
     throw new Error(
       `${name} is in the page, but its licence (${license}) is not one of ${[...ALLOWED].join(', ')}`,
     );
   const texts = [
-    ...(await textsIn(folder, LICENCE_FILE)),
+    ...own,
     ...(await textsIn(path.join(OWN_TEXTS, name), /\.txt$/)),
     ...(EMSCRIPTEN.has(name) ? await textsIn(path.join(OWN_TEXTS, 'emscripten'), /\.txt$/) : []),
   ];
@@ -128,13 +158,14 @@ async function packageSection(folder) {
     throw new Error(
       `${name} is in the page, but has no licence text: add one to ${path.join(OWN_TEXTS, name)}`,
     );
-  const by = author?.name ?? author;
-  const source = webAddress(repository?.url ?? repository);
+  const by = typeof author === 'object' ? author.name : author;
+  const source = webAddress(typeof repository === 'object' ? repository.url : repository);
   const facts = [
     `${name} ${version}`,
     `Licence: ${license}`,
     ...(by === undefined ? [] : [`By: ${by}`]),
     ...(source === undefined ? [] : [`Source: ${source}`]),
+    ...(changed === undefined ? [] : [`Changed: ${changed}`]),
   ];
   return [facts.join('\n'), ...texts].join('\n\n');
 }

@@ -1,6 +1,8 @@
 import { AppError } from '../common/error';
+import { loadPart } from '../common/page-part';
 import { WorkerConnection } from '../common/run-in-worker';
 import type { Observations } from './observations';
+import type { Picture } from './pose/picture';
 import type { Point } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
 import { BONES } from './world/landmark-names';
@@ -49,6 +51,44 @@ export function createVideoReader(): VideoReader {
     solve: (observations, options, signal) => connection.call('solve', { observations, options }, { signal }),
     dispose: () => {
       connection.dispose();
+    },
+  };
+}
+
+/** The pictures of a video in order, for drawing them beside something else. */
+export interface Pictures {
+  readonly width: number;
+  readonly height: number;
+  /**
+   * Draws the picture that is shown at a moment, seconds from the first picture; `draw` is not called where it is still
+   * the one that was drawn last. Moments ascend.
+   */
+  drawAt(seconds: number, draw: (picture: Picture) => void): Promise<void>;
+  close(): void;
+}
+
+/**
+ * Opens the pictures of a video from a moment on, seconds.
+ * @throws {AppError} as reading the video does
+ */
+export async function openPictures(file: Blob, from: number): Promise<Pictures> {
+  const { openVideo } = await loadPart(() => import('./frames'));
+  const video = await openVideo(file);
+  const pictures = video.pictures(from, Infinity);
+  let coming = await pictures.next();
+  return {
+    width: video.width,
+    height: video.height,
+    drawAt: async (seconds, draw) => {
+      // Each picture is valid until the next one is asked for, so it is drawn before.
+      while (!coming.done && coming.value.time <= seconds + 1e-3) {
+        draw(coming.value.picture);
+        coming = await pictures.next();
+      }
+    },
+    close: () => {
+      void pictures.return(undefined);
+      video.close();
     },
   };
 }

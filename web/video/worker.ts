@@ -6,7 +6,8 @@ import { checkSeen } from './checks';
 import { openVideo } from './frames';
 import { type Observations, Recorder } from './observations';
 import { loadPoseGraphs } from './pose/graphs';
-import type { Person } from './pose/detector';
+import { bodyBox } from './pose/detector';
+import type { Picture } from './pose/picture';
 import { PersonTracker, type Point } from './pose/tracker';
 import { adviceOn, confidenceOf } from './world/advice';
 import { type WorldOptions, reconstruct } from './world/reconstruct';
@@ -30,8 +31,14 @@ export type ReadReport =
       readonly height: number;
       readonly hasSound: boolean;
     }
-  /** Several people, of whom one can be picked. */
-  | { readonly kind: 'persons'; readonly time: number; readonly boxes: readonly Person['box'][] }
+  /** Several people, of whom one can be picked: about where each is, left, top, right and bottom in pixels. */
+  | {
+      readonly kind: 'persons';
+      readonly time: number;
+      readonly boxes: readonly (readonly [number, number, number, number])[];
+    }
+  /** A small picture of a moment for the timeline. */
+  | { readonly kind: 'thumbnail'; readonly time: number; readonly image: ImageBitmap }
   /** The newest picture: its time, and 33 x 2 landmarks in pixels where the person is seen. */
   | { readonly kind: 'picture'; readonly time: number; readonly landmarks: Float32Array | null };
 
@@ -52,6 +59,8 @@ export interface VideoMotion {
   readonly advice: readonly string[];
 }
 
+/** Pictures for the timeline: as many over the whole video, seconds between two at the least, and their height. */
+const THUMBNAILS = { most: 80, spacing: 0.5, height: 48 };
 /** Least time between two reports of pictures. */
 const REPORT_INTERVAL_MS = 200;
 
@@ -68,15 +77,19 @@ async function read(
     });
     const tracker = new PersonTracker(graphs, pick);
     const recorder = new Recorder(width, height);
+    const thumbnails = new Thumbnails(duration, width / height);
     let reported = 0;
-    let asked = false;
+    // Who was picked is not asked about again.
+    let asked = pick !== null;
     for await (const { time, picture } of video.pictures(0, Infinity)) {
       const tracked = await tracker.next(picture);
       recorder.add(time, tracked);
+      const image = thumbnails.next(time, picture);
+      if (image) void report({ kind: 'thumbnail', time, image });
       if (!asked && tracked.persons && tracked.persons.length > 0) {
         asked = true;
         if (tracked.persons.length > 1)
-          void report({ kind: 'persons', time, boxes: tracked.persons.map(({ box }) => box) });
+          void report({ kind: 'persons', time, boxes: tracked.persons.map(bodyBox) });
       }
       if (performance.now() - reported > REPORT_INTERVAL_MS) {
         reported = performance.now();
@@ -90,6 +103,30 @@ async function read(
     return observations;
   } finally {
     video.close();
+  }
+}
+
+/** Small pictures of a video, evenly over its time. */
+class Thumbnails {
+  readonly #context: OffscreenCanvasRenderingContext2D;
+  readonly #spacing: number;
+  #last = -Infinity;
+
+  /** @param aspect width / height of the video */
+  constructor(duration: number, aspect: number) {
+    this.#spacing = Math.max(THUMBNAILS.spacing, duration / THUMBNAILS.most);
+    const width = Math.max(1, Math.round(THUMBNAILS.height * aspect));
+    this.#context = new OffscreenCanvas(width, THUMBNAILS.height).getContext('2d')!;
+  }
+
+  /** The picture in small where it is time for one. */
+  next(time: number, picture: Picture): ImageBitmap | null {
+    if (time - this.#last < this.#spacing) return null;
+    this.#last = time;
+    const { canvas } = this.#context;
+    this.#context.setTransform(canvas.width / picture.width, 0, 0, canvas.height / picture.height, 0, 0);
+    picture.draw(this.#context);
+    return canvas.transferToImageBitmap();
   }
 }
 

@@ -46,7 +46,7 @@ export async function encodeVideo(
     await output.start();
     for (let frame = 0; frame < frames; frame++) {
       signal.throwIfAborted();
-      source.draw(frame);
+      await source.draw(frame);
       await pictures.add(frame / fps, 1 / fps);
       // Sound is added second by second, so that neither track is far behind the other in the file.
       if (audio && (frame % fps === 0 || frame === frames - 1))

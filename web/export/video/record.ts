@@ -43,7 +43,7 @@ export async function recordVideo(
     const begin = performance.now();
     for (let frame = 0; frame < frames;) {
       signal.throwIfAborted();
-      source.draw(frame);
+      await source.draw(frame);
       onProgress({ frame: frame + 1, frames });
       const next = Math.max(frame + 1, Math.floor(((performance.now() - begin) / 1000) * fps));
       await pause((next / fps) * 1000 - (performance.now() - begin));

@@ -5,8 +5,11 @@ export interface VideoSource {
   readonly fps: number;
   readonly frames: number;
   readonly canvas: HTMLCanvasElement;
-  /** Draws a frame on the canvas, where it stays until the task ends. Frame numbers ascend; some may be left out. */
-  readonly draw: (frame: number) => void;
+  /**
+   * Draws a frame on the canvas, where it stays until the task ends in which the promise is settled. Frame numbers
+   * ascend; some may be left out.
+   */
+  readonly draw: (frame: number) => void | Promise<void>;
   readonly sound: Soundtrack | null;
 }
 

@@ -1,7 +1,7 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
 import { maxLegLength, twoBoneIk } from './two-bone-ik';
-import { contactIntervals } from './foot-contacts';
+import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 import { add, length, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
@@ -26,6 +26,14 @@ const PASSES = 6;
 /** By how much a leg may be too short for a shift before the weight of a shift of zero doubles, metres. */
 const SHORTFALL = 0.002;
 
+/** What is held, and how firmly. */
+interface HoldOptions {
+  /** When an ankle or a toe is in contact with the floor. */
+  readonly contacts: (joint: number) => readonly ContactInterval[];
+  /** Weight of a slide; without it that of `leastSquaresShift`. */
+  readonly weight?: number;
+}
+
 /** The vectors from hip to knee and from knee to ankle, metres. */
 function bonesAt(
   positions: Float32Array,
@@ -44,11 +52,15 @@ function bonesAt(
  * The shift that keeps a foot in place while it is in contact, along both axes of the floor, one number a frame, metres.
  * Each pass raises the weight of a shift of zero where the pass before asked for too much.
  */
-function shiftOf(motion: SolvedMotion, joints: LegJoints): { x: Float64Array; z: Float64Array } {
+function shiftOf(
+  motion: SolvedMotion,
+  joints: LegJoints,
+  { contacts, weight }: HoldOptions,
+): { x: Float64Array; z: Float64Array } {
   const { frames, positions } = motion;
   const feet = [joints.ankle, joints.toe].map((joint) => ({
     joint,
-    contacts: contactIntervals(motion, joint),
+    contacts: contacts(joint),
   }));
   const tracks = (axis: 0 | 2): Track[] =>
     feet.map(({ joint, contacts }) => ({
@@ -60,7 +72,8 @@ function shiftOf(motion: SolvedMotion, joints: LegJoints): { x: Float64Array; z:
     }));
   const [along, across] = [tracks(0), tracks(2)];
   const zeroWeights = new Float64Array(frames).fill(1);
-  let [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
+  const held = (some: readonly Track[]): Float64Array => leastSquaresShift(some, zeroWeights, weight);
+  let [x, z] = [held(along), held(across)];
   for (let pass = 1; pass < PASSES; pass++) {
     for (let t = 0; t < frames; t++) {
       const { thigh, shin } = bonesAt(positions, joints, t);
@@ -69,7 +82,7 @@ function shiftOf(motion: SolvedMotion, joints: LegJoints): { x: Float64Array; z:
       const shortfall = Math.max(0, length(ankle) - maxLegLength(thigh, shin));
       zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
     }
-    [x, z] = [leastSquaresShift(along, zeroWeights), leastSquaresShift(across, zeroWeights)];
+    [x, z] = [held(along), held(across)];
   }
   return { x, z };
 }
@@ -81,12 +94,17 @@ function shiftOf(motion: SolvedMotion, joints: LegJoints): { x: Float64Array; z:
  * shin follow by two-bone inverse kinematics. Joints above the knees do not move. Bone lengths stay, rotations stay
  * continuous, and positions are again the forward kinematics of the rotations. `fitError` remains that of the fit
  * before. Pure.
+ *
+ * @param hold without it contacts are found in the motion
  */
-export function lockFeet(motion: SolvedMotion): SolvedMotion {
+export function lockFeet(
+  motion: SolvedMotion,
+  hold: HoldOptions = { contacts: (joint) => contactIntervals(motion, joint) },
+): SolvedMotion {
   const rotations = motion.rotations.slice();
   const positions = motion.positions.slice();
   for (const joints of LEGS) {
-    const { x, z } = shiftOf(motion, joints);
+    const { x, z } = shiftOf(motion, joints, hold);
     for (let frame = 0; frame < motion.frames; frame++) {
       shiftFoot(motion, joints, frame, [x[frame]!, 0, z[frame]!], { rotations, positions });
     }

@@ -1,3 +1,4 @@
+import { addEvenness, solvePentadiagonal } from '../math/pentadiagonal';
 import type { ContactInterval } from './foot-contacts';
 
 /** Weights of a slide during contact and of the shift's second difference over time; that of a shift of zero is about 1. */
@@ -20,13 +21,18 @@ export interface Track {
  * with positions p, and the second term for joints and frames in contact only. A joint in contact thereby rests in the
  * middle of where it slid, the shift is smooth between two contacts, and it decays to zero in the air. A joint that
  * slides for long is not held: the shift lags behind and the foot follows slowly. The normal equations have five
- * diagonals and are solved in place by an L D L^T factorisation.
+ * diagonals.
  *
  * @param tracks the joints of one foot
  * @param zeroWeights weight of a shift of zero, w in the sum, one a frame; 1 where nothing else asks for more
+ * @param contactWeight weight of a slide during contact
  * @returns the shift in metres, one a frame
  */
-export function leastSquaresShift(tracks: readonly Track[], zeroWeights: Float64Array): Float64Array {
+export function leastSquaresShift(
+  tracks: readonly Track[],
+  zeroWeights: Float64Array,
+  contactWeight = CONTACT_WEIGHT,
+): Float64Array {
   const frames = zeroWeights.length;
   const diagonal = Float64Array.from(zeroWeights);
   /** Coefficients between frame t and t + 1, t and t + 2. */
@@ -37,41 +43,14 @@ export function leastSquaresShift(tracks: readonly Track[], zeroWeights: Float64
     for (const { first, last } of contacts) {
       for (let t = first; t < last; t++) {
         const slide = positions[t + 1]! - positions[t]!;
-        diagonal[t]! += CONTACT_WEIGHT;
-        diagonal[t + 1]! += CONTACT_WEIGHT;
-        next[t]! -= CONTACT_WEIGHT;
-        shift[t]! += CONTACT_WEIGHT * slide;
-        shift[t + 1]! -= CONTACT_WEIGHT * slide;
+        diagonal[t]! += contactWeight;
+        diagonal[t + 1]! += contactWeight;
+        next[t]! -= contactWeight;
+        shift[t]! += contactWeight * slide;
+        shift[t + 1]! -= contactWeight * slide;
       }
     }
   }
-  for (let t = 1; t < frames - 1; t++) {
-    diagonal[t - 1]! += SMOOTHNESS_WEIGHT;
-    diagonal[t]! += 4 * SMOOTHNESS_WEIGHT;
-    diagonal[t + 1]! += SMOOTHNESS_WEIGHT;
-    next[t - 1]! -= 2 * SMOOTHNESS_WEIGHT;
-    next[t]! -= 2 * SMOOTHNESS_WEIGHT;
-    second[t - 1]! += SMOOTHNESS_WEIGHT;
-  }
-  for (let t = 0; t < frames; t++) {
-    const pivot = diagonal[t]!;
-    const one = next[t]! / pivot;
-    const two = second[t]! / pivot;
-    if (t + 1 < frames) {
-      diagonal[t + 1]! -= one * one * pivot;
-      next[t + 1]! -= one * two * pivot;
-      shift[t + 1]! -= one * shift[t]!;
-    }
-    if (t + 2 < frames) {
-      diagonal[t + 2]! -= two * two * pivot;
-      shift[t + 2]! -= two * shift[t]!;
-    }
-    next[t] = one;
-    second[t] = two;
-    shift[t]! /= pivot;
-  }
-  for (let t = frames - 2; t >= 0; t--) {
-    shift[t]! -= next[t]! * shift[t + 1]! + (t + 2 < frames ? second[t]! * shift[t + 2]! : 0);
-  }
-  return shift;
+  addEvenness(diagonal, next, second, SMOOTHNESS_WEIGHT);
+  return solvePentadiagonal(diagonal, next, second, shift);
 }

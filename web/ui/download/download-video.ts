@@ -31,12 +31,14 @@ export function createDownloadVideo(
     captionField(store, 'title', 'Title', 'In the first seconds'),
     captionField(store, 'credit', 'Credit', 'Below the whole video'),
   ];
+  const beside = createBeside(store, services);
   const progress = createProgress();
   const part = el(
     'section',
     { class: 'video', attributes: { 'aria-label': 'Video' } },
     head.root,
     sizeRow,
+    beside.root,
     ...captions,
     progress.root,
   );
@@ -45,6 +47,7 @@ export function createDownloadVideo(
     const focused = part.contains(document.activeElement) ? document.activeElement : null;
     head.show(state, plan);
     for (const row of [sizeRow, ...captions]) row.hidden = state.videoProgress !== null;
+    beside.show(state);
     sizes.show(state.download.size);
     progress.show(state.videoProgress);
     if (focused instanceof HTMLElement && !focused.offsetParent) head.focus(state);
@@ -76,6 +79,34 @@ export function createDownloadVideo(
         (state) => void ask(state),
       ),
     ),
+  };
+}
+
+/** Whether the leader's video is shown beside the dance. */
+function createBeside(
+  store: Store,
+  services: Services,
+): { readonly root: HTMLElement; readonly show: (state: AppState) => void } {
+  const box = el('input', {
+    attributes: { type: 'checkbox', id: 'beside-video' },
+    on: {
+      change: () => {
+        apply(store, downloadChosen({ beside: box.checked }));
+      },
+    },
+  });
+  const root = el(
+    'label',
+    { class: 'row soft', attributes: { for: box.id } },
+    'Beside it the video of the leader',
+    box,
+  );
+  return {
+    root,
+    show: ({ videoProgress, download }) => {
+      root.hidden = videoProgress !== null || !services.hasLeaderVideo();
+      box.checked = download.beside;
+    },
   };
 }
 

@@ -34,7 +34,7 @@ interface Pixels {
 export interface VideoStage {
   readonly canvas: HTMLCanvasElement;
   /** Draws the dance at `seconds`; times ascend. */
-  readonly drawAt: (seconds: number) => void;
+  readonly drawAt: (seconds: number) => void | Promise<void>;
   readonly dispose: () => void;
 }
 
@@ -42,6 +42,8 @@ export interface VideoStage {
 interface DownloadTools {
   /** Opens a stage for a video, framed as the one on the page; null without a stage. */
   readonly openVideoStage: ((size: Pixels) => Promise<VideoStage>) | null;
+  /** The same with the leader's video in the other half of the picture; null without such a video. */
+  readonly openBesideVideo: () => ((size: Pixels) => Promise<VideoStage>) | null;
   readonly stageSize: () => Pixels | null;
 }
 
@@ -148,12 +150,13 @@ async function writeDance(
   const plan = await planVideo(size, sound !== null);
   signal.throwIfAborted();
   if (!plan) throw unsupported();
-  const stage = await tools.openVideoStage(size);
+  const besideVideo = state.download.beside ? tools.openBesideVideo() : null;
+  const stage = await (besideVideo ?? tools.openVideoStage)(size);
   try {
     const { theme, download } = state;
     const picture = captioned(stage.canvas, download, theme);
-    const draw = (frame: number): void => {
-      stage.drawAt(frame / fps);
+    const draw = async (frame: number): Promise<void> => {
+      await stage.drawAt(frame / fps);
       picture.draw(frame / fps);
     };
     const file = await writeVideo(

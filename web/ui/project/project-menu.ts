@@ -108,6 +108,12 @@ function build(services: Services, toggle: () => void): Elements {
     'Empties the page; undo brings it back until you make a take',
     services.clearProject,
   );
+  const record = entry(
+    'leader',
+    'Record a leader',
+    'With the camera, up to two minutes; the song plays meanwhile',
+    services.recordVideo,
+  );
   const head = el('h2');
   const persistence = el('p', { class: 'persistence' });
   const menu = el(
@@ -117,6 +123,7 @@ function build(services: Services, toggle: () => void): Elements {
     persistence,
     save,
     open,
+    record,
     clear,
   );
   menu.hidden = true;

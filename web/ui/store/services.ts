@@ -98,6 +98,8 @@ export interface Services {
   readonly planVideo: () => Promise<VideoPlan | null>;
   /** Renders the dance as a video of the chosen size and hands it to the browser's downloads. */
   readonly saveVideo: () => void;
+  /** Whether the leader is from a video that can be shown beside the dance. */
+  readonly hasLeaderVideo: () => boolean;
   readonly cancelVideo: () => void;
   /** Shares the file that was written last with another app, by the system's own dialog. */
   readonly shareSaved: () => void;

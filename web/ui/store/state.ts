@@ -151,6 +151,8 @@ export interface DownloadChoice {
   /** Written into the first seconds of a video, and below all of it; empty for none. */
   readonly title: string;
   readonly credit: string;
+  /** Whether a video also shows the leader's video, if there is one, in half of its picture. */
+  readonly beside: boolean;
 }
 
 /** A video that is being written. */

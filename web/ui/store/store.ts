@@ -47,7 +47,7 @@ export function initialState(theme: Theme): AppState {
     quality: null,
     reference: null,
     job: null,
-    download: { who: 'reactor', format: 'bvh', size: '1080p', title: '', credit: '' },
+    download: { who: 'reactor', format: 'bvh', size: '1080p', title: '', credit: '', beside: false },
     writing: null,
     videoProgress: null,
     saved: null,

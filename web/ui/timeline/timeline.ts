@@ -28,14 +28,14 @@ type MountLanes = (
 ) => () => void;
 
 /**
- * The timeline: ruler, song, leader and reactor over the same seconds, more lanes below, loop region and playhead
+ * The timeline: ruler, song, leader and reactor over the same seconds, more lanes below in the given order, loop region and playhead
  * across all of them.
  */
 export function mountTimeline(
   root: HTMLElement,
   store: Store,
   services: Services,
-  mountMoreLanes: MountLanes,
+  moreLanes: readonly MountLanes[],
 ): () => void {
   const scale = (): TimeScale => timeScale(visibleSpan(store.getState()), dancers.width);
   /** The shift of the song while it is being dragged, frames. */
@@ -56,7 +56,7 @@ export function mountTimeline(
     ...[ruler.label, ruler.root, songLabel.root, songLane.root, ...dancers.elements],
   );
   root.append(lanes);
-  const moreLanes = mountMoreLanes(lanes, store, services, visibleSpan);
+  const mounted = moreLanes.map((mount) => mount(lanes, store, services, visibleSpan));
   const playhead = new Playhead(lanes, store, services, scale);
   lanes.append(playhead.root);
   const loop = new LoopRegion(store, services, { ruler: ruler.root, overlay: playhead.root, scale });
@@ -98,7 +98,7 @@ export function mountTimeline(
     mountLaneZoom(store, lanes, playhead.root, scale),
     loop.dispose,
     playhead.dispose,
-    moreLanes,
+    ...mounted,
     songLane.dispose,
     redraw.cancel,
     () => {

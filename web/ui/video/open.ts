@@ -3,6 +3,7 @@ import type { Store } from '../store/store';
 import { apply } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { fileProblem } from '../store/problems';
+import type { VideoTrack } from './video-lane';
 import type { VideoLeader } from './video-leader';
 
 /** Makes a leader of a video; everything that needs is loaded with the first one. */
@@ -16,18 +17,20 @@ export interface VideoFeature {
 /**
  * @param host the stage, over which the video is shown
  * @param files where the motion and the sound go
+ * @param track the video that is open, for the timeline and the exported video
  */
 export function createVideoFeature(
   store: Store,
   files: () => Pick<Files, 'openLeader' | 'openSong'>,
   host: () => HTMLElement,
   playback: Pick<Services, 'seek' | 'togglePlay'>,
+  track: VideoTrack,
 ): VideoFeature {
   let leader: VideoLeader | null = null;
   const load = async (): Promise<VideoLeader> => {
     if (leader) return leader;
     const module = await import('./video-leader');
-    return (leader ??= new module.VideoLeader(store, files(), host()));
+    return (leader ??= new module.VideoLeader(store, files(), host(), track));
   };
   return {
     open: async (file) => {

@@ -17,6 +17,7 @@ import { fileProblem, isAbort } from '../store/problems';
 import type { Files } from '../store/services';
 import { apply, watch, watchAll, type Store } from '../store/store';
 import { combineDisposers } from '../widgets/dom';
+import type { Thumbnail, VideoTrack } from './video-lane';
 import { VideoPanel } from './video-panel';
 
 /** Height of a dancer until it is told, metres. */
@@ -33,6 +34,7 @@ interface Session {
   observations: Observations | null;
   options: WorldOptions;
   motion: VideoMotion | null;
+  thumbnails: readonly Thumbnail[];
 }
 
 /**
@@ -47,6 +49,7 @@ export class VideoLeader {
     private readonly store: Store,
     private readonly files: Pick<Files, 'openLeader' | 'openSong'>,
     private readonly host: HTMLElement,
+    private readonly track: VideoTrack,
   ) {}
 
   /** @param songOfVideo whether the page's song played while the video was recorded */
@@ -62,6 +65,7 @@ export class VideoLeader {
       observations: null,
       options: { height: DEFAULT_HEIGHT, focal: DEFAULT_FOCAL, trim: null },
       motion: null,
+      thumbnails: [],
       panel: new VideoPanel(this.host, file, {
         close: () => {
           this.#close();
@@ -84,8 +88,13 @@ export class VideoLeader {
     const signal = AbortSignal.any([reading.signal, ended.signal]);
     try {
       panel.showReading();
+      session.thumbnails = [];
+      this.#showLane(session);
       const onReport = (report: ReadReport): void => {
-        panel.showReport(report);
+        if (report.kind === 'thumbnail') {
+          session.thumbnails = [...session.thumbnails, report];
+          this.#showLane(session);
+        } else panel.showReport(report);
       };
       const observations = await reader.read(file, pick, signal, onReport);
       session.observations = observations;
@@ -110,6 +119,7 @@ export class VideoLeader {
       if (session.options !== options) return;
       session.motion = motion;
       panel.showMotion(observations, motion);
+      this.#showLane(session);
       const { shift } = this.store.getState();
       await this.files.openLeader({
         name: file.name,
@@ -124,6 +134,12 @@ export class VideoLeader {
       if (ended.signal.aborted || isAbort(error)) return;
       apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
     }
+  }
+
+  /** The video on the timeline, as far as it is read. */
+  #showLane({ file, motion, thumbnails }: Session): void {
+    const { start = 0, confidence = new Float32Array() } = motion ?? {};
+    this.track.set({ name: file.name, file, start, confidence, thumbnails, fps: FPS });
   }
 
   async #useSound(session: Session): Promise<void> {
@@ -162,6 +178,7 @@ export class VideoLeader {
     if (!session) return;
     this.#session = null;
     session.ended.abort();
+    this.track.set(null);
     session.reader.dispose();
     session.panel.dispose();
   }

@@ -2,8 +2,8 @@ import type { Observations, Point, ReadReport, VideoMotion, WorldOptions } from 
 import { closeButton } from '../widgets/close-button';
 import { el, setText, setVariable } from '../widgets/dom';
 import { textButton } from '../widgets/button';
-import { ConfidenceStrip } from './confidence-strip';
 import { createControls, type Controls } from './controls';
+import { UNSURE } from './video-lane';
 import { VideoPicture } from './video-picture';
 
 /** What the visitor does on the panel. */
@@ -15,11 +15,10 @@ export interface PanelActions {
   readonly useSound: () => void;
 }
 
-/** The video beside the stage: its picture, progress while it is read, then confidence, advice and corrections. */
+/** The video beside the stage: its picture, progress while it is read, then advice and corrections. */
 export class VideoPanel {
   readonly #root: HTMLElement;
   readonly #picture: VideoPicture;
-  readonly #strip = new ConfidenceStrip();
   readonly #status = el('p', { class: 'status', attributes: { role: 'status' } });
   readonly #fill = el('i');
   readonly #meter: HTMLElement;
@@ -54,7 +53,6 @@ export class VideoPanel {
       { class: 'float video-panel', attributes: { 'aria-label': 'Video of the leader' } },
       el('div', { class: 'head' }, el('h2', { text: file.name }), closeButton(actions.close)),
       this.#picture.root,
-      this.#strip.root,
       this.#status,
       el('div', { class: 'reading' }, this.#meter, this.#cancel),
       this.#advice,
@@ -72,7 +70,7 @@ export class VideoPanel {
     this.#progress(0);
   }
 
-  showReport(report: ReadReport): void {
+  showReport(report: Exclude<ReadReport, { kind: 'thumbnail' }>): void {
     switch (report.kind) {
       case 'opened':
         this.#duration = report.duration;
@@ -108,8 +106,7 @@ export class VideoPanel {
   showMotion(observations: Observations, motion: VideoMotion): void {
     this.#reading(false);
     this.#picture.showObservations(observations);
-    this.#strip.show(motion.confidence);
-    const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= 0.5), 0);
+    const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= UNSURE), 0);
     const share = Math.round((100 * sure) / Math.max(1, motion.confidence.length));
     setText(
       this.#status,
@@ -129,7 +126,6 @@ export class VideoPanel {
     start: number,
   ): void {
     this.#picture.showTime(playback, start);
-    this.#strip.showTime(playback.time);
   }
 
   dispose(): void {
@@ -140,7 +136,7 @@ export class VideoPanel {
   #reading(on: boolean): void {
     this.#root.classList.toggle('is-reading', on);
     this.#meter.hidden = this.#cancel.hidden = !on;
-    this.#strip.root.hidden = this.#controls.root.hidden = on;
+    this.#controls.root.hidden = on;
     this.#sound.hidden = on || !this.#hasSound;
   }
 

@@ -1,20 +1,41 @@
 import { type Observations, type Point } from '../../video/client';
-import { el } from '../widgets/dom';
+import { textButton } from '../widgets/button';
+import { el, setText } from '../widgets/dom';
 import { drawSkeleton } from './skeleton-overlay';
+
+/** About where a person is seen: left, top, right, bottom, pixels. */
+type Box = readonly [number, number, number, number];
 
 /** How far the video may be from the dance before it is set right, seconds. */
 const MAX_DRIFT = 0.12;
+
+const FOLLOW_ANOTHER = 'Follow another person';
 
 /** The picture of a video with the skeleton that was found over it. */
 export class VideoPicture {
   readonly root: HTMLElement;
   readonly #video: HTMLVideoElement;
   readonly #canvas = el('canvas', { attributes: { 'aria-hidden': 'true' } });
-  readonly #persons = el('div', { class: 'persons' });
+  readonly #persons = el('div', {
+    class: 'persons',
+    on: {
+      click: ({ offsetX, offsetY }) => {
+        const { clientWidth, clientHeight } = this.#persons;
+        const { width, height } = this.#size;
+        this.#picked({ x: (offsetX / clientWidth) * width, y: (offsetY / clientHeight) * height });
+      },
+    },
+  });
+  /** Begins the choice of another person after one was read, and ends it. */
+  readonly #another = textButton('btn tint', FOLLOW_ANOTHER, () => {
+    if (this.choosing) this.#endChoice();
+    else this.#choose();
+  });
   readonly #address: string;
   readonly #skeleton = el('input', { attributes: { type: 'checkbox', checked: true } });
   #size = { width: 1, height: 1 };
   #observations: Observations | null = null;
+  #people: { readonly time: number; readonly boxes: readonly Box[] } | null = null;
 
   /** @param pick is called with the place of a person that was clicked, pixels of the picture */
   constructor(
@@ -24,6 +45,7 @@ export class VideoPicture {
     this.#address = URL.createObjectURL(file);
     this.#video = el('video', { attributes: { src: this.#address, playsinline: true, preload: 'auto' } });
     this.#video.muted = true;
+    this.#another.hidden = true;
     this.#video.setAttribute('aria-label', 'The video');
     // What the page can read its player may still refuse, such as MOV: the skeleton is shown alone then.
     this.#video.addEventListener('error', () => {
@@ -40,6 +62,7 @@ export class VideoPicture {
       { class: 'picture-of-video' },
       el('div', { class: 'frame' }, this.#video, this.#canvas, this.#persons),
       el('label', {}, this.#skeleton, ' Skeleton over the video'),
+      this.#another,
     );
   }
 
@@ -55,18 +78,28 @@ export class VideoPicture {
     this.root.style.setProperty('--aspect', String(width / height));
   }
 
-  /** Boxes that can be clicked, over the picture of this time. */
-  showPersons(time: number, boxes: readonly (readonly [number, number, number, number])[]): void {
+  /** People who can be picked, in the picture of this time. */
+  showPersons(time: number, boxes: readonly Box[]): void {
+    this.#people = { time, boxes };
+    this.#choose();
+  }
+
+  /** Shows a box around each of the people; a click anywhere picks the nearest. */
+  #choose(): void {
+    if (!this.#people) return;
     const { width, height } = this.#size;
-    this.#video.currentTime = time;
+    this.#video.pause();
+    this.#video.currentTime = this.#people.time;
+    drawSkeleton(this.#canvas, null);
+    setText(this.#another, 'Keep this person');
     this.#persons.replaceChildren(
-      ...boxes.map(([left, top, right, bottom], i) => {
+      ...this.#people.boxes.map(([left, top, right, bottom], i) => {
         const button = el('button', {
           attributes: { type: 'button', 'aria-label': `Follow person ${i + 1} from the largest` },
           on: {
-            click: () => {
-              this.#persons.replaceChildren();
-              this.pick({ x: (left + right) / 2, y: (top + bottom) / 2 });
+            click: (event) => {
+              event.stopPropagation();
+              this.#picked({ x: (left + right) / 2, y: (top + bottom) / 2 });
             },
           },
         });
@@ -81,6 +114,18 @@ export class VideoPicture {
     );
   }
 
+  #endChoice(): void {
+    this.#persons.replaceChildren();
+    setText(this.#another, FOLLOW_ANOTHER);
+  }
+
+  #picked(point: Point): void {
+    this.#endChoice();
+    this.#another.hidden = true;
+    this.#observations = null;
+    this.pick(point);
+  }
+
   /** The picture that was read last; while persons can be chosen theirs stays. */
   showRead(time: number, landmarks: Float32Array | null): void {
     if (this.choosing) return;
@@ -91,13 +136,15 @@ export class VideoPicture {
   /** The whole video has been read. */
   showObservations(observations: Observations): void {
     this.#observations = observations;
-    this.#persons.replaceChildren();
+    this.#endChoice();
+    this.#another.hidden = this.#people === null;
   }
 
   showTime(
     { time, playing, speed }: { readonly time: number; readonly playing: boolean; readonly speed: number },
     start: number,
   ): void {
+    if (this.choosing) return;
     const video = this.#video;
     const wanted = start + time;
     video.playbackRate = speed;

@@ -19,6 +19,9 @@ const LAYERS = [
   { cells: 7, anchors: 6 },
 ] as const;
 
+/** Width and height of a standing person, shares of the region's side. */
+const BODY = { width: 0.45, height: 0.8 };
+
 /** A person in a picture. */
 export interface Person {
   readonly score: number;
@@ -81,4 +84,10 @@ function overlap(a: Person['box'], b: Person['box']): number {
   if (width <= 0 || height <= 0) return 0;
   const area = ([left, top, right, bottom]: Person['box']): number => (right - left) * (bottom - top);
   return (width * height) / (area(a) + area(b) - width * height);
+}
+
+/** About where a whole person is seen: left, top, right, bottom, pixels. */
+export function bodyBox({ region: { x, y, size } }: Person): [number, number, number, number] {
+  const [across, down] = [(BODY.width * size) / 2, (BODY.height * size) / 2];
+  return [x - across, y - down, x + across, y + down];
 }

@@ -8,7 +8,7 @@ export interface Picture {
   readonly width: number;
   readonly height: number;
   /** Draws the whole picture at its own size. */
-  draw(context: OffscreenCanvasRenderingContext2D): void;
+  draw(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D): void;
 }
 
 /** The picture of a decoded sample; rotation metadata and pixels that are not square are taken into account. */

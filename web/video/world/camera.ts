@@ -5,6 +5,9 @@ import type { Series } from './series';
 export const DEFAULT_FOCAL = 0.9;
 /** Landmarks that place the body: those of trunk and legs move least against each other. */
 const PLACING: readonly number[] = [11, 12, 23, 24, 25, 26, 27, 28];
+/** Depths that a dancer in full view can have, metres: what is nearer or farther was seen wrong. */
+const MIN_DEPTH = 0.3;
+const MAX_DEPTH = 60;
 /** Visibility below which a landmark does not count. */
 const MIN_VISIBILITY = 0.3;
 
@@ -32,19 +35,29 @@ export function toCameraAxes({ world, centre, frames, width, height }: Series, f
   return out;
 }
 
+/** Where the middle of the hips is in each frame, in the camera's axes, as far as one frame tells. */
+export interface Place {
+  /** Depth that the size of the body tells, metres. */
+  readonly size: Float64Array;
+  /** Place across for any depth z, x and y of a frame: `offset` + z x `slope`. */
+  readonly offset: Float64Array;
+  readonly slope: Float64Array;
+}
+
 /**
- * Where the middle of the hips is in each frame, in the camera's axes: the translation t that brings the landmarks X
- * nearest to their pictures (u, v) by linear least squares, u (Z + t_z) = f (X + t_x) and the same for v.
+ * The translation t that brings the landmarks X nearest to their pictures (u, v) by linear least squares,
+ * u (Z + t_z) = f (X + t_x) and the same for v.
  * @param world frames x 33 x 3 in the camera's axes, metres at the body's true size
  * @param focal pixels
- * @returns frames x 3, metres
  */
 export function placeInSpace(
   { image, visibility, frames, width, height }: Series,
   world: Float64Array,
   focal: number,
-): Float64Array {
-  const out = new Float64Array(frames * 3);
+): Place {
+  const size = new Float64Array(frames);
+  const offset = new Float64Array(frames * 2);
+  const slope = new Float64Array(frames * 2);
   for (let frame = 0; frame < frames; frame++) {
     // Normal equations of f t_x - u t_z = u Z - f X and f t_y - v t_z = v Z - f Y, of which f is divided out.
     let [n, su, sv, suv, bx, by, bz] = [0, 0, 0, 0, 0, 0, 0];
@@ -65,8 +78,10 @@ export function placeInSpace(
     }
     // t_x = (bx + su t_z) / n and t_y = (by + sv t_z) / n leave one equation for t_z.
     const pivot = suv - (su * su + sv * sv) / n;
-    const tz = (bz + (su * bx + sv * by) / n) / Math.max(pivot, 1e-9);
-    out.set([(bx + su * tz) / n, (by + sv * tz) / n, tz], 3 * frame);
+    const z = (bz + (su * bx + sv * by) / n) / Math.max(pivot, 1e-9);
+    size[frame] = Math.min(MAX_DEPTH, Math.max(MIN_DEPTH, z));
+    offset.set([bx / n, by / n], 2 * frame);
+    slope.set([su / n, sv / n], 2 * frame);
   }
-  return out;
+  return { size, offset, slope };
 }

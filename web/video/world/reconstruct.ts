@@ -1,20 +1,24 @@
 /** From what was seen in the pictures to the dancer's motion in space. */
 import { AppError } from '../../common/error';
-import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
+import { between, rotate } from '../../motion/math/quat';
 import { gaussianFilter } from '../../motion/math/statistics';
+import { cross, direction, dot, readVec, scale, sub, writeVec, X_AXIS } from '../../motion/math/vec3';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Observations } from '../observations';
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { placeInSpace, toCameraAxes } from './camera';
-import { levelled } from './floor';
+import { type Place, placeInSpace, toCameraAxes } from './camera';
+import { depthOf } from './depth';
 import { undoFlips } from './flips';
-import { holdRoot } from './root-hold';
+import { type Ground, groundOf, uprightOf } from './ground';
 import { jointsOf } from './joints';
 import { oneEuro } from './one-euro';
+import { placeLegs } from './legs';
+import { holdRoot } from './root-hold';
 import { FPS, type Series, seriesOf } from './series';
+import { stancesOf } from './stance';
 
 /** What the visitor can correct. */
 export interface WorldOptions {
@@ -37,9 +41,8 @@ export interface Reconstruction {
 export const STATURE = 1.245;
 /** Smoothing of the pose, metres. */
 const POSE_FILTER = { minCutoff: 1.5, beta: 6 };
-/** Deviation of the smoothing of the place, seconds: depth is the noisy axis. */
+/** Deviation of the smoothing of the place across, seconds. */
 const PLACE_DEVIATION = 0.06;
-const DEPTH_DEVIATION = 0.25;
 
 /**
  * The motion of the dancer who was seen, on a skeleton of constant bones.
@@ -56,13 +59,26 @@ export function reconstruct(observations: Observations, options: WorldOptions): 
   const { series, changed } = undoFlips(raw);
   const focal = options.focal * Math.max(series.width, series.height);
   const smooth = { ...series, world: oneEuro(series.world, 3 * LANDMARK_COUNT, FPS, POSE_FILTER) };
-  const world = toTrueSize(toCameraAxes(smooth, focal), options.height);
-  const place = smoothPlace(placeInSpace(series, world, focal));
-  const joints = jointsOf(inSpace(world, place));
-  const upright = levelled(joints, FPS).joints;
-  const clip: MotionClip = { fps: FPS, frames: series.frames, positions: upright };
-  const held = holdRoot(solve(clip));
-  return { motion: lockFeet(held), series, flipped: changed };
+  const tilted = toTrueSize(toCameraAxes(smooth, focal), options.height);
+  const first = findGround(series, tilted, focal);
+  // The body is upright on the floor on average; networks see the tilt of a camera too small.
+  const turn = between(uprightOf(tilted, series.frames), first.ground.up);
+  const world = new Float64Array(tilted.length);
+  for (let i = 0; i < tilted.length / 3; i++) writeVec(world, i, rotate(turn, readVec(tilted, i)));
+  const { ground, depth, place, cues } = findGround(series, world, focal);
+  const landmarks = inSpace(world, acrossAt(place, depth));
+  placeLegs(landmarks, cues, ground);
+  const positions = jointsOf(upright(landmarks, ground));
+  const clip: MotionClip = { fps: FPS, frames: series.frames, positions };
+  return { motion: holdRoot(solve(clip), cues.stances), series, flipped: changed };
+}
+
+/** Stances, depth and floor. */
+function findGround(series: Series, world: Float64Array, focal: number) {
+  const place = placeInSpace(series, world, focal);
+  const depth = depthOf(place.size);
+  const cues = { series, world, stances: stancesOf(series, depth, focal), focal };
+  return { place, depth, cues, ground: groundOf(cues, depth) };
 }
 
 /** The landmarks at the size of a dancer of this height, metres. */
@@ -73,30 +89,33 @@ function toTrueSize(world: Float64Array, height: number): Float64Array {
   return world.map((value) => value * factor);
 }
 
-function smoothPlace(place: Float64Array): Float64Array {
-  const frames = place.length / 3;
-  const out = new Float64Array(place.length);
-  for (let axis = 0; axis < 3; axis++) {
-    // Depth is smoothed along the ray of sight: across it the body is seen where it is.
-    const track = Float64Array.from({ length: frames }, (_, frame) => {
-      const [value, depth] = [place[3 * frame + axis]!, place[3 * frame + 2]!];
-      return axis === 2 ? depth : value / depth;
-    });
-    const smooth = gaussianFilter(track, (axis === 2 ? DEPTH_DEVIATION : PLACE_DEVIATION) * FPS);
-    for (let frame = 0; frame < frames; frame++) out[3 * frame + axis] = smooth[frame]!;
+/** The place at these depths, frames x 3, metres in the camera's axes. */
+function acrossAt({ offset, slope }: Place, depth: Float64Array): Float64Array {
+  const out = new Float64Array(3 * depth.length);
+  for (const axis of [0, 1]) {
+    const across = gaussianFilter(
+      depth.map((z, t) => (offset[2 * t + axis]! + slope[2 * t + axis]! * z) / z),
+      PLACE_DEVIATION * FPS,
+    );
+    across.forEach((ratio, t) => (out[3 * t + axis] = ratio * depth[t]!));
   }
-  for (let frame = 0; frame < frames; frame++) {
-    out[3 * frame]! *= out[3 * frame + 2]!;
-    out[3 * frame + 1]! *= out[3 * frame + 2]!;
-  }
+  depth.forEach((z, t) => (out[3 * t + 2] = z));
   return out;
 }
 
-/** The landmarks where the body is, y up, z towards the camera. */
+/** The landmarks in the camera's axes, at the place of the body. */
 function inSpace(world: Float64Array, place: Float64Array): Float64Array {
-  return world.map((value, i) => {
-    const axis = i % 3;
-    const moved = value + place[3 * Math.floor(i / (3 * LANDMARK_COUNT)) + axis]!;
-    return axis === 0 ? moved : -moved;
-  });
+  return world.map((value, i) => value + place[3 * Math.floor(i / (3 * LANDMARK_COUNT)) + (i % 3)]!);
+}
+
+/** The landmarks y up and z towards the camera, with the floor level at height 0, without a turn about the vertical. */
+function upright(landmarks: Float64Array, { up, height }: Ground): Float64Array {
+  const x = direction(sub(X_AXIS, scale(up, dot(X_AXIS, up))), X_AXIS);
+  const z = cross(x, up);
+  const out = new Float64Array(landmarks.length);
+  for (let i = 0; i < landmarks.length / 3; i++) {
+    const v = readVec(landmarks, i);
+    writeVec(out, i, [dot(v, x), dot(v, up) + height, dot(v, z)]);
+  }
+  return out;
 }

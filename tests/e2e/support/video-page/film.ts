@@ -2,6 +2,7 @@
 import {
   BufferTarget,
   CanvasSource,
+  MovOutputFormat,
   Mp4OutputFormat,
   Output,
   QUALITY_HIGH,
@@ -22,21 +23,8 @@ import {
 } from 'three';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { SOLE } from '../../../../web/motion/skeleton/kinematics';
+import type { Shot } from '../../../web/support/filmed/shots';
 import { createMannequin } from './mannequin';
-
-/** A camera that stands still and looks at a point; metres, y up. */
-export interface Shot {
-  readonly width: number;
-  readonly height: number;
-  /** Focal length, pixels. */
-  readonly focal: number;
-  readonly position: readonly [number, number, number];
-  readonly target: readonly [number, number, number];
-  readonly fps: number;
-  readonly clothed: boolean;
-  /** Clockwise turn that players are told to apply to the pictures, degrees. */
-  readonly rotation?: Rotation;
-}
 
 /** The dancers of a motion in the picture, each shifted along x by metres. */
 export interface Cast {
@@ -59,8 +47,57 @@ function studio(): Scene {
   return scene;
 }
 
-/** @returns a WebM file with VP8, the one codec that every Chromium encodes */
-export async function film(cast: readonly Cast[], shot: Shot, seconds: number): Promise<Blob> {
+/** How a video is written. */
+export interface VideoFormat {
+  readonly container: 'webm' | 'mp4' | 'mov';
+  /** Whether pictures come at uneven times, as phones write them. */
+  readonly uneven?: boolean;
+}
+
+const CONTAINERS = {
+  webm: () => new WebMOutputFormat(),
+  mp4: () => new Mp4OutputFormat(),
+  mov: () => new MovOutputFormat(),
+};
+
+/** Writes the pictures of a canvas, drawn one after the other by `draw`, into a file with VP9, or WebM with VP8. */
+export async function written(
+  canvas: HTMLCanvasElement,
+  draw: (seconds: number) => void,
+  {
+    fps,
+    seconds,
+    rotation,
+  }: { readonly fps: number; readonly seconds: number; readonly rotation?: Rotation },
+  { container, uneven = false }: VideoFormat,
+): Promise<Blob> {
+  const target = new BufferTarget();
+  const output = new Output({ format: CONTAINERS[container](), target });
+  const source = new CanvasSource(canvas, {
+    codec: container === 'webm' ? 'vp8' : 'vp9',
+    bitrate: QUALITY_HIGH,
+    keyFrameInterval: 1,
+  });
+  output.addVideoTrack(source, { ...(rotation !== undefined && { rotation }) });
+  await output.start();
+  const frames = Math.round(seconds * fps);
+  const moment = (frame: number): number =>
+    (frame + (uneven && frame > 0 && frame < frames ? 0.4 * Math.sin(1.7 * frame) : 0)) / fps;
+  for (let frame = 0; frame < frames; frame++) {
+    draw(moment(frame));
+    await source.add(moment(frame), moment(frame + 1) - moment(frame));
+  }
+  await output.finalize();
+  return new Blob([target.buffer!], { type: `video/${container === 'mov' ? 'quicktime' : container}` });
+}
+
+/** Films dancers. */
+export async function film(
+  cast: readonly Cast[],
+  shot: Shot,
+  seconds: number,
+  format: VideoFormat = { container: 'webm' },
+): Promise<Blob> {
   const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(1);
   renderer.setSize(shot.width, shot.height);
@@ -75,23 +112,14 @@ export async function film(cast: readonly Cast[], shot: Shot, seconds: number): 
   const camera = new PerspectiveCamera(fov, shot.width / shot.height, 0.1, 40);
   camera.position.set(...shot.position);
   camera.lookAt(...shot.target);
-  const target = new BufferTarget();
-  const rotated = shot.rotation !== undefined;
-  const output = new Output({ format: rotated ? new Mp4OutputFormat() : new WebMOutputFormat(), target });
-  const source = new CanvasSource(renderer.domElement, {
-    codec: rotated ? 'vp9' : 'vp8',
-    bitrate: QUALITY_HIGH,
-    keyFrameInterval: 1,
-  });
-  output.addVideoTrack(source, { ...(rotated && { rotation: shot.rotation }) });
-  await output.start();
-  for (let frame = 0; frame < Math.round(seconds * shot.fps); frame++) {
-    for (const mannequin of mannequins) mannequin.pose(frame / shot.fps);
+  // A phone that is turned writes turned pictures and says by how much players have to turn them back.
+  if (shot.rotation !== undefined) camera.rotateZ((-shot.rotation * Math.PI) / 180);
+  const draw = (time: number): void => {
+    for (const mannequin of mannequins) mannequin.pose(time);
     renderer.render(scene, camera);
-    await source.add(frame / shot.fps, 1 / shot.fps);
-  }
-  await output.finalize();
+  };
+  const file = await written(renderer.domElement, draw, { ...shot, seconds }, format);
   renderer.dispose();
   renderer.forceContextLoss();
-  return new Blob([target.buffer!], { type: rotated ? 'video/mp4' : 'video/webm' });
+  return file;
 }

@@ -1,6 +1,7 @@
 /** Films mannequins and reads the videos, for tests and measurements. */
-import { type Cast, film, type Shot } from './film';
-import { motionOf, type MotionName } from './motions';
+import { type Cast, film, type VideoFormat, written } from './film';
+import { motionOf } from '../../../web/support/filmed/motions';
+import type { MotionName, Shot } from '../../../web/support/filmed/shots';
 import { openVideo } from '../../../../web/video/frames';
 import { Recorder } from '../../../../web/video/observations';
 import { loadPoseGraphs } from '../../../../web/video/pose/graphs';
@@ -8,14 +9,37 @@ import { PersonTracker } from '../../../../web/video/pose/tracker';
 
 const plain = (array: ArrayLike<number>): number[] => Array.from(array);
 
+async function base64(file: Blob): Promise<string> {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(text);
+}
+
 const page = {
   /** A video, as base64. */
-  async film(motion: MotionName, shot: Shot, seconds: number): Promise<string> {
-    const cast: Cast[] = [{ motion: motionOf(motion) }];
-    const bytes = new Uint8Array(await (await film(cast, shot, seconds)).arrayBuffer());
-    let text = '';
-    for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
-    return btoa(text);
+  async film(motion: MotionName, shot: Shot, seconds: number, format?: VideoFormat): Promise<string> {
+    return base64(await film([{ motion: motionOf(motion) }], shot, seconds, format));
+  },
+  /** A video of the same dancer several times, each shifted along x by metres. */
+  async filmSeveral(
+    motion: MotionName,
+    shot: Shot,
+    seconds: number,
+    aside: readonly number[],
+  ): Promise<string> {
+    const cast = aside.map((x): Cast => ({ motion: motionOf(motion), aside: x }));
+    return base64(await film(cast, shot, seconds));
+  },
+  /** A video of one colour. */
+  async blank(colour: string, seconds: number, format: VideoFormat): Promise<string> {
+    const canvas = Object.assign(document.createElement('canvas'), { width: 160, height: 120 });
+    const context = canvas.getContext('2d')!;
+    const draw = (): void => {
+      context.fillStyle = colour;
+      context.fillRect(0, 0, canvas.width, canvas.height);
+    };
+    return base64(await written(canvas, draw, { fps: 10, seconds }, format));
   },
   truth: (motion: MotionName) => plain(motionOf(motion).positions),
   async read(base64: string) {

@@ -62,6 +62,16 @@ describe('a motion from projections of a known one', () => {
     expect(Math.abs(meanError(solved(flipped)) - meanError(solved(seen)))).toBeLessThan(0.01);
   });
 
+  it('is not thrown off by pictures in which all is seen at one point', () => {
+    const seen = projected(truth, CAMERA, 0.01);
+    for (const frame of [40, 41, 80]) seen.image.fill(9, frame * 66, (frame + 1) * 66);
+    const { motion } = solved(seen);
+    expect(motion.positions.every(Number.isFinite)).toBe(true);
+    const lasting = solved(projected(truth, CAMERA, 0.01)).motion;
+    const apart = motion.root.map((value, i) => Math.abs(value - lasting.root[i]!));
+    expect(apart.subarray(0, 3 * 30).reduce((most, one) => Math.max(most, one), 0)).toBeLessThan(0.1);
+  });
+
   it('bridges a gap, marks it and says where it is', () => {
     const seen = projected(truth, CAMERA, 0.01);
     seen.presence.fill(0, 40, 50);

@@ -1,16 +1,15 @@
 /** Motions that are known to the millimetre, for videos. */
 import { solve } from '../../../../web/motion/fit/ik';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
-import demo from '../../../../web/public/demo/leader.bvh?raw';
-import { leaderBvh } from '../../../web/support/leader-bvh';
-import { walker } from '../../../web/support/filmed/walker';
-
-export type MotionName = 'salsa' | 'turning' | 'spinning' | 'walking';
+import salsa from '../../../fixtures/video/salsa.bvh?raw';
+import { leaderBvh } from '../leader-bvh';
+import type { MotionName } from './shots';
+import { walker } from './walker';
 
 export function motionOf(name: MotionName): SolvedMotion {
   switch (name) {
     case 'salsa':
-      return solve(leaderBvh(demo).clip);
+      return solve(leaderBvh(salsa).clip);
     case 'turning':
       return walker({ seconds: 6, turn: 0.45, distance: 0 });
     case 'spinning':

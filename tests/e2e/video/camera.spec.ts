@@ -1,0 +1,48 @@
+/** Recording a leader with the webcam. */
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+
+// A camera that shows a test picture without any person.
+test.use({
+  launchOptions: async ({ launchOptions }, use) => {
+    await use({
+      ...launchOptions,
+      args: [...(launchOptions.args ?? []), '--use-fake-device-for-media-stream'],
+    });
+  },
+});
+
+test('a recording counts down, plays the song, and is read', async ({ page, context }) => {
+  await context.grantPermissions(['camera']);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const before = await app.read(({ leader }) => leader?.name);
+  await page.getByRole('button', { name: 'Use the camera' }).click();
+  const dialog = page.getByRole('dialog', { name: 'Record with the camera' });
+  const picture = dialog.getByLabel('Picture of the camera');
+  await expect.poll(() => picture.evaluate((video: HTMLVideoElement) => video.videoWidth)).toBeGreaterThan(0);
+  await dialog.getByRole('button', { name: 'Record' }).click();
+  await expect(dialog.getByRole('status')).toHaveText('3');
+  await expect(dialog.getByRole('status')).toHaveText(/Recording, 1 of at most 120 s/);
+  expect(await app.read(({ playback, song }) => song !== null && playback.playing)).toBe(true);
+  await dialog.getByRole('button', { name: 'Stop' }).click();
+  await expect(dialog).toBeHidden();
+  // Nobody is in the picture.
+  await expect(app.alert).toHaveAttribute('data-code', 'no-person', { timeout: 60_000 });
+  expect(await app.read(({ leader, playback }) => [leader?.name, playback.playing])).toEqual([before, false]);
+});
+
+test('a camera that is refused is a sentence', async ({ page, context }) => {
+  await context.clearPermissions();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  // There too where the first visit is over.
+  await page.getByRole('button', { name: 'Project' }).click();
+  await page.getByRole('button', { name: /^Record a leader/ }).click();
+  await expect(app.alert).toHaveAttribute('data-code', 'camera-refused');
+  await expect(app.alert).toContainText(/drop the video here/);
+  await page.keyboard.press('Escape');
+  expect(await app.read(({ leader }) => leader !== null)).toBe(true);
+});

@@ -1,0 +1,117 @@
+/** What videos are read, and what is said of those that are not. */
+import type { Browser } from '@playwright/test';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+import type { Shot } from '../../web/support/filmed/shots';
+import { openStudio, patched, SHOT } from '../support/video-files';
+import type { VideoFormat } from '../support/video-page/film';
+
+/** Videos by the problem that is told of them. */
+async function refusedVideos(browser: Browser): Promise<Readonly<Record<string, Buffer>>> {
+  const studio = await openStudio(browser);
+  const bytes = (base64: string): Buffer => Buffer.from(base64, 'base64');
+  const blank = async (colour: string, container: 'webm' | 'mp4'): Promise<Buffer> =>
+    bytes(await studio.call('blank', colour, 1, { container }));
+  const mp4 = await blank('#2244aa', 'mp4');
+  const upper: Shot = { ...SHOT, position: [0, 1.6, 1.6], target: [0, 1.6, 0] };
+  const codec = mp4.indexOf('vp09');
+  const refused = {
+    'video-black': await blank('#000', 'webm'),
+    'no-person': await blank('#2244aa', 'webm'),
+    'half-a-body': bytes(await studio.call('film', 'salsa', upper, 1.6)),
+    // A codec that no browser has.
+    'video-codec': Buffer.from(mp4).fill('qqqq', codec, codec + 4),
+    // Each picture is said to last twelve minutes.
+    'video-too-long': patched(mp4, 'stts', (content) => {
+      const timescale = mp4.readUInt32BE(mp4.indexOf('mdhd') + 16);
+      for (let entry = 0; entry < content.readUInt32BE(4); entry++)
+        content.writeUInt32BE(720 * timescale, 12 + 8 * entry);
+    }),
+    'not-a-video': mp4.subarray(0, 40),
+  };
+  await studio.close();
+  return refused;
+}
+
+test('a video that cannot be a leader is a sentence, and the leader stays', async ({ page, browser }) => {
+  const refused = await refusedVideos(browser);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const before = await app.read(({ leader }) => leader?.name);
+  for (const [code, buffer] of Object.entries(refused)) {
+    const mp4 = buffer.toString('latin1', 4, 8) === 'ftyp';
+    await app.drop({
+      name: `${code}.${mp4 ? 'mp4' : 'webm'}`,
+      mimeType: mp4 ? 'video/mp4' : 'video/webm',
+      buffer,
+    });
+    await expect(app.alert, code).toHaveAttribute('data-code', code);
+    expect(await app.read(({ leader }) => leader?.name)).toBe(before);
+    await page.keyboard.press('Escape');
+    await expect(app.alert).toBeHidden();
+  }
+});
+
+test('rotated pictures, MOV and uneven times at up to 120 pictures a second are read', async ({
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const seen = async (shot: Shot, format: VideoFormat) =>
+    studio.call('read', await studio.call('film', 'walking', shot, 0.5, format));
+  const upright = await seen(SHOT, { container: 'webm' });
+  const sideways = { ...SHOT, width: SHOT.height, height: SHOT.width, rotation: 90 } satisfies Shot;
+  const turned = await seen(sideways, { container: 'mp4' });
+  const quick = await seen({ ...SHOT, fps: 120 }, { container: 'mov', uneven: true });
+  await studio.close();
+  for (const one of [turned, quick]) {
+    expect([one.width, one.height]).toEqual([SHOT.width, SHOT.height]);
+    expect(Math.min(...one.presence)).toBeGreaterThan(0.5);
+    // The same dancer in the same moment at the same place.
+    const apart = one.image.slice(0, 66).map((value, i) => Math.abs(value - upright.image[i]!));
+    expect(apart.reduce((sum, value) => sum + value, 0) / apart.length).toBeLessThan(8);
+  }
+  expect(turned.times).toHaveLength(6);
+  // At most thirty a second.
+  expect(quick.times.length).toBeGreaterThan(10);
+  expect(quick.times.length).toBeLessThanOrEqual(21);
+  expect(quick.times.every((time, i) => i === 0 || time > quick.times[i - 1]!)).toBe(true);
+});
+
+test('of several people the largest is followed, and another one who is clicked', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
+  const buffer = Buffer.from(await studio.call('filmSeveral', 'walking', shot, 2, [-0.8, 0.9]), 'base64');
+  await studio.close();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'two.webm', mimeType: 'video/webm', buffer });
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
+  /** Where the skeleton is drawn, as a share of the picture's width. */
+  const skeletonAt = (): Promise<number> =>
+    panel.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
+      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+      let [sum, count] = [0, 0];
+      for (let i = 3; i < data.length; i += 4)
+        if (data[i]! > 0) {
+          sum += ((i - 3) / 4) % canvas.width;
+          count++;
+        }
+      return sum / count / canvas.width;
+    });
+  await expect.poll(skeletonAt).toBeLessThan(0.5);
+  await panel.getByRole('button', { name: 'Follow another person' }).click();
+  const people = panel.getByRole('button', { name: /Follow person \d from the largest/ });
+  await expect(people).toHaveCount(2);
+  // A click on the picture, far right: the nearest one is taken.
+  const box = (await panel.locator('.persons').boundingBox())!;
+  await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
+  await expect.poll(skeletonAt).toBeGreaterThan(0.5);
+});
