@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from bvh import Bvh
 
+from training.data.bvh.reader import read_bvh
+from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS, PARENTS
 
 # The joints by the names that BVH and GLB give them.
@@ -63,8 +65,11 @@ def turn(axis: str, degrees: float) -> np.ndarray:
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
-def joints(mocap: Bvh, frame: int) -> np.ndarray:
-    """Metres; channels are taken in the order in which the file lists them."""
+def joints(mocap: Bvh, frame: int, added: bool) -> np.ndarray:
+    """Metres; channels are taken in the order in which the file lists them.
+
+    added: whether position channels are added to a joint's offset (as three.js does) or replace it (as Blender does).
+    """
     turns: dict[str, np.ndarray] = {}
     places: dict[str, np.ndarray] = {}
     for name in mocap.get_joints_names():
@@ -75,8 +80,8 @@ def joints(mocap: Bvh, frame: int) -> np.ndarray:
             if channel.endswith("rotation"):
                 local = local @ turn(channel[0], value)
             else:
-                # In the place of the offset, as Blender, MotionBuilder and Maya take it.
-                place["XYZ".index(channel[0])] = value
+                axis = "XYZ".index(channel[0])
+                place[axis] = value + added * mocap.joint_offset(name)[axis]
         if parent is not None and parent.name in turns:
             place = places[parent.name] + turns[parent.name] @ place
             local = turns[parent.name] @ local
@@ -84,15 +89,23 @@ def joints(mocap: Bvh, frame: int) -> np.ndarray:
     return np.array([places[name] for name in NAMES]) / 100
 
 
+@pytest.mark.parametrize("added", [False, True])
 @pytest.mark.parametrize("role", ["leader", "reactor"])
-def test_bvh_by_a_reader_that_is_not_ours(folder: Path, role: str):
+def test_bvh_by_a_reader_that_is_not_ours(folder: Path, role: str, added: bool):
     mocap = Bvh((folder / f"{role}.bvh").read_text())
     expected = truth(folder, role)
     assert mocap.nframes == len(expected)
     assert mocap.frame_time == pytest.approx(1 / 30, abs=1e-7)
-    assert sorted(mocap.get_joints_names()) == sorted(NAMES)
+    assert sorted(mocap.get_joints_names()) == sorted([*NAMES, "Reference"])
     for frame in (0, len(expected) // 2, len(expected) - 1):
-        np.testing.assert_allclose(joints(mocap, frame), expected[frame], atol=1e-4)
+        np.testing.assert_allclose(joints(mocap, frame, added), expected[frame], atol=1e-4)
+
+
+@pytest.mark.parametrize("role", ["leader", "reactor"])
+def test_bvh_by_the_reader_of_training(folder: Path, role: str):
+    np.testing.assert_allclose(
+        read_bvh(folder / f"{role}.bvh").motion, put_on_floor(truth(folder, role)), atol=1e-4
+    )
 
 
 def test_npz_by_numpy(folder: Path):

@@ -38,6 +38,9 @@ BVH_NAMES: dict[str, str] = {
 }
 """Names of the joints in files that the page writes (MotionBuilder's HumanIK); a file with exactly these has all 22."""
 
+# The point below the hips on which the page's files hang the body.
+_REFERENCE = "Reference"
+
 _LIMBS = ("hip", "knee", "ankle", "foot", "shoulder", "elbow", "wrist", "collar")
 _REQUIRED = ("hip", "knee", "ankle", "shoulder", "elbow", "wrist")
 _SIDE_WORDS, _SIDE_LETTERS = ("left", "right"), ("l", "r")
@@ -141,7 +144,7 @@ def find_joints(nodes: list[Node]) -> tuple[dict[str, int], bool]:
     be found.
     """
     names = [node.name for node in nodes if not node.end_site]
-    if sorted(names) == sorted(BVH_NAMES.values()):
+    if sorted(name for name in names if name != _REFERENCE) == sorted(BVH_NAMES.values()):
         at = {node.name: index for index, node in enumerate(nodes) if not node.end_site}
         return {joint: at[BVH_NAMES[joint]] for joint in JOINTS}, True
     best_name, best, best_score = "", {}, -1

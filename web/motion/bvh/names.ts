@@ -29,11 +29,15 @@ export const BVH_NAMES: Readonly<Record<JointName, string>> = {
   right_wrist: 'RightHand',
 };
 
+/** Name of the point below the hips on which the body of a BVH file hangs, also as HumanIK calls it. */
+export const REFERENCE = 'Reference';
+
 /** Name of the convention of files that `writeBvh` wrote. */
 export const OWN_CONVENTION = 'ReactDance';
 
-/** Whether these are the names of a file that `writeBvh` wrote: exactly the 22 of `BVH_NAMES`. */
+/** Whether these are the names of a file that this page wrote: exactly the 22 of `BVH_NAMES`, and in BVH the reference. */
 export function isOwnSkeleton(names: readonly string[]): boolean {
   const own = Object.values(BVH_NAMES);
-  return names.length === own.length && own.every((name) => names.includes(name));
+  const joints = names.filter((name) => name !== REFERENCE);
+  return joints.length === own.length && own.every((name) => joints.includes(name));
 }

@@ -48,13 +48,13 @@ export const SOLE = 0.03;
 /** How far the crown of the head is above its joint, metres. */
 export const CROWN = 0.18;
 
-/** Root of the rest pose that files hold: standing on the floor where the dance begins, metres. */
+/** Root of the rest pose that GLB holds: standing on the floor where the dance begins, metres. */
 export function restRoot({ offsets, root }: SolvedMotion): [number, number, number] {
   return [root[0]!, restRootHeight(offsets), root[2]!];
 }
 
 /** Height of the root above the floor in the rest pose, metres. */
-function restRootHeight(offsets: Float32Array): number {
+export function restRootHeight(offsets: Float32Array): number {
   const heights = restPositions(offsets).filter((_, i) => i % 3 === 1);
   return SOLE - Math.min(...heights);
 }

@@ -21,6 +21,7 @@ const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
 /** What must be set by hand when a tool reads a format, because the file cannot say it. */
 const IMPORT_HINTS: Partial<Record<MotionFormat, string>> = {
   bvh: 'In centimetres: in Blender import it with scale 0.01 and “Update Scene FPS”',
+  glb: 'In Blender set the scene to 30 frames a second before importing it',
 };
 
 /** Part of the download menu: whose motion, in which format, under which name. */
