@@ -93,6 +93,7 @@ const video = createVideoFeature(
   videoTrack,
 );
 const project = new Project(store, files, readers, {
+  camera: () => stage,
   storage: new ProjectDatabase(),
   tabs: tabMeans(globalThis),
   persistence: navigator.storage,

@@ -4,17 +4,15 @@ import type { AudioRecipe } from './recipe';
 import { resample } from './dsp/resample';
 import { type Rhythm, rhythmOf } from './rhythm/rhythm';
 import { encodeWav } from './wav';
+import { type Waveform, waveformOf } from './waveform';
 
 /** What is computed from the samples of a song. */
 export interface Analysis extends Pick<MusicFeatures, 'frames' | 'features'> {
   /** What the page shows and counts; the model hears the beats that are among its features. */
   readonly rhythm: Rhythm;
-  /** Mean of the channels at the recipe's rate. */
-  readonly pcm: Float32Array;
+  readonly waveform: Waveform;
   /** The decoded sound as a WAV file, for playing. */
   readonly sound: Blob;
-  /** Largest absolute sample of `pcm`. */
-  readonly peak: number;
   /** Whether no sample of the song is louder than -80 decibels. */
   readonly silent: boolean;
 }
@@ -48,15 +46,14 @@ export function analyse(
   const { frames, features } = musicFeatures(pcm, recipe, (fraction) =>
     onProgress(RESAMPLING_SHARE + (1 - RESAMPLING_SHARE) * fraction),
   );
-  const peak = pcm.reduce((max, sample) => Math.max(max, Math.abs(sample)), 0);
+  const waveform = waveformOf(pcm, recipe.sample_rate);
   return {
     frames,
     features,
     rhythm: rhythmOf(features, recipe),
-    pcm,
+    waveform,
     sound: encodeWav(channels, sampleRate),
-    peak,
-    silent: peak <= MAX_SILENT_AMPLITUDE,
+    silent: waveform.loudest <= MAX_SILENT_AMPLITUDE,
   };
 }
 

@@ -1,4 +1,5 @@
 import { AppError } from '../common/error';
+import { RecentCache } from '../common/recent-cache';
 import { runInWorker } from '../common/run-in-worker';
 import type { Analysis } from './analyse';
 import { decodeSong } from './decode';
@@ -7,13 +8,12 @@ import type { AudioTasks } from './worker';
 
 export { AudioPlayer, type Player } from './player';
 export type { BeatsPerBar } from './rhythm/metre';
+export { type Columns, columnsOf } from './waveform';
 
 /** A loaded song. */
 export interface Song extends Analysis {
   /** Seconds. */
   readonly duration: number;
-  /** Hz of `pcm`. */
-  readonly sampleRate: number;
 }
 
 interface LoadProgress {
@@ -33,8 +33,8 @@ const DECODING_SHARE = 0.15;
 /** Number of songs whose analysis is cached. */
 const MAX_CACHED_SONGS = 3;
 
-/** Analysed songs by `cacheKey`, the most recently used last. */
-const cachedSongs = new Map<string, Song>();
+/** Analysed songs by `cacheKey`. */
+const cachedSongs = new RecentCache<string, Song>(MAX_CACHED_SONGS);
 
 /**
  * Decodes and analyses a song. The samples never leave the page; the analysis runs in a worker. A file with the
@@ -55,7 +55,7 @@ export async function loadSong(
   const key = await cacheKey(blob, recipe);
   const song = (key !== null && cachedSongs.get(key)) || (await load(blob, recipe, signal, onProgress));
   signal?.throwIfAborted();
-  if (key !== null) cacheSong(key, song);
+  if (key !== null) cachedSongs.set(key, song);
   onProgress({ stage: 'features', fraction: 1 });
   return song;
 }
@@ -82,7 +82,7 @@ async function load(
       toError: workerError,
     },
   );
-  return { ...analysis, duration: decoded.duration, sampleRate: recipe.sample_rate };
+  return { ...analysis, duration: decoded.duration };
 }
 
 function workerError(reason: string): AppError {
@@ -101,12 +101,4 @@ async function cacheKey(file: Blob, recipe: AudioRecipe): Promise<string | null>
   if (!bytes) return null;
   const hash = new Uint8Array(await subtle.digest('SHA-256', bytes));
   return `${Array.from(hash, (byte) => byte.toString(16).padStart(2, '0')).join('')} ${JSON.stringify(recipe)}`;
-}
-
-/** Adds a song to the cache as the most recently used one; the least recently used is dropped (LRU). */
-function cacheSong(key: string, song: Song): void {
-  cachedSongs.delete(key);
-  cachedSongs.set(key, song);
-  const [oldest] = cachedSongs.keys();
-  if (cachedSongs.size > MAX_CACHED_SONGS && oldest !== undefined) cachedSongs.delete(oldest);
 }

@@ -6,11 +6,10 @@ import type { Picture } from './pose/picture';
 import type { Point } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
 import { BONES } from './world/landmark-names';
-import { FPS } from './world/series';
 import type { WorldOptions } from './world/reconstruct';
 import type { ReadReport, VideoMotion, VideoTasks } from './worker';
 
-export { BONES, DEFAULT_FOCAL, FPS };
+export { BONES, DEFAULT_FOCAL };
 export type { Observations, Point, ReadReport, VideoMotion, WorldOptions };
 
 /** Reads one video in a worker of its own. */

@@ -1,12 +1,12 @@
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
 import type { Detail } from './camera/focus';
-import type { Framing, View } from './camera/framing';
 import type { PictureSize } from './canvas';
 import type { DancerName, OtherMode } from './dancer/dancers';
 import { createDynamicResolution } from './dynamic-resolution';
 import { createFrameLoop, idleLoop, type FrameLoop } from './frame-loop';
 import { isSoftwareRendered } from './frame-presenter';
+import type { Framing, View } from '../common/framing';
 import type { VisibleOverlays } from '../common/visible-overlays';
 import { createSplitLabels, type Labels, type SplitLabels } from './split-labels';
 import { StageRenderer } from './stage-renderer';

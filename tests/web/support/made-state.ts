@@ -98,9 +98,7 @@ export function songData(seconds: number, more: Partial<Song> = {}): Song {
   const frames = Math.round(seconds * 30);
   return {
     duration: seconds,
-    sampleRate: 15360,
-    pcm: new Float32Array(0),
-    peak: 0,
+    waveform: { low: new Int8Array(0), high: new Int8Array(0), rate: 1000, loudest: 0 },
     sound: new Blob(),
     features: new Float32Array(frames * 54),
     frames,

@@ -3,7 +3,7 @@ import { type Body, measureBody, nodesOfBody, retarget, withToes } from './retar
 import { sampleNodes, worldPose } from './sample';
 import { type MotionSource, withoutFirst } from './source';
 import { type ImportOptions, type RememberedJoints, skeletonFingerprint } from './options';
-import type { MotionClip } from '../skeleton/clip';
+import { FPS, type MotionClip } from '../skeleton/clip';
 import { OWN_CONVENTION } from '../bvh/names';
 import { AppError } from '../../common/error';
 import { checkedRate } from './frame-rate';
@@ -15,8 +15,6 @@ import { median } from '../math/statistics';
 import { aboutAxis, multiply } from '../math/quat';
 import { add, distance, lerp, readVec, scale, type Vec3, Y_AXIS, ZERO } from '../math/vec3';
 
-/** Frames per second of every clip past this reader. */
-const FPS = 30;
 /**
  * Median acceleration of the mean joint above which the frame rate is doubted, m/s^2: salsa has 1.5 to 3, leaps up to 6.
  */

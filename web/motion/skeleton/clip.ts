@@ -1,6 +1,9 @@
+/** Frames per second of every motion past the readers. */
+export const FPS = 30;
+
 /** Joint positions of one dancer, in the joint order of `skeleton.ts`. */
 export interface MotionClip {
-  /** Frames per second; 30 everywhere past the readers. */
+  /** Frames per second; `FPS` everywhere past the readers. */
   readonly fps: number;
   readonly frames: number;
   /** frames x 22 x 3, metres, y up, right-handed. */

@@ -1,3 +1,4 @@
+import { createDialogPlace } from '../widgets/dialog-place';
 import { el, combineDisposers } from '../widgets/dom';
 import { givenSet } from '../store/actions/files';
 import type { Mount, Services } from '../store/services';
@@ -6,30 +7,17 @@ import { apply, watch, type Store } from '../store/store';
 
 /** The files that were given together: which song and which leader is used, and what the others are. */
 export const mountGivenDialog: Mount = (root, store, services) => {
-  let dialog: HTMLElement | null = null;
-  let before: Element | null = null;
-
-  const close = (): void => {
-    if (!dialog) return;
-    const inside = dialog.contains(document.activeElement);
-    dialog.remove();
-    dialog = null;
-    if (inside && before instanceof HTMLElement && before.isConnected) before.focus();
-  };
+  const place = createDialogPlace(root);
   return combineDisposers(
     watch(
       store,
       ({ given }) => given,
       (given) => {
-        close();
-        if (!given) return;
-        before = document.activeElement;
-        dialog = build(given, store, services);
-        root.append(dialog);
-        dialog.querySelector<HTMLElement>('input:checked, button')?.focus();
+        if (given) place.show(build(given, store, services), 'input:checked, button');
+        else place.close();
       },
     ),
-    close,
+    place.close,
   );
 };
 

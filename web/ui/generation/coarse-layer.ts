@@ -1,3 +1,4 @@
+import { RecentCache } from '../../common/recent-cache';
 import type { Generator } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { coarseProblem, isAbort } from '../store/problems';
@@ -7,6 +8,9 @@ import { apply, watchAll, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { coarseChanged, overlayToggled } from '../store/actions/view';
 import { otherTake } from '../store/take';
+
+/** Coarse layers that are kept: those of the two takes that are drawn, and of the two before them. */
+const MOST_DECODED = 4;
 
 /** Whether the reaction on the stage has no latents to decode the coarse layer from, since it was not made here. */
 export const coarseIsMissing = ({ reaction }: Pick<AppState, 'reaction'>): boolean =>
@@ -26,8 +30,8 @@ type Layered = Reaction & { readonly latents: Float32Array };
  * @returns a function that stops it
  */
 export function createCoarseLayer(store: Store, model: () => Promise<Generator>): () => void {
-  /** By latents; freed with the reaction that has them. */
-  const decodedMotions = new WeakMap<Float32Array, SolvedMotion>();
+  /** By latents. */
+  const decodedMotions = new RecentCache<Float32Array, SolvedMotion>(MOST_DECODED);
   let running: AbortController | null = null;
 
   const decoded = (reaction: Reaction | null): SolvedMotion | null =>

@@ -1,3 +1,4 @@
+import type { Framing } from '../../common/framing';
 import { fullProblem } from '../store/problems';
 import type { Take } from '../store/reaction';
 import type { AppState, AutosaveStatus } from '../store/state';
@@ -21,6 +22,8 @@ interface Callbacks {
    * @param synced the takes as this tab last read or wrote them
    */
   readonly merge: (synced: readonly Take[]) => Promise<void>;
+  /** How the camera sees the couple now; null without a stage. */
+  readonly framing: () => Framing | null;
   /** A take that was made in this visit is stored. */
   readonly takeStored: () => void;
 }
@@ -82,7 +85,7 @@ export class Autosave {
     this.write();
     this.unsubscribe = this.store.subscribe((state) => {
       const parts = storedParts(state);
-      // The playhead moves all the time; it is written with what else changes, and when the page is left.
+      // Playhead and camera move all the time; they are written with what else changes, and when the page is left.
       if (!parts.every((part, index) => part === this.seen[index])) this.write();
     });
   }
@@ -138,7 +141,7 @@ export class Autosave {
     try {
       if (hasVisitorContent(state)) {
         this.anythingStored = true;
-        await this.storage.write(storedProject(state));
+        await this.storage.write(storedProject(state, this.callbacks.framing()));
         this.hasFitted = true;
         const isNew = ({ id, reaction }: Take): boolean =>
           reaction.label === null && !this.synced.some((take) => take.id === id);
@@ -188,7 +191,7 @@ export class Autosave {
 
 /** The parts of the state that are stored; while they are the same, there is nothing to write. */
 function storedParts(state: AppState): readonly unknown[] {
-  const { takes, reaction, other, letter, compare, footLock, countings, song } = state;
+  const { takes, reaction, other, letter, compare, footLock, countings, song, playback } = state;
   return [
     takes,
     reaction,
@@ -198,6 +201,7 @@ function storedParts(state: AppState): readonly unknown[] {
     footLock,
     countings,
     song,
+    playback.region,
     ...Object.values<unknown>({ ...currentInputs(state) }),
   ];
 }

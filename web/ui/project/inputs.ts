@@ -1,3 +1,4 @@
+import { FPS } from '../../motion/skeleton/clip';
 import { HEIGHTS, type Manifest } from '../../model/client';
 import { clampedTo, rangeOf } from '../store/guidance-matrix';
 import type { Inputs, LoadedLeader, LoadedSong, Settings } from '../store/reaction';
@@ -7,7 +8,7 @@ import { currentInputs } from '../store/take';
 import { type StoredInputs, storedInputs } from './schema';
 
 /** The longest song that is read, in frames: a shift beyond it leaves no song. */
-const MAX_SHIFT = 15 * 60 * 30;
+const MAX_SHIFT = 15 * 60 * FPS;
 
 interface RestoredInputs {
   readonly inputs: Inputs;

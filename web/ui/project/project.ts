@@ -1,3 +1,4 @@
+import type { Framing } from '../../common/framing';
 import { randomSeed } from '../store/actions/settings';
 import type { Files, FileReaders } from '../store/services';
 import { leaderlessProblem, projectProblem } from '../store/problems';
@@ -27,8 +28,16 @@ import { Restorer, restoringOf, type StoredFileReaders } from './restore';
 import type { ProjectStorage } from './storage';
 import { AppError } from '../../common/error';
 
-/** What the browser gives the page to store with. */
+/** The camera of the stage. */
+interface ProjectCamera {
+  readonly framing: () => Framing;
+  readonly frameAs: (framing: Framing) => void;
+}
+
+/** What the browser gives the page to store with, and the stage's camera. */
 export interface ProjectMeans {
+  /** Null without a stage. */
+  readonly camera: () => ProjectCamera | null;
   readonly storage: ProjectStorage;
   readonly tabs: TabMeans;
   readonly persistence: Persistence;
@@ -51,6 +60,7 @@ export class Project {
   ) {
     this.autosave = new Autosave(store, means.storage, means.tabs, {
       merge: (synced) => this.merge(synced),
+      framing: this.framing,
       takeStored: () => void this.askPersistence(),
     });
     this.foreground = {
@@ -85,7 +95,11 @@ export class Project {
     // Files that the visitor has chosen in the meantime stay.
     const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
     const content = restorer.content(now);
-    apply(store, superseded ? takesRestored(content.takes ?? []) : visitRestored(content));
+    if (superseded) apply(store, takesRestored(content.takes ?? []));
+    else {
+      apply(store, visitRestored(content));
+      this.frame(project.page.framing);
+    }
     await song;
     this.showPageSong(restorer);
     this.autosave.start();
@@ -111,6 +125,7 @@ export class Project {
       const content = restorer.content(now);
       if (project.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
+      this.frame(project.page.framing);
       apply(store, toastShown(openedText(store.getState())));
       for (const loss of [...losses, ...restorer.losses()]) apply(store, noticeAdded(loss));
       if (!content.leader) apply(store, problemShown(leaderlessProblem(file.name)));
@@ -130,7 +145,7 @@ export class Project {
   async toFile(): Promise<{ readonly name: string; readonly bytes: Uint8Array<ArrayBuffer> } | null> {
     const state = this.store.getState();
     try {
-      return { name: projectName(state), bytes: await writeProject(storedProject(state)) };
+      return { name: projectName(state), bytes: await writeProject(storedProject(state, this.framing())) };
     } catch {
       const error = new AppError(
         'too-large',
@@ -150,6 +165,13 @@ export class Project {
 
   dispose(): void {
     this.autosave.dispose();
+  }
+
+  private readonly framing = (): Framing | null => this.means.camera()?.framing() ?? null;
+
+  /** Frames the couple as in an earlier visit. */
+  private frame(framing: Framing | null): void {
+    if (framing) this.means.camera()?.frameAs(framing);
   }
 
   private showPageSong(restorer: Restorer): void {

@@ -3,7 +3,9 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { ALL_UNITS, UP_AXES } from '../../motion/retarget/axes-and-units';
 import { checkPlausible } from '../../motion/skeleton/plausible';
 import { J, JOINT_COUNT, SMPL22 } from '../../motion/skeleton/skeleton';
+import { VIEWS } from '../../common/framing';
 import { MAX_TAKE_NAME_LENGTH } from '../store/actions/takes';
+import { MIN_LOOP } from '../store/actions/timeline';
 import type { StoredInputs, StoredPage, StoredProject, StoredTake } from './schema';
 
 /** Records as they lie in the database or in a project file: anything may be in them. */
@@ -37,6 +39,12 @@ const MAX_DATE = 8.64e15;
 
 /** Longest time that a song can have, seconds. */
 const MAX_SECONDS = 3600;
+
+/** How far from the couple a camera may look or stand, and how near it may be, metres. */
+const MAX_PAN = 100;
+const MIN_DISTANCE = 0.1;
+/** Most that a camera may have turned, radians. */
+const MAX_HEADING = 1e4;
 
 const text = v.pipe(v.string(), v.maxLength(MAX_NAME_LENGTH));
 const id = v.pipe(text, v.minLength(1));
@@ -149,6 +157,30 @@ const counting = v.object({
   one: v.pipe(v.number(), v.minValue(-MAX_SECONDS), v.maxValue(MAX_SECONDS)),
 });
 
+/** A part of the dance, seconds. */
+const region = v.pipe(
+  v.object({ from: amount, to: amount }),
+  v.check(({ from, to }) => to >= from + MIN_LOOP),
+);
+
+const radians = v.pipe(v.number(), v.minValue(-MAX_HEADING), v.maxValue(MAX_HEADING));
+const place = v.pipe(v.number(), v.minValue(-MAX_PAN), v.maxValue(MAX_PAN));
+
+/** See `Framing`. */
+const framing = v.object({
+  view: v.picklist(VIEWS),
+  shot: v.object({
+    target: v.tuple([place, place, place]),
+    distance: v.pipe(v.number(), v.minValue(MIN_DISTANCE), v.maxValue(MAX_PAN)),
+    heading: radians,
+    elevation: v.pipe(v.number(), v.minValue(-Math.PI / 2), v.maxValue(Math.PI / 2)),
+  }),
+  tracked: v.tuple([place, place]),
+  ownDistance: v.boolean(),
+  ownHeading: v.boolean(),
+  aspect: v.pipe(v.number(), v.minValue(1e-2), v.maxValue(1e2)),
+});
+
 /** Each of these takes its neutral value where it does not fit: the page is made of takes, and they can be chosen. */
 const page = v.object({
   leader: v.fallback(v.nullable(id), null),
@@ -162,6 +194,8 @@ const page = v.object({
   footLock: v.fallback(v.boolean(), true),
   countings: v.fallback(v.pipe(v.array(counting), v.maxLength(MAX_FILES)), []),
   time: v.fallback(amount, 0),
+  region: v.fallback(v.nullable(region), null),
+  framing: v.fallback(v.nullable(framing), null),
 });
 
 /**

@@ -102,7 +102,8 @@ export class Restorer {
     const onStage = takes.find(({ id }) => id === page.shown)?.reaction ?? null;
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
-    const { letter, takesMade, footLock, countings, time } = page;
+    const { letter, takesMade, footLock, countings, time, region, framing } = page;
+    const length = leader ? seconds(leader.motion) : 0;
     const inputs: Partial<Inputs> =
       leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song };
     return {
@@ -119,8 +120,10 @@ export class Restorer {
       playback: {
         ...state.playback,
         playing: false,
-        time: leader ? Math.min(time, seconds(leader.motion)) : 0,
+        time: Math.min(time, length),
+        region: region && region.to <= length ? region : null,
       },
+      ...(framing && { camera: framing.view }),
     };
   }
 

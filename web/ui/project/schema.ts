@@ -1,12 +1,14 @@
+import type { Framing } from '../../common/framing';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
 import type { AppState, Compare, Letter, SongCounting } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
+import type { Span } from '../store/time-scale';
 
 /**
  * Version of the records, in the database and in project files. Raised when pages of the version before can't read
- * them any more, or would leave out something when they write them again.
+ * them any more, or would leave out something of the visitor's work when they write them again.
  */
 export const VERSION = 2;
 
@@ -74,6 +76,10 @@ export interface StoredPage {
   readonly countings: readonly SongCounting[];
   /** Seconds. */
   readonly time: number;
+  /** The part of the dance that is looped. */
+  readonly region: Span | null;
+  /** How the camera sees the couple; null where the page shows none. */
+  readonly framing: Framing | null;
 }
 
 /** What storage and project files hold: plain data from which songs and leaders are read and analysed again. */
@@ -121,8 +127,11 @@ export function loadedParts({ takes, song, leader }: AppState): LoadedParts {
   return { songs, leaders };
 }
 
-/** The part of the state that is stored, with songs, leaders and motions referred to by id. */
-export function storedProject(state: AppState): StoredProject {
+/**
+ * The part of the state that is stored, with songs, leaders and motions referred to by id.
+ * @param framing the stage's
+ */
+export function storedProject(state: AppState, framing: Framing | null = null): StoredProject {
   const songs = new Map<string, StoredSong>();
   const leaders = new Map<string, StoredLeader>();
   const motions = new Map<string, StoredMotion>();
@@ -170,6 +179,8 @@ export function storedProject(state: AppState): StoredProject {
     footLock,
     countings,
     time: playback.time,
+    region: playback.region,
+    framing: state.leader && framing,
   };
   return {
     songs: [...songs.values()],

@@ -42,7 +42,16 @@ export const mountBar: Mount = (root, store, services) => {
     },
     icon('keyboard'),
   );
-  root.append(el('div', { class: 'brand' }, brandMark(), el('h1', { text: 'ReactDance' })));
+  root.append(
+    el(
+      'div',
+      { class: 'brand' },
+      brandMark(),
+      // Small windows leave the name out, screen readers have it all the same.
+      el('h1', { class: 'visually-hidden', text: 'ReactDance' }),
+      el('span', { class: 'name', text: 'ReactDance', attributes: { 'aria-hidden': 'true' } }),
+    ),
+  );
   const song = mountFileChip(root, store, services, 'song');
   const leader = mountFileChip(root, store, services, 'leader');
   root.append(el('span', { class: 'grow' }));

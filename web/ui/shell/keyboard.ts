@@ -4,7 +4,8 @@ import { countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS, toggleOverlay } from './overlay-menu';
-import type { AppState, Camera } from '../store/state';
+import type { View } from '../../common/framing';
+import type { AppState } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { givenSet } from '../store/actions/files';
@@ -161,6 +162,6 @@ function focusFader(label: string): void {
   document.querySelector<HTMLInputElement>(`input[aria-label="${label}"]`)?.focus();
 }
 
-function toggleCamera(store: Store, camera: Camera): void {
+function toggleCamera(store: Store, camera: View): void {
   apply(store, cameraSet(store.getState().camera === camera ? 'orbit' : camera));
 }

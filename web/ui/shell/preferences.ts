@@ -1,5 +1,6 @@
 import * as v from 'valibot';
 import { combineDisposers } from '../widgets/dom';
+import { VIEWS } from '../../common/framing';
 import { NO_OVERLAYS } from '../../common/visible-overlays';
 import type { AppState, Theme } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
@@ -13,7 +14,7 @@ const isSpeed = (value: number): boolean => SPEEDS.some((speed) => speed === val
 const schema = v.object({
   /** Null follows the system. */
   theme: v.fallback(v.nullable(v.picklist(['dark', 'light'])), null),
-  camera: v.fallback(v.picklist(['orbit', 'follow', 'top', 'side']), 'orbit'),
+  camera: v.fallback(v.picklist(VIEWS), 'orbit'),
   speed: v.fallback(v.pipe(v.number(), v.check(isSpeed)), 1),
   loop: v.fallback(v.boolean(), false),
   footLock: v.fallback(v.boolean(), true),

@@ -1,4 +1,5 @@
 import { RATES } from '../files/import-report';
+import { createDialogPlace } from '../widgets/dialog-place';
 import { el, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { AppState, Problem } from '../store/state';
@@ -8,29 +9,18 @@ import { panelToggled } from '../store/actions/view';
 
 /** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
 export const mountProblemDialog: Mount = (root, store, services) => {
-  let dialog: HTMLElement | null = null;
-  let before: Element | null = null;
-
-  const close = (): void => {
-    if (!dialog) return;
-    const inside = dialog.contains(document.activeElement);
-    dialog.remove();
-    dialog = null;
-    root.classList.remove('dimmed');
-    if (inside && before instanceof HTMLElement && before.isConnected) before.focus();
-  };
-  const show = (problem: Problem | null, state: AppState): void => {
-    if (problem && !dialog) before = document.activeElement;
-    if (dialog) close();
-    if (!problem) return;
-    dialog = build(problem, state, store, services);
-    root.append(dialog);
-    root.classList.add('dimmed');
-    dialog.querySelector('button')?.focus();
-  };
+  const place = createDialogPlace(root);
   return combineDisposers(
-    watch(store, (state) => state.problem, show),
-    close,
+    watch(
+      store,
+      (state) => state.problem,
+      (problem, state) => {
+        root.classList.toggle('dimmed', problem !== null);
+        if (problem) place.show(build(problem, state, store, services), 'button');
+        else place.close();
+      },
+    ),
+    place.close,
   );
 };
 

@@ -4,11 +4,11 @@ import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
 import { icon } from '../widgets/icons';
 import { mountUndo } from '../takes/undo';
-import type { Camera } from '../store/state';
+import type { View } from '../../common/framing';
 import { apply, watch, watchAll } from '../store/store';
 import { cameraSet } from '../store/actions/view';
 
-const CAMERAS: readonly (readonly [Camera, string])[] = [
+const CAMERAS: readonly (readonly [View, string])[] = [
   ['orbit', 'Orbit'],
   ['follow', 'Follow'],
   ['top', 'Top'],
@@ -72,7 +72,7 @@ const mountLegend: Mount = (root, store) => {
 
 /** Over the picture: the legend, the cameras, overlays and stage tools. */
 export const mountStageControls: Mount = (root, store, services) => {
-  const select = (camera: Camera): void => {
+  const select = (camera: View): void => {
     apply(store, cameraSet(camera));
   };
   const buttons = CAMERAS.map(([camera, label]) =>

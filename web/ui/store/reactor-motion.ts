@@ -1,10 +1,14 @@
+import { RecentCache } from '../../common/recent-cache';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { sameInputs } from './selectors';
 import type { AppState } from './state';
 
-/** Motions with locked feet by the motions that they were computed from. */
-const locked = new WeakMap<SolvedMotion, SolvedMotion>();
+/** More than are drawn at once: the reaction, its preview, the one before, another take, and the coarse layers. */
+const MOST_LOCKED = 8;
+
+/** Motions with locked feet by the motions that they were computed from; those of most takes are computed when shown. */
+const locked = new RecentCache<SolvedMotion, SolvedMotion>(MOST_LOCKED);
 
 /** A motion as it is drawn: as generated, or with its feet locked; the same object for the same motion. */
 function asDrawn(motion: SolvedMotion, footLock: boolean): SolvedMotion {

@@ -1,4 +1,5 @@
 /** The state of the page and the types of its parts. */
+import type { View } from '../../common/framing';
 import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { BeatsPerBar } from '../../audio/client';
 import type { MotionFormat, VideoSize } from '../../export/client';
@@ -10,7 +11,6 @@ import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings
 import type { Span } from './time-scale';
 
 export type Theme = 'dark' | 'light';
-export type Camera = 'orbit' | 'follow' | 'top' | 'side';
 export type InputKind = 'song' | 'leader';
 
 /** The two takes of a comparison; one is on the stage. */
@@ -205,7 +205,7 @@ export interface SongCounting extends Counting {
 
 export interface AppState {
   readonly theme: Theme;
-  readonly camera: Camera;
+  readonly camera: View;
   readonly overlays: VisibleOverlays;
   readonly coarse: CoarseLayer;
   /** The first-visit block is on the stage. */

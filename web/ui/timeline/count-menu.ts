@@ -70,9 +70,9 @@ function createButton(toggle: () => void): {
       attributes: { type: 'button', 'aria-haspopup': 'dialog', title: 'How the song is counted' },
       on: { click: toggle },
     },
-    'Bar ',
+    el('span', { class: 'unit', text: 'Bar ' }),
     bar,
-    'Count ',
+    el('span', { class: 'unit', text: 'Count ' }),
     count,
   );
   const showPlace = (state: AppState): void => {
@@ -82,6 +82,8 @@ function createButton(toggle: () => void): {
     const place = barAt(beats, state.playback.time);
     setText(bar, place && place.bar > 0 ? String(place.bar) : '–');
     setText(count, place ? String(place.count) : '–');
+    // Narrow windows show the numbers alone.
+    button.setAttribute('aria-label', `Bar ${bar.textContent} Count ${count.textContent}`);
   };
   return { button, showPlace };
 }

@@ -1,11 +1,6 @@
+import type { Columns } from '../../audio/client';
 import type { Accent } from '../store/counting';
 import type { TimeScale } from '../store/time-scale';
-
-/** A waveform: the lowest and the highest sample per column. */
-export interface Peaks {
-  readonly low: Float32Array;
-  readonly high: Float32Array;
-}
 
 /** A canvas sized to its element in device pixels, with a context scaled to CSS pixels. */
 interface Surface {
@@ -36,19 +31,14 @@ const BEATS_HEIGHT_PX = 9;
 /** Least distance of beat marks; where they are denser, only bars are marked. */
 const BEAT_SPACING_PX = 4;
 
-/** Draws a waveform around its middle line; `loudest` is the sample value that fills the height. */
-export function drawWave(
-  { context, width, height }: Surface,
-  { low, high }: Peaks,
-  loudest: number,
-  colour: string,
-): void {
+/** Draws a waveform around its middle line. */
+export function drawWave({ context, width, height }: Surface, { low, high }: Columns, colour: string): void {
   const middle = (height - BEATS_HEIGHT_PX) / 2;
   const columns = high.length;
   context.fillStyle = colour;
   for (let column = 0; column < columns; column++) {
-    const up = ((high[column] ?? 0) / loudest) * middle;
-    const down = (-(low[column] ?? 0) / loudest) * middle;
+    const up = (high[column] ?? 0) * middle;
+    const down = -(low[column] ?? 0) * middle;
     const thick = Math.max(1, up + down);
     context.fillRect(
       (column / columns) * width,

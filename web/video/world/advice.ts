@@ -1,6 +1,7 @@
+import { FPS } from '../../motion/skeleton/clip';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { BODY, L } from './landmark-names';
-import { FPS, MAX_BRIDGE, type Series } from './series';
+import { MAX_BRIDGE, type Series } from './series';
 
 /** Visibility below which a landmark is guessed. */
 const HIDDEN = 0.5;

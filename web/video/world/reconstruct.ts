@@ -4,7 +4,7 @@ import { solve } from '../../motion/fit/ik';
 import { between, rotate } from '../../motion/math/quat';
 import { gaussianFilter } from '../../motion/math/statistics';
 import { cross, direction, dot, readVec, scale, sub, writeVec, X_AXIS } from '../../motion/math/vec3';
-import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import { FPS, type MotionClip, type SolvedMotion } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Observations } from '../observations';
@@ -17,7 +17,7 @@ import { jointsOf } from './joints';
 import { oneEuro } from './one-euro';
 import { placeLegs } from './legs';
 import { holdRoot } from './root-hold';
-import { FPS, type Series, seriesOf } from './series';
+import { type Series, seriesOf } from './series';
 import { stancesOf } from './stance';
 
 /** What the visitor can correct. */

@@ -1,8 +1,7 @@
+import { FPS } from '../../motion/skeleton/clip';
 import type { Observations } from '../observations';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 
-/** Frames a second of every motion past this module. */
-export const FPS = 30;
 /** Longest time without the person that is bridged without a word, seconds. */
 export const MAX_BRIDGE = 0.5;
 

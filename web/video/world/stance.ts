@@ -1,9 +1,10 @@
+import { FPS } from '../../motion/skeleton/clip';
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { gaussianFilter } from '../../motion/math/statistics';
 import { J } from '../../motion/skeleton/skeleton';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { L } from './landmark-names';
-import { FPS, type Series } from './series';
+import type { Series } from './series';
 
 /**
  * A part of a foot that can stand: its joint, the landmark on the sole below it, and the landmarks of which one at rest

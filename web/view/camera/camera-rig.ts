@@ -1,51 +1,24 @@
-import { Vector3, type PerspectiveCamera } from 'three';
-import { followByJumps, followSmoothly, type FollowInput } from './following';
-import { nearestSide, type HeadingPlan } from './heading-plan';
+import type { PerspectiveCamera } from 'three';
+import type { Framing, Shot, View } from '../../common/framing';
+import { CoupleFollower, type Dance } from './couple-follower';
 import { focusShot, type Detail } from './focus';
-import {
-  fitDistance,
-  measureCouple,
-  nearestAngle,
-  reframed,
-  shotOf,
-  type Couple,
-  type Framing,
-  type Shot,
-  type View,
-} from './framing';
+import { measureCouple, nearestAngle, reframed, shotOf, type Couple } from './framing';
+import type { HeadingPlan } from './heading-plan';
 import { OrbitCamera } from './orbit-camera';
-import { gestureBetween, shotBetween } from './shot-change';
-
-/** Seconds that a move from one shot to another takes. */
-const MOVE_SECONDS = 0.6;
-/** What a camera follows at one moment of the dance. */
-interface Dance {
-  readonly couple: Couple;
-  readonly seconds: number;
-  /** Whether the couple has moved since the last frame. */
-  readonly danced: boolean;
-}
+import { gestureBetween, ShotMove } from './shot-change';
 
 /** The camera of the stage: its views, moves between them, the person's gestures, and following the couple. */
 export class CameraRig {
   private readonly orbit: OrbitCamera;
+  private readonly follower: CoupleFollower;
   private view: View = 'orbit';
-  private move: { readonly from: Shot; readonly to: Shot; done: number } | null = null;
+  private move: ShotMove | null = null;
   /** Whether the person has moved the camera. */
   private userMoved = false;
-  /** Whether the person has chosen a distance, which is then kept. */
-  private ownDistance = false;
-  /** Whether the person has turned or panned the camera, which then does not turn by itself. */
-  private ownHeading = false;
   /** How the couple was framed before the camera showed a detail; null while it shows none. */
   private beforeFocus: Framing | null = null;
-  private plan: HeadingPlan | null = null;
-  /** Moment that the camera last turned for, seconds: a new dance at the same moment does not turn it. */
-  private turnedFor = NaN;
   /** Shot when the gesture that is going on began. */
   private gestureStart: Shot | null = null;
-  /** Where the couple was when the camera last followed; the view that the person panned to stays relative to it. */
-  private readonly tracked = new Vector3();
 
   /**
    * @param surface element that takes the pointer.
@@ -59,6 +32,7 @@ export class CameraRig {
   ) {
     this.orbit = new OrbitCamera(surface);
     this.orbit.shot = shotOf(this.view, measureCouple([]), this.orbit.aspect, 0);
+    this.follower = new CoupleFollower(this.orbit);
     this.applyPreference();
     reducedMotion?.addEventListener('change', this.applyPreference);
     const { controls } = this.orbit;
@@ -93,19 +67,19 @@ export class CameraRig {
 
   /** Sets the headings from which both dancers are seen; null for a dancer alone. */
   setPlan(plan: HeadingPlan | null): void {
-    this.plan = plan;
+    this.follower.setPlan(plan);
   }
 
   /** Moves to a view's first shot. */
   setView(view: View, couple: Couple, seconds: number): void {
     this.view = view;
-    const heading = view === 'top' ? couple.sideHeading : this.sideHeading(seconds);
+    const heading = view === 'top' ? couple.sideHeading : this.follower.sideHeading(seconds);
     this.moveTo(shotOf(view, couple, this.orbit.aspect, heading));
   }
 
   /** Brings both dancers into the picture, from the side nearest to where they are seen from now. */
   frame(couple: Couple, seconds: number): void {
-    this.moveTo(shotOf(this.view, couple, this.orbit.aspect, this.sideHeading(seconds)));
+    this.moveTo(shotOf(this.view, couple, this.orbit.aspect, this.follower.sideHeading(seconds)));
   }
 
   /**
@@ -115,8 +89,8 @@ export class CameraRig {
    */
   focusOn(detail: Detail, made: Float32Array, seconds: number, couple: Couple): void {
     const before = this.framing(couple);
-    this.moveTo(focusShot(detail, made, couple, this.orbit.aspect, this.sideHeading(seconds)));
-    this.track({ ...before, tracked: [0, 0], ownDistance: true, ownHeading: true }, couple);
+    this.moveTo(focusShot(detail, made, couple, this.orbit.aspect, this.follower.sideHeading(seconds)));
+    this.follower.followAs({ ...before, tracked: [0, 0], ownDistance: true, ownHeading: true }, couple);
     this.beforeFocus = before;
   }
 
@@ -125,25 +99,24 @@ export class CameraRig {
     const before = this.beforeFocus;
     if (before === null) return;
     this.moveTo(reframed(before, couple, this.orbit.aspect));
-    this.track(before, couple);
+    this.follower.followAs(before, couple);
   }
 
   /** Moves back or closer for a picture of another shape, unless the person chose the distance. */
   refit(couple: Couple): void {
-    if (this.ownDistance) return this.onChange();
+    if (this.follower.ownDistance) return this.onChange();
     const { shot } = this.orbit;
     const { distance } = shotOf(this.view, couple, this.orbit.aspect, shot.heading);
     const framing = this.framing(couple);
     this.moveTo({ ...shot, distance });
     // The couple has not moved, and a panned view stays relative to it.
-    this.track(framing, couple);
+    this.follower.followAs(framing, couple);
   }
 
   /** Frames dancers who are new on the stage: the first at once, a partner with a move, unless the person moved it. */
   frameNewcomers(couple: Couple, seconds: number, atOnce: boolean): void {
     if (this.userMoved) return;
-    const { sideHeading } = couple;
-    const heading = this.plan ? nearestSide(this.plan(seconds), sideHeading) : sideHeading;
+    const heading = this.follower.sideHeading(seconds, couple.sideHeading);
     const shot = shotOf(this.view, couple, this.orbit.aspect, heading);
     this.moveTo(shot);
     if (atOnce) this.placeAt(shot);
@@ -156,27 +129,29 @@ export class CameraRig {
     return {
       view: this.view,
       shot: { ...shot, target: [x - couple.x, y, z - couple.z] },
-      tracked: [this.tracked.x - couple.x, this.tracked.z - couple.z],
-      ownDistance: this.ownDistance,
-      ownHeading: this.ownHeading,
+      ...this.follower.framing(couple),
       aspect: this.orbit.aspect,
     };
   }
 
-  /** Frames the couple as another rig did. */
+  /** Frames the couple as another rig did, or this one in an earlier visit. */
   frameAs(framing: Framing, couple: Couple, seconds: number): void {
     this.view = framing.view;
-    this.userMoved = true;
-    this.track(framing, couple);
+    this.userMoved = framing.ownDistance || framing.ownHeading;
+    this.follower.followAs(framing, couple);
     const shot = reframed(framing, couple, this.orbit.aspect);
     this.placeAt(shot);
-    if (this.turnsByItself) this.placeAt({ ...shot, heading: this.sideHeading(seconds) });
+    if (this.follower.turnsIn(this.view))
+      this.placeAt({ ...shot, heading: this.follower.sideHeading(seconds) });
     this.onChange();
   }
 
   /** Goes on by `dt` seconds; true while the camera is still moving. */
   update(dt: number, dance: Dance): boolean {
-    const moving = this.move === null ? this.follow(dt, dance) : this.glide(this.move, dt);
+    const { move, follower, jumps } = this;
+    const moving = move
+      ? this.glide(move, dt)
+      : follower.follow(this.view, dt, dance, { held: this.gestureStart !== null, jumps });
     return this.orbit.controls.update(dt) || moving;
   }
 
@@ -185,38 +160,18 @@ export class CameraRig {
     this.orbit.controls.dispose();
   }
 
-  /** Whether the camera turns with the couple. */
-  private get turnsByItself(): boolean {
-    const follows = this.view === 'orbit' || this.view === 'follow';
-    return follows && !this.ownHeading && this.gestureStart === null;
-  }
-
-  /** The heading nearest to the present one from which both dancers are seen; the present one for a dancer alone. */
-  private sideHeading(seconds: number): number {
-    return this.plan ? nearestSide(this.plan(seconds), this.heading) : this.heading;
-  }
-
-  /** Follows the couple from now on as `framing` does. */
-  private track({ tracked: [x, z], ownDistance, ownHeading }: Framing, couple: Couple): void {
-    this.tracked.set(couple.x + x, 0, couple.z + z);
-    this.ownDistance = ownDistance;
-    this.ownHeading = ownHeading;
-  }
-
   private placeAt(shot: Shot): void {
     this.move = null;
     this.orbit.shot = shot;
   }
 
   private moveTo(shot: Shot): void {
-    this.ownDistance = false;
-    this.ownHeading = false;
     this.beforeFocus = null;
-    this.tracked.set(...shot.target);
+    this.follower.startFrom(shot);
     const from = this.orbit.shot;
     const to = { ...shot, heading: nearestAngle(shot.heading, from.heading) };
     if (this.jumps) this.placeAt(to);
-    else this.move = { from, to, done: 0 };
+    else this.move = new ShotMove(from, to);
     this.onChange();
   }
 
@@ -239,39 +194,15 @@ export class CameraRig {
   private endGesture(): void {
     if (this.gestureStart === null) return;
     const { zoomed, dragged } = gestureBetween(this.gestureStart, this.orbit.shot);
-    if (zoomed) this.ownDistance = true;
-    if (dragged) this.ownHeading = true;
+    if (zoomed) this.follower.ownDistance = true;
+    if (dragged) this.follower.ownHeading = true;
     this.gestureStart = null;
   }
 
   /** Goes on with a move; always true, so that the frame after the last step is drawn too. */
-  private glide(move: NonNullable<CameraRig['move']>, dt: number): true {
-    move.done = Math.min(1, move.done + dt / MOVE_SECONDS);
-    this.orbit.shot = shotBetween(move.from, move.to, move.done);
-    if (move.done === 1) this.move = null;
+  private glide(move: ShotMove, dt: number): true {
+    this.orbit.shot = move.advance(dt);
+    if (move.ended) this.move = null;
     return true;
-  }
-
-  /** Follows the couple; true while the camera moves. */
-  private follow(dt: number, { couple, seconds, danced }: Dance): boolean {
-    const input: FollowInput = {
-      view: this.view,
-      aspect: this.orbit.aspect,
-      offset: [couple.x - this.tracked.x, couple.z - this.tracked.z],
-      distance: this.orbit.shot.distance,
-      fitDistance: fitDistance(couple, this.orbit.aspect),
-      mayZoom: !this.ownDistance && this.gestureStart === null && this.view !== 'top',
-      turn: this.turnsByItself && seconds !== this.turnedFor ? this.sideHeading(seconds) - this.heading : 0,
-    };
-    const { shift, distance, turn, moving } = this.jumps
-      ? followByJumps(input)
-      : followSmoothly(input, dt, danced);
-    const [x, z] = shift;
-    this.tracked.set(this.tracked.x + x, this.tracked.y, this.tracked.z + z);
-    this.orbit.translate(x, z);
-    if (distance !== null) this.orbit.shot = { ...this.orbit.shot, distance };
-    if (turn !== 0) this.orbit.turn(turn, this.tracked);
-    else this.turnedFor = seconds;
-    return moving;
   }
 }

@@ -1,5 +1,6 @@
 import { J } from '../../motion/skeleton/skeleton';
-import { shotOf, type Couple, type Shot } from './framing';
+import type { Shot } from '../../common/framing';
+import { shotOf, type Couple } from './framing';
 
 /** What a camera can show of a moment: the feet of the dancer that was made, both trunks, or the whole couple. */
 export type Detail = 'feet' | 'trunks' | 'couple';

@@ -1,4 +1,5 @@
-import { easing, type View } from './framing';
+import type { View } from '../../common/framing';
+import { easing } from './framing';
 
 /** How a camera follows a couple that travels: plain numbers, no camera. */
 

@@ -1,4 +1,4 @@
-import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { FPS, type SolvedMotion } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { smoothstep } from '../body/field';
 
@@ -6,8 +6,8 @@ import { smoothstep } from '../body/field';
 export type HeadingPlan = (seconds: number) => number;
 
 /** Seconds between two headings of the plan, and seconds between the frames that are looked at. */
-const STEP = 8 / 30;
-const SAMPLE = 4 / 30;
+const STEP = 8 / FPS;
+const SAMPLE = 4 / FPS;
 /** Headings in half a turn. */
 const BINS = 60;
 const BIN = Math.PI / BINS;

@@ -1,6 +1,7 @@
 import { PerspectiveCamera, Spherical, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { FIELD_OF_VIEW, type Shot } from './framing';
+import type { Shot } from '../../common/framing';
+import { FIELD_OF_VIEW } from './framing';
 
 const POLE = Math.PI / 2;
 const UP = new Vector3(0, 1, 0);

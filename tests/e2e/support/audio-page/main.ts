@@ -37,12 +37,12 @@ async function open(source: Source): Promise<Blob> {
   return encodeWav([new Float32Array(source.silentSeconds * source.rate)], source.rate);
 }
 
-function findClicks({ pcm, sampleRate }: Song): number[] {
+function findClicks({ waveform: { low, high, rate, loudest } }: Song): number[] {
   const clicks: number[] = [];
   let quietSince = -Infinity;
-  pcm.forEach((sample, i) => {
-    if (Math.abs(sample) < 0.1) return;
-    if (i - quietSince > 0.05 * sampleRate) clicks.push(i / sampleRate);
+  high.forEach((highest, i) => {
+    if ((Math.max(highest, -low[i]!) / 127) * loudest < 0.1) return;
+    if (i - quietSince > 0.05 * rate) clicks.push(i / rate);
     quietSince = i;
   });
   return clicks;
@@ -100,13 +100,13 @@ export const page = {
       });
       return {
         duration: song.duration,
-        samples: song.pcm.length,
+        samples: Math.round(song.duration * Number(recipe['sample_rate'])),
         frames: song.frames,
         columns: song.features.length / song.frames,
         tempo: song.rhythm.tempo,
         beats: song.rhythm.beats.length,
         silent: song.silent,
-        peak: song.pcm.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0),
+        peak: song.waveform.loudest,
         clicks: findClicks(song),
         progress,
         seconds: (performance.now() - started) / 1000,

@@ -1,8 +1,9 @@
 /** Playback, camera, theme, overlays and floating panels. */
 import { danceDuration } from '../selectors';
+import type { View } from '../../../common/framing';
 import type { VisibleOverlays } from '../../../common/visible-overlays';
 import type { Reaction } from '../reaction';
-import type { AppState, Camera, CoarseLayer, Playback, Theme } from '../state';
+import type { AppState, CoarseLayer, Playback, Theme } from '../state';
 import type { Change } from '../store';
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;
@@ -20,7 +21,7 @@ export function themeSet(theme: Theme): Change {
   return () => ({ theme });
 }
 
-export function cameraSet(camera: Camera): Change {
+export function cameraSet(camera: View): Change {
   return () => ({ camera });
 }
 

@@ -38,15 +38,14 @@ function addedBytes({ song, leader, reaction, takes = [] }: Holder, seen: Set<ob
     if (!made) continue;
     add(made.inputs.song, songBytes);
     add(made.inputs.leader, leaderBytes);
-    // Its copy with locked feet lives as long as it does.
-    add(made.motion, (motion) => 2 * motionBytes(motion));
+    add(made.motion, motionBytes);
     add(made.latents, ({ byteLength }) => byteLength);
   }
   return sum;
 }
 
 function songBytes({ file, data }: LoadedSong): number {
-  return file.size + data.sound.size + data.features.byteLength + data.pcm.byteLength;
+  return file.size + data.sound.size + data.features.byteLength + 2 * data.waveform.high.byteLength;
 }
 
 function leaderBytes({ files, file, motion }: LoadedLeader): number {

@@ -1,33 +1,4 @@
-import type { Peaks } from '../../widgets/lane-canvas';
 import type { SolvedMotion } from '../../../motion/skeleton/clip';
-import type { Span } from '../../store/time-scale';
-
-/**
- * The lowest and highest sample of each column of a drawn waveform.
- * @param pcm mono samples
- * @param rate samples per second
- * @param span the part that is drawn, seconds of the song; outside the song the waveform is flat
- * @param columns width of the drawing
- */
-export function peaks(pcm: Float32Array, rate: number, { from, to }: Span, columns: number): Peaks {
-  const low = new Float32Array(columns);
-  const high = new Float32Array(columns);
-  const sampleAt = (column: number): number => Math.floor((from + (column / columns) * (to - from)) * rate);
-  for (let column = 0; column < columns; column++) {
-    const first = sampleAt(column);
-    const end = Math.min(pcm.length, Math.max(first + 1, sampleAt(column + 1)));
-    let min = 0;
-    let max = 0;
-    for (let i = Math.max(0, first); i < end; i++) {
-      const value = pcm[i] ?? 0;
-      if (value < min) min = value;
-      if (value > max) max = value;
-    }
-    low[column] = min;
-    high[column] = max;
-  }
-  return { low, high };
-}
 
 /** Speed of a dancer in each frame: the mean over the joints, m/s, smoothed over about 0.2 s. */
 export function speedCurve({

@@ -1,4 +1,4 @@
-import { peaks } from './curves';
+import { columnsOf } from '../../../audio/client';
 import { el, setText } from '../../widgets/dom';
 import { drawBeats, drawWave, surface, token } from '../../widgets/lane-canvas';
 import { accentOf, type CountedBeats } from '../../store/counting';
@@ -10,9 +10,6 @@ import type { LoadedSong } from '../../store/reaction';
 import type { AppState } from '../../store/state';
 import type { Store } from '../../store/store';
 import type { TimeScale } from '../../store/time-scale';
-
-/** Sample value that fills the lane's height at least, so that a silent song stays flat. */
-const MIN_PEAK = 1e-3;
 
 /** How the lane is drawn; `shift` may be one that is still being dragged. */
 interface SongLaneView {
@@ -64,8 +61,7 @@ function createWaveform(): {
     const start = songStart({ leader: state.leader, shift });
     const columns = Math.max(1, Math.round(scale.width * Math.min(2, window.devicePixelRatio)));
     const span = { from: scale.from - start, to: scale.to - start };
-    const { pcm, sampleRate, peak } = song.data;
-    const shape = peaks(pcm, sampleRate, span, columns);
+    const shape = columnsOf(song.data.waveform, span, columns);
     const colours = {
       bar: token(root, '--text-2'),
       beat: token(root, '--control-line'),
@@ -79,7 +75,7 @@ function createWaveform(): {
       const on = surface(each);
       if (!on) continue;
       drawBeats(on, marks, scale, colours);
-      drawWave(on, shape, Math.max(peak, MIN_PEAK), token(root, colour));
+      drawWave(on, shape, token(root, colour));
     }
   };
   return {

@@ -1,27 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { peaks, speedCurve } from '../../../../../web/ui/timeline/lanes/curves';
-
-describe('waveform', () => {
-  it('keeps the lowest and highest sample of each column', () => {
-    const pcm = Float32Array.of(0.1, 0.5, -0.2, 0, -0.9, 0.3, 0, 0);
-    const { low, high } = peaks(pcm, 8, { from: 0, to: 1 }, 4);
-    expect([...high].map((value) => Number(value.toFixed(2)))).toEqual([0.5, 0, 0.3, 0]);
-    expect([...low].map((value) => Number(value.toFixed(2)))).toEqual([0, -0.2, -0.9, 0]);
-  });
-
-  it('is flat after the end of the song and ends with the dance', () => {
-    const pcm = new Float32Array(100).fill(0.5);
-    expect([...peaks(pcm, 100, { from: 0, to: 2 }, 4).high]).toEqual([0.5, 0.5, 0, 0]);
-    expect([...peaks(pcm, 100, { from: 0, to: 0.5 }, 2).high]).toEqual([0.5, 0.5]);
-  });
-});
-
-describe('a part of a waveform', () => {
-  it('is flat before the song begins', () => {
-    const pcm = new Float32Array(100).fill(0.5);
-    expect([...peaks(pcm, 100, { from: -0.5, to: 0.5 }, 4).high]).toEqual([0, 0, 0.5, 0.5]);
-  });
-});
+import { speedCurve } from '../../../../../web/ui/timeline/lanes/curves';
 
 describe('speed of a dancer', () => {
   const moving = (frames: number, metresPerFrame: number): Float32Array => {
