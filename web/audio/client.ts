@@ -8,6 +8,7 @@ import type { AudioTasks } from './worker';
 
 export { AudioPlayer, type Player } from './player';
 export type { BeatsPerBar } from './rhythm/metre';
+export { readRecipe };
 export { type Columns, columnsOf } from './waveform';
 
 /** A loaded song. */

@@ -1,8 +1,9 @@
 import * as v from 'valibot';
 import { AppError } from '../common/error';
 
-const positive = v.pipe(v.number(), v.finite(), v.gtValue(0));
-const count = v.pipe(v.number(), v.integer(), v.minValue(1));
+/** Beyond these a song would fill the memory or take hours. */
+const positive = v.pipe(v.number(), v.gtValue(0), v.maxValue(1e5));
+const count = v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(1024));
 const odd = v.pipe(
   count,
   v.check((value) => value % 2 === 1, 'Expected an odd number'),
@@ -12,17 +13,19 @@ const odd = v.pipe(
 const schema = v.pipe(
   v.object({
     /** Hz of the mono signal that is analysed. */
-    sample_rate: count,
+    sample_rate: v.pipe(v.number(), v.integer(), v.minValue(4000), v.maxValue(192_000)),
     /** Samples between two frames. */
-    hop: count,
+    hop: v.pipe(v.number(), v.integer(), v.minValue(32), v.maxValue(16_384)),
     /** Samples under the Hann window of one frame. */
     n_fft: v.pipe(
-      count,
+      v.number(),
+      v.minValue(64),
+      v.maxValue(32_768),
       v.check((value) => Number.isInteger(Math.log2(value)), 'Expected a power of two'),
     ),
     mels: count,
     /** Hz. */
-    mel_fmin: v.pipe(v.number(), v.minValue(0)),
+    mel_fmin: v.pipe(v.number(), v.minValue(0), v.maxValue(1e5)),
     /** Hz. */
     mel_fmax: positive,
     amin: positive,
@@ -35,7 +38,7 @@ const schema = v.pipe(
     hpss_power: positive,
     chroma: count,
     /** Fractions of a pitch class. */
-    chroma_tuning: v.pipe(v.number(), v.finite()),
+    chroma_tuning: v.pipe(v.number(), v.minValue(-1), v.maxValue(1)),
     chroma_octave: positive,
     /** Octaves. */
     chroma_octave_width: positive,
@@ -56,6 +59,11 @@ const schema = v.pipe(
   v.check(
     ({ features, mfcc, chroma }) => features === 2 * mfcc + chroma + 2,
     'Expected 2 mfcc + chroma + 2 features',
+  ),
+  v.check(({ mfcc, mels }) => mfcc <= mels, 'Expected at most as many mfcc as mels'),
+  v.check(
+    ({ mel_fmin, mel_fmax, sample_rate }) => mel_fmin < mel_fmax && mel_fmax <= sample_rate / 2,
+    'Expected mel_fmin below mel_fmax, and that at most half the sample rate',
   ),
 );
 

@@ -2,9 +2,14 @@ import * as v from 'valibot';
 import { FLOOR } from '../motion/retarget/axes-and-units';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { AppError } from '../common/error';
+import { shapeProblem } from './graph-shapes';
 
 /** Far above what any model of this method has: sizes beyond it only fill the memory. */
 const MAX_COUNT = 1e6;
+/** Most values of a block, 64 MB: a hundred times as many as a block of the shipped model has. */
+const MAX_BLOCK = 2 ** 24;
+/** Most positions of a fader. */
+const MAX_FADER_STEPS = 10_000;
 const count = v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(MAX_COUNT));
 const natural = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(MAX_COUNT));
 const joint = v.pipe(natural, v.maxValue(SMPL22.length - 1));
@@ -13,8 +18,14 @@ const finite = v.pipe(v.number(), v.minValue(-1000), v.maxValue(1000));
 /** Metres of a body's height. */
 const height = v.pipe(v.number(), v.minValue(0.5), v.maxValue(3));
 
+/** A file beside the manifest or below it. */
+const path = v.pipe(
+  v.string(),
+  v.regex(/^[\w-][\w.-]*(\/[\w-][\w.-]*)*$/, 'Expected the path of a file beside the manifest'),
+);
+
 const file = v.object({
-  path: v.pipe(v.string(), v.minLength(1)),
+  path,
   bytes: v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(2 ** 32)),
   sha256: v.pipe(v.string(), v.regex(/^[0-9a-f]{64}$/, 'Expected 64 hexadecimal digits')),
 });
@@ -27,6 +38,11 @@ const graph = v.object({
 
 const positive = v.pipe(v.number(), v.minValue(0), v.maxValue(1e5));
 
+/** Metres of a part of a body, metres a second of a foot, and frames around a moment. */
+const bodyPart = v.pipe(v.number(), v.minValue(0), v.maxValue(1));
+const speed = v.pipe(v.number(), v.minValue(0), v.maxValue(10));
+const around = v.pipe(v.number(), v.gtValue(0), v.maxValue(300));
+
 /** Least and greatest weight, the distance between two of them, and the default. */
 const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtValue(0)), default: finite });
 
@@ -34,20 +50,27 @@ const range = v.object({ min: finite, max: finite, step: v.pipe(positive, v.gtVa
 const quality = v.object({
   contact: v.object({
     percentile: v.pipe(positive, v.maxValue(100)),
-    height: positive,
-    vertical_speed: positive,
-    slide_speed: positive,
+    height: bodyPart,
+    vertical_speed: speed,
+    slide_speed: speed,
   }),
   penetration: v.object({
     capsules: v.array(
-      v.object({ from: v.picklist(SMPL22), to: v.picklist(SMPL22), radius: positive, beyond: positive }),
+      v.object({ from: v.picklist(SMPL22), to: v.picklist(SMPL22), radius: bodyPart, beyond: bodyPart }),
     ),
     reference_height: height,
-    deep: positive,
+    deep: bodyPart,
   }),
-  beats: v.object({ smoothing: positive, tolerance: positive }),
-  seams: v.object({ radius: positive, clear: positive, paper_radius: positive }),
+  beats: v.object({ smoothing: around, tolerance: around }),
+  seams: v.object({ radius: around, clear: around, paper_radius: around }),
 });
+
+const names = v.pipe(
+  v.array(v.pipe(v.string(), v.regex(/^[a-z][a-z0-9_]{0,31}$/, 'Expected a short word'))),
+  v.minLength(1),
+  v.maxLength(32),
+  v.check((all) => new Set(all).size === all.length, 'Expected different words'),
+);
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
@@ -74,7 +97,7 @@ const schema = v.object({
   /** That of every clip on the page. */
   fps: v.literal(30),
   /** Mean unfamiliarity from which a leader is unlike all that the model was trained on. */
-  leader: v.object({ unfamiliar_from: positive }),
+  leader: v.object({ unfamiliar_from: v.pipe(positive, v.gtValue(0)) }),
   latent: v.object({
     /** Motion frames per latent frame. */
     stride: v.pipe(count, v.maxValue(64)),
@@ -82,8 +105,8 @@ const schema = v.object({
     block: v.pipe(count, v.maxValue(10_000)),
     /** Channels of one residual layer, all streams together. */
     channels: v.pipe(count, v.maxValue(65_536)),
-    streams: v.pipe(v.array(v.string()), v.minLength(1)),
-    layers: v.pipe(v.array(v.string()), v.minLength(1)),
+    streams: names,
+    layers: names,
     memory_width: v.pipe(count, v.maxValue(65_536)),
     /** Latent frames that a graph needs on each side of a piece of clip for an exact result inside it. */
     receptive_field: v.object({
@@ -103,7 +126,7 @@ const schema = v.object({
     /** Time of the last step, a share of train_steps. */
     last_time: v.pipe(v.number(), v.gtValue(0), v.maxValue(1)),
     /** By stream: how far the last prediction is extrapolated from the one before it. */
-    extrapolation: v.array(finite),
+    extrapolation: v.array(v.pipe(v.number(), v.minValue(-10), v.maxValue(10))),
     steps: v.object({ default: count, min: count, max: count }),
   }),
   guidance: v.object({
@@ -125,7 +148,7 @@ const schema = v.object({
   quality,
   graphs: v.object({ condition: graph, step: graph, decode: graph }),
   /** Inputs and results of one small sampling, as Python computed it. */
-  golden: v.optional(v.object({ path: v.pipe(v.string(), v.minLength(1)) })),
+  golden: v.optional(v.object({ path })),
 });
 
 /** Every number about a model that the page knows; written by export, checked here. */
@@ -151,7 +174,7 @@ function describe(issue: v.BaseIssue<unknown>): string {
 
 /** Statements that tie fields to each other and to what this page can draw. */
 function check(manifest: Manifest): void {
-  const { skeleton, latent, diffusion } = manifest;
+  const { skeleton, latent, diffusion, audio } = manifest;
   const { coarse, fine, music, variety } = manifest.guidance;
   const ranges = { coarse, fine, music, variety };
   const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
@@ -175,6 +198,21 @@ function check(manifest: Manifest): void {
       `The model's manifest lists ${diffusion.alphas_cumprod.length} values in "diffusion.alphas_cumprod" ` +
         `for ${diffusion.train_steps} train steps.`,
     );
+  }
+  const shapes = shapeProblem(manifest);
+  if (shapes !== null) throw invalid(`The model's manifest ${shapes}.`);
+  if (audio.sample_rate !== manifest.fps * audio.hop) {
+    throw invalid(
+      `The model's manifest has ${audio.sample_rate / audio.hop} feature frames a second for ${manifest.fps} motion frames.`,
+    );
+  }
+  if (latent.layers[0] !== 'coarse') {
+    throw invalid(
+      `The model's manifest begins "latent.layers" with "${latent.layers[0]}", not with "coarse".`,
+    );
+  }
+  if (latent.block * Math.max(latent.stride, latent.layers.length * latent.channels) > MAX_BLOCK) {
+    throw invalid("The model's manifest has blocks that are too large to sample on this page.");
   }
   if (latent.channels % latent.streams.length !== 0) {
     throw invalid(
@@ -200,9 +238,12 @@ function check(manifest: Manifest): void {
   if (!(min <= preset && preset <= max && max <= diffusion.train_steps)) {
     throw invalid('The model\'s manifest has a "diffusion.steps" that is not in order: min, default, max.');
   }
-  for (const [name, { min, max, default: preset }] of Object.entries(ranges))
-    if (!(min <= preset && preset <= max))
+  for (const [name, { min, max, step, default: preset }] of Object.entries(ranges)) {
+    if (!(min < max && min <= preset && preset <= max))
       throw invalid(`The model's manifest has a "guidance.${name}" that is not in order: min, default, max.`);
+    if (!(step <= max - min && max - min <= MAX_FADER_STEPS * step))
+      throw invalid(`The model's manifest has a "guidance.${name}" whose step does not fit its range.`);
+  }
 }
 
 /**

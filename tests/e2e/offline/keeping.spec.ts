@@ -1,7 +1,9 @@
 import type { Page } from '@playwright/test';
+import type { Framing } from '../../../web/common/framing';
 import { bvh } from '../support/files';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
+import { rested } from '../support/stage-rest';
 
 /** A page with a take of its own. */
 async function withTake(page: Page): Promise<App> {
@@ -79,4 +81,57 @@ test('of two tabs one keeps the work, and the other says so and can take over', 
   await first.until(({ takes, autosave }) => takes.length === 3 && autosave === 'stored');
   await expect(says(page)).toBeHidden();
   expect((await seeds(first)).sort()).toEqual(expect.arrayContaining([201, 202]));
+});
+
+test.describe('with a small stage, for a software renderer', () => {
+  test.use({ viewport: { width: 900, height: 560 } });
+
+  test('a reload brings back the camera, the looped part and the take on the stage', async ({ page }) => {
+    await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
+    const app = new App(page);
+    await app.open();
+    await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
+    await app.until(({ takes, job }) => takes.length === 1 && !job);
+    await takeMade(page, 77);
+    await page.keyboard.press('Escape');
+    const takes = page.getByRole('grid', { name: 'Takes' }).getByRole('row');
+    await takes.filter({ hasText: 'Take 1' }).click();
+    const stage = page.locator('.picture');
+    const box = (await stage.boundingBox())!;
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 90, box.y + box.height / 2 + 20, { steps: 4 });
+    await page.mouse.up();
+    await page.mouse.wheel(0, -240);
+    await page.evaluate('document.activeElement.blur()');
+    await page.keyboard.press('End');
+    await page.keyboard.press('o');
+    await page.keyboard.press('Home');
+    for (let times = 0; times < 5; times++) await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('i');
+    await rested(page);
+
+    const seen = (): Promise<Framing> => page.evaluate<Framing>('window.reactdance.stage.framing()');
+    const before = await seen();
+    const state = () =>
+      app.read(({ playback, reaction, takes }) => [
+        playback.time,
+        playback.region,
+        takes.findIndex((take) => take.reaction === reaction),
+      ]);
+    const stateBefore = await state();
+    expect(stateBefore[1]).not.toBeNull();
+    expect(stateBefore[2]).toBe(1);
+    expect(before.ownHeading && before.ownDistance).toBe(true);
+
+    await page.reload();
+    await app.until(({ takes, restoring }) => takes.length === 2 && !restoring);
+    await rested(page);
+    expect(await state()).toEqual(stateBefore);
+    const after = await seen();
+    for (const key of ['distance', 'heading', 'elevation'] as const)
+      expect(after.shot[key]).toBeCloseTo(before.shot[key], 3);
+    after.shot.target.forEach((value, axis) => expect(value).toBeCloseTo(before.shot.target[axis]!, 3));
+    expect({ ...after, shot: null, tracked: null }).toEqual({ ...before, shot: null, tracked: null });
+  });
 });

@@ -36,6 +36,20 @@ describe('parseManifest', () => {
   });
 
   it.each<[string, (json: Json) => unknown, string]>([
+    ['memory_width', (json) => void (json.latent.memory_width = 64), '"memory" of the graph "condition"'],
+    ['block', (json) => void (json.latent.block = 60), '"x" of the graph "step"'],
+    ['features', (json) => void (json.audio.features = 54), '"music" of the graph "condition"'],
+    ['streams', (json) => void json.latent.streams.pop(), '"gains" of the graph "decode"'],
+  ])('compares %s with what the graphs take', (_, change, words) => {
+    expect(failure(change).message).toContain(`declares ${words} as `);
+  });
+
+  it('misses a tensor that the page feeds', () => {
+    const error = failure((json) => void Reflect.deleteProperty(json.graphs.step.inputs, 'keep'));
+    expect(error.message).toBe('The model\'s manifest has no "keep" of the graph "step" among its inputs.');
+  });
+
+  it.each<[string, (json: Json) => unknown, string]>([
     ['another format', (json) => void (json.format = 'other'), 'model-unsupported'],
     ['another version', (json) => void (json.version = 1), 'model-unsupported'],
     ['another noise', (json) => void (json.noise.algorithm = 'mt19937'), 'manifest-invalid'],
@@ -43,7 +57,7 @@ describe('parseManifest', () => {
     ['another floor', (json) => void (json.skeleton.floor.toe_rest = 0.05), 'model-unsupported'],
     ['other parents', (json) => void (json.skeleton.parents[3] = 1), 'model-unsupported'],
     ['a short schedule', (json) => void json.diffusion.alphas_cumprod.pop(), 'manifest-invalid'],
-    ['channels that do not divide', (json) => void (json.latent.channels = 4), 'manifest-invalid'],
+    ['channels that do not fit', (json) => void (json.latent.channels = 4), 'manifest-invalid'],
     ['default steps out of range', (json) => void (json.diffusion.steps.default = 60), 'manifest-invalid'],
     ['weights out of range', (json) => void (json.guidance.variety.default = 3), 'manifest-invalid'],
     ['no seeds for the mean', (json) => void (json.guidance.variety.seeds = 0), 'manifest-invalid'],
@@ -52,6 +66,31 @@ describe('parseManifest', () => {
       (json) => void (json.quality.penetration.capsules[0]!.to = 'tail'),
       'manifest-invalid',
     ],
+    [
+      'a file of another site',
+      (json) => void (json.graphs.step.files.wasm.path = 'https://example.org/x'),
+      'manifest-invalid',
+    ],
+    [
+      'a file outside its folder',
+      (json) => void (json.graphs.step.files.wasm.path = '../x.onnx'),
+      'manifest-invalid',
+    ],
+    ['two streams of one name', (json) => void (json.latent.streams[1] = 'upper'), 'manifest-invalid'],
+    ['a stream without a name', (json) => void (json.latent.streams[1] = '__proto__'), 'manifest-invalid'],
+    ['another first layer', (json) => void (json.latent.layers[0] = 'rough'), 'manifest-invalid'],
+    [
+      'a fader without a range',
+      (json) => void Object.assign(json.guidance.music, { min: 2, max: 2 }),
+      'manifest-invalid',
+    ],
+    ['a fader of a million steps', (json) => void (json.guidance.music.step = 1e-6), 'manifest-invalid'],
+    [
+      'a body of 20 metres',
+      (json) => void (json.quality.penetration.capsules[0]!.radius = 20),
+      'manifest-invalid',
+    ],
+    ['features at another rate', (json) => void (json.audio.hop = 500), 'manifest-invalid'],
     ['a list', () => [], 'manifest-invalid'],
     ['a string', () => 'manifest', 'manifest-invalid'],
   ])('refuses %s', (_, change, code) => {

@@ -3,9 +3,10 @@ import { PARENTS, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { type Manifest, parseManifest } from '../../../web/model/manifest';
 
 const file = (path: string) => ({ path, bytes: 3, sha256: '0'.repeat(64) });
-const graph = (path: string) => ({
-  inputs: {},
-  outputs: {},
+type Shapes = Record<string, (string | number)[]>;
+const graph = (path: string, inputs: Shapes, outputs: Shapes) => ({
+  inputs,
+  outputs,
   files: { wasm: file(path), webgpu: file(path) },
 });
 
@@ -61,7 +62,31 @@ export function smallJson() {
     noise: { algorithm: 'philox4x32-10' },
     decode: { foot_contact: 0 },
     architecture: {},
-    audio: { sample_rate: 15360, hop: 512, features: 5, mels: 128 },
+    audio: {
+      sample_rate: 15360,
+      hop: 512,
+      n_fft: 2048,
+      mels: 128,
+      mel_fmin: 0,
+      mel_fmax: 7680,
+      amin: 1e-10,
+      top_db: 80,
+      mfcc: 1,
+      delta_width: 3,
+      hpss_kernel: 31,
+      hpss_power: 2,
+      chroma: 1,
+      chroma_tuning: 0,
+      chroma_octave: 5,
+      chroma_octave_width: 2,
+      onset_lag: 1,
+      start_bpm: 120,
+      tempo_std: 1,
+      tempo_window: 8,
+      max_tempo: 320,
+      tightness: 100,
+      features: 5,
+    },
     quality: {
       contact: { percentile: 5, height: 0.03, vertical_speed: 0.1, slide_speed: 0.2 },
       penetration: {
@@ -72,7 +97,29 @@ export function smallJson() {
       beats: { smoothing: 5, tolerance: 3 },
       seams: { radius: 2, clear: 8, paper_radius: 30 },
     },
-    graphs: { condition: graph('condition.onnx'), step: graph('step.onnx'), decode: graph('decode.onnx') },
+    graphs: {
+      condition: graph(
+        'condition.onnx',
+        { leader: ['frames', 22, 3], music: ['frames', 5], music_valid: ['frames'], role: [1] },
+        { memory: ['latents', 2], unfamiliarity: ['latents'] },
+      ),
+      step: graph(
+        'step.onnx',
+        {
+          x: ['blocks', 6, 2, 3],
+          memory: ['blocks', 6, 2],
+          valid: ['blocks', 6],
+          keep: [1],
+          time: [1],
+        },
+        { x0: ['blocks', 6, 2, 3] },
+      ),
+      decode: graph(
+        'decode.onnx',
+        { latents: ['latents', 2, 3], leader: ['frames', 22, 3], gains: [3, 2], bones: [22] },
+        { reactor: ['frames', 22, 3], lengths: ['frames', 22] },
+      ),
+    },
   };
 }
 

@@ -1,6 +1,7 @@
 /** The three graphs of a model under onnxruntime: one execution provider, one run at a time. */
 import type * as ort from 'onnxruntime-web/wasm';
 import { AppError } from '../../common/error';
+import { tensorsOf } from '../graph-shapes';
 import { GRAPHS, type GraphName, type Manifest } from '../manifest';
 import { loadRuntime, type Provider, type Runtime } from './runtime';
 import type {
@@ -24,17 +25,6 @@ export interface ModelSession {
 type Tensors = Record<string, ort.Tensor>;
 type Arrays = Record<string, Float32Array>;
 
-const INPUTS: Record<GraphName, readonly string[]> = {
-  condition: ['leader', 'music', 'music_valid', 'role'],
-  step: ['x', 'memory', 'valid', 'keep', 'time'],
-  decode: ['latents', 'leader', 'gains', 'bones'],
-};
-const OUTPUTS: Record<GraphName, readonly string[]> = {
-  condition: ['memory', 'unfamiliarity'],
-  step: ['x0'],
-  decode: ['reactor', 'lengths'],
-};
-
 // Overlapping runs on a WebGPU device hang for ever without an error, so all sessions share one queue.
 let lastJob: Promise<unknown> = Promise.resolve();
 
@@ -44,9 +34,11 @@ function enqueue<T>(job: () => Promise<T>): Promise<T> {
   return result;
 }
 
+/** @param wanted names of the inputs and outputs that it needs */
 async function open(
   runtime: Runtime,
   name: GraphName,
+  wanted: { readonly inputs: readonly string[]; readonly outputs: readonly string[] },
   bytes: Uint8Array,
   provider: Provider,
 ): Promise<ort.InferenceSession> {
@@ -56,8 +48,8 @@ async function open(
     graphOptimizationLevel: 'all',
   });
   const missing = [
-    ...INPUTS[name].filter((input) => !session.inputNames.includes(input)),
-    ...OUTPUTS[name].filter((output) => !session.outputNames.includes(output)),
+    ...wanted.inputs.filter((input) => !session.inputNames.includes(input)),
+    ...wanted.outputs.filter((output) => !session.outputNames.includes(output)),
   ];
   if (missing.length === 0) return session;
   await session.release();
@@ -145,8 +137,11 @@ export async function openSession(
     for (const session of Object.values(sessions)) await session.release();
   };
   try {
-    for (const name of GRAPHS)
-      sessions[name] = await enqueue(() => open(runtime, name, graphs[name], provider));
+    for (const name of GRAPHS) {
+      const { inputs, outputs } = tensorsOf(manifest)[name];
+      const wanted = { inputs: Object.keys(inputs), outputs: Object.keys(outputs) };
+      sessions[name] = await enqueue(() => open(runtime, name, wanted, graphs[name], provider));
+    }
   } catch (error) {
     await enqueue(release);
     throw error;

@@ -1,3 +1,4 @@
+import { readRecipe } from '../../audio/client';
 import { randomSeed } from '../store/actions/settings';
 import type { Generator, Manifest, ModelFolder, ReloadFailure, Status } from '../../model/client';
 import { modelProblem } from '../store/problems';
@@ -51,9 +52,11 @@ export function createModelLink(
     // Other downloads may still report progress after one has failed.
     let failed = false;
     try {
-      return await create((status) => {
-        if (!failed) onStatus(status);
-      }, null);
+      return await usable(
+        create((status) => {
+          if (!failed) onStatus(status);
+        }, null),
+      );
     } catch (error) {
       failed = true;
       fail(error);
@@ -79,7 +82,7 @@ export function createModelLink(
       const shown = store.getState().model;
       try {
         // The present model's manifest stays until the other one is ready.
-        const made = await create((status) => status.kind !== 'manifest' && onStatus(status), folder);
+        const made = await usable(create((status) => status.kind !== 'manifest' && onStatus(status), folder));
         current = Promise.resolve(made);
         apply(store, modelOpened(made.manifest, randomSeed()));
         resolveManifest(made.manifest);
@@ -95,6 +98,18 @@ export function createModelLink(
       }
     },
   };
+}
+
+/** A model by whose recipe the page can analyse songs. @throws {AppError} bad-recipe, or why there is no model */
+async function usable(creating: Promise<Generator>): Promise<Generator> {
+  const made = await creating;
+  try {
+    readRecipe(made.manifest.audio);
+    return made;
+  } catch (error) {
+    made.dispose();
+    throw error;
+  }
 }
 
 function stateOf(status: Exclude<Status, { kind: 'manifest' | 'notice' }>): ModelState {

@@ -1,7 +1,6 @@
 import {
   createVideoReader,
   DEFAULT_FOCAL,
-  FPS,
   type Observations,
   type Point,
   type ReadReport,
@@ -10,6 +9,7 @@ import {
   type WorldOptions,
 } from '../../video/client';
 import { AppError } from '../../common/error';
+import { FPS } from '../../motion/skeleton/clip';
 import { problemShown } from '../store/actions/notices';
 import { shiftSet } from '../store/actions/timeline';
 import { firstVisitEnded } from '../store/actions/files';

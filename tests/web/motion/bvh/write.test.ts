@@ -88,7 +88,9 @@ describe('what is written is what was solved', () => {
 
 describe('what other programs need', () => {
   test('the rest pose is the T-pose in centimetres, with ends at head, hands and toes', () => {
-    expect(text).toMatch(/^HIERARCHY\nROOT Reference\n\{\n\tOFFSET 0.0000 0.0000 0.0000\n\tCHANNELS 6 Xposition/);
+    expect(text).toMatch(
+      /^HIERARCHY\nROOT Reference\n\{\n\tOFFSET 0.0000 0.0000 0.0000\n\tCHANNELS 6 Xposition/,
+    );
     const { skeleton } = new BVHLoader().parse(text);
     skeleton.bones[0]!.updateMatrixWorld(true);
     const rest = new Map(skeleton.bones.map((bone) => [bone.name, bone.getWorldPosition(new Vector3())]));
@@ -96,10 +98,8 @@ describe('what other programs need', () => {
     expect(rest.get('LeftHand')!.x - hips.x).toBeGreaterThan(60);
     expect(rest.get('RightHand')!.x - hips.x).toBeLessThan(-60);
     // The soles are on the floor.
-    expect(Math.min(...skeleton.bones.map((bone) => bone.getWorldPosition(new Vector3()).y))).toBeCloseTo(
-      3,
-      3,
-    );
+    const joints = skeleton.bones.slice(1);
+    expect(Math.min(...joints.map((bone) => bone.getWorldPosition(new Vector3()).y))).toBeCloseTo(3, 3);
     expect([hips.x, hips.z]).toEqual([0, 0]);
     expect(Math.abs(rest.get('LeftHand')!.y - rest.get('LeftArm')!.y)).toBeLessThan(1e-3);
     expect(rest.get('Hips')!.y - rest.get('LeftFoot')!.y).toBeGreaterThan(75);

@@ -1,5 +1,6 @@
 import { strToU8, unzipSync, zipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
+import type { Framing } from '../../../../web/common/framing';
 import { oneSet } from '../../../../web/ui/store/actions/counting';
 import { projectOpened, projectCleared } from '../../../../web/ui/store/actions/project';
 import {
@@ -106,6 +107,52 @@ const summary = (state: AppState) => ({
   countings: state.countings,
   time: state.playback.time,
   takesMade: state.takesMade,
+});
+
+const FRAMING: Framing = {
+  view: 'follow',
+  shot: { target: [0.1, 0.8, -0.2], distance: 3.2, heading: 7, elevation: 0.3 },
+  tracked: [0, 0.05],
+  ownDistance: true,
+  ownHeading: false,
+  aspect: 1.6,
+};
+
+describe('how a dance is looked at', () => {
+  const readAgain = async (framing: unknown, region: unknown) => {
+    const state = filled().getState();
+    const kept = storedProject(state, FRAMING);
+    const { page } = { ...kept, page: { ...kept.page, framing, region } } as StoredProject;
+    const { project } = readProject(await writeProject({ ...kept, page }));
+    const { content } = await contentOf(project, empty().getState());
+    return { framing: project.page.framing, region: content.playback?.region, camera: content.camera };
+  };
+
+  it('is restored: the camera, and the part that is looped', async () => {
+    const region = { from: 0.5, to: 1.75 };
+    expect(await readAgain(FRAMING, region)).toEqual({ framing: FRAMING, region, camera: 'follow' });
+  });
+
+  it.each([
+    ['a camera beyond the floor', { ...FRAMING, tracked: [1e9, 0] }],
+    ['a camera without a place', { ...FRAMING, shot: { ...FRAMING.shot, distance: Number.MAX_VALUE } }],
+    ['an unknown view', { ...FRAMING, view: 'inside' }],
+    ['nothing', null],
+  ])('%s is left out', async (_, framing) => {
+    expect(await readAgain(framing, null)).toEqual({ framing: null, region: null, camera: undefined });
+  });
+
+  it.each([
+    ['backwards', { from: 1.5, to: 0.5 }],
+    ['after the end', { from: 1.5, to: 60 }],
+    ['without an end', { from: 1.5 }],
+  ])('a part that is %s is left out', async (_, region) => {
+    expect((await readAgain(FRAMING, region)).region).toBeNull();
+  });
+
+  it('is stored without the camera where the page shows no couple', () => {
+    expect(storedProject(empty().getState(), FRAMING).page.framing).toBeNull();
+  });
 });
 
 describe('a project', () => {

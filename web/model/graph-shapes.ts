@@ -1,0 +1,73 @@
+import type { GraphName, Manifest } from './manifest';
+
+/** Lengths of a tensor's axes; null where it is as long as the dance. */
+type Shape = readonly (number | null)[];
+
+/** The tensors that a graph takes and gives, by name. */
+interface Tensors {
+  readonly inputs: Readonly<Record<string, Shape>>;
+  readonly outputs: Readonly<Record<string, Shape>>;
+}
+
+/** The tensors that this page feeds to the graphs of a model and reads from them. */
+export function tensorsOf({
+  skeleton,
+  latent,
+  audio,
+}: Pick<Manifest, 'skeleton' | 'latent' | 'audio'>): Readonly<Record<GraphName, Tensors>> {
+  const joints = skeleton.joints.length;
+  const { block, channels, memory_width: memory } = latent;
+  const [layers, streams] = [latent.layers.length, latent.streams.length];
+  return {
+    condition: {
+      inputs: {
+        leader: [null, joints, 3],
+        music: [null, audio.features],
+        music_valid: [null],
+        role: [1],
+      },
+      outputs: { memory: [null, memory], unfamiliarity: [null] },
+    },
+    step: {
+      inputs: {
+        x: [null, block, layers, channels],
+        memory: [null, block, memory],
+        valid: [null, block],
+        keep: [1],
+        time: [1],
+      },
+      outputs: { x0: [null, block, layers, channels] },
+    },
+    decode: {
+      inputs: {
+        latents: [null, layers, channels],
+        leader: [null, joints, 3],
+        gains: [streams, layers],
+        bones: [joints],
+      },
+      outputs: { reactor: [null, joints, 3], lengths: [null, joints] },
+    },
+  };
+}
+
+/** Says in a clause what differs between the tensors that a manifest declares and those it needs; null where nothing does. */
+export function shapeProblem(manifest: Manifest): string | null {
+  for (const [name, needed] of Object.entries(tensorsOf(manifest)) as [GraphName, Tensors][]) {
+    const declared = manifest.graphs[name];
+    for (const kind of ['inputs', 'outputs'] as const)
+      for (const [tensor, shape] of Object.entries(needed[kind])) {
+        const found = Object.hasOwn(declared[kind], tensor) ? declared[kind][tensor]! : null;
+        const what = `"${tensor}" of the graph "${name}"`;
+        if (found === null) return `has no ${what} among its ${kind}`;
+        const fits = (length: number | null, axis: number): boolean =>
+          length === null ? typeof found[axis] === 'string' : found[axis] === length;
+        if (found.length !== shape.length || !shape.every(fits))
+          return `declares ${what} as ${text(found)}, where its other fields make it ${text(shape)}`;
+      }
+  }
+  return null;
+}
+
+function text(shape: readonly (string | number | null)[]): string {
+  return `(${shape.map((length) => length ?? 'any').join(', ')})`;
+}
