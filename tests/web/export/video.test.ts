@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { planVideo, secondsLeft } from '../../../web/export/client';
-import { fitted, titleOpacity } from '../../../web/export/video/caption';
+import { fitted, titleOpacity, wrapped } from '../../../web/export/video/caption';
 import { videoPixels } from '../../../web/export/video/size';
 import { songSamples } from '../../../web/export/video/song';
 
@@ -47,6 +47,14 @@ test('a title is whole at first, fades and is gone; a line that is too wide is c
   const widthOf = (text: string): number => text.length;
   expect(fitted('Patio Clave', 11, widthOf)).toBe('Patio Clave');
   expect(fitted('Patio Clave', 7, widthOf)).toBe('Patio…');
+});
+
+test('a long title takes more lines, and only what is beyond the last one is cut', () => {
+  const widthOf = (text: string): number => text.length;
+  expect(wrapped('Patio Clave', 11, 3, widthOf)).toEqual(['Patio Clave']);
+  expect(wrapped('Descarga en la noche', 11, 3, widthOf)).toEqual(['Descarga en', 'la noche']);
+  expect(wrapped('Descarga en la noche by a couple', 11, 2, widthOf)).toEqual(['Descarga en', 'la noche b…']);
+  expect(wrapped('Donaudampfschifffahrt', 11, 3, widthOf)).toEqual(['Donaudampf…']);
 });
 
 test('a browser that can neither encode nor record writes no video', async () => {

@@ -8,6 +8,8 @@ export interface Captions {
 
 /** How long the title stays, and the end of it during which it fades, seconds. */
 const TITLE = { seconds: 4, fade: 0.6 };
+/** Most lines of each, and the distance of two lines as a multiple of the letters' height. */
+const LINES = { title: 3, credit: 2, distance: 1.25 };
 /** Heights of the letters and distance from the edge, shares of the shorter side of the picture. */
 const SIZES = { title: 0.055, credit: 0.026, edge: 0.045 };
 const FONT = '"Hanken Grotesk", system-ui, sans-serif';
@@ -23,6 +25,28 @@ export function fitted(text: string, width: number, widthOf: (text: string) => n
   let end = text.length - 1;
   while (end > 0 && widthOf(`${text.slice(0, end).trimEnd()}…`) > width) end--;
   return `${text.slice(0, end).trimEnd()}…`;
+}
+
+/** A text in lines that are not wider than `width`, at most `most` of them; what is left over is cut as in `fitted`. */
+export function wrapped(
+  text: string,
+  width: number,
+  most: number,
+  widthOf: (text: string) => number,
+): readonly string[] {
+  const lines: string[] = [];
+  const words = text.trim().split(/\s+/);
+  for (const [index, word] of words.entries()) {
+    const last = lines.at(-1);
+    const longer = last === undefined ? word : `${last} ${word}`;
+    if (last !== undefined && widthOf(longer) <= width) lines[lines.length - 1] = longer;
+    else if (lines.length < most) lines.push(word);
+    else {
+      lines[lines.length - 1] = [last, ...words.slice(index)].join(' ');
+      break;
+    }
+  }
+  return lines.map((line) => fitted(line, width, widthOf));
 }
 
 /**
@@ -43,11 +67,17 @@ export function captioned(
   const { width, height } = Object.assign(canvas, { width: picture.width, height: picture.height });
   const side = Math.min(width, height);
   const edge = SIZES.edge * side;
-  const write = (text: string, share: number, weight: number, y: number, opacity: number): void => {
-    context.font = `${weight} ${Math.round(share * side)}px ${FONT}`;
+  /** Writes below the upper edge or, with the last line there, above the lower one. */
+  const write = (what: 'title' | 'credit', text: string, weight: number, opacity: number): void => {
+    const letters = SIZES[what] * side;
+    context.font = `${weight} ${Math.round(letters)}px ${FONT}`;
     context.globalAlpha = opacity;
-    const line = fitted(text.trim(), width - 2 * edge, (part) => context.measureText(part).width);
-    context.fillText(line, edge, y);
+    const lines = wrapped(text, width - 2 * edge, LINES[what], (part) => context.measureText(part).width);
+    lines.forEach((line, index) => {
+      const below = what === 'title' ? index : index - (lines.length - 1);
+      const y = (what === 'title' ? edge + letters : height - edge) + LINES.distance * letters * below;
+      context.fillText(line, edge, y);
+    });
   };
   return {
     canvas,
@@ -56,8 +86,8 @@ export function captioned(
       context.drawImage(picture, 0, 0);
       context.fillStyle = `#${LOOKS[theme].contrast.toString(16).padStart(6, '0')}`;
       context.textBaseline = 'alphabetic';
-      write(title, SIZES.title, 600, edge + SIZES.title * side, titleOpacity(seconds));
-      write(credit, SIZES.credit, 500, height - edge, 1);
+      write('title', title, 600, titleOpacity(seconds));
+      write('credit', credit, 500, 1);
     },
   };
 }
