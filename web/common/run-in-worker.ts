@@ -117,6 +117,29 @@ function handOver<T>(value: T): T {
  */
 const PATIENCE: Patience = { first: 60, next: 60 };
 
+/**
+ * Hands the reports of a call on until it ends. The port that they come through may outlive the call, so it holds
+ * nothing of it.
+ */
+class Reports {
+  #onReport: Reporter | undefined;
+  readonly #hear: () => void;
+
+  constructor(hear: () => void, onReport: Reporter | undefined) {
+    this.#hear = hear;
+    this.#onReport = onReport;
+  }
+
+  readonly take = (report: unknown): void => {
+    this.#hear();
+    void this.#onReport?.(report);
+  };
+
+  end(): void {
+    this.#onReport = undefined;
+  }
+}
+
 interface ConnectionOptions {
   /** Makes the error of a crash, given its reason in the browser's words. */
   readonly toError?: ((reason: string) => Error) | undefined;
@@ -176,11 +199,8 @@ export class WorkerConnection<T extends Tasks> {
     signal?.throwIfAborted();
     if (this.#end) throw this.#end;
     const id = ++this.#calls;
-    let over = false;
-    const report = proxy((value: unknown): void => {
-      this.#watch.hear();
-      if (!over) onReport?.(value as ReportOf<T[K]>);
-    });
+    const reports = new Reports(this.#watch.hear, onReport as Reporter | undefined);
+    const report = proxy(reports.take);
     let cancel: () => void = () => undefined;
     let fail: (error: Error) => void = () => undefined;
     try {
@@ -188,7 +208,7 @@ export class WorkerConnection<T extends Tasks> {
       const outcome = await new Promise<Outcome>((resolve, reject) => {
         fail = reject;
         cancel = () => {
-          void this.#remote.cancel(id);
+          if (!this.#end) void this.#remote.cancel(id);
           reject(signal?.reason as Error);
         };
         this.#failures.add(fail);
@@ -200,7 +220,7 @@ export class WorkerConnection<T extends Tasks> {
       if (outcome.kind === 'done') return outcome.output as OutputOf<T[K]>;
       throw await explainedByVersion(this.#errorOf(outcome));
     } finally {
-      over = true;
+      reports.end();
       this.#failures.delete(fail);
       signal?.removeEventListener('abort', cancel);
     }
@@ -233,8 +253,10 @@ export class WorkerConnection<T extends Tasks> {
 
   /** Ends the worker; calls under way are rejected with `reason`. */
   dispose(reason: Error = new DOMException('The worker was ended.', 'AbortError')): void {
-    this.#end ??= reason;
     this.#watch.stop();
+    // Comlink's registry of proxies holds the worker, whose listeners hold the proxy: it would never be collected.
+    if (!this.#end) this.#remote[releaseProxy]();
+    this.#end ??= reason;
     this.#worker.terminate();
     for (const fail of this.#failures) fail(this.#end);
   }

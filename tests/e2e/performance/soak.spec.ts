@@ -1,6 +1,7 @@
 /**
- * The page used for long: memory stays as it is once the list of takes and the steps of undo are full. SOAK_MINUTES=60
- * goes on for an hour, with at least 200 generations and 60 loads; docs/performance.md has its table.
+ * The page used for long: memory beyond that of songs, leaders, takes and steps of undo stays as it is. SOAK_MINUTES=60
+ * goes on for an hour, with at least 200 generations and 60 loads, after the list of takes and the steps of undo are
+ * full, so that all memory stays as it is; docs/performance.md has its table.
  */
 import { App } from '../support/app-page';
 import { bvh, wav } from '../support/files';
@@ -8,14 +9,21 @@ import { expect, test } from '../support/fixtures';
 import { type Memory, MemoryMeter } from '../support/memory';
 
 const MINUTES = Number(process.env['SOAK_MINUTES'] ?? 0);
-/** As many fill the list of takes and the steps of undo. */
-const WARM_UP = { generations: 40, loads: 40 };
+/** In a long run as many as fill the list of takes and the steps of undo. */
+const WARM_UP = MINUTES > 0 ? { generations: 40, loads: 40 } : { generations: 4, loads: 4 };
 /** What is done after it, and how often memory is measured meanwhile. */
 const REST =
-  MINUTES > 0 ? { generations: 200, loads: 60, parts: 4 } : { generations: 14, loads: 14, parts: 1 };
+  MINUTES > 0 ? { generations: 200, loads: 60, parts: 4 } : { generations: 10, loads: 14, parts: 1 };
 
-/** Most that may be added after the warm-up, megabytes: what a few takes of other lengths can make. */
-const MORE: Memory = { heap: 1, buffers: 3, elements: 1, workers: 2, process: 60 };
+/** Most that may be added after the warm-up, megabytes; what is held may grow until lists and undo are full. */
+const MORE: Memory = {
+  heap: 1,
+  held: MINUTES > 0 ? 3 : 10,
+  buffers: 1,
+  elements: 1,
+  workers: 2,
+  process: 60,
+};
 
 test.use({ viewport: { width: 800, height: 600 } });
 test.setTimeout((MINUTES + 10) * 60_000);
@@ -80,13 +88,15 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
   const last = rows.at(-1)![1];
   for (const kind of Object.keys(MORE) as (keyof Memory)[])
     expect(last[kind] - warm[kind], `${kind}, megabytes added\n${table(rows)}`).toBeLessThan(MORE[kind]);
-  expect(await app.read(({ takes }) => takes.length)).toBe(40);
+  const takes = await app.read(({ takes }) => takes.length);
+  if (MINUTES > 0) expect(takes).toBe(40);
+  else expect(takes).toBeGreaterThan(WARM_UP.loads + REST.loads);
   expect(await app.read(({ problem }) => problem)).toBeNull();
 });
 
 /** In Markdown, megabytes. */
 function table(rows: readonly (readonly [string, Memory])[]): string {
-  const parts = ['heap', 'buffers', 'elements', 'workers', 'process'] as const;
+  const parts = ['heap', 'held', 'buffers', 'elements', 'workers', 'process'] as const;
   const lines = [
     ['MB after', ...parts],
     ['---', ...parts.map(() => '---:')],

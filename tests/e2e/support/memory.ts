@@ -6,7 +6,9 @@ import type { Browser, CDPSession, Page } from '@playwright/test';
 export interface Memory {
   /** Objects of the page. */
   readonly heap: number;
-  /** Array buffers of the page. */
+  /** Array buffers that songs, leaders, takes and steps of undo hold. */
+  readonly held: number;
+  /** All other array buffers of the page. */
   readonly buffers: number;
   /** Elements and the like that scripts hold on to. */
   readonly elements: number;
@@ -23,6 +25,21 @@ interface HeapUsage {
 }
 
 const MEGABYTE = 2 ** 20;
+
+/** Bytes of all array buffers that the page's state refers to. */
+const HELD = `(() => {
+  const seen = new Set();
+  let bytes = 0;
+  const visit = (value) => {
+    if (typeof value !== 'object' || value === null || seen.has(value)) return;
+    seen.add(value);
+    if (value instanceof ArrayBuffer) bytes += value.byteLength;
+    else if (ArrayBuffer.isView(value)) visit(value.buffer);
+    else if (!(value instanceof Blob)) Object.values(value).forEach(visit);
+  };
+  visit(window.reactdance.store.getState());
+  return bytes;
+})()`;
 
 /** Measures the memory of a page; to be made before the page opens its workers. */
 export class MemoryMeter {
@@ -69,9 +86,12 @@ export class MemoryMeter {
       const usage = await this.#ask(session, 'Runtime.getHeapUsage');
       workers += usage ? usage.usedSize + usage.backingStorageSize : 0;
     }
+    const { result } = await this.page.send('Runtime.evaluate', { expression: HELD, returnByValue: true });
+    const held = Number(result.value);
     return {
       heap: own.usedSize / MEGABYTE,
-      buffers: own.backingStorageSize / MEGABYTE,
+      held: held / MEGABYTE,
+      buffers: (own.backingStorageSize - held) / MEGABYTE,
       elements: own.embedderHeapUsedSize / MEGABYTE,
       workers: workers / MEGABYTE,
       process: await this.#resident(),

@@ -1,3 +1,5 @@
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { AppError } from '../../../web/common/error';
 import { yieldToEvents } from '../../../web/common/yield-to-events';
@@ -261,5 +263,25 @@ describe('a task in a worker of its own', () => {
     controller.abort();
     await expect(result).rejects.toBe(controller.signal.reason);
     expect(worker).toHaveProperty('terminated', true);
+  });
+});
+
+describe('a worker that has ended', () => {
+  it('is collected as garbage, and with it what it was given', async () => {
+    setFlagsFromString('--expose_gc');
+    const collectGarbage = runInNewContext('gc') as () => void;
+    const used = async (): Promise<WeakRef<object>[]> => {
+      const worker = new LocalWorker();
+      opened.length = 0;
+      const values = new Float32Array(4);
+      const onReport = (): void => undefined;
+      await runInWorker<Tested, 'double'>(worker as unknown as Worker, 'double', { values }, { onReport });
+      return [worker, values, onReport].map((part) => new WeakRef(part));
+    };
+    const parts = await used();
+    await vi.waitFor(() => {
+      collectGarbage();
+      expect(parts.map((part) => part.deref() === undefined)).toEqual([true, true, true]);
+    }, 5000);
   });
 });
