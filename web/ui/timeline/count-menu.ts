@@ -72,7 +72,7 @@ function createButton(toggle: () => void): {
     },
     el('span', { class: 'unit', text: 'Bar ' }),
     bar,
-    el('span', { class: 'unit', text: 'Count ' }),
+    el('span', { class: 'unit', text: ' Count ' }),
     count,
   );
   const showPlace = (state: AppState): void => {
@@ -82,8 +82,6 @@ function createButton(toggle: () => void): {
     const place = barAt(beats, state.playback.time);
     setText(bar, place && place.bar > 0 ? String(place.bar) : '–');
     setText(count, place ? String(place.count) : '–');
-    // Narrow windows show the numbers alone.
-    button.setAttribute('aria-label', `Bar ${bar.textContent} Count ${count.textContent}`);
   };
   return { button, showPlace };
 }
