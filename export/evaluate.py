@@ -5,7 +5,7 @@
         --out runs/evaluation \
         --out-of-distribution ../shared/data/cmu_solo/solo.npz --solve \
         --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls \
-        --settings.beats-unknown salsa_05 --settings.seen-leaders indian modern
+        --settings.beats-unknown salsa_05
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
 checkpoint alone it is measured under PyTorch.
@@ -17,7 +17,7 @@ import json
 import subprocess
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -28,13 +28,13 @@ from rich.console import Console
 
 from export.manifest import quality_rules
 from export.runtime import open_model
-from training.checkpoint import load_model
+from training.checkpoint import load_model, solos_seen
 from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
+from training.diffusion.cached_model import CachedModel
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import Request, react
-from training.evaluation.cached_model import CachedModel
 from training.evaluation.evaluate import evaluate
 from training.evaluation.out_of_distribution import read_leaders
 from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings, Solver
@@ -220,11 +220,12 @@ def main(options: Options) -> None:
         },
     }
     every_step = reactor_generator(checkpoint, options.steps, at_every_step=True) if checkpoint else None
+    seen = options.settings.seen_leaders or (solos_seen(options.checkpoint) if options.checkpoint else ())
     evaluation = evaluate(
         reactor_generator(CachedModel(model), options.steps),
         held_out,
         duets.train,
-        options.settings,
+        replace(options.settings, seen_leaders=seen),
         given,
         SOLVERS if options.solve else None,
         read_leaders(options.out_of_distribution),

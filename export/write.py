@@ -32,7 +32,14 @@ class Options:
 
 
 def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
-    """Graphs, golden tensors and manifest of the model with rounded convolutions into `folder`."""
+    """Graphs, golden tensors and manifest of the model with rounded convolutions into `folder`.
+
+    Raises ValueError for a model that is sampled with stitching, which the page does not have.
+    """
+    if model.diffusion.stitching:
+        raise ValueError(
+            "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without overlap"
+        )
     folder.mkdir(parents=True, exist_ok=True)
     model = round_convolutions(model)
     entries = {graph.name: describe(graph, write_onnx(graph, folder)) for graph in graphs(model)}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import json
 from pathlib import Path
+from typing import Any
 
 from safetensors.torch import load_model as load_weights
 from safetensors.torch import save_file
@@ -63,6 +65,27 @@ def read_config(folder: Path, name: str) -> dict:
 
 UNBOUNDED = ("lowest", "highest")
 """The denoiser's range of latents, infinite where nothing quantises them."""
+
+
+def solos_seen(folder: Path) -> tuple[str, ...]:
+    """How the names of the solo dances begin that any training of a checkpoint saw, the earlier ones that it went on
+    from included; ("",) for all of an archive, none without solos.
+    """
+    found: set[str] = set()
+
+    def visit(value: Any) -> None:
+        if isinstance(value, list):
+            for item in value:
+                visit(item)
+        elif isinstance(value, dict):
+            if value.get("solo") not in (None, "None"):
+                found.update(ast.literal_eval(value.get("solo_prefixes", "('',)")))
+            for item in value.values():
+                visit(item)
+
+    for name in ("hfsq", "denoiser"):
+        visit(read_config(folder, name)["provenance"])
+    return tuple(sorted(found))
 
 
 def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:

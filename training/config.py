@@ -83,6 +83,8 @@ class DenoiserConfig:
     depths: tuple[int, ...] = (4, 2)  # transformer layers of the coarse trunk and of the fine head
     alibi_slopes: tuple[float, ...] = (0.0, 0.05, 0.15, 0.5)  # per head, per latent frame (`alibi_bias`)
     block: int = 60  # latent frames
+    mask: Literal["causal", "bidirectional"] = "causal"  # of the attention within a block (paper 3.4)
+    positions: Literal["periodic", "sinusoidal"] = "periodic"  # Eq. 8, or those of Vaswani et al. 2017
     dropout: float = 0.15  # of channels, for a whole window at once
     condition: ConditionConfig = field(default_factory=ConditionConfig)
 
@@ -147,8 +149,11 @@ def to_json(config: Any) -> dict[str, Any]:
 
 
 def from_json(cls: type, values: dict[str, Any]) -> Any:
-    """Inverse of `to_json`. Raises ValueError for an unknown or missing key."""
+    """Inverse of `to_json`. Raises ValueError for an unknown or missing key; what checkpoints of a time before a field
+    existed were is in `_BEFORE`.
+    """
     fields = {f.name: f for f in dataclasses.fields(cls)}
+    values = _BEFORE.get(cls.__name__, {}) | values
     unknown = set(values) - set(fields)
     missing = set(fields) - set(values)
     if unknown or missing:
@@ -165,6 +170,7 @@ def from_json(cls: type, values: dict[str, Any]) -> Any:
     return cls(**out)
 
 
+_BEFORE: dict[str, dict[str, Any]] = {"DenoiserConfig": {"mask": "causal", "positions": "periodic"}}
 _NESTED: dict[tuple[str, str], type] = {
     ("HfsqConfig", "masking"): MaskingConfig,
     ("DenoiserConfig", "condition"): ConditionConfig,

@@ -66,6 +66,8 @@ class LoopOptions:
     def __post_init__(self) -> None:
         if not self.val:
             raise ValueError("no duets to validate on: name one or more with --val")
+        if self.solo is None and self.solo_prefixes != ("",):
+            raise ValueError("--solo-prefixes chooses among the dances of --solo, which was not given")
 
 
 def read_duets_to_train(options: LoopOptions) -> Split:

@@ -20,20 +20,24 @@ from training.data.duet import Duet
 from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
 from training.data.splits import Split
-from training.denoiser.clips import Augmentation, Clip, augmented_clips, solo_pair_clips
+from training.denoiser.clips import (
+    Augmentation,
+    Clip,
+    augmented_clips,
+    feature_values,
+    solo_pair_clips,
+)
 from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
-from training.denoiser.losses import motion_loss, noise_weights, simple_loss
+from training.denoiser.losses import decoded_windows, motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
 from training.diffusion.react import Request, at_height, react
-from training.diffusion.schedule import add_noise, alphas_cumprod, stratified_timesteps
+from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
 from training.loop import LoopOptions, Run, launch, read_duets_to_train
-from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import body_height
-from training.motion.streams import from_streams
 
 UNFAMILIAR_RATIO = 1.2
 """How much farther from the mean of training than any leader of training an unfamiliar leader is."""
@@ -65,6 +69,20 @@ class Options(LoopOptions):
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
     loss: DenoiserLossConfig = field(default_factory=DenoiserLossConfig)
     augmentation: Augmentation = field(default_factory=Augmentation)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.solo is None and self.solo_copies != 1:
+            raise ValueError("--solo-copies is of the dances of --solo, which was not given")
+        if self.loss.windows > self.batch:
+            raise ValueError(
+                f"a batch of {self.batch} windows has no {self.loss.windows} to decode (--loss.windows)"
+            )
+        steps, most = self.diffusion.steps, self.diffusion.max_steps
+        if steps > most:
+            raise ValueError(f"--diffusion.steps {steps} is more than --diffusion.max-steps {most}")
+        # Sampling would refuse these only after the training.
+        ddim_steps(alphas_cumprod(self.diffusion), self.diffusion.steps, self.diffusion.last_time)
 
 
 def main(options: Options) -> None:
@@ -139,19 +157,9 @@ def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> 
     if options.init:
         start_from(denoiser, options.init, "denoiser")
     else:
-        set_feature_statistics(denoiser, clips)
+        denoiser.condition.set_statistics(*feature_values(clips))
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
     return denoiser
-
-
-def set_feature_statistics(denoiser: Denoiser, clips: list[Clip]) -> None:
-    """Mean and standard deviation of leader and music features, from training clips."""
-    for patches, values in (
-        (denoiser.condition.leader, torch.cat([c.features for c in clips])),
-        (denoiser.condition.music, torch.cat([m for c in clips for m in c.music])),
-    ):
-        patches.mean.copy_(values.mean(0))
-        patches.std.copy_(values.std(0).clamp_min(1e-3))
 
 
 class Stage2(nn.Module):
@@ -162,7 +170,12 @@ class Stage2(nn.Module):
     def __init__(
         self, denoiser: Denoiser, hfsq: Autoencoder, diffusion: DiffusionConfig, loss: DenoiserLossConfig
     ):
+        """Raises ValueError where the loss has another number of weights than there are residual layers."""
         super().__init__()
+        if len(loss.layers) != hfsq.layers:
+            raise ValueError(
+                f"stage 1 has {hfsq.layers} residual layers, so --loss.layers needs as many weights, got {loss.layers}"
+            )
         self.denoiser, self.loss = denoiser, loss
         self.hfsq = hfsq.requires_grad_(False).eval()
         self.steps = diffusion.train_steps
@@ -202,22 +215,13 @@ class Stage2(nn.Module):
             terms = motion_loss(
                 batch.leader[clean],
                 batch.reactor[clean],
-                self.motion(predicted[clean], batch, clean),
+                decoded_windows(self.hfsq, predicted[clean], batch, clean),
                 signal[clean],
                 self.loss,
             )
             total = total + torch.stack(list(terms.values())).sum()
             parts |= {name: value.detach() for name, value in terms.items()}
         return total, parts
-
-    def motion(self, latents: Tensor, batch: Batch, rows: list[int]) -> Tensor:
-        """World joints (n, T, 22, 3) of normalised latents (n, block, R, C) for those rows of the batch."""
-        decoded = self.hfsq.decode(self.hfsq.denormalise(latents))
-        upper, lower, placement = (s.float().flatten(0, 1) for s in decoded)
-        leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
-        joints = from_streams(upper, lower, placement, leader, heading)
-        # Not raised to the floor: feet under it would be held at one height, and the contact loss would favour them.
-        return rigid_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 
 def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 2) -> dict[str, float]:

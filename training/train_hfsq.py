@@ -42,6 +42,15 @@ class Options(LoopOptions):
     hfsq: HfsqConfig = field(default_factory=HfsqConfig)
     frame: FrameConfig = field(default_factory=FrameConfig)
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.keep_latents and self.init is None:
+            raise ValueError("--keep-latents keeps those of a checkpoint: name it with --init")
+        if self.window <= 0 or self.window % STRIDE:
+            raise ValueError(
+                f"a window of {self.window} frames is not a multiple of {STRIDE}, a latent frame"
+            )
+
 
 def main(options: Options) -> None:
     fabric = launch(options)

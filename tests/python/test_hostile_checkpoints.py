@@ -7,10 +7,21 @@ from pathlib import Path
 
 import pytest
 import torch
+from safetensors.torch import load_file, save_file
 from torch import nn
 
 from tests.python.support.mutations import damaged_bytes, damaged_text, fuzz
-from training.checkpoint import read_config, save_weights, start_from
+from training.checkpoint import (
+    load_denoiser,
+    read_config,
+    save_denoiser,
+    save_weights,
+    solos_seen,
+    start_from,
+)
+from training.config import DenoiserConfig, DiffusionConfig, HfsqConfig
+from training.denoiser.denoiser import Denoiser
+from training.hfsq.autoencoder import Autoencoder
 
 
 def test_damaged_weights(tmp_path: Path) -> None:
@@ -34,6 +45,33 @@ def test_weights_that_are_not_finite(tmp_path: Path) -> None:
     save_weights(tmp_path, "small", module, {})
     with pytest.raises(ValueError, match=r"small\.safetensors: the weights weight are not finite"):
         start_from(module, tmp_path, "small")
+
+
+def test_solos_of_every_training_that_a_checkpoint_comes_from_are_seen(tmp_path: Path) -> None:
+    def write(hfsq: dict, denoiser: dict) -> None:
+        for name, provenance in (("hfsq", hfsq), ("denoiser", denoiser)):
+            (tmp_path / f"{name}.json").write_text(json.dumps({"provenance": provenance}))
+
+    alone = {"options": {"solo": "None", "solo_prefixes": "('modern',)"}}
+    write(alone, alone)
+    assert solos_seen(tmp_path) == ()
+    earlier = {"options": {"solo": "solo.npz", "solo_prefixes": "('modern', 'indian')"}}
+    write({"options": alone, "before": earlier}, {"checkpoints": [alone, earlier]})
+    assert solos_seen(tmp_path) == ("indian", "modern")
+    write({"options": {"solo": "solo.npz"}}, alone)
+    assert solos_seen(tmp_path) == ("",), "all of the archive"
+
+
+def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) -> None:
+    hfsq = Autoencoder(HfsqConfig(groups=2, widths=(8, 8, 8), depth=1, refine_width=8))
+    config = DenoiserConfig(width=8, depths=(1, 1), mlp=1)
+    save_denoiser(tmp_path, Denoiser(hfsq.latent_width, 2, config), DiffusionConfig(), {})
+    assert load_denoiser(tmp_path, hfsq)[0].config == config
+    weights = load_file(tmp_path / "denoiser.safetensors")
+    for changed in ({**weights, "stranger": torch.zeros(1)}, dict(list(weights.items())[1:])):
+        save_file(changed, tmp_path / "denoiser.safetensors")
+        with pytest.raises(ValueError, match=r"denoiser\.safetensors"):
+            load_denoiser(tmp_path, hfsq)
 
 
 def test_damaged_config(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,12 +21,13 @@ from training.config import (
     HfsqConfig,
 )
 from training.denoiser.clips import Clip, make_clip
+from training.denoiser.losses import decoded_windows
 from training.denoiser.windows import Batch, Windows
 from training.hfsq.autoencoder import Autoencoder
-from training.train_denoiser import Stage2
+from training.train_denoiser import Options, Stage2
 
 BLOCK, MARGIN, WINDOWS = 10, 2, 12
-LOSS = DenoiserLossConfig(windows=4)
+LOSS = DenoiserLossConfig(layers=(1.0,), windows=4)
 PLAIN = replace(ConditionConfig(), leader_shift=0, blurred=0.0, drop_music=0.0)
 
 
@@ -92,9 +94,9 @@ def test_latents_of_a_clip_are_normalised_and_decode_to_its_motion(
     hfsq: Autoencoder, clip: Clip, batch: Batch
 ):
     assert torch.allclose(hfsq.normalise(hfsq.denormalise(clip.latents)), clip.latents, atol=1e-5)
-    stage = Stage2(KnownAnswer(batch.latents), hfsq, DiffusionConfig(), LOSS)  # pyright: ignore[reportArgumentType]
     rows = [1, 3]
-    assert (stage.motion(batch.latents[rows], batch, rows) - batch.reactor[rows]).abs().max() < 2e-3
+    decoded = decoded_windows(hfsq, batch.latents[rows], batch, rows)
+    assert (decoded - batch.reactor[rows]).abs().max() < 2e-3
 
 
 def test_the_true_latents_have_no_loss_and_the_noisy_ones_have(hfsq: Autoencoder, batch: Batch) -> None:
@@ -182,6 +184,31 @@ def test_motion_counts_by_its_share_of_signal(hfsq: Autoencoder, batch: Batch) -
         for row in (0, WINDOWS - 1)
     )
     assert first > 20 * last > 0
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"batch": 4}, "a batch of 4 windows has no 8 to decode"),
+        ({"solo_copies": 2}, "--solo-copies is of the dances of --solo"),
+        ({"solo_prefixes": ("indian",)}, "--solo-prefixes chooses among the dances of --solo"),
+        (
+            {"diffusion": DiffusionConfig(steps=60)},
+            "--diffusion.steps 60 is more than --diffusion.max-steps 50",
+        ),
+        ({"diffusion": DiffusionConfig(last_time=1.5)}, "the last time has to be between"),
+        ({"val": ()}, "name one or more with --val"),
+    ],
+)
+def test_options_that_are_wrong_or_would_be_ignored_are_refused(changes: dict, sentence: str) -> None:
+    given = {"data": Path("duets.npz"), "out": Path("out"), "val": ("one",)} | changes
+    with pytest.raises(ValueError, match=sentence):
+        Options(**given)
+
+
+def test_a_weight_for_every_residual_layer(hfsq: Autoencoder, batch: Batch) -> None:
+    with pytest.raises(ValueError, match=r"stage 1 has 1 residual layers, so --loss\.layers needs"):
+        loss_of(hfsq, batch, batch.latents, replace(LOSS, layers=(1.0, 0.5)))
 
 
 @pytest.mark.parametrize("stride", [1, 2, 6, 0])

@@ -49,6 +49,11 @@ class Clip:
         return len(self.latents)
 
 
+def feature_values(clips: Sequence[Clip]) -> tuple[Tensor, Tensor]:
+    """All leader features (n, 68) and music features (m, 54) of clips."""
+    return torch.cat([c.features for c in clips]), torch.cat([m for c in clips for m in c.music])
+
+
 @torch.no_grad()
 def make_clip(
     duet: Duet,

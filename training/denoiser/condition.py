@@ -82,6 +82,12 @@ class ConditionEncoder(nn.Module):
         """Channels of the memory: 2 D."""
         return 2 * len(self.silence)
 
+    def set_statistics(self, features: Tensor, music: Tensor) -> None:
+        """Takes mean and standard deviation of leader features (n, 68) and music (m, 54), those of training."""
+        for patches, values in ((self.leader, features), (self.music, music)):
+            patches.mean.copy_(values.mean(0))
+            patches.std.copy_(values.std(0).clamp_min(1e-3))
+
     def unfamiliarity(self, leader: Tensor) -> Tensor:
         """How far leader features (N, T, 68) are from those of training: (N, L), the root mean square of the normalised
         features, about 1 for a leader of training.

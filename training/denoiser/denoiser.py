@@ -10,16 +10,28 @@ from torch import Tensor, nn
 
 from training.config import DenoiserConfig
 from training.denoiser.condition import ConditionEncoder
-from training.denoiser.transformer import Layer, TimeEmbedding, alibi_bias, causal_bias, phase
+from training.denoiser.transformer import (
+    Layer,
+    TimeEmbedding,
+    alibi_bias,
+    causal_bias,
+    phase,
+    sinusoidal,
+)
 
 
 @dataclass(frozen=True)
 class AttentionMasks:
-    """For one block: Eq. 8's phase, the causal mask and the mask of valid leader tokens, as biases of the logits."""
+    """For one block: positions, the mask of the attention and that of valid leader tokens, as biases of the logits."""
 
-    phase: Tensor  # (block, 2)
-    causal: Tensor  # (heads, block, block)
+    positions: Tensor  # (block, P)
+    attention: Tensor  # broadcastable to (N, heads, block, block)
     cross: Tensor  # (N, heads, block, block)
+
+
+def position_table(config: DenoiserConfig) -> Tensor:
+    """(block, P): what tells a block's tokens their place."""
+    return phase(config.block) if config.positions == "periodic" else sinusoidal(config.block)
 
 
 class Conditioning(nn.Module):
@@ -50,7 +62,7 @@ class Transformer(nn.Module):
         width = config.width
         self.conditioning = Conditioning(width)
         self.input = nn.Linear(channels + context, width)
-        self.position = nn.Linear(2, width)
+        self.position = nn.Linear(position_table(config).shape[1], width)
         self.time = TimeEmbedding(width)
         self.layers = nn.ModuleList(
             Layer(width, config.heads, config.mlp, config.dropout) for _ in range(depth)
@@ -71,12 +83,12 @@ class Transformer(nn.Module):
     ) -> tuple[Tensor, Tensor]:
         """x (N, L, channels + context). Returns x0 of this layer (N, L, channels) and hidden states (N, L, D)."""
         leader, music = self.conditioning(memory, keep_leader, keep_music)
-        position = self.position(masks.phase)
+        position = self.position(masks.positions)
         film = F.silu(music + self.time(time))
         h = self.input(x) + position + leader
         leader = leader + position
         for layer in self.layers:
-            h = layer(h, leader, film, masks.causal, masks.cross)
+            h = layer(h, leader, film, masks.attention, masks.cross)
         h = self.norm(h)
         return self.output(h), h
 
@@ -89,8 +101,8 @@ class Denoiser(nn.Module):
     `lowest` and `highest` (R, C) are the ends of the quantiser's range, which sampling keeps to.
     """
 
-    phase: Tensor
-    causal: Tensor
+    positions: Tensor
+    attention: Tensor
     alibi: Tensor
     lowest: Tensor
     highest: Tensor
@@ -99,6 +111,8 @@ class Denoiser(nn.Module):
         super().__init__()
         if len(config.depths) != layers:
             raise ValueError(f"{layers} residual layers need {layers} depths, got {config.depths}")
+        if config.width % config.heads:
+            raise ValueError(f"a width of {config.width} cannot be shared by {config.heads} heads")
         if len(config.alibi_slopes) != config.heads:
             raise ValueError(
                 f"{config.heads} heads need {config.heads} alibi_slopes, got {config.alibi_slopes}"
@@ -113,8 +127,9 @@ class Denoiser(nn.Module):
         self.register_buffer("lowest", torch.full((layers, latent_width), -torch.inf))
         self.register_buffer("highest", torch.full((layers, latent_width), torch.inf))
         alibi = alibi_bias(config.block, config.alibi_slopes)
-        self.register_buffer("phase", phase(config.block), persistent=False)
-        self.register_buffer("causal", alibi + causal_bias(config.block), persistent=False)
+        mask = causal_bias(config.block) if config.mask == "causal" else torch.zeros(())
+        self.register_buffer("positions", position_table(config), persistent=False)
+        self.register_buffer("attention", alibi + mask, persistent=False)
         self.register_buffer("alibi", alibi, persistent=False)
 
     def forward(
@@ -138,5 +153,7 @@ class Denoiser(nn.Module):
 
     def masks(self, valid: Tensor) -> AttentionMasks:
         """valid: (N, block)."""
-        cross = self.alibi + (valid[:, None, None, :] - 1) * 1e4
-        return AttentionMasks(self.phase, self.causal, cross)
+        padding = (valid[:, None, None, :] - 1) * 1e4
+        # Padding comes last, so a causal mask hides it from the tokens of the clip.
+        attention = self.attention if self.config.mask == "causal" else self.attention + padding
+        return AttentionMasks(self.positions, attention, self.alibi + padding)

@@ -6,9 +6,13 @@ import torch
 from torch import Tensor
 
 from training.config import DenoiserLossConfig
+from training.denoiser.windows import Batch
+from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import energy_loss, kinematic
 from training.motion.heading import hip_heading
+from training.motion.rigid_body import rigid_body
 from training.motion.skeleton import FEET
+from training.motion.streams import from_streams
 
 CONTACT_STEP = 0.01  # metres per frame; a foot that moves less stands (EDGE)
 SNR_CAP = 5.0  # Hang et al. 2023, Efficient Diffusion Training via Min-SNR Weighting Strategy
@@ -33,6 +37,16 @@ def simple_loss(
     error = (truth - predicted).square().mean(-1) * valid[..., None]
     layers = (error * windows[:, None, None]).sum((0, 1)) / valid.sum()
     return (layers * layers.new_tensor(weights)).sum(), layers.detach()
+
+
+def decoded_windows(hfsq: Autoencoder, latents: Tensor, batch: Batch, rows: list[int]) -> Tensor:
+    """World joints (n, T, 22, 3) of normalised latents (n, block, R, C) for those rows of the batch."""
+    decoded = hfsq.decode(hfsq.denormalise(latents))
+    upper, lower, placement = (s.float().flatten(0, 1) for s in decoded)
+    leader, heading = batch.leader[rows].flatten(0, 1), batch.heading[rows].flatten(0, 1)
+    joints = from_streams(upper, lower, placement, leader, heading)
+    # Not raised to the floor: feet under it would be held at one height, and the contact loss would favour them.
+    return rigid_body(joints.unflatten(0, (len(rows), -1)), floor=False)
 
 
 def orientation_loss(leader: Tensor, truth: Tensor, predicted: Tensor) -> Tensor:

@@ -1,4 +1,4 @@
-"""Transformer layers over one block of latent frames: causal self-attention, cross-attention to the leader, FiLM."""
+"""Transformer layers over one block of latent frames: self-attention, cross-attention to the leader, FiLM."""
 
 from __future__ import annotations
 
@@ -58,10 +58,10 @@ class Layer(nn.Module):
         nn.init.zeros_(self.film.weight)
         nn.init.zeros_(self.film.bias)
 
-    def forward(self, x: Tensor, leader: Tensor, film: Tensor, causal: Tensor, cross: Tensor) -> Tensor:
+    def forward(self, x: Tensor, leader: Tensor, film: Tensor, mask: Tensor, cross: Tensor) -> Tensor:
         scale_self, shift_self, scale_mlp, shift_mlp = self.film(film).chunk(4, dim=-1)
         h = self.norm_self(x) * (1 + scale_self) + shift_self
-        x = x + self.dropout(self.self_attention(h, h, causal))
+        x = x + self.dropout(self.self_attention(h, h, mask))
         x = x + self.dropout(self.cross_attention(self.norm_cross(x), leader, cross))
         h = self.norm_mlp(x) * (1 + scale_mlp) + shift_mlp
         return x + self.dropout(self.mlp(h))
@@ -86,6 +86,13 @@ def phase(block: int) -> Tensor:
     """Eq. 8 for one block: (block, 2), sine and cosine of pi i / block."""
     angle = math.pi * torch.arange(block) / block
     return torch.stack([angle.sin(), angle.cos()], dim=-1)
+
+
+def sinusoidal(block: int, frequencies: int = 16) -> Tensor:
+    """Positions of Vaswani et al. 2017 for one block: (block, 2 frequencies), wavelengths from 2 pi to 2000 pi."""
+    rates = torch.exp(torch.linspace(0, -math.log(1000), frequencies))
+    angle = torch.arange(block)[:, None] * rates
+    return torch.cat([angle.sin(), angle.cos()], dim=-1)
 
 
 def alibi_bias(block: int, slopes: tuple[float, ...]) -> Tensor:

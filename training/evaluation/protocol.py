@@ -86,7 +86,8 @@ class Settings:
     beats_unknown: tuple[str, ...] = ()
     """Held-out duets whose music has no reliable beats: their beat alignment has no threshold."""
     seen_leaders: tuple[str, ...] = ()
-    """How the names of out-of-distribution leaders begin whose dances were in the training data."""
+    """How the names of out-of-distribution leaders begin whose dances were in the training data; when left out, as the
+    checkpoint says of its trainings."""
 
 
 Motions = dict[str, list[np.ndarray]]

@@ -22,17 +22,18 @@ def progressive_masking(codes: Tensor, config: MaskingConfig) -> tuple[Tensor, T
 
     Residual masking hides a random depth of layers above the base and adds scaled Gaussian noise to the base layer, so
     that the coarse layer alone decodes to a body. Code masking zeroes single dimensions of the codes.
-    Returns the codes and (N,) whether layers of the window are hidden.
+    Returns the codes and (N,) whether layers of the window are hidden; a single layer has none to hide.
     """
     n, _, layers, _ = codes.shape
     draw = lambda *shape: torch.rand(*shape, device=codes.device)  # noqa: E731
-    hidden = draw(n) < config.residual
+    noisy = draw(n) < config.residual
+    hidden = noisy & (layers > 1)
     if layers > 1:
         kept = 1 + (draw(n) * (layers - 1)).floor()  # 1 .. layers - 1 layers survive in a hidden window
         order = torch.arange(layers, device=codes.device)
         keep = (order[None] < torch.where(hidden, kept, layers)[:, None]).to(codes.dtype)
         codes = codes * keep[:, None, :, None]
-    noise = torch.randn_like(codes[:, :, :1]) * config.base_noise * hidden[:, None, None, None]
+    noise = torch.randn_like(codes[:, :, :1]) * config.base_noise * noisy[:, None, None, None]
     codes = torch.cat([codes[:, :, :1] + noise, codes[:, :, 1:]], dim=2)
     masked = (draw(n) < config.code)[:, None, None, None] & (draw(*codes.shape) < config.code_rate)
     return codes * (~masked).to(codes.dtype), hidden

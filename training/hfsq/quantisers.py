@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import torch
 from torch import Tensor, nn
 from vector_quantize_pytorch import ResidualVQ
@@ -100,6 +102,11 @@ class ResidualVectorQuantiser(nn.Module):
         )
         self._commitment: Tensor | float = 0.0
 
+    @property
+    def codebooks(self) -> list[Tensor]:
+        """Of every group (layers, codes, group width)."""
+        return [cast(Tensor, cast(ResidualVQ, stack).codebooks) for stack in self.stacks]
+
     def forward(self, v: Tensor) -> Tensor:
         codes, commitment = [], v.new_zeros(())
         for group, stack in zip(v.unflatten(-1, (self.groups, -1)).unbind(2), self.stacks, strict=True):
@@ -176,7 +183,20 @@ class Unquantised(nn.Module):
 Quantiser = Hfsq | ResidualVectorQuantiser | KlBottleneck | Unquantised
 
 
+_ONLY_OF = {"levels": "hfsq", "scales": "hfsq", "codebook": "rvq", "weight_kl": "kl"}
+"""Options that other quantisers would not read."""
+
+
 def make_quantiser(config: HfsqConfig) -> Quantiser:
+    """The quantiser that the config asks for. Raises ValueError for an option that it would not read."""
+    usual = HfsqConfig()
+    for name, kind in _ONLY_OF.items():
+        value = getattr(config, name)
+        single = name == "scales" and value == (1.0,)  # what a single layer has anyway
+        if config.quantiser != kind and value != getattr(usual, name) and not single:
+            raise ValueError(
+                f"{name} is an option of the quantiser {kind}; {config.quantiser} does not read it"
+            )
     if config.quantiser == "none":
         return Unquantised(STRIDE * max(STREAM_WIDTHS))
     kinds = {"hfsq": Hfsq, "rvq": ResidualVectorQuantiser, "kl": KlBottleneck}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 import torch
@@ -11,7 +12,7 @@ from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder, condition_dropout
 from training.denoiser.denoiser import Denoiser
-from training.denoiser.transformer import ChannelDropout, phase
+from training.denoiser.transformer import ChannelDropout, phase, sinusoidal
 from training.diffusion.model import Model
 
 BLOCK = 60
@@ -60,6 +61,28 @@ def test_cross_attention_reaches_later_leader_tokens_but_no_padding(model: Model
     music = gradient[0, :, width:].abs().sum(1)
     assert (music[:11] > 0).all(), "music reaches a token through itself and the tokens before it"
     assert torch.equal(music[11:], torch.zeros(BLOCK - 11))
+
+
+def test_without_the_causal_mask_a_token_sees_all_that_are_valid(model: Model) -> None:
+    config = replace(model.denoiser.config, mask="bidirectional", positions="sinusoidal")
+    both = Denoiser(model.denoiser.latent_width, 2, config).eval()
+    for parameter in both.parameters():
+        torch.nn.init.normal_(parameter, std=0.1)
+    inputs = given(model)
+    inputs["valid"][:, 50:] = 0
+    inputs["x"].requires_grad_()
+    (gradient,) = torch.autograd.grad(both(**inputs)[0, 10].sum(), inputs["x"])
+    seen = gradient[0].abs().sum((1, 2))
+    assert (seen[:50] > 0).all(), "also tokens that come later"
+    assert torch.equal(seen[50:], torch.zeros(10)), "but no padding"
+
+
+def test_every_place_in_a_block_has_its_own_sinusoidal_position() -> None:
+    table = sinusoidal(BLOCK)
+    assert table.shape == (BLOCK, 32)
+    assert torch.cdist(table, table).fill_diagonal_(9).min() > 0.1
+    assert table[5, 0] == pytest.approx(math.sin(5.0), abs=1e-6), "the shortest wavelength is 2 pi tokens"
+    assert table[5, 31] == pytest.approx(math.cos(0.005), abs=1e-6)
 
 
 def test_coarse_never_depends_on_fine(model: Model) -> None:

@@ -17,6 +17,7 @@ from training.denoiser.losses import (
     simple_loss,
 )
 from training.motion.heading import hip_heading
+from training.motion.skeleton import FEET
 
 
 def turned(motion: torch.Tensor, angle: float) -> torch.Tensor:
@@ -70,6 +71,16 @@ def test_contact_loss_is_the_speed_of_planted_feet_alone() -> None:
     swing = truth.clone()
     swing[:, :, 10, 0] += torch.arange(10.0) * 0.02
     assert float(contact_loss(truth, swing)) == pytest.approx(0, abs=1e-2)
+
+
+@pytest.mark.parametrize(("step", "planted"), [(0.008, True), (0.012, False)])
+def test_a_foot_is_planted_below_a_centimetre_a_frame(step: float, planted: bool) -> None:
+    truth = torch.zeros(1, 10, 22, 3)
+    for foot in FEET:
+        truth[:, :, foot, 0] = torch.arange(10.0) * step
+    still = torch.zeros_like(truth)
+    assert float(contact_loss(truth, truth)) == pytest.approx(100 * step if planted else 0, abs=1e-2)
+    assert float(contact_loss(truth, still)) == pytest.approx(0, abs=1e-2)
 
 
 def test_each_weight_scales_its_own_layer() -> None:

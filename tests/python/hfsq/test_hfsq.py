@@ -9,7 +9,7 @@ from training.config import HfsqConfig, MaskingConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import energy_loss, kinematic, stage1_loss
 from training.hfsq.masking import progressive_masking, slow_motion
-from training.hfsq.quantisers import Hfsq, fsq, fsq_range
+from training.hfsq.quantisers import Hfsq, fsq, fsq_range, make_quantiser
 from training.motion.streams import STREAM_WIDTHS
 
 SMALL = HfsqConfig(groups=2, widths=(16, 16, 8), depth=2, refine_width=8)
@@ -171,6 +171,21 @@ def test_kinematic_loss_by_hand() -> None:
     drift = torch.arange(5.0)[None, :, None] * 0.01 * torch.ones(1, 5, 3)
     assert kinematic(still, offset, (1.0, 5.0, 5.0)) == pytest.approx(1.0)
     assert kinematic(still, drift, (0.0, 5.0, 5.0)) == pytest.approx(5.0, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"quantiser": "rvq", "levels": (8, 8)},
+        {"quantiser": "kl", "layers": 1, "codebook": 9},
+        {"codebook": 9},
+        {"weight_kl": 0.1},
+        {"quantiser": "rvq", "scales": (1.0, 0.5)},
+    ],
+)
+def test_options_of_another_quantiser_are_refused(changes: dict) -> None:
+    with pytest.raises(ValueError, match="does not read it"):
+        make_quantiser(HfsqConfig(**changes))
 
 
 def test_scales_must_match_layers() -> None:

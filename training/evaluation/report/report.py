@@ -19,8 +19,9 @@ from training.evaluation.limits import ThresholdResult
 from training.evaluation.out_of_distribution import OutOfDistributionDance
 from training.evaluation.protocol import GENERATED, TRUTH, HeldOutDuet
 from training.evaluation.report.filmstrip import filmstrip
-from training.evaluation.report.report_text import COLUMNS, markdown, number
+from training.evaluation.report.report_text import COLUMNS, markdown
 from training.evaluation.report.spectra import draw_spectra
+from training.evaluation.report.tables import number
 from training.evaluation.report.video import write_video
 from training.evaluation.role_swap import swapped_duets
 from training.evaluation.thresholds import check_required, check_targets

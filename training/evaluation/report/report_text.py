@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,8 @@ from training.evaluation.out_of_distribution import (
     MAX_TOE_HEIGHT,
     MIN_TOE_HEIGHT,
 )
+from training.evaluation.report.paper_table import paper_table
+from training.evaluation.report.tables import markdown_table, number
 from training.evaluation.thresholds import check_required, check_targets
 
 Numbers = dict[str, Any]
@@ -38,17 +39,6 @@ COLUMNS: tuple[tuple[str, str, int], ...] = (
     ("FID_cd", "fid_cd", 1),
 )
 DUET_COLUMNS = COLUMNS[:11]  # FID exists only for all duets together
-
-
-def number(value: float | None, digits: int = 3) -> str:
-    """The value as text; a dash where it was not measured or is not finite."""
-    return "–" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
-
-
-def markdown_table(head: list[str], rows: list[list[str]]) -> str:
-    """A table with the first column to the left and all others to the right."""
-    lines = [head, ["---", *["--:"] * (len(head) - 1)], *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def markdown(numbers: Numbers, title: str, pictures: list[Path], videos: list[Path]) -> str:
@@ -78,6 +68,8 @@ def _summary(numbers: Numbers) -> Sections:
         "## Main table",
         markdown_table(["", *(label for label, _, _ in COLUMNS)], rows),
         f"A dance of {seconds['frames']:.0f} frames took {seconds['mean']:.2f} s.",
+        "## The paper's measures",
+        paper_table(numbers),
         "## Targets",
         "Reported, not required. `solved` is the skeleton of constant bone lengths that is drawn and exported. BED is "
         "taken above its own chance level. *Told from the truth* is the accuracy of the two-sample test, *seams* the "

@@ -15,6 +15,7 @@ from training.evaluation.metrics.distance import (
     wasserstein,
 )
 from training.motion.heading import heading
+from training.motion.skeleton import JOINTS
 
 
 def test_heading_facing_and_root_distance():
@@ -38,6 +39,12 @@ def test_nearest_hands_of_four_pairs():
 def test_wasserstein_of_a_shift_is_the_shift():
     sample = np.random.default_rng(2).normal(size=500)
     assert wasserstein(sample, sample + 0.25) == pytest.approx(0.25)
+
+
+def test_cross_distances_are_of_the_ten_joints_of_the_benchmark():
+    names = "pelvis left_ankle right_ankle left_foot right_foot head"
+    names += " left_shoulder right_shoulder left_wrist right_wrist"
+    assert [JOINTS[joint] for joint in CROSS_JOINTS] == names.split()
 
 
 def test_cross_distances():

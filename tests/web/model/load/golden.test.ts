@@ -8,6 +8,7 @@ import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';
 import { blend, coarseAlone, layerGains } from '../../../../web/model/sample/blend';
 import { BranchSampler } from '../../../../web/model/sample/branch-sampler';
+import { Pipeline } from '../../../../web/model/sample/pipeline';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
 import { type ModelSession, openSession } from '../../../../web/model/load/session';
@@ -91,6 +92,33 @@ describe('the tiny model on wasm', () => {
     expect(maxDifference(branches.mean ?? [], coarse)).toBeLessThan(1e-4);
     const blended = blend(branches, { ...golden, variety: 1 }, manifest.latent);
     expect(maxDifference(blended, array('latents'))).toBeLessThan(1e-3);
+  });
+
+  it('makes the recorded latents of recorded memory, by the pipeline of the page with its own weights', async () => {
+    const { manifest, session, golden } = model;
+    const recorded: ModelSession = {
+      ...session,
+      condition: ({ musicValid }) =>
+        Promise.resolve({
+          memory: array(musicValid.some((valid) => valid !== 0) ? 'memory' : 'silent'),
+          unfamiliarity: array('unfamiliarity'),
+        }),
+    };
+    const frames = golden.musicValid.length;
+    const heard = golden.musicValid.filter((valid) => valid !== 0).length;
+    const { features } = manifest.audio;
+    const asked = {
+      ...golden,
+      leader: { fps: manifest.fps, frames, positions: golden.leader },
+      music: { features: golden.music.subarray(0, heard * features), frames: heard },
+      variety: 1,
+    };
+    const pipeline = new Pipeline(manifest, recorded, () => 0);
+    expect(maxDifference((await pipeline.generate(asked)).latents, array('latents'))).toBeLessThan(1e-3);
+    const plain = await pipeline.generate({ ...asked, guidance: new Float32Array(6), musicGuidance: 0 });
+    const conditional = array('branches').subarray(0, latents * width);
+    expect(maxDifference(plain.latents, conditional)).toBeLessThan(1e-3);
+    expect(maxDifference(array('latents'), conditional)).toBeGreaterThan(0.1);
   });
 
   it('decodes the same joints with the gains of both layers and from the coarse one alone', async () => {

@@ -188,6 +188,19 @@ describe('contact intervals', () => {
     expect(carried([...row(5, 2), ...row(3, 0.1), ...row(5, 2)])).toEqual([]);
   });
 
+  test('are of toes up to 9 cm above the floor, and of ankles as much higher as they rest', () => {
+    const stander = madeStander({ frames: 30 });
+    for (const [height, count] of [
+      [0.085, 1],
+      [0.095, 0],
+    ] as const) {
+      const raised = height - at(stander, 0, J.left_foot)[1];
+      const positions = stander.positions.map((value, i) => (i % 3 === 1 ? value + raised : value));
+      for (const joint of [J.left_foot, J.left_ankle])
+        expect(contactIntervals({ ...stander, positions }, joint)).toHaveLength(count);
+    }
+  });
+
   test('end where the foot is lifted', () => {
     const lift = (frame: number): number => eased(frame, 30, 40) - eased(frame, 50, 60);
     const intervals = contactIntervals(madeStander({ frames: 90, lift }), J.left_foot);

@@ -11,10 +11,10 @@ from torch import Tensor
 
 from export.runtime import open_model
 from tests.python.support.duets import made_duet
+from training.diffusion import cached_model
+from training.diffusion.cached_model import CachedModel
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import Request, react
-from training.evaluation import cached_model
-from training.evaluation.cached_model import CachedModel
 
 TINY = Path(__file__).parents[2] / "fixtures/tiny-model"
 

@@ -1,0 +1,20 @@
+"""The table of the paper's measures."""
+
+from __future__ import annotations
+
+from training.evaluation.report.paper_table import COLUMNS, paper_table
+
+
+def test_every_measure_of_the_paper_has_a_column_and_rows_that_were_not_measured_are_left_out() -> None:
+    mean = {key: 10.0 + place for place, (_, key, _) in enumerate(COLUMNS)} | {"bed_forward_chance": 0.2}
+    numbers = {
+        "rows": {"truth": {"mean": mean}, "generated": {"mean": mean | {"fid_cd": float("nan")}}},
+        "seconds": {"mean": 0.8064},
+    }
+    head, _, truth, generated = paper_table(numbers).splitlines()
+    for name in ["FID_k", "FID_g", "FID_cd", "Div_k", "MPJPE", "MPJVE", "PFC", "IPR", "BED", "seconds"]:
+        assert name in head
+    assert truth.startswith("| truth | 10 | 11 | 12.0 | 13.0 |")
+    assert "| 21.00 (0.20) | 22.00 |  |" in truth, "the truth takes no time"
+    assert generated.startswith("| **generated** | 10 | 11 | – | 13.0 |")
+    assert generated.endswith("| 0.8 |")
