@@ -107,8 +107,9 @@ describe('the tiny model on wasm', () => {
     const frames = golden.musicValid.length;
     const heard = golden.musicValid.filter((valid) => valid !== 0).length;
     const { features } = manifest.audio;
+    const { guidance, musicGuidance, steps, seed } = golden;
     const asked = {
-      ...golden,
+      ...{ guidance, musicGuidance, steps, seed },
       leader: { fps: manifest.fps, frames, positions: golden.leader },
       music: { features: golden.music.subarray(0, heard * features), frames: heard },
       variety: 1,
