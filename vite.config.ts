@@ -4,7 +4,7 @@ import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tool
 import { licences } from './tools/vite/licences.mjs';
 import { manifestEntry } from './tools/vite/manifest-entry.mjs';
 import { precompress } from './tools/vite/precompress.mjs';
-import { serviceWorker } from './tools/vite/service-worker.mjs';
+import { serviceWorker, workerChunkName } from './tools/vite/service-worker.mjs';
 
 const dist = fileURLToPath(new URL('dist', import.meta.url));
 
@@ -54,7 +54,11 @@ export default defineConfig({
   plugins: [manifestEntry(), policyElement, preloadFont, licencesOfPage, serviceWorker(dist), brotli],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
-  worker: { format: 'es', plugins: () => [manifestEntry(), licencesOfWorker()] },
+  worker: {
+    format: 'es',
+    plugins: () => [manifestEntry(), licencesOfWorker()],
+    rolldownOptions: { output: { chunkFileNames: workerChunkName } },
+  },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {

@@ -12,7 +12,7 @@ for (const [name, width, height] of [
     const app = new App(page);
     await app.openWithoutPicture();
     await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeInViewport({ ratio: 1 });
-    await expect(page.getByRole('button', { name: 'Choose a motion' })).toBeInViewport({ ratio: 1 });
+    await expect(page.getByRole('button', { name: 'Choose a video or motion' })).toBeInViewport({ ratio: 1 });
     await expect(page.getByRole('radio', { name: /^(Reaction|No reaction)/ }).first()).toBeInViewport({
       ratio: 0.9,
     });

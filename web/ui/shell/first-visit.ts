@@ -1,3 +1,4 @@
+import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { howItWorks, opensHowItWorks, steps } from './how-it-works';
@@ -27,25 +28,26 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   const block = el(
     'section',
     { class: 'first-visit', attributes: { 'aria-label': 'Start' } },
-    el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
+    el('h1', { text: 'Drop a video of a dancer. Watch the partner answer.' }),
     el('p', {
       class: 'intro',
-      text: 'Your browser makes the dance partner and shows both in 3D.',
+      text: 'A motion file will do as well. Your browser makes the dance partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
-      fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
       fileChoice(
         services,
         'leader',
         'Leader',
         'a video of one dancer, or a motion file',
-        'Choose a motion',
+        'Choose a video or motion',
         cameraButton(services),
       ),
+      fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
     ),
+    offeredLeaders(services),
     steps(opensHowItWorks('Where from?', 'link')),
     el(
       'p',
@@ -101,6 +103,27 @@ function cameraButton(services: Services): HTMLElement {
       },
     },
   });
+}
+
+/** Buttons for the leaders that need no file. */
+function offeredLeaders(services: Services): HTMLElement {
+  return el(
+    'div',
+    { class: 'offered', attributes: { role: 'group', 'aria-label': 'Leaders that need no file' } },
+    el('span', { text: 'No file at hand? Take one of ours:' }),
+    ...OFFERED_LEADERS.map(({ file, name }) =>
+      el('button', {
+        class: 'btn',
+        text: name,
+        attributes: { type: 'button' },
+        on: {
+          click: () => {
+            services.openOffered(file);
+          },
+        },
+      }),
+    ),
+  );
 }
 
 function fileChoice(

@@ -8,7 +8,7 @@ export function steps(...afterFirst: Node[]): HTMLElement {
   return el(
     'ol',
     { class: 'steps' },
-    el('li', {}, 'Choose a song and a leader: a video of one dancer, or a motion file. ', ...afterFirst),
+    el('li', {}, 'Choose a leader, a video of one dancer or a motion file, and a song. ', ...afterFirst),
     el('li', {
       text: 'Your browser makes the partner. The sliders change how it dances.',
     }),
