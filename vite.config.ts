@@ -38,6 +38,24 @@ const preloadFont: Plugin = {
   },
 };
 
+/** Preloads the app, which start.ts imports, with the first files. */
+const preloadApp: Plugin = {
+  name: 'preload-app',
+  apply: 'build',
+  transformIndexHtml: {
+    order: 'post',
+    handler: (_, { bundle = {} }) => {
+      const chunks = Object.values(bundle).filter((file) => file.type === 'chunk');
+      const app = chunks.find(({ facadeModuleId }) => facadeModuleId?.endsWith('/web/main.ts'));
+      return [app?.fileName, ...(app?.imports ?? [])].map((file) => ({
+        tag: 'link',
+        attrs: { rel: 'modulepreload', href: `./${file}`, crossorigin: true },
+        injectTo: 'head',
+      }));
+    },
+  },
+};
+
 /** Brotli copies of the built files. */
 const brotli: Plugin = {
   name: 'brotli',
@@ -51,7 +69,15 @@ const { page: licencesOfPage, worker: licencesOfWorker } = licences();
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [manifestEntry(), policyElement, preloadFont, licencesOfPage, serviceWorker(dist), brotli],
+  plugins: [
+    manifestEntry(),
+    policyElement,
+    preloadFont,
+    preloadApp,
+    licencesOfPage,
+    serviceWorker(dist),
+    brotli,
+  ],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
   worker: {

@@ -142,7 +142,11 @@ def _pelvis(
         hip = hips.apply([SIGN[side] * x, y, z])
         ankle = ankles(feet[side], heels[side])
         away = level + hip[:, [0, 2]] - ankle[:, [0, 2]]
-        return ankle[:, 1] + np.sqrt(np.maximum((STRETCH * leg) ** 2 - np.sum(away**2, axis=1), 0.05)) - hip[:, 1]
+        return (
+            ankle[:, 1]
+            + np.sqrt(np.maximum((STRETCH * leg) ** 2 - np.sum(away**2, axis=1), 0.05))
+            - hip[:, 1]
+        )
 
     # The heel of the foot that is farther behind rises rather than that the body sinks.
     for _ in range(40):
@@ -168,7 +172,9 @@ def _trunk(
         joint = name
     # Who turns looks where the turn goes.
     ahead = np.clip(0.12 * np.gradient(heading) * FPS, -0.6, 0.6)
-    look = turned(gaussian_filter1d(heading + ahead, 2) + 0.06 * wander[3], np.zeros_like(heading), 0.04 * wander[4])
+    look = turned(
+        gaussian_filter1d(heading + ahead, 2) + 0.06 * wander[3], np.zeros_like(heading), 0.04 * wander[4]
+    )
     joints["head"] = joints["neck"] + look.apply(OFFSETS["head"])
 
 
@@ -216,5 +222,3 @@ def _arm(
     pole = chest.apply((1 - high) * out * [0.32, -1.0, -0.3] + high * out * [1.0, -0.35, 0.25])
     joints[f"{side}_collar"], joints[f"{side}_shoulder"], joints[f"{side}_wrist"] = collar, shoulder, wrist
     joints[f"{side}_elbow"] = bend(shoulder, wrist, pole, UPPER_ARM, FOREARM)
-
-

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
@@ -51,7 +52,7 @@ def foot_motion(dance: Dance, side: Side, counts: np.ndarray, body: np.ndarray) 
     heading = np.full(len(counts), steps[0].heading)
     heel = np.zeros(len(counts))
     ball[:, [0, 2]] = steps[0].place
-    for before, step in zip(steps, steps[1:], strict=False):
+    for before, step in pairwise(steps):
         start = step.count - step.swing
         share = (counts - start) / step.swing
         moved = share > 0

@@ -51,7 +51,10 @@ export async function writeServiceWorker(dist) {
     const integrity = `sha256-${createHash('sha256').update(content).digest('base64')}`;
     (ON_USE.test(file) ? onUse : files)[file] = integrity;
   }
-  const version = createHash('sha256').update(JSON.stringify([files, onUse])).digest('hex').slice(0, 16);
+  const version = createHash('sha256')
+    .update(JSON.stringify([files, onUse]))
+    .digest('hex')
+    .slice(0, 16);
   await build({
     configFile: false,
     publicDir: false,

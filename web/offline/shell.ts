@@ -54,7 +54,8 @@ async function usedBefore({ onUse }: Shell, { caches, base }: ShellScope): Promi
   const used = new Set<string>();
   for (const name of await caches.keys()) {
     if (!name.startsWith(PREFIX)) continue;
-    for (const { url } of await (await caches.open(name)).keys()) used.add(withoutHash(url.slice(base.length)));
+    for (const { url } of await (await caches.open(name)).keys())
+      used.add(withoutHash(url.slice(base.length)));
   }
   return Object.fromEntries(Object.entries(onUse).filter(([path]) => used.has(withoutHash(path))));
 }

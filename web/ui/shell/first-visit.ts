@@ -1,7 +1,7 @@
 import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { howItWorks, opensHowItWorks, steps } from './how-it-works';
+import { howItWorks, opensHowItWorks } from './how-it-works';
 import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -42,13 +42,12 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         'leader',
         'Leader',
         'a video of one dancer, or a motion file',
-        'Choose a video or motion',
+        'Choose a file',
         cameraButton(services),
       ),
       fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
     ),
     offeredLeaders(services),
-    steps(opensHowItWorks('Where from?', 'link')),
     el(
       'p',
       { class: 'how' },
@@ -57,9 +56,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         'span',
         {},
         el('span', { class: 'desk', text: 'Drop both anywhere on this page. ' }),
-        'Your files never leave this browser.',
+        'Your files never leave this browser. ',
+        opensHowItWorks('How it works', 'link'),
       ),
-      opensHowItWorks('How it works', 'link phone-only'),
     ),
     howItWorks(),
   );
@@ -139,16 +138,20 @@ function fileChoice(
     {},
     el('b', {}, el('span', { class: side === 'leader' ? 'sign leader' : 'sign' }, icon(side)), name),
     el('p', { text: kinds }),
-    el('button', {
-      class: 'btn tint',
-      text: ask,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.choose(side);
+    el(
+      'div',
+      { class: 'choices' },
+      el('button', {
+        class: 'btn tint',
+        text: ask,
+        attributes: { type: 'button' },
+        on: {
+          click: () => {
+            services.choose(side);
+          },
         },
-      },
-    }),
-    more,
+      }),
+      more,
+    ),
   );
 }

@@ -45,11 +45,7 @@ describe('joints set by hand', () => {
     const file = await readLeaderFile(filesOf(later.text), {}, remembered);
     expect(file.report).toMatchObject({ mappedBy: 'hand', skeleton });
     expect(worstMillimetres(file, bvhMotion(later, NAMES, 50))).toBeLessThan(0.05);
-    const other = await readLeaderFile(
-      filesOf(madeBvh({ joints: madeBody(MIXAMO) }).text),
-      {},
-      remembered,
-    );
+    const other = await readLeaderFile(filesOf(madeBvh({ joints: madeBody(MIXAMO) }).text), {}, remembered);
     expect(other.report.mappedBy).toBe('names');
     // What is set for this file goes before what is remembered.
     const elsewhere = { ...CHOICE, left_wrist: 'b8' };

@@ -29,17 +29,18 @@ const HUMAN_IK: BodyNames = {
   wrist: '*Hand',
 };
 
+const withoutToes = (names: BodyNames): BodyNames =>
+  Object.fromEntries(Object.entries(names).filter(([part]) => part !== 'toe')) as unknown as BodyNames;
+
 /** The same names with something before each of them. */
 function prefixed(names: BodyNames, prefix: string): BodyNames {
   const { sides, ...parts } = names;
   const written = Object.entries(parts).map(([part, name]): [string, string | string[]] => [
     part,
-    typeof name === 'string' ? prefix + name : (name as readonly string[]).map((one) => prefix + one),
+    typeof name === 'string' ? prefix + name : name.map((one) => prefix + one),
   ]);
   return { sides, ...Object.fromEntries(written) } as BodyNames;
 }
-
-const { toe: _noToes, ...WITHOUT_TOES } = HUMAN_IK;
 
 /** Every convention that the page knows by name, in the form that its programs write. */
 export const CONVENTIONS: readonly WrittenConvention[] = [
@@ -91,7 +92,7 @@ export const CONVENTIONS: readonly WrittenConvention[] = [
   {
     label: 'Perception Neuron',
     reported: 'CMU / MotionBuilder',
-    names: { ...WITHOUT_TOES, spine: ['Spine', 'Spine1', 'Spine2', 'Spine3'] },
+    names: withoutToes({ ...HUMAN_IK, spine: ['Spine', 'Spine1', 'Spine2', 'Spine3'] }),
   },
   {
     label: 'OptiTrack, Motive 2 and later',
