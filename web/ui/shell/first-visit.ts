@@ -45,7 +45,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         'Choose a file',
         cameraButton(services),
       ),
-      fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
+      fileChoice(services, 'song', 'Song', 'mp3, wav, flac and others', 'Choose a song'),
     ),
     offeredLeaders(services),
     el(
@@ -55,7 +55,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
       el(
         'span',
         {},
-        el('span', { class: 'desk', text: 'Drop both anywhere on this page. ' }),
+        el('span', { class: 'desk', text: 'Drop both anywhere. ' }),
         'Your files never leave this browser. ',
         opensHowItWorks('How it works', 'link'),
       ),

@@ -44,6 +44,7 @@ export class Study {
   #since = 0;
   /** The pair whose dances are on the stage or are awaited. */
   #shown: Pair | null = null;
+  #isWaiting = false;
 
   constructor(private readonly services: StudyServices) {
     this.#setup = new SetupView({
@@ -109,12 +110,18 @@ export class Study {
     if (!this.#setup.element.isConnected) this.#show(this.#setup.element);
   }
 
+  /** Says what is being read or loaded, which goes on while the first pairs are made ready. */
+  #showStatus(text: string): void {
+    if (!this.#session) this.#showSetup(text);
+    else if (this.#isWaiting) this.#showPair(text, false);
+  }
+
   async #load(load: (onStatus: (text: string) => void) => Promise<StudySet>): Promise<void> {
     this.#alert.hidden = true;
     this.#showSetup('Reading the dances');
     try {
       this.#set = await load((text) => {
-        this.#showSetup(text);
+        this.#showStatus(text);
       });
     } catch (error) {
       this.#fail(error);
@@ -185,10 +192,12 @@ export class Study {
   /** Shows a pair, and makes the dances of the next one ready meanwhile. */
   async #present(pair: Pair): Promise<void> {
     this.#shown = pair;
+    this.#isWaiting = true;
     this.#showPair('Making the dances ready', true);
     try {
       const dances = await this.#dances(pair);
       if (this.#shown !== pair) return;
+      this.#isWaiting = false;
       this.#since = this.services.now();
       this.#showPair(null, false);
       this.#player.show(dances);
