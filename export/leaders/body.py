@@ -85,7 +85,7 @@ def joints_of(dance: Dance, tempo_bpm: float, first: float, frames: int, seed: i
     counts = (seconds - first) * tempo_bpm / 60
     wander = _wander(frames, seed)
     heading = gaussian_filter1d(dance.headings.at(counts)[:, 0], 0.07 * FPS)
-    feet = {side: foot_motion(dance, side, counts, heading) for side in SIGN}
+    feet: dict[Side, Foot] = {side: foot_motion(dance, side, counts, heading) for side in SIGN}
     weight = weight_on_left(dance, counts)
     lean, twist, shimmy = (
         np.radians(track.at(counts)[:, 0]) for track in (dance.lean, dance.twist, dance.shimmy)
@@ -134,7 +134,7 @@ def _pelvis(
     leg = THIGH + SHIN
     height = ANKLE + STANDING * leg - OFFSETS["hip"][1] - dance.crouch.at(counts)[:, 0] + hop
     height = height - BOUNCE * np.cos(2 * np.pi * counts)
-    heels = {side: feet[side].heel for side in SIGN}
+    heels: dict[Side, np.ndarray] = {side: feet[side].heel for side in SIGN}
 
     def reach(side: Side) -> np.ndarray:
         """The highest pelvis for a leg."""

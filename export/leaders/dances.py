@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from export.leaders import figures as f
+from export.leaders import half_tempo, play, salsa
 from export.leaders.steps import Dance
 
 DANCES: dict[str, Callable[[Dance], None]] = {}
@@ -17,55 +17,55 @@ def dance(tell: Callable[[Dance], None]) -> Callable[[Dance], None]:
 
 @dance
 def slow(dance: Dance) -> None:
-    f.slow_basic(dance, 1)
-    f.slow_basic(dance, -1)
-    f.slow_box(dance)
-    f.slow_walk(dance, 100)
-    f.slow_box(dance)
-    f.slow_side(dance)
-    f.slow_basic(dance, 1)
-    f.slow_basic(dance, -1)
-    f.slow_lunge(dance, -1)
-    f.slow_box(dance)
+    half_tempo.basic(dance, 1)
+    half_tempo.basic(dance, -1)
+    half_tempo.box(dance)
+    half_tempo.walk(dance, 100)
+    half_tempo.box(dance)
+    half_tempo.side(dance)
+    half_tempo.basic(dance, 1)
+    half_tempo.basic(dance, -1)
+    half_tempo.lunge(dance, -1)
+    half_tempo.box(dance)
 
 
 @dance
 def quick(dance: Dance) -> None:
-    f.basic(dance)
-    f.side_basic(dance)
-    f.double_time(dance)
-    f.cross_body(dance)
-    f.partner_turn(dance)
-    f.crossing(dance)
-    f.double_time(dance)
-    f.spot_turn(dance)
-    f.cross_body(dance)
-    f.basic(dance, 0.34)
+    salsa.basic(dance)
+    salsa.side_basic(dance)
+    salsa.double_time(dance)
+    salsa.cross_body(dance)
+    salsa.partner_turn(dance)
+    salsa.crossing(dance)
+    salsa.double_time(dance)
+    salsa.spot_turn(dance)
+    salsa.cross_body(dance)
+    salsa.basic(dance, 0.34)
 
 
 @dance
 def turning(dance: Dance) -> None:
-    f.basic(dance)
-    f.spot_turn(dance)
-    f.travelling_turn(dance, 1)
-    f.travelling_turn(dance, -1)
-    f.cross_body(dance)
-    f.spot_turn(dance)
-    f.partner_turn(dance)
-    f.cross_body(dance)
-    f.travelling_turn(dance, 1)
-    f.spot_turn(dance)
+    salsa.basic(dance)
+    salsa.spot_turn(dance)
+    salsa.travelling_turn(dance, 1)
+    salsa.travelling_turn(dance, -1)
+    salsa.cross_body(dance)
+    salsa.spot_turn(dance)
+    salsa.partner_turn(dance)
+    salsa.cross_body(dance)
+    salsa.travelling_turn(dance, 1)
+    salsa.spot_turn(dance)
 
 
 @dance
 def playful(dance: Dance) -> None:
-    f.kicks(dance)
-    f.charleston(dance)
-    f.shimmies(dance)
-    f.hops(dance)
-    f.crossing(dance)
-    f.charleston(dance)
-    f.double_time(dance)
-    f.kicks(dance)
-    f.shimmies(dance)
-    f.hops(dance)
+    play.kicks(dance)
+    play.charleston(dance)
+    play.shimmies(dance)
+    play.hops(dance)
+    salsa.crossing(dance)
+    play.charleston(dance)
+    salsa.double_time(dance)
+    play.kicks(dance)
+    play.shimmies(dance)
+    play.hops(dance)

@@ -11,17 +11,19 @@ from typing import Literal
 
 import numpy as np
 
+from export.leaders.hands import LOW, Hand
+
 Side = Literal["left", "right"]
 SIGN: dict[Side, float] = {"left": 1.0, "right": -1.0}
 
+
+def sides(sign: float) -> tuple[Side, Side]:
+    """The left side first for signs above 0, the right one first for others."""
+    return ("left", "right") if sign > 0 else ("right", "left")
+
+
 STANCE = 0.115
 """Metres from the dancer's middle to a standing foot."""
-
-Hand = tuple[float, float, float]
-"""Where a hand is, seen from its own shoulder: outwards, up, ahead; metres."""
-
-LOW: Hand = (-0.03, -0.28, 0.20)
-"""Hands in front of the waist, as partners hold them between each other."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +92,7 @@ class Dance:
             track.to(-1.0, 0.0)
         for hand in self.hands.values():
             hand.to(-1.0, LOW)
-        for side in ("left", "right"):
+        for side in SIGN:
             self.steps.append(self._step(-4.0, side, 0.0, 0.0, 0.5, 0.0, True, None))
 
     def step(
@@ -117,7 +119,7 @@ class Dance:
             self.headings.to(at - swing, self.heading)
             self.heading += np.radians(turn)
             self.headings.to(at + 0.15, self.heading)
-        self.place = self.place + self._axes() @ np.array(move)
+        self.place = self.place + self.axes() @ np.array(move)
         self.steps.append(self._step(at, side, across, ahead, swing, lift, weight, over))
 
     def _step(
@@ -132,13 +134,13 @@ class Dance:
         over: tuple[float, float] | None,
     ) -> Step:
         rest = np.array([SIGN[side] * STANCE + across, ahead])
-        place = self.place + self._axes() @ rest
-        way = None if over is None else self.place + self._axes() @ np.array(over)
+        place = self.place + self.axes() @ rest
+        way = None if over is None else self.place + self.axes() @ np.array(over)
         # Toes point outwards a little.
         heading = self.heading + SIGN[side] * np.radians(9)
         return Step(count, side, place, heading, swing, lift, weight, way)
 
-    def _axes(self) -> np.ndarray:
+    def axes(self) -> np.ndarray:
         """(2, 2) from across and ahead to x and z of the room."""
         cos, sin = np.cos(self.heading), np.sin(self.heading)
         return np.array([[cos, sin], [-sin, cos]])
