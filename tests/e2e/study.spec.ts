@@ -1,5 +1,6 @@
 /** The blind test: from the choice of dances to the saved answers, by keyboard. */
 import { readFileSync } from 'node:fs';
+import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { TINY } from './support/app-page';
 import { bvhText, type TestFile, wav } from './support/files';
@@ -24,6 +25,12 @@ const FILES = [
   motion('turn_edge.bvh', 2.2),
 ];
 
+/** What axe finds on the page. */
+async function violations(page: Page): Promise<string[]> {
+  const { violations: found } = await new AxeBuilder({ page }).analyze();
+  return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 160)).join(' | ')}`);
+}
+
 async function saved(page: Page, button: string): Promise<string> {
   const coming = page.waitForEvent('download');
   await page.getByRole('button', { name: button }).click();
@@ -33,6 +40,10 @@ async function saved(page: Page, button: string): Promise<string> {
 test('files are compared by keyboard, a reload loses nothing, and the answers come as tables', async ({
   page,
 }) => {
+  // As on a machine without WebGL, which is faster.
+  await page.addInitScript(() => {
+    Reflect.set(HTMLCanvasElement.prototype, 'getContext', () => null);
+  });
   await page.goto(STUDY);
   const setup = page.getByRole('region', { name: 'Setup' });
   const [chooser] = await Promise.all([
@@ -41,6 +52,7 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   ]);
   await chooser.setFiles(FILES);
   await expect(setup.getByRole('status')).toHaveText(/Your files: 2 leaders, 2 methods, some without music/);
+  expect(await violations(page), 'setup').toEqual([]);
   await setup.getByLabel('Participant').fill('Ana');
   await page.keyboard.press('Enter');
 
@@ -48,6 +60,7 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   await expect(questions.getByRole('heading')).toHaveText('Pair 1 of 2');
   await expect(questions.getByRole('button', { name: /Play|Pause/ })).toBeEnabled();
   const asked = await questions.getByRole('group').count();
+  expect(await violations(page), 'a pair').toEqual([]);
   // The method that made a partner is nowhere on the page.
   expect(await page.locator('body').innerText()).not.toMatch(/ours|edge/);
   for (const key of asked === 3 ? '153' : '15') await page.keyboard.press(key);

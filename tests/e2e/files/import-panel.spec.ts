@@ -64,15 +64,17 @@ test('joints of a refused file are chosen, exchanged, remembered and forgotten',
   await expect(app.alert).toHaveAttribute('data-code', 'missing-joints');
   await app.alert.getByRole('button', { name: 'Joints and units' }).click();
   for (const [joint, name] of Object.entries(CHOICES))
-    await panel.getByLabel(joint, { exact: true }).selectOption({ label: name });
+    await panel.getByRole('combobox', { name: joint, exact: true }).selectOption({ label: name });
   await panel.getByRole('button', { name: 'Read again' }).click();
   await app.until(({ leader }) => leader?.name === 'unknown.bvh');
   await expect(panel).toBeHidden();
   expect(await mapped()).toEqual(['hand', 'a1', 'b7']);
 
   await openPanel();
-  await expect(panel.getByLabel('left knee', { exact: true })).toHaveText(/a1/);
+  const knee = panel.getByRole('combobox', { name: 'left knee', exact: true });
+  await expect(knee.locator('option:checked')).toHaveText('a1');
   await panel.getByRole('button', { name: 'Exchange left and right' }).click();
+  await expect(knee.locator('option:checked')).toHaveText('b1');
   await panel.getByRole('button', { name: 'Read again' }).click();
   await app.until(({ leader }) => leader?.file.report.joints.left_knee === 'b1');
   await expect(page.getByRole('list', { name: 'Notes' })).toContainText('The feet point backwards');

@@ -26,7 +26,7 @@ export interface PairState {
 /** The questions beside the stage, and the transport below them. */
 export class PairView {
   readonly element: HTMLElement;
-  readonly #heading = el('h2', { attributes: { tabindex: -1 } });
+  readonly #heading = el('h1', { attributes: { tabindex: -1 } });
   readonly #waiting = el('p', { class: 'waiting', attributes: { role: 'status' } });
   readonly #questions = el('div', { class: 'questions' });
   readonly #play: HTMLButtonElement;
@@ -58,7 +58,7 @@ export class PairView {
       el('div', { class: 'actions' }, this.#back, this.#next),
       el('p', {
         class: 'keys',
-        text: 'Keys: Space plays and pauses, 1 to 5 answer the next open question or the one in focus, Enter goes on, Backspace goes back.',
+        text: 'Keys: Space plays and pauses, 1 to 5 answer the next open question, then the one in focus, Enter goes on, Backspace goes back.',
       }),
     );
   }
@@ -97,13 +97,16 @@ export class PairView {
     const target = event.target instanceof HTMLElement ? event.target : null;
     const choice = CHOICES[Number(event.key) - 1];
     if (choice) {
+      const { criteria, answers } = state;
       const focused = target instanceof HTMLInputElement ? target.name : '';
-      const open = state.criteria.find(({ id }) => !state.answers.has(id)) ?? state.criteria.at(-1)!;
-      this.actions.answer(state.criteria.find(({ id }) => id === focused)?.id ?? open.id, choice.score);
-      return true;
+      const question =
+        criteria.find(({ id }) => !answers.has(id)) ?? criteria.find(({ id }) => id === focused);
+      if (question) this.actions.answer(question.id, choice.score);
+      return question !== undefined;
     }
-    // A button does what it says itself.
-    if (target instanceof HTMLButtonElement) return false;
+    // A button does what it says itself, and a space chooses what has the focus.
+    const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
+    if (target instanceof HTMLButtonElement || (event.key === ' ' && isUnchosen)) return false;
     if (event.key === ' ' && state.waiting === null) this.actions.togglePlay();
     else if (event.key === 'Enter' && !this.#next.disabled) this.actions.next();
     else if (event.key === 'Backspace' && state.number > 0) this.actions.back();

@@ -56,7 +56,13 @@ function table(comparisons: readonly Comparison[]): HTMLElement {
     el(
       'thead',
       {},
-      el('tr', {}, ...['Preferred', ...CRITERIA.map(({ id }) => id)].map((text) => el('th', { text }))),
+      el(
+        'tr',
+        {},
+        ...['Preferred', ...CRITERIA.map(({ id }) => id)].map((text) =>
+          el('th', { text, attributes: { scope: 'col' } }),
+        ),
+      ),
     ),
     el(
       'tbody',
@@ -65,7 +71,7 @@ function table(comparisons: readonly Comparison[]): HTMLElement {
         el(
           'tr',
           {},
-          el('th', { text: name }),
+          el('th', { text: name, attributes: { scope: 'row' } }),
           ...CRITERIA.map(({ id }) => el('td', { text: cell(list, id) })),
         ),
       ),
