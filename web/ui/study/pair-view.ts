@@ -27,11 +27,11 @@ export interface PairState {
 export class PairView {
   readonly element: HTMLElement;
   readonly #heading = el('h1', { attributes: { tabindex: -1 } });
-  readonly #waiting = el('p', { class: 'waiting', attributes: { role: 'status' } });
+  readonly #waiting = el('p', { class: 'study-waiting', attributes: { role: 'status' } });
   readonly #questions = el('div', { class: 'questions' });
   readonly #play: HTMLButtonElement;
   readonly #slider: HTMLInputElement;
-  readonly #clock = el('span', { class: 'clock' });
+  readonly #clock = el('span', { class: 'study-time' });
   readonly #next: HTMLButtonElement;
   readonly #back: HTMLButtonElement;
   #state: PairState | null = null;
@@ -53,11 +53,11 @@ export class PairView {
       { class: 'pair', attributes: { 'aria-label': 'Questions' } },
       this.#heading,
       this.#waiting,
-      el('div', { class: 'transport-row' }, this.#play, this.#slider, this.#clock),
+      el('div', { class: 'study-transport' }, this.#play, this.#slider, this.#clock),
       this.#questions,
-      el('div', { class: 'actions' }, this.#back, this.#next),
+      el('div', { class: 'study-actions' }, this.#back, this.#next),
       el('p', {
-        class: 'keys',
+        class: 'key-help',
         text: 'Keys: Space plays and pauses, 1 to 5 answer the next open question, then the one in focus, Enter goes on, Backspace goes back.',
       }),
     );
@@ -121,7 +121,7 @@ export class PairView {
       el('legend', { text: question }),
       el(
         'div',
-        { class: 'scale' },
+        { class: 'likert' },
         ...CHOICES.map(({ score, text }, i) =>
           el(
             'label',

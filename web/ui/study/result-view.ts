@@ -28,7 +28,7 @@ export function resultView(
     table(comparisons),
     el(
       'div',
-      { class: 'actions' },
+      { class: 'study-actions' },
       textButton('btn primary', 'Save answers (CSV)', actions.saveAnswers),
       textButton('btn tint', 'Save summary (CSV)', actions.saveSummary),
       textButton('btn ghost', 'Next participant', actions.again),

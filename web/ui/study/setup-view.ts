@@ -19,7 +19,7 @@ interface SetupActions {
 export class SetupView {
   readonly element: HTMLElement;
   readonly #set = el('p', { attributes: { role: 'status' } });
-  readonly #kept = el('div', { class: 'kept' });
+  readonly #kept = el('div', { class: 'study-kept' });
   readonly #start: HTMLButtonElement;
   readonly #participant = el('input', { attributes: { type: 'text', maxlength: 60, autocomplete: 'off' } });
   readonly #pairs = el('input', { attributes: { type: 'number', min: 1, max: 200, step: 1 } });
@@ -61,14 +61,14 @@ export class SetupView {
       this.#set,
       el(
         'div',
-        { class: 'actions' },
+        { class: 'study-actions' },
         textButton('btn tint', 'Dances of this page', this.actions.useBuiltIn),
         chooser('Choose files', '', (files) => {
           this.actions.chooseFiles(files);
         }),
       ),
       el('p', {
-        class: 'hint',
+        class: 'file-help',
         text: 'Files are named DUET_leader.bvh and DUET_METHOD.bvh, with two methods or more, as salsa_ours.bvh and salsa_truth.bvh, in any format that the page reads; DUET.mp3 is the music. Where one method is called “ours”, the others are compared with it.',
       }),
       el('h2', { text: 'Participant' }),

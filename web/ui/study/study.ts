@@ -33,7 +33,7 @@ export interface StudyServices {
 /** The blind test: setup, then one pair after the other, then the result. */
 export class Study {
   readonly element = el('div', { class: 'study-panel' });
-  readonly #alert = el('div', { class: 'problem', attributes: { role: 'alert' } });
+  readonly #alert = el('div', { class: 'study-problem', attributes: { role: 'alert' } });
   readonly #setup: SetupView;
   readonly #pairView: PairView;
   readonly #player: PairPlayer;
