@@ -25,6 +25,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     'Play the demo',
   );
   const about = el('small');
+  const offered = offeredLeaders(services);
   const block = el(
     'section',
     { class: 'first-visit', attributes: { 'aria-label': 'Start' } },
@@ -47,7 +48,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
       ),
       fileChoice(services, 'song', 'Song', 'mp3, wav, flac and others', 'Choose a song'),
     ),
-    offeredLeaders(services),
+    offered,
     el(
       'p',
       { class: 'how' },
@@ -69,6 +70,8 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';
+    // They dance to the demo's song, which a leader that comes before it would keep away.
+    for (const button of offered.querySelectorAll('button')) button.disabled = state.demo === 'loading';
     setText(about, demoText(state));
   };
   return combineDisposers(
