@@ -6,8 +6,8 @@ import tseslint from 'typescript-eslint';
 /** Imports that a folder of web/ must not have: relative paths from `up` to these folders or files, and the reason. */
 const towards = (names, message, up = '(\\.\\./)+') => ({ regex: `^${up}(${names})(/|\\.ts$|$)`, message });
 const everywhere = towards(
-  'main|stage-binding|tests|tools',
-  'main.ts, stage-binding.ts, tests and tools know the app, never the reverse',
+  'start|main|study|stage-binding|tests|tools',
+  'start.ts, main.ts, study.ts, stage-binding.ts, tests and tools know the app, never the reverse',
 );
 
 /**
@@ -62,6 +62,7 @@ directions['audio/dsp'] = [
 const features = [
   ...['files', 'generation', 'guidance', 'timeline', 'takes', 'quality', 'project', 'download'],
   'video',
+  'study',
 ];
 const uiFolders = {
   store: [...features, 'widgets', 'shell'],

@@ -4,7 +4,7 @@ import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tool
 import { licences } from './tools/vite/licences.mjs';
 import { manifestEntry } from './tools/vite/manifest-entry.mjs';
 import { precompress } from './tools/vite/precompress.mjs';
-import { serviceWorker } from './tools/vite/service-worker.mjs';
+import { serviceWorker, workerChunkName } from './tools/vite/service-worker.mjs';
 
 const dist = fileURLToPath(new URL('dist', import.meta.url));
 
@@ -38,6 +38,24 @@ const preloadFont: Plugin = {
   },
 };
 
+/** Preloads the app, which start.ts imports, with the first files. */
+const preloadApp: Plugin = {
+  name: 'preload-app',
+  apply: 'build',
+  transformIndexHtml: {
+    order: 'post',
+    handler: (_, { bundle = {} }) => {
+      const chunks = Object.values(bundle).filter((file) => file.type === 'chunk');
+      const app = chunks.find(({ facadeModuleId }) => facadeModuleId?.endsWith('/web/main.ts'));
+      return [app?.fileName, ...(app?.imports ?? [])].map((file) => ({
+        tag: 'link',
+        attrs: { rel: 'modulepreload', href: `./${file}`, crossorigin: true },
+        injectTo: 'head',
+      }));
+    },
+  },
+};
+
 /** Brotli copies of the built files. */
 const brotli: Plugin = {
   name: 'brotli',
@@ -51,10 +69,22 @@ const { page: licencesOfPage, worker: licencesOfWorker } = licences();
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [manifestEntry(), policyElement, preloadFont, licencesOfPage, serviceWorker(dist), brotli],
+  plugins: [
+    manifestEntry(),
+    policyElement,
+    preloadFont,
+    preloadApp,
+    licencesOfPage,
+    serviceWorker(dist),
+    brotli,
+  ],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
-  worker: { format: 'es', plugins: () => [manifestEntry(), licencesOfWorker()] },
+  worker: {
+    format: 'es',
+    plugins: () => [manifestEntry(), licencesOfWorker()],
+    rolldownOptions: { output: { chunkFileNames: workerChunkName } },
+  },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {

@@ -1,10 +1,10 @@
 /**
- * Solves both dancers as the page does and writes both as BVH.
+ * Solves dancers as the page does and writes each as NAME.bvh.
  *
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
- * motions.npz holds `leader` and `reactor`, (T, 22, 3) float32 metres at 30 fps; manifest.json is the model's, which
- * has the capsules of the bodies.
+ * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` avoids collisions with the `leader`
+ * beside it; manifest.json is the model's, which has the capsules of the bodies.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -35,14 +35,12 @@ function clip(name) {
   return { fps: 30, frames, positions: data };
 }
 
-const leader = clip('leader');
 const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
-const dancers = {
-  leader: solve(leader),
-  reactor: avoidCollisions(solve(clip('reactor')), leader, quality.penetration),
-};
 await mkdir(folder, { recursive: true });
-for (const [name, motion] of Object.entries(dancers)) {
+for (const name of arrays.keys()) {
+  const solved = solve(clip(name));
+  const beside = name === 'reactor' && arrays.has('leader');
+  const motion = beside ? avoidCollisions(solved, clip('leader'), quality.penetration) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

@@ -25,6 +25,7 @@ import { mountImportPanel } from './ui/files/joints/import-panel';
 import { RememberedJointsStorage } from './ui/files/joints/remembered';
 import { mountImportReport } from './ui/files/import-report';
 import { createModelLink } from './ui/files/model-link';
+import { openOffered } from './ui/files/offered';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { createEarlierDance } from './ui/generation/earlier-dance';
@@ -125,6 +126,7 @@ const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
+  openOffered: (file) => void openOffered(file, new URL('leaders/', document.baseURI), store, files),
   recordVideo: () => void video.record(),
   rereadLeader: (options) => void files.rereadLeader(options),
   readAgain: files.readAgain,

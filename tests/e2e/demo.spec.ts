@@ -13,7 +13,7 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
   await expect(page.getByRole('button', { name: /^Leader: .*demo/ })).toBeVisible();
   await page.getByRole('button', { name: 'Play the demo' }).click();
   await app.until(({ playback }) => playback.playing && playback.time > 0.5);
-  await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
+  await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeHidden();
   await app.until(({ reaction, song }) => reaction && song);
   expect(meanSpeed(await app.reactor())).toBeGreaterThan(0.02);
 });

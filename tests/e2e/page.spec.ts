@@ -11,8 +11,8 @@ for (const [name, width, height] of [
     await page.setViewportSize({ width, height });
     const app = new App(page);
     await app.openWithoutPicture();
-    await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeInViewport({ ratio: 1 });
-    await expect(page.getByRole('button', { name: 'Choose a motion' })).toBeInViewport({ ratio: 1 });
+    await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeInViewport({ ratio: 1 });
+    await expect(page.getByRole('button', { name: 'Choose a file' })).toBeInViewport({ ratio: 1 });
     await expect(page.getByRole('radio', { name: /^(Reaction|No reaction)/ }).first()).toBeInViewport({
       ratio: 0.9,
     });

@@ -193,7 +193,7 @@ test('everything is restored after a reload, and from a project file after the p
     await app.until(
       ({ takes, song, reaction }) => takes.length === 2 && song && reaction?.inputs.song === song,
     );
-    await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeHidden();
+    await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeHidden();
     expect(await summary()).toEqual(before);
     expect(maxDistance(motion, await app.reactor())).toBe(0);
     await page.keyboard.press('Escape');
@@ -219,7 +219,7 @@ test('everything is restored after a reload, and from a project file after the p
       .getByRole('dialog', { name: 'Project' })
       .getByRole('button', { name: /Start afresh/ })
       .click();
-    await expect(page.getByRole('heading', { name: /Drop a song/ })).toBeVisible();
+    await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeVisible();
     await expect(takes(page)).toHaveCount(0);
     await expect.poll(() => storedTakeNames(page)).toEqual([]);
     await page.reload();

@@ -11,6 +11,24 @@ const SCRIPT = 'service-worker.js';
 /** Files that the service worker does not cache: runtime and models have caches of their own, others no page asks for. */
 const NOT_CACHED = /^models\/|\.wasm$|\.br$|\.md$|^service-worker\.js$/;
 
+/** Files that are cached when they are used first: readers of motion files, and what is offered in their place. */
+const ON_USE = /^assets\/reader-|^leaders\//;
+
+/**
+ * The name of a worker's chunk, which tells the readers of motion files from other code. The one of BVH is not among
+ * them: every visitor reads the demo's leader with it.
+ *
+ * @param {import('vite').Rolldown.PreRenderedChunk} chunk
+ */
+export function workerChunkName({ facadeModuleId, moduleIds }) {
+  const folder = '/motion/import/';
+  const own = moduleIds.filter((id) => !id.startsWith('\0'));
+  const [, reader] = /\/motion\/import\/(.+)\.ts$/.exec(facadeModuleId ?? '') ?? [];
+  const isShared = own.length > 0 && own.every((id) => id.includes(folder));
+  if (reader?.startsWith('bvh/') || !(reader || isShared)) return 'assets/[name]-[hash].js';
+  return `assets/reader-${reader?.replace(/\/read$/, '').replaceAll('/', '-') ?? '[name]'}-[hash].js`;
+}
+
 /**
  * Writes service-worker.js into a built page: web/offline/service-worker.ts with the list of the page's files and their
  * hashes. It holds code of ours only, which is why licences.txt has no section for it.
@@ -26,16 +44,22 @@ export async function writeServiceWorker(dist) {
     .sort();
   /** @type {Record<string, string>} */
   const files = {};
+  /** @type {Record<string, string>} */
+  const onUse = {};
   for (const file of paths) {
     const content = await readFile(path.join(dist, file));
-    files[file] = `sha256-${createHash('sha256').update(content).digest('base64')}`;
+    const integrity = `sha256-${createHash('sha256').update(content).digest('base64')}`;
+    (ON_USE.test(file) ? onUse : files)[file] = integrity;
   }
-  const version = createHash('sha256').update(JSON.stringify(files)).digest('hex').slice(0, 16);
+  const version = createHash('sha256')
+    .update(JSON.stringify([files, onUse]))
+    .digest('hex')
+    .slice(0, 16);
   await build({
     configFile: false,
     publicDir: false,
     logLevel: 'error',
-    define: { SHELL: JSON.stringify({ version, files, headers: isolationHeaders }) },
+    define: { SHELL: JSON.stringify({ version, files, onUse, headers: isolationHeaders }) },
     build: {
       outDir: dist,
       emptyOutDir: false,

@@ -54,6 +54,10 @@ export type ErrorCode =
   | 'video-unsupported'
   | 'video-failed'
   | 'sound-failed'
+  // Files of a study.
+  | 'not-a-study'
+  | 'not-answers'
+  | 'storage-refused'
   // A project file.
   | 'not-a-project'
   | 'damaged-project'

@@ -2,8 +2,10 @@
 export interface Shell {
   /** Differs between builds. */
   readonly version: string;
-  /** Every file by its path from the page's folder, with its `integrity`, as in 'sha256-…'. */
+  /** Files that are cached at once, by their path from the page's folder, with their `integrity`, as in 'sha256-…'. */
   readonly files: Readonly<Record<string, string>>;
+  /** Files that not every visitor needs, in the same form: they are cached when they are used first. */
+  readonly onUse: Readonly<Record<string, string>>;
   /** Headers of cross-origin isolation, set on every cached response: without them the page computes on one thread. */
   readonly headers: Readonly<Record<string, string>>;
 }
@@ -21,14 +23,16 @@ export interface ShellScope {
 const cacheName = ({ version }: Shell): string => PREFIX + version;
 
 /**
- * Caches all files of a build, or none: a page with missing files would be worse than no page.
+ * Caches the files of a build, or none: a page with missing files would be worse than no page. Those that are cached on
+ * use are among them where the visitor has used them in an older build.
  * @throws when a file can't be fetched, is not the one of this build, or can't be stored
  */
 export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void> {
   try {
+    const files = { ...shell.files, ...(await usedBefore(shell, scope)) };
     const cache = await scope.caches.open(cacheName(shell));
     await Promise.all(
-      Object.entries(shell.files).map(async ([path, integrity]) => {
+      Object.entries(files).map(async ([path, integrity]) => {
         const address = new URL(path, scope.base).href;
         // The integrity check rejects a file of another build that an HTTP cache still holds.
         const response = await scope.fetch(address, { integrity, cache: 'no-cache' });
@@ -40,6 +44,20 @@ export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void>
     await scope.caches.delete(cacheName(shell)).catch(() => undefined);
     throw error;
   }
+}
+
+/** A path without the hash that the build puts into a file's name. */
+const withoutHash = (path: string): string => path.replace(/-[\w-]{8}(?=\.\w+$)/, '');
+
+/** The files that are cached on use and were used in an older build, which other caches tell. */
+async function usedBefore({ onUse }: Shell, { caches, base }: ShellScope): Promise<Shell['files']> {
+  const used = new Set<string>();
+  for (const name of await caches.keys()) {
+    if (!name.startsWith(PREFIX)) continue;
+    for (const { url } of await (await caches.open(name)).keys())
+      used.add(withoutHash(url.slice(base.length)));
+  }
+  return Object.fromEntries(Object.entries(onUse).filter(([path]) => used.has(withoutHash(path))));
 }
 
 /** The response as it is stored: decompressed, with its own length and the headers that the page needs. */
@@ -66,8 +84,9 @@ export async function deleteOtherShells(shell: Shell, { caches }: ShellScope): P
 export function matchShell(
   request: Pick<Request, 'url' | 'method' | 'headers'>,
   shell: Shell,
-  { caches, base }: ShellScope,
+  scope: ShellScope,
 ): Promise<Response | undefined> | null {
+  const { caches, base } = scope;
   if (request.method !== 'GET' || request.headers.has('range')) return null;
   const url = new URL(request.url);
   url.search = url.hash = '';
@@ -75,5 +94,24 @@ export function matchShell(
   const path = url.href.slice(base.length) || 'index.html';
   if (Object.hasOwn(shell.files, path))
     return caches.match(new URL(path, base).href, { cacheName: cacheName(shell) });
+  if (Object.hasOwn(shell.onUse, path)) return usedNow(path, shell, scope);
   return path.startsWith('assets/') ? caches.match(url.href) : null;
+}
+
+/** A file that is cached on use: from the cache, or from the server and then into the cache if there is still one. */
+async function usedNow(path: string, shell: Shell, scope: ShellScope): Promise<Response | undefined> {
+  const { caches, base } = scope;
+  const name = cacheName(shell);
+  const address = new URL(path, base).href;
+  const cached = await caches.match(address, { cacheName: name });
+  // Without a cache the visitor has cleared it, and it stays so.
+  if (cached || !(await caches.has(name))) return cached;
+  const integrity = shell.onUse[path]!;
+  // A server that has another build by now has another file under this name: it is used, but not kept.
+  const response = await scope.fetch(address, { integrity, cache: 'no-cache' }).catch(() => null);
+  if (!response?.ok) return undefined;
+  const stored = await storable(response, shell.headers);
+  // A full storage: the file is used all the same.
+  await (await caches.open(name)).put(address, stored.clone()).catch(() => undefined);
+  return stored;
 }

@@ -4,6 +4,7 @@ import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
 import { writeServiceWorker } from '../../../tools/vite/service-worker.mjs';
 import { App } from '../support/app-page';
+import { bvh, csv } from '../support/files';
 import { expect } from '../support/fixtures';
 import { test } from '../support/host';
 
@@ -65,6 +66,56 @@ test('the second visit downloads neither graphs nor runtime, and works without t
     await host.start();
   }
 });
+
+test('readers of motion files are downloaded when they are used, and are there offline afterwards', async ({
+  page,
+  host,
+  requests,
+}) => {
+  // What the service worker fetches is not among the page's requests.
+  const readers = (): Promise<string[]> => page.evaluate(cachedReaders);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await serviceWorkerReady(page);
+  await app.chooseLeader(bvh({ frames: 60, name: 'mine.bvh' }));
+  await app.until(({ leader }) => leader?.name === 'mine.bvh');
+  expect(await readers()).toEqual([]);
+  expect(requests.filter((address) => address.includes('/reader-'))).toEqual([]);
+
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.chooseLeader(csv(60));
+  await app.until(({ leader, problem }) => leader?.name === 'table.csv' || problem);
+  expect(await app.read(({ problem }) => problem)).toBeNull();
+  expect((await readers()).sort()).toEqual(['reader-positions', 'reader-tables-csv']);
+
+  await host.stop();
+  try {
+    await app.chooseLeader(bvh({ frames: 50, name: 'between.bvh' }));
+    await app.until(({ leader }) => leader?.name === 'between.bvh');
+    await app.chooseLeader(csv(60));
+    await app.until(({ leader }) => leader?.name === 'table.csv');
+    await app.chooseLeader({
+      name: 'a.c3d',
+      mimeType: '',
+      buffer: Buffer.from([2, 0x50, ...Buffer.alloc(510)]),
+    });
+    await expect(app.alert).toHaveAttribute('data-code', 'page-part-missing');
+    expect(await app.read(({ leader }) => leader?.name)).toBe('table.csv');
+  } finally {
+    await host.start();
+  }
+});
+
+/** Runs in the page: the readers that are cached, without the hashes of their names. */
+async function cachedReaders(): Promise<string[]> {
+  const found: string[] = [];
+  for (const name of await caches.keys())
+    for (const { url } of await (await caches.open(name)).keys())
+      found.push(...[/reader-[a-z-]+(?=-[\w-]{8}\.js$)/.exec(url)?.[0] ?? []].flat());
+  return found;
+}
 
 test('a browser without storage generates all the same, and the page says so', async ({ page, site }) => {
   const session = await page.context().newCDPSession(page);

@@ -68,7 +68,7 @@ export class App {
   }
 
   /** Chooses files through the button that asks for them. */
-  async choose(button: 'Choose a song' | 'Choose a motion' | RegExp, file: TestFile): Promise<void> {
+  async choose(button: 'Choose a song' | 'Choose a file' | RegExp, file: TestFile): Promise<void> {
     const chooser = this.page.waitForEvent('filechooser');
     await this.page.getByRole('button', { name: button }).first().click();
     await (await chooser).setFiles(file);

@@ -168,6 +168,42 @@ function row(names: readonly string[], t: number, sway: number): string {
   return [...place, ...angles].map((value) => value.toFixed(4)).join(' ');
 }
 
+/** A still dancer as a table of joints, who sways a little. */
+export function csv(frames: number): TestFile {
+  const sides = ['left', 'right'] as const;
+  const places: Record<string, readonly [number, number, number]> = {
+    pelvis: [0, 0.95, 0],
+    spine1: [0, 1.06, 0],
+    spine2: [0, 1.18, 0],
+    spine3: [0, 1.24, 0],
+    neck: [0, 1.4, 0],
+    head: [0, 1.5, 0.02],
+    ...Object.fromEntries(
+      sides.flatMap((side, i): [string, [number, number, number]][] => {
+        const sign = i === 0 ? 1 : -1;
+        return [
+          [`${side}_hip`, [sign * 0.09, 0.87, 0]],
+          [`${side}_knee`, [sign * 0.1, 0.48, 0.02]],
+          [`${side}_ankle`, [sign * 0.1, 0.08, 0]],
+          [`${side}_foot`, [sign * 0.1, 0.03, 0.12]],
+          [`${side}_collar`, [sign * 0.07, 1.32, 0]],
+          [`${side}_shoulder`, [sign * 0.2, 1.34, 0]],
+          [`${side}_elbow`, [sign * 0.24, 1.07, 0]],
+          [`${side}_wrist`, [sign * 0.24, 0.85, 0.08]],
+        ];
+      }),
+    ),
+  };
+  const names = Object.keys(places);
+  const titles = ['time', ...names.flatMap((name) => ['x', 'y', 'z'].map((axis) => `${name}_${axis}`))];
+  const rows = Array.from({ length: frames }, (_, frame) => {
+    const sway = 0.1 * Math.sin(frame / 8);
+    const values = Object.values(places).flatMap(([x, y, z]) => [x + sway * Math.min(1, y), y, z]);
+    return [frame / 30, ...values].map((value) => value.toFixed(5)).join(',');
+  });
+  return file('table.csv', 'text/csv', [titles.join(','), ...rows, ''].join('\n'));
+}
+
 /** A leader that begins with its rest pose and ends in the middle of frame 41, as an interrupted download does. */
 export function truncatedBvh(): TestFile {
   const lines = bvhText({ frames: 60 }).split('\n');

@@ -21,6 +21,7 @@ function memoryCaches(room = Infinity) {
           if (files.size >= room) return Promise.reject(new DOMException('full', 'QuotaExceededError'));
           return Promise.resolve(void files.set(address, response));
         },
+        keys: () => Promise.resolve([...files.keys()].map((url) => ({ url }))),
       });
     },
     match: (address: string, { cacheName }: { cacheName?: string } = {}) =>
@@ -30,15 +31,19 @@ function memoryCaches(room = Infinity) {
           .map(([, files]) => files.get(address)?.clone())
           .find((response) => response !== undefined),
       ),
+    has: (name: string) => Promise.resolve(all.has(name)),
     keys: () => Promise.resolve([...all.keys()]),
     delete: (name: string) => Promise.resolve(all.delete(name)),
   };
   return { all, caches: caches as unknown as CacheStorage };
 }
 
+const HASHES: Readonly<Record<string, string>> = { one: 'AbC_dE-1', two: 'xYz01234' };
+
 const shell = (version: string): Shell => ({
   version,
   files: { 'index.html': 'sha256-a', [`assets/main-${version}.js`]: 'sha256-b' },
+  onUse: { [`assets/reader-fbx-${HASHES[version]}.js`]: 'sha256-c', 'leaders/slow.bvh': 'sha256-d' },
   headers: { 'Cross-Origin-Embedder-Policy': 'require-corp' },
 });
 
@@ -96,6 +101,64 @@ describe('the cached app shell', () => {
     await deleteOtherShells(shell('two'), newer.scope);
     expect(await newer.ask('assets/main-one.js')).toBeUndefined();
     expect(await (await newer.ask(''))?.text()).toMatch(/^two/);
+  });
+
+  describe('files that not everybody needs', () => {
+    const FBX = 'assets/reader-fbx-AbC_dE-1.js';
+    const names = ({ all }: { all: ReadonlyMap<string, ReadonlyMap<string, unknown>> }, build: string) =>
+      [...all.get(`reactdance-shell-${build}`)!.keys()].map((address) => address.slice(BASE.length));
+
+    it('are fetched when they are used, once', async () => {
+      const own = await cached();
+      expect(names(own, 'one')).toEqual(['index.html', 'assets/main-one.js']);
+      const fetched: string[] = [];
+      const scope: ShellScope = {
+        ...own.scope,
+        fetch: (address, options) => {
+          fetched.push(`${address as string} ${options!.integrity!}`);
+          return server('one')(address, options);
+        },
+      };
+      const ask = () =>
+        matchShell({ url: BASE + FBX, method: 'GET', headers: new Headers() }, shell('one'), scope);
+      for (let use = 0; use < 2; use++) {
+        const response = await ask();
+        expect(await response?.text()).toContain('reader-fbx');
+        expect(response?.headers.get('cross-origin-embedder-policy')).toBe('require-corp');
+      }
+      expect(fetched).toEqual([`${BASE}${FBX} sha256-c`]);
+      expect(names(own, 'one')).toContain(FBX);
+    });
+
+    it('come with the next build where they were used before, and only then', async () => {
+      const older = await cached('one');
+      await older.ask(FBX);
+      const newer = await cached('two', older);
+      expect(names(newer, 'two')).toEqual(
+        expect.arrayContaining(['assets/main-two.js', 'assets/reader-fbx-xYz01234.js']),
+      );
+      expect(names(newer, 'two')).not.toContain('leaders/slow.bvh');
+    });
+
+    it.each([
+      ['has another file by now', () => Promise.reject(new TypeError('integrity'))],
+      ['has it no longer', () => Promise.resolve(new Response('', { status: 404 }))],
+    ])('are left to the network where the server %s', async (_, fetch) => {
+      const own = await cached();
+      const scope: ShellScope = { ...own.scope, fetch };
+      const request = { url: `${BASE}leaders/slow.bvh`, method: 'GET', headers: new Headers() };
+      expect(await matchShell(request, shell('one'), scope)).toBeUndefined();
+      expect(names(own, 'one')).not.toContain('leaders/slow.bvh');
+    });
+
+    it('are not cached after the visitor has cleared the cache, and are used where it is full', async () => {
+      const cleared = await cached();
+      cleared.all.clear();
+      expect(await cleared.ask(FBX)).toBeUndefined();
+      expect(cleared.all.size).toBe(0);
+      const full = await cached('one', memoryCaches(2));
+      expect(await (await full.ask(FBX))?.text()).toContain('reader-fbx');
+    });
   });
 
   it('is cached completely or not at all', async () => {

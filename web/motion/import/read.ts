@@ -3,6 +3,7 @@ import { type LeaderFile, leaderOf } from '../retarget/leader';
 import type { ImportOptions, RememberedJoints } from '../retarget/options';
 import type { MotionSource } from '../retarget/source';
 import { AppError } from '../../common/error';
+import { loadPart } from '../../common/page-part';
 
 /** A file with its name, as bytes. */
 export interface FileBytes {
@@ -61,7 +62,8 @@ const READERS: Readonly<Record<MotionFormat, () => Promise<Reader>>> = {
 /**
  * Reads a motion file of any known format, with the files that belong to it.
  *
- * @throws {AppError} `not-motion` for a file of no known format, `too-large`, and what its reader says
+ * @throws {AppError} `not-motion` for a file of no known format, `too-large`, `page-part-missing` without a connection
+ *   where the format was never read before, and what its reader says
  */
 export async function readMotion(
   files: readonly FileBytes[],
@@ -83,7 +85,7 @@ export async function readMotion(
       'Export the motion alone, without meshes and textures, or a shorter part of it.',
     );
   }
-  const read = await READERS[format]();
+  const read = await loadPart(READERS[format]);
   return read([file, ...companions], options.part ?? 0);
 }
 

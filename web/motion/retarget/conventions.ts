@@ -110,8 +110,9 @@ export const CONVENTIONS: readonly SkeletonConvention[] = [
       wrist: ['*hand', 'jbip*hand'],
       collar: ['*shoulder', 'jbip*shoulder'],
     },
-    neck: ['neck', 'jbipcneck'],
-    head: ['head', 'jbipchead'],
+    // Without what all of VRoid's names begin with a `c` for the middle is left.
+    neck: ['neck', 'jbipcneck', 'cneck'],
+    head: ['head', 'jbipchead', 'chead'],
   },
   {
     // Unreal's mannequin.

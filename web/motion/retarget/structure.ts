@@ -30,6 +30,11 @@ interface Limb {
 const MIN_SYMMETRY = 0.85;
 /** Least ratio of the lengths of thigh and shin, or of upper arm and forearm. */
 const MIN_BONE_RATIO = 0.55;
+/**
+ * Least ratio of the distances at which two limbs end beside the trunk: a limb and a neck, or a limb and a tail, are none
+ * of one pair.
+ */
+const MIN_SPREAD_RATIO = 0.25;
 /** Lengths of leg and arm as shares of the trunk between the middle of the hips and that of the shoulders. */
 const LEG_SHARE = 1.6;
 const ARM_SHARE = 1.05;
@@ -109,6 +114,14 @@ function middle(tree: Tree, pair: Pair, at: number): Vec3 {
   return lerp(tree.places[a]!, tree.places[b]!, 0.5);
 }
 
+/** Whether the ends of both limbs are beside the line of the trunk, about equally far from it. */
+function isMirrored(tree: Tree, pair: Pair, hips: Vec3, trunk: Vec3): boolean {
+  const away = ([0, 1] as const).map((side) =>
+    length(cross(sub(tree.places[limbJoint(pair, side, 2)!]!, hips), direction(trunk, ZERO))),
+  );
+  return Math.min(...away) >= MIN_SPREAD_RATIO * Math.max(...away);
+}
+
 /** How unlike a body legs and arms are; null where they can't be one. */
 function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
   if (legs.chains.some((chain) => chain.some((joint) => arms.chains.flat().includes(joint)))) return null;
@@ -116,6 +129,7 @@ function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
   const trunk = sub(middle(tree, arms, 0), middle(tree, legs, 0));
   const size = length(trunk);
   if (!(size > 0)) return null;
+  if ([legs, arms].some((pair) => !isMirrored(tree, pair, middle(tree, legs, 0), trunk))) return null;
   const share = (pair: Pair): number => (pair.limbs[0].length + pair.limbs[1].length) / 2 / size;
   const errors = [Math.abs(Math.log(share(legs) / LEG_SHARE)), Math.abs(Math.log(share(arms) / ARM_SHARE))];
   if (errors.some((error) => !(error <= MAX_SHARE_ERROR))) return null;
@@ -127,7 +141,12 @@ function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
 }
 
 /** Neck and head: the way from the arms' fork that goes on from the trunk and carries none of the limbs. */
-function neckAndHead(tree: Tree, legs: Pair, arms: Pair): { neck?: number; head?: number } {
+function neckAndHead(
+  joints: readonly SourceJoint[],
+  tree: Tree,
+  legs: Pair,
+  arms: Pair,
+): { neck?: number; head?: number } {
   const trunk = direction(sub(middle(tree, arms, 0), middle(tree, legs, 0)), ZERO);
   const limbs = new Set([...arms.chains, ...legs.chains].map(([first]) => first));
   const carriesLegs = (joint: number): boolean => {
@@ -142,12 +161,17 @@ function neckAndHead(tree: Tree, legs: Pair, arms: Pair): { neck?: number; head?
   );
   if (up === undefined || along(up) < 0.5) return {};
   const chain = [up];
-  // The head is where the neck's single way ends in a tip, or divides into eyes and hair.
+  // The head is where the neck's single way ends, or divides into eyes and hair.
   for (;;) {
     const [next, ...others] = tree.children[chain.at(-1)!]!;
-    if (next === undefined || others.length > 0 || tree.children[next]!.length === 0) break;
+    if (next === undefined || others.length > 0) break;
     chain.push(next);
   }
+  // The crown of a head has no joint of its own in some formats; where there are three joints, the last one is it.
+  const last = chain.at(-1)!;
+  const endsInCrown = tree.children[last]!.length === 0 && (joints[last]!.endSite || chain.length > 2);
+  if (endsInCrown) chain.pop();
+  if (chain.length === 0) return {};
   return chain.length > 1 ? { neck: chain[0]!, head: chain.at(-1)! } : { head: up };
 }
 
@@ -226,7 +250,7 @@ export function mapByStructure(
   };
   put(legs, ['', 'hip', 'knee', 'ankle', 'foot']);
   put(arms, ['collar', 'shoulder', 'elbow', 'wrist']);
-  const { neck, head } = neckAndHead(tree, legs, arms);
+  const { neck, head } = neckAndHead(joints, tree, legs, arms);
   if (neck !== undefined) nodes.set('neck', neck);
   if (head !== undefined) nodes.set('head', head);
   return { nodes, sidesCertain, symmetry: Math.min(legs.symmetry, arms.symmetry) };

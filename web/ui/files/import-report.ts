@@ -7,6 +7,7 @@ import { countingOf, countedBeats, tempoText } from '../store/counting';
 import { centimetres, clockTime, rate } from '../store/format';
 import { guidanceText } from '../store/guidance-matrix';
 import { jointText } from './joint-text';
+import { OFFERED_LEADERS } from './offered';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
@@ -98,7 +99,8 @@ function leaderFacts(state: AppState, store: Store, services: Services): HTMLEle
   const head = group(role, roleName(role));
   if (!leader) {
     const file = fact('File', reading.leader ? 'being read' : 'none yet');
-    return state.refusedLeader ? [head, ...file, ...fact('Change', importButton(store))] : [head, ...file];
+    const change = state.refusedLeader ? fact('Change', importButton(store)) : [];
+    return [head, ...file, ...change, ...fact('Other', offeredSelect(services))];
   }
   const { clip, report } = leader.file;
   return [
@@ -110,7 +112,27 @@ function leaderFacts(state: AppState, store: Store, services: Services): HTMLEle
     ...fact('Joints', jointText(report)),
     ...fact('Units', `${report.unit}, ${report.upAxis} up`),
     ...fact('Change', importButton(store)),
+    ...fact('Other', offeredSelect(services)),
   ];
+}
+
+/** Takes one of the leaders that ship with the page. */
+function offeredSelect(services: Services): HTMLSelectElement {
+  const select = el(
+    'select',
+    {
+      attributes: { id: 'offered-leaders', 'aria-label': 'Take one of our leaders' },
+      on: {
+        change: () => {
+          services.openOffered(select.value);
+          select.value = '';
+        },
+      },
+    },
+    el('option', { text: 'one of ours', attributes: { value: '' } }),
+    ...OFFERED_LEADERS.map(({ file, name }) => el('option', { text: name, attributes: { value: file } })),
+  );
+  return select;
 }
 
 /** Opens the panel in which joints, unit, axes and clip are set by hand. */

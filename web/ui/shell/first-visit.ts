@@ -1,6 +1,7 @@
+import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { howItWorks, opensHowItWorks, steps } from './how-it-works';
+import { howItWorks, opensHowItWorks } from './how-it-works';
 import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -24,29 +25,30 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     'Play the demo',
   );
   const about = el('small');
+  const offered = offeredLeaders(services);
   const block = el(
     'section',
     { class: 'first-visit', attributes: { 'aria-label': 'Start' } },
-    el('h1', { text: 'Drop a song and a leader. Watch the partner answer.' }),
+    el('h1', { text: 'Drop a video of a dancer. Watch the partner answer.' }),
     el('p', {
       class: 'intro',
-      text: 'Your browser makes the dance partner and shows both in 3D.',
+      text: 'A motion file will do as well. Your browser makes the dance partner and shows both in 3D.',
     }),
     el('div', { class: 'go' }, play, about),
     el(
       'div',
       { class: 'drop', attributes: { role: 'group', 'aria-label': 'Your files' } },
-      fileChoice(services, 'song', 'Song', 'mp3, wav, ogg, flac, m4a, opus', 'Choose a song'),
       fileChoice(
         services,
         'leader',
         'Leader',
         'a video of one dancer, or a motion file',
-        'Choose a motion',
+        'Choose a file',
         cameraButton(services),
       ),
+      fileChoice(services, 'song', 'Song', 'mp3, wav, flac and others', 'Choose a song'),
     ),
-    steps(opensHowItWorks('Where from?', 'link')),
+    offered,
     el(
       'p',
       { class: 'how' },
@@ -54,10 +56,10 @@ export const mountFirstVisit: Mount = (root, store, services) => {
       el(
         'span',
         {},
-        el('span', { class: 'desk', text: 'Drop both anywhere on this page. ' }),
-        'Your files never leave this browser.',
+        el('span', { class: 'desk', text: 'Drop both anywhere. ' }),
+        'Your files never leave this browser. ',
+        opensHowItWorks('How it works', 'link'),
       ),
-      opensHowItWorks('How it works', 'link phone-only'),
     ),
     howItWorks(),
   );
@@ -68,6 +70,8 @@ export const mountFirstVisit: Mount = (root, store, services) => {
     root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';
+    // They dance to the demo's song, which a leader that comes before it would keep away.
+    for (const button of offered.querySelectorAll('button')) button.disabled = state.demo === 'loading';
     setText(about, demoText(state));
   };
   return combineDisposers(
@@ -103,6 +107,27 @@ function cameraButton(services: Services): HTMLElement {
   });
 }
 
+/** Buttons for the leaders that need no file. */
+function offeredLeaders(services: Services): HTMLElement {
+  return el(
+    'div',
+    { class: 'offered', attributes: { role: 'group', 'aria-label': 'Leaders that need no file' } },
+    el('span', { text: 'No file at hand? Take one of ours:' }),
+    ...OFFERED_LEADERS.map(({ file, name }) =>
+      el('button', {
+        class: 'btn',
+        text: name,
+        attributes: { type: 'button' },
+        on: {
+          click: () => {
+            services.openOffered(file);
+          },
+        },
+      }),
+    ),
+  );
+}
+
 function fileChoice(
   services: Services,
   side: InputKind,
@@ -116,16 +141,20 @@ function fileChoice(
     {},
     el('b', {}, el('span', { class: side === 'leader' ? 'sign leader' : 'sign' }, icon(side)), name),
     el('p', { text: kinds }),
-    el('button', {
-      class: 'btn tint',
-      text: ask,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.choose(side);
+    el(
+      'div',
+      { class: 'choices' },
+      el('button', {
+        class: 'btn tint',
+        text: ask,
+        attributes: { type: 'button' },
+        on: {
+          click: () => {
+            services.choose(side);
+          },
         },
-      },
-    }),
-    more,
+      }),
+      more,
+    ),
   );
 }

@@ -3,12 +3,14 @@ import { icon } from '../widgets/icons';
 
 const ID = 'how-it-works';
 
-/** The three steps, short enough to stand beside the drop zone. */
-export function steps(...afterFirst: Node[]): HTMLElement {
+/** The three steps. */
+function steps(): HTMLElement {
   return el(
     'ol',
     { class: 'steps' },
-    el('li', {}, 'Choose a song and a leader: a video of one dancer, or a motion file. ', ...afterFirst),
+    el('li', {
+      text: 'Choose a leader, which is a video of one dancer or a motion file, and a song.',
+    }),
     el('li', {
       text: 'Your browser makes the partner. The sliders change how it dances.',
     }),
@@ -66,6 +68,7 @@ export function howItWorks(): HTMLElement {
     el(
       'ul',
       {},
+      item('A phone', 'film one dancer, whole in the picture, with a phone that stands still.'),
       item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
       item('Mixamo', 'download a dance as FBX.'),
       item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),

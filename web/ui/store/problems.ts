@@ -49,6 +49,17 @@ export function fileProblem(error: unknown, kind: InputKind, name: string): Prob
   };
 }
 
+/** A leader that ships with the page could not be loaded. */
+export function offeredProblem(name: string): Problem {
+  return {
+    code: 'page-part-missing',
+    title: `“${name}” could not be loaded from this page’s server.`,
+    hint: 'Check the connection, then choose it again. Everything loaded before is unchanged.',
+    remedy: 'none',
+    refused: null,
+  };
+}
+
 /** Puts the file's name before a sentence that does not contain it. */
 function named(name: string, sentence: string): string {
   return sentence.includes(name) ? sentence : `${name}: ${sentence}`;

@@ -64,6 +64,8 @@ export interface Services {
   readonly useGiven: (files: readonly File[]) => void;
   /** Opens the system's file chooser. */
   readonly choose: (what: FileChoice) => void;
+  /** Opens the file of one of the `OFFERED_LEADERS`. */
+  readonly openOffered: (file: string) => void;
   /** Records a leader with the webcam. */
   readonly recordVideo: () => void;
   /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */

@@ -68,14 +68,20 @@ export async function written(
     fps,
     seconds,
     rotation,
-  }: { readonly fps: number; readonly seconds: number; readonly rotation?: Rotation },
+    bitrate,
+  }: {
+    readonly fps: number;
+    readonly seconds: number;
+    readonly rotation?: Rotation;
+    readonly bitrate?: number;
+  },
   { container, uneven = false }: VideoFormat,
 ): Promise<Blob> {
   const target = new BufferTarget();
   const output = new Output({ format: CONTAINERS[container](), target });
   const source = new CanvasSource(canvas, {
     codec: container === 'webm' ? 'vp8' : 'vp9',
-    bitrate: QUALITY_HIGH,
+    bitrate: bitrate ?? QUALITY_HIGH,
     keyFrameInterval: 1,
   });
   output.addVideoTrack(source, { ...(rotation !== undefined && { rotation }) });

@@ -16,7 +16,14 @@ import { solve } from '../../../../web/motion/fit/ik';
 import { type FileBytes, readLeaderFile } from '../../../../web/motion/import/read';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import type { ImportOptions } from '../../../../web/motion/retarget/options';
-import { SMPL_NAMES, writeArchive, writeCsv, writeNpy } from '../../support/motion-files/arrays';
+import {
+  SMPL_NAMES,
+  SOMA_NAMES,
+  writeArchive,
+  writeCsv,
+  writeNpy,
+  writeSomaNpy,
+} from '../../support/motion-files/arrays';
 import {
   madeMotion,
   type MadeMotion,
@@ -56,6 +63,10 @@ describe('arrays and tables of joints', () => {
     ['(T, 22, 3)', { joints: 22 }],
     ['(T, 55, 3)', { joints: 55 }],
     ['(T, 24, 3), z up', { joints: 24, up: 'z' as const }],
+    ['(T, 52, 3)', { joints: 52 }],
+    ['(T, 127, 3)', { joints: 127 }],
+    ['(T, 144, 3)', { joints: 144 }],
+    ['(1, T, 22, 3)', { joints: 22, batch: true }],
     ['flat, centimetres', { joints: 22, flat: true, unitsPerMetre: 100 }],
     ['flat (T, 165), z up', { joints: 55, flat: true, up: 'z' as const }],
   ])('NPY %s', async (_, options) => {
@@ -67,6 +78,24 @@ describe('arrays and tables of joints', () => {
       upAxis: 'up' in options ? 'z' : 'y',
     });
     expect(file.report.remarks.join()).toContain('no frame rate');
+  });
+
+  test.each([30, 77] as const)('NPY (T, %i, 3) of SOMA', async (count) => {
+    const soma = madeMotion({ names: SOMA_NAMES });
+    const file = await read({}, ['a.npy', writeSomaNpy(soma, count)]);
+    expect(worstMillimetres(file, soma)).toBeLessThan(WORST);
+    expect(file.report.convention).toBe('SOMA');
+  });
+
+  test.each(['fps', 'mocap_framerate'])('NPZ states its frame rate as %s', async (name) => {
+    const fast = madeMotion({ names: SMPL_NAMES, fps: 120, frames: 121 });
+    const bytes = writeArchive({
+      joints: { shape: [121, 22, 3], data: positionsOf(fast, SMPL22) },
+      [name]: { shape: [], data: Float64Array.of(120) },
+    });
+    const file = await read({}, ['a.npz', bytes]);
+    expect(worstMillimetres(file, fast, 4)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ sourceFps: 120, remarks: [] });
   });
 
   test('NPZ with a frame rate and two dancers', async () => {
@@ -99,6 +128,15 @@ describe('arrays and tables of joints', () => {
     const file = await read({}, ['a.csv', utf8(writeCsv(joints, separator, 'leader_'))]);
     expect(worstMillimetres(file, joints)).toBeLessThan(WORST);
     expect(file.report).toMatchObject({ sourceFps: 30, convention: 'SMPL' });
+  });
+
+  test('CSV that states its frame rate in a comment', async () => {
+    const fast = madeMotion({ names: SMPL_NAMES, fps: 60, frames: 81 });
+    const [titles, ...rows] = writeCsv(fast).split('\n');
+    const text = ['# fps: 60', titles!.replace('time', 'frame'), ...rows].join('\n');
+    const file = await read({}, ['a.csv', utf8(text)]);
+    expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ sourceFps: 60, remarks: [] });
   });
 
   test('a wrong map shows as millimetres', async () => {

@@ -1,6 +1,7 @@
 /** Motions that are known to the millimetre, for videos. */
 import { solve } from '../../../../web/motion/fit/ik';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import slow from '../../../../web/public/leaders/slow.bvh?raw';
 import salsa from '../../../fixtures/video/salsa.bvh?raw';
 import { leaderBvh } from '../leader-bvh';
 import type { MotionName } from './shots';
@@ -10,6 +11,8 @@ export function motionOf(name: MotionName): SolvedMotion {
   switch (name) {
     case 'salsa':
       return solve(leaderBvh(salsa).clip);
+    case 'slow':
+      return solve(leaderBvh(slow).clip);
     case 'turning':
       return walker({ seconds: 6, turn: 0.45, distance: 0 });
     case 'spinning':

@@ -10,11 +10,13 @@ export interface Shot {
   readonly target: readonly [number, number, number];
   readonly fps: number;
   readonly clothed: boolean;
+  /** Bits a second; by default as many as a good picture takes. */
+  readonly bitrate?: number;
   /** Clockwise turn that players are told to apply to the pictures, degrees. */
   readonly rotation?: 0 | 90 | 180 | 270;
 }
 
-export type MotionName = 'salsa' | 'turning' | 'spinning' | 'walking';
+export type MotionName = 'salsa' | 'slow' | 'turning' | 'spinning' | 'walking';
 
 /** A video whose motion is known. */
 export interface FilmedMotion {

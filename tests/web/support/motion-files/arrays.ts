@@ -27,13 +27,53 @@ export function writeNpy(
   {
     joints = 22,
     flat = false,
+    batch = false,
     up = 'y',
     unitsPerMetre = 1,
-  }: { joints?: number; flat?: boolean; up?: 'y' | 'z'; unitsPerMetre?: number } = {},
+  }: { joints?: number; flat?: boolean; batch?: boolean; up?: 'y' | 'z'; unitsPerMetre?: number } = {},
 ): Uint8Array {
   const names = Array.from({ length: joints }, (_, joint) => SMPL22[joint] ?? null);
   const data = positionsOf(motion, names, unitsPerMetre, up);
-  return npyBytes({ shape: flat ? [motion.frames, joints * 3] : [motion.frames, joints, 3], data });
+  const shape = flat ? [motion.frames, joints * 3] : [motion.frames, joints, 3];
+  return npyBytes({ shape: batch ? [1, ...shape] : shape, data });
+}
+
+/**
+ * Where the body's joints are among those of the SOMA skeleton: trunk first, then from these indices on the arms and legs
+ * of both sides; as NVIDIA's kimodo lists them.
+ */
+const SOMA_LIMBS = { 30: [10, 16, 22, 26], 77: [11, 39, 67, 72] } as const;
+
+/** Names of a body of SOMA's joints. */
+export const SOMA_NAMES: BodyNames = {
+  root: 'Hips',
+  spine: ['Spine1', 'Spine2', 'Chest'],
+  neck: 'Neck1',
+  head: 'Head',
+  sides: ['Left', 'Right'],
+  hip: '*Leg',
+  knee: '*Shin',
+  ankle: '*Foot',
+  toe: '*ToeBase',
+  collar: '*Shoulder',
+  shoulder: '*Arm',
+  elbow: '*ForeArm',
+  wrist: '*Hand',
+};
+
+/** The motion of a body with `SOMA_NAMES` as (T, 30, 3) or (T, 77, 3). */
+export function writeSomaNpy(motion: MadeMotion, count: 30 | 77): Uint8Array {
+  const names = new Array<string | null>(count).fill(null);
+  const trunk = ['Hips', 'Spine1', 'Spine2', 'Chest', 'Neck1', 'Neck1', 'Head'];
+  trunk.forEach((name, at) => (names[at] = name));
+  const limbs = [
+    ['LeftShoulder', 'LeftArm', 'LeftForeArm', 'LeftHand'],
+    ['RightShoulder', 'RightArm', 'RightForeArm', 'RightHand'],
+    ['LeftLeg', 'LeftShin', 'LeftFoot', 'LeftToeBase'],
+    ['RightLeg', 'RightShin', 'RightFoot', 'RightToeBase'],
+  ];
+  limbs.forEach((limb, i) => limb.forEach((name, step) => (names[SOMA_LIMBS[count][i]! + step] = name)));
+  return npyBytes({ shape: [motion.frames, count, 3], data: positionsOf(motion, names) });
 }
 
 /** An archive of arrays. */

@@ -1,4 +1,4 @@
-import { type BodyNames, madeBody, type MadeJoint, MIXAMO } from '../made-bvh';
+import { type BodyNames, madeBody, type MadeFile, type MadeJoint, MIXAMO } from '../made-bvh';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import { J, JOINT_COUNT, type JointName } from '../../../../web/motion/skeleton/skeleton';
 import { aboutAxis, multiply, type Quat, rotate } from '../../../../web/motion/math/quat';
@@ -80,6 +80,17 @@ function placed(joints: MadeMotion['joints'], turns: readonly Quat[], root: Vec3
   return places;
 }
 
+/** The places of a made BVH file's joints, for `worstMillimetres`. */
+export function bvhMotion(
+  made: MadeFile,
+  names: BodyNames,
+  frames: number,
+): Pick<MadeMotion, 'names' | 'joints' | 'places'> {
+  const joints = madeBody(names).map(({ name }) => ({ name, parent: -1, offset: ZERO }));
+  const places = Array.from({ length: frames }, (_, frame) => joints.map(({ name }) => made.at(name, frame)));
+  return { names, joints, places };
+}
+
 /** Which joint of ours each named part of a made body is. */
 export function pairsOf(names: BodyNames): (readonly [JointName, string])[] {
   const parts = {
@@ -111,7 +122,11 @@ export function pairsOf(names: BodyNames): (readonly [JointName, string])[] {
  *
  * @param every frames of the made motion for each frame that was read
  */
-export function worstMillimetres(file: LeaderFile, motion: MadeMotion, every = 1): number {
+export function worstMillimetres(
+  file: LeaderFile,
+  motion: Pick<MadeMotion, 'names' | 'joints' | 'places'>,
+  every = 1,
+): number {
   const index = new Map(motion.joints.map(({ name }, joint) => [name, joint]));
   const pairs = pairsOf(motion.names).map(([ours, name]) => [J[ours], index.get(name)!] as const);
   const read = (frame: number, joint: number): Vec3 =>

@@ -8,7 +8,7 @@ import { closeButton } from '../../widgets/close-button';
 import { combineDisposers, el } from '../../widgets/dom';
 import type { Mount } from '../../store/services';
 import { panelToggled } from '../../store/actions/view';
-import { apply, type Store, watch } from '../../store/store';
+import { apply, watch } from '../../store/store';
 
 const FIGURE_SIZE = [260, 340] as const;
 
@@ -43,7 +43,7 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
         apply(store, panelToggled('import'));
         services.rereadLeader(options);
       };
-      content.replaceChildren(...panelContent(inspection, source.options, store, remembered, reread));
+      content.replaceChildren(...panelContent(inspection, source.options, remembered, reread));
     };
     return combineDisposers(
       watch(
@@ -68,12 +68,11 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
 function panelContent(
   inspection: Inspection | null,
   options: ImportOptions,
-  store: Store,
   remembered: RememberedJointsStorage,
   reread: (options: ImportOptions) => void,
 ): HTMLElement[] {
   const controls = importControls(options, inspection);
-  const up = options.up ?? store.getState().leader?.file.report.upAxis ?? 'y';
+  const up = options.up ?? inspection?.upAxis ?? 'y';
   const [width, height] = FIGURE_SIZE;
   const canvas = el('canvas', {
     class: 'skeleton',

@@ -1,3 +1,4 @@
+import { changedChoice, type ChosenJoints, sidesExchanged } from './joint-choice';
 import type { Inspection } from '../../../motion/import/inspect';
 import type { JointChoice } from '../../../motion/retarget/options';
 import { type JointName, SMPL22 } from '../../../motion/skeleton/skeleton';
@@ -12,8 +13,8 @@ interface JointSelects {
   readonly changed: () => JointChoice | null;
 }
 
-const otherSide = (name: string): string =>
-  name.replace(/^(left|right)/, (side) => (side === 'left' ? 'right' : 'left'));
+const valueOf = (select: HTMLSelectElement): number | null =>
+  select.value === '' ? null : Number(select.value);
 
 /**
  * A list with the joint of the file for each of the 22.
@@ -25,10 +26,13 @@ export function jointSelects(
 ): JointSelects {
   const selects = new Map<JointName, HTMLSelectElement>();
   let focused: HTMLSelectElement | null = null;
-  const valueOf = (select: HTMLSelectElement): number => (select.value === '' ? -1 : Number(select.value));
+  const chosen = (): ChosenJoints =>
+    Object.fromEntries(
+      [...selects].map(([name, select]) => [name, valueOf(select)]),
+    ) as unknown as ChosenJoints;
   const show = (): void => {
-    const mapped = [...selects.values()].map(valueOf).filter((joint) => joint >= 0);
-    draw(new Set(mapped), focused ? valueOf(focused) : null);
+    const mapped = Object.values(chosen()).filter((joint) => joint !== null);
+    draw(new Set(mapped), focused && valueOf(focused));
   };
   const rows = SMPL22.map((name) => {
     const select = el(
@@ -49,19 +53,15 @@ export function jointSelects(
     selects.set(name, select);
     return el('label', {}, el('span', { text: name.replaceAll('_', ' ') }), select);
   });
-  const before = [...selects.values()].map(({ value }) => value).join();
+  const before = chosen();
   return {
     element: el('div', { class: 'joints' }, ...rows),
     show,
     exchangeSides: () => {
-      const values = new Map([...selects].map(([name, { value }]) => [name as string, value]));
-      for (const [name, select] of selects) select.value = values.get(otherSide(name)) ?? '';
+      for (const [name, joint] of Object.entries(sidesExchanged(chosen())))
+        selects.get(name as JointName)!.value = String(joint ?? '');
       show();
     },
-    changed: () => {
-      if ([...selects.values()].map(({ value }) => value).join() === before) return null;
-      const choices = [...selects].map(([name, select]) => [name, joints[valueOf(select)]?.name ?? null]);
-      return Object.fromEntries(choices) as JointChoice;
-    },
+    changed: () => changedChoice(before, chosen(), joints),
   };
 }

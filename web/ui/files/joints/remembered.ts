@@ -14,7 +14,8 @@ export class RememberedJointsStorage {
   read(): RememberedJoints {
     try {
       const stored: unknown = JSON.parse(this.storage().getItem(KEY) ?? '{}');
-      return stored !== null && typeof stored === 'object' ? (stored as RememberedJoints) : {};
+      const isRecord = stored !== null && typeof stored === 'object' && !Array.isArray(stored);
+      return isRecord ? (stored as RememberedJoints) : {};
     } catch {
       return {};
     }

@@ -4,6 +4,8 @@ import { leaderBvh } from '../../../support/leader-bvh';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from '../../../../../web/motion/skeleton/skeleton';
 import { distance, dot, lerp, readVec, sub, type Vec3 } from '../../../../../web/motion/math/vec3';
 import { type BodyNames, madeBody, madeBvh, type MadeFile, MIXAMO } from '../../../support/made-bvh';
+import { CONVENTIONS } from '../../../support/motion-files/conventions';
+import { pairsOf } from '../../../support/motion-files/made-motion';
 
 const joint = (file: LeaderFile, frame: number, name: JointName): Vec3 =>
   readVec(file.clip.positions, frame * JOINT_COUNT + J[name]);
@@ -29,206 +31,12 @@ function expectSame(
   }
 }
 
-/** Which joint of ours each named part of a made body is. */
-function pairsOf(names: BodyNames): (readonly [JointName, string])[] {
-  const limbs = { hip: 'hip', knee: 'knee', ankle: 'ankle', toe: 'foot', collar: 'collar' } as const;
-  const arms = { shoulder: 'shoulder', elbow: 'elbow', wrist: 'wrist' } as const;
-  const pairs: (readonly [JointName, string])[] = [];
-  for (const [part, ours] of Object.entries({ ...limbs, ...arms }) as [keyof typeof limbs, string][]) {
-    const written = names[part];
-    if (written === undefined) continue;
-    (['left', 'right'] as const).forEach((side, i) =>
-      pairs.push([`${side}_${ours}` as JointName, written.replace('*', names.sides[i]!)]),
-    );
-  }
-  if (names.neck !== undefined) pairs.push(['neck', names.neck]);
-  if (names.head !== undefined) pairs.push(['head', names.head]);
-  return pairs;
-}
-
-const FAMILIES: readonly (readonly [string, BodyNames])[] = [
-  ['Mixamo', MIXAMO],
-  [
-    'Character Creator',
-    {
-      root: 'CC_Base_Hip',
-      spine: ['CC_Base_Waist', 'CC_Base_Spine01', 'CC_Base_Spine02'],
-      neck: 'CC_Base_NeckTwist01',
-      head: 'CC_Base_Head',
-      sides: ['L', 'R'],
-      hip: 'CC_Base_*_Thigh',
-      knee: 'CC_Base_*_Calf',
-      ankle: 'CC_Base_*_Foot',
-      toe: 'CC_Base_*_ToeBase',
-      collar: 'CC_Base_*_Clavicle',
-      shoulder: 'CC_Base_*_Upperarm',
-      elbow: 'CC_Base_*_Forearm',
-      wrist: 'CC_Base_*_Hand',
-    },
-  ],
-  [
-    'CMU / MotionBuilder',
-    {
-      root: 'Hips',
-      spine: ['LowerBack', 'Spine', 'Spine1'],
-      neck: 'Neck',
-      head: 'Head',
-      sides: ['Left', 'Right'],
-      hip: '*UpLeg',
-      knee: '*Leg',
-      ankle: '*Foot',
-      toe: '*ToeBase',
-      collar: '*Shoulder',
-      shoulder: '*Arm',
-      elbow: '*ForeArm',
-      wrist: '*Hand',
-    },
-  ],
-  [
-    'DAZ',
-    {
-      root: 'hip',
-      spine: ['abdomen', 'chest'],
-      neck: 'neck',
-      head: 'head',
-      sides: ['l', 'r'],
-      hip: '*Thigh',
-      knee: '*Shin',
-      ankle: '*Foot',
-      collar: '*Collar',
-      shoulder: '*Shldr',
-      elbow: '*ForeArm',
-      wrist: '*Hand',
-    },
-  ],
-  [
-    'SMPL',
-    {
-      root: 'Pelvis',
-      spine: ['Spine1', 'Spine2', 'Spine3'],
-      neck: 'Neck',
-      head: 'Head',
-      sides: ['L', 'R'],
-      hip: '*_Hip',
-      knee: '*_Knee',
-      ankle: '*_Ankle',
-      toe: '*_Foot',
-      collar: '*_Collar',
-      shoulder: '*_Shoulder',
-      elbow: '*_Elbow',
-      wrist: '*_Wrist',
-    },
-  ],
-  [
-    'Biped',
-    {
-      root: 'Bip01 Pelvis',
-      spine: ['Bip01 Spine', 'Bip01 Spine1'],
-      neck: 'Bip01 Neck',
-      head: 'Bip01 Head',
-      sides: ['L', 'R'],
-      hip: 'Bip01 * Thigh',
-      knee: 'Bip01 * Calf',
-      ankle: 'Bip01 * Foot',
-      toe: 'Bip01 * Toe0',
-      collar: 'Bip01 * Clavicle',
-      shoulder: 'Bip01 * UpperArm',
-      elbow: 'Bip01 * Forearm',
-      wrist: 'Bip01 * Hand',
-    },
-  ],
-  [
-    'Unreal',
-    {
-      root: 'pelvis',
-      spine: ['spine_01', 'spine_02', 'spine_03', 'spine_04', 'spine_05'],
-      neck: 'neck_01',
-      head: 'head',
-      sides: ['l', 'r'],
-      hip: 'thigh_*',
-      knee: 'calf_*',
-      ankle: 'foot_*',
-      toe: 'ball_*',
-      collar: 'clavicle_*',
-      shoulder: 'upperarm_*',
-      elbow: 'lowerarm_*',
-      wrist: 'hand_*',
-    },
-  ],
-  [
-    // Deform bones in Blender.
-    'Rigify',
-    {
-      root: 'DEF-spine',
-      spine: ['DEF-spine.001', 'DEF-spine.002', 'DEF-spine.003'],
-      neck: 'DEF-spine.004',
-      head: 'DEF-spine.006',
-      sides: ['L', 'R'],
-      hip: 'DEF-thigh.*',
-      knee: 'DEF-shin.*',
-      ankle: 'DEF-foot.*',
-      toe: 'DEF-toe.*',
-      collar: 'DEF-shoulder.*',
-      shoulder: 'DEF-upper_arm.*',
-      elbow: 'DEF-forearm.*',
-      wrist: 'DEF-hand.*',
-    },
-  ],
-  [
-    'Rokoko',
-    {
-      root: 'Hips',
-      spine: ['Spine', 'Spine2'],
-      neck: 'Neck',
-      head: 'Head',
-      sides: ['Left', 'Right'],
-      hip: '*Thigh',
-      knee: '*Shin',
-      ankle: '*Foot',
-      toe: '*Toe',
-      collar: '*Shoulder',
-      shoulder: '*Arm',
-      elbow: '*ForeArm',
-      wrist: '*Hand',
-    },
-  ],
-  [
-    // The shoulder is the shoulder, not the collar.
-    'Xsens',
-    {
-      root: 'Hips',
-      spine: ['Chest', 'Chest2'],
-      neck: 'Neck',
-      head: 'Head',
-      sides: ['Left', 'Right'],
-      hip: '*Hip',
-      knee: '*Knee',
-      ankle: '*Ankle',
-      toe: '*Toe',
-      collar: '*Collar',
-      shoulder: '*Shoulder',
-      elbow: '*Elbow',
-      wrist: '*Wrist',
-    },
-  ],
-];
+const withFingers = CONVENTIONS.find(({ label }) => label === 'Character Creator')!.names;
+const xsens = CONVENTIONS.find(({ label }) => label === 'Xsens MVN, BVH')!.names;
 
 describe('skeleton conventions', () => {
-  test.each(FAMILIES)('%s %#', (convention, names) => {
-    const made = madeBvh({ joints: madeBody(names) });
-    const file = leaderBvh(made.text);
-    expect(file.report.convention).toBe(convention);
-    expect(file.clip).toMatchObject({ fps: 30, frames: 40 });
-    const pairs = pairsOf(names);
-    for (const [name, source] of pairs) expect(file.report.joints[name]).toBe(source);
-    expectSame(file, made, pairs);
-    const trunk = names.root === 'Pelvis' ? [] : ['pelvis', 'spine1', 'spine2', 'spine3'];
-    expect(file.report.estimated.filter((name) => !/foot/.test(name))).toEqual(trunk);
-    expect(file.report.warnings).toEqual([]);
-  });
-
   test('finger and twist joints do not change the result', () => {
-    const [, names] = FAMILIES[1]!;
+    const names = withFingers;
     const plain = leaderBvh(madeBvh({ joints: madeBody(names), swing: 0 }).text);
     const extra = [
       { name: 'CC_Base_L_CalfTwist01', parent: 'CC_Base_L_Calf', offset: [0, -0.1, 0] as const },
@@ -367,7 +175,6 @@ describe('joints that the file does not have', () => {
   });
 
   test('no joint of the file stands for two joints', () => {
-    const [, xsens] = FAMILIES.at(-1)!;
     const file = read(without('collar', xsens));
     expect(file.report.joints).toMatchObject({ left_shoulder: 'LeftShoulder', left_collar: null });
     expect(distance(joint(file, 0, 'left_shoulder'), joint(file, 0, 'left_collar'))).toBeGreaterThan(0.05);

@@ -1,6 +1,6 @@
-import { truncatedBvh } from './support/files';
-import { App } from './support/app-page';
-import { expect, test } from './support/fixtures';
+import { truncatedBvh } from '../support/files';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
 
 test.use({ viewport: { width: 1280, height: 720 } });
 

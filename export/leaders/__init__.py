@@ -1,0 +1,1 @@
+"""Leaders that are composed, not recorded: steps in counts, feet by their steps, the body by inverse kinematics."""

@@ -1,0 +1,106 @@
+/** The blind test: from the choice of dances to the saved answers, by keyboard. */
+import { readFileSync } from 'node:fs';
+import { AxeBuilder } from '@axe-core/playwright';
+import type { Page } from '@playwright/test';
+import { TINY } from './support/app-page';
+import { bvhText, type TestFile, wav } from './support/files';
+import { expect, test } from './support/fixtures';
+
+test.use({ viewport: { width: 1200, height: 760 } });
+
+const STUDY = TINY.replace('?', '?study&');
+
+const motion = (name: string, sway: number): TestFile => ({
+  name,
+  mimeType: '',
+  buffer: Buffer.from(bvhText({ frames: 90, sway })),
+});
+const FILES = [
+  motion('walk_leader.bvh', 1),
+  motion('walk_ours.bvh', 0.5),
+  motion('walk_edge.bvh', 2),
+  { ...wav({ seconds: 3 }), name: 'walk.wav' },
+  motion('turn_leader.bvh', 1.2),
+  motion('turn_ours.bvh', 0.4),
+  motion('turn_edge.bvh', 2.2),
+];
+
+/** What axe finds on the page. */
+async function violations(page: Page): Promise<string[]> {
+  const { violations: found } = await new AxeBuilder({ page }).analyze();
+  return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 160)).join(' | ')}`);
+}
+
+async function saved(page: Page, button: string): Promise<string> {
+  const coming = page.waitForEvent('download');
+  await page.getByRole('button', { name: button }).click();
+  return readFileSync(await (await coming).path(), 'utf8');
+}
+
+test('files are compared by keyboard, a reload loses nothing, and the answers come as tables', async ({
+  page,
+}) => {
+  // As on a machine without WebGL, which is faster.
+  await page.addInitScript(() => {
+    Reflect.set(HTMLCanvasElement.prototype, 'getContext', () => null);
+  });
+  await page.goto(STUDY);
+  const setup = page.getByRole('region', { name: 'Setup' });
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    setup.getByRole('button', { name: 'Choose files' }).click(),
+  ]);
+  await chooser.setFiles(FILES);
+  await expect(setup.getByRole('status')).toHaveText(/Your files: 2 leaders, 2 methods, some without music/);
+  expect(await violations(page), 'setup').toEqual([]);
+  await setup.getByLabel('Participant').fill('Ana');
+  await page.keyboard.press('Enter');
+
+  const questions = page.getByRole('region', { name: 'Questions' });
+  await expect(questions.getByRole('heading')).toHaveText('Pair 1 of 2');
+  await expect(questions.getByRole('button', { name: /Play|Pause/ })).toBeEnabled();
+  const asked = await questions.getByRole('group').count();
+  expect(await violations(page), 'a pair').toEqual([]);
+  // The method that made a partner is nowhere on the page.
+  expect(await page.locator('body').innerText()).not.toMatch(/ours|edge/);
+  for (const key of asked === 3 ? '153' : '15') await page.keyboard.press(key);
+  await page.keyboard.press('Enter');
+  await expect(questions.getByRole('heading')).toHaveText('Pair 2 of 2');
+
+  // The tab is closed in the middle.
+  await page.goto(STUDY);
+  await expect(setup).toContainText('The test of Ana is not finished: 1 of 2 pairs.');
+  await setup.locator('input[type="file"]').first().setInputFiles(FILES);
+  await setup.getByRole('button', { name: 'Go on with it' }).click();
+  await expect(questions.getByRole('heading')).toHaveText('Pair 2 of 2');
+  await questions.getByRole('radio', { name: 'A a little' }).first().check();
+  for (const key of asked === 3 ? '5' : '55') await page.keyboard.press(key);
+  await questions.getByRole('button', { name: 'Finish' }).click();
+
+  const result = page.getByRole('region', { name: 'Result' });
+  await expect(result.getByRole('row')).toHaveCount(2);
+  await expect(result.getByRole('rowheader')).toHaveText('ours over edge');
+  const answers = (await saved(page, 'Save answers (CSV)')).trim().split('\r\n');
+  expect(answers).toHaveLength(1 + 5);
+  expect(answers[1]).toMatch(/^Ana,files,\d+,1,(walk|turn),(ours,edge|edge,ours),naturalness,-2,/);
+  const summary = (await saved(page, 'Save summary (CSV)')).trim().split('\r\n');
+  expect(summary).toHaveLength(1 + 3);
+  expect(summary[1]).toMatch(/^ours,edge,naturalness,2,/);
+});
+
+test('the dances of the page are shown without a file', async ({ page }) => {
+  await page.goto(STUDY);
+  await page.getByRole('button', { name: 'Dances of this page' }).click();
+  await page.getByLabel('Pairs, at most').fill('2');
+  await page.getByLabel('Seed of the order').fill('3');
+  await page.getByRole('button', { name: 'Start' }).click();
+  const questions = page.getByRole('region', { name: 'Questions' });
+  const play = questions.getByRole('button', { name: 'Pause' });
+  await expect(play).toBeEnabled({ timeout: 60_000 });
+  const time = (): Promise<number> =>
+    questions.getByRole('slider', { name: 'Time' }).inputValue().then(Number);
+  await expect.poll(time).toBeGreaterThan(0.3);
+  await play.click();
+  const stopped = await time();
+  expect(await time()).toBeCloseTo(stopped, 1);
+});

@@ -1,0 +1,7 @@
+/** Starts what the address asks for: the app, or with `?study` the blind test. */
+const wanted = new URLSearchParams(location.search).has('study') ? import('./study') : import('./main');
+wanted.catch((error: unknown) => {
+  console.error(error);
+  document.body.textContent =
+    'A part of this page could not be loaded. Check the connection, then reload the page.';
+});

@@ -1,0 +1,46 @@
+import { problemShown } from '../store/actions/notices';
+import { offeredProblem } from '../store/problems';
+import type { Files } from '../store/services';
+import { apply, type Store } from '../store/store';
+
+/** A leader that ships with the page: its file in leaders/, and what it is called. */
+interface OfferedLeader {
+  readonly file: string;
+  readonly name: string;
+}
+
+/** Leaders that can be chosen without a file of one's own; `export/leaders/` composes the dances. */
+export const OFFERED_LEADERS: readonly OfferedLeader[] = [
+  { file: 'slow.bvh', name: 'Slow' },
+  { file: 'quick.bvh', name: 'Quick' },
+  { file: 'turning.bvh', name: 'Turning' },
+  { file: 'playful.bvh', name: 'Playful' },
+  { file: 'sample.webm', name: 'A sample video' },
+];
+
+/**
+ * Opens a leader that ships with the page, as if the visitor had given its file.
+ * @param file its name in the folder
+ */
+export async function openOffered(
+  file: string,
+  folder: URL,
+  store: Store,
+  files: Pick<Files, 'open'>,
+): Promise<void> {
+  const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
+  let content: Blob;
+  try {
+    const response = await fetch(new URL(file, folder));
+    // A server of single-page apps answers with a page where a file is missing.
+    const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
+    if (!response.ok || isPage) throw new Error(`The server answered ${response.status}.`);
+    content = await response.blob();
+  } catch {
+    apply(store, problemShown(offeredProblem(name)));
+    return;
+  }
+  const ending = file.replace(/^[^.]*/, '');
+  const type = ending === '.webm' ? 'video/webm' : '';
+  await files.open([new File([content], `${name.replace(/^A /, '')}${ending}`, { type })]);
+}

@@ -1,0 +1,90 @@
+import type { Song } from '../../audio/client';
+import type { Generator, Manifest } from '../../model/client';
+import type { ReadLeader } from '../../motion/client';
+import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { mirrored } from './mirror';
+import { OURS, type StudyDuet, type StudySet } from './set';
+
+/** The leaders that ship with the page, by their files. */
+const LEADERS = [
+  ['demo', 'demo/leader.bvh'],
+  ['slow', 'leaders/slow.bvh'],
+  ['quick', 'leaders/quick.bvh'],
+  ['turning', 'leaders/turning.bvh'],
+  ['playful', 'leaders/playful.bvh'],
+] as const;
+
+/** The ends of coarse guidance, by the name of the method. */
+const ENDS = { 'coarse-low': 'min', 'coarse-high': 'max' } as const;
+const METHODS = [OURS, ...Object.keys(ENDS), 'mirror'];
+
+/** Of the first leader's partners; those of the others follow. */
+const FIRST_SEED = 1206;
+
+/** What the set is made of, as arguments so that it can be tested without a browser. */
+export interface BuiltInParts {
+  /** A file of the page. */
+  readonly file: (path: string) => Promise<Blob>;
+  readonly readLeader: (name: string, bytes: Uint8Array) => Promise<ReadLeader>;
+  readonly loadSong: (file: Blob, audio: Manifest['audio']) => Promise<Song>;
+  readonly generator: () => Promise<Pick<Generator, 'generate' | 'manifest'>>;
+}
+
+/** Calls once, and again only after a failure. */
+function once<T>(make: () => Promise<T>): () => Promise<T> {
+  let made: Promise<T> | null = null;
+  return () => {
+    made ??= make().catch((error: unknown) => {
+      made = null;
+      throw error;
+    });
+    return made;
+  };
+}
+
+/**
+ * A study that needs no files: the leaders of the page with partners by the model at its defaults, at both ends of coarse
+ * guidance, and a mirror image.
+ */
+export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
+  const song = await parts.file('demo/song.mp3');
+  const analysed = once(async () => parts.loadSong(song, (await parts.generator()).manifest.audio));
+  const duets = LEADERS.map(([name, path], index): StudyDuet => {
+    const leader = once(async () => {
+      const bytes = new Uint8Array(await (await parts.file(path)).arrayBuffer());
+      return parts.readLeader(path, bytes);
+    });
+    const generated = async (coarse: 'min' | 'default' | 'max'): Promise<SolvedMotion> => {
+      const [{ file }, generator, music] = await Promise.all([leader(), parts.generator(), analysed()]);
+      const { guidance, diffusion, latent } = generator.manifest;
+      const layers = latent.streams.flatMap(() =>
+        latent.layers.map((layer) => (layer === 'coarse' ? guidance.coarse[coarse] : guidance.fine.default)),
+      );
+      const { locked } = await generator.generate({
+        leader: file.clip,
+        music: { features: music.features, frames: music.frames },
+        guidance: Float32Array.from(layers),
+        musicGuidance: guidance.music.default,
+        variety: guidance.variety.default,
+        steps: diffusion.steps.default,
+        seed: FIRST_SEED + index,
+      });
+      return locked;
+    };
+    const made: Readonly<Record<string, () => Promise<SolvedMotion>>> = {
+      [OURS]: once(() => generated('default')),
+      ...Object.fromEntries(
+        Object.entries(ENDS).map(([method, end]) => [method, once(() => generated(end))]),
+      ),
+      mirror: once(async () => mirrored((await leader()).file.clip)),
+    };
+    return {
+      name,
+      methods: METHODS,
+      song,
+      leader: async () => (await leader()).motion,
+      partner: (method) => made[method]!(),
+    };
+  });
+  return { name: 'built-in', reference: OURS, duets };
+}

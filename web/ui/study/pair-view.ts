@@ -1,0 +1,144 @@
+import { el, setText } from '../widgets/dom';
+import { textButton } from '../widgets/button';
+import type { CRITERIA } from './answers';
+import { CHOICES, type Criterion } from './answers';
+
+/** What the visitor does with a pair. */
+interface PairActions {
+  readonly togglePlay: () => void;
+  readonly seek: (seconds: number) => void;
+  readonly answer: (criterion: Criterion, score: number) => void;
+  readonly back: () => void;
+  readonly next: () => void;
+}
+
+/** What is shown of a pair. */
+export interface PairState {
+  /** From 0. */
+  readonly number: number;
+  readonly pairs: number;
+  readonly criteria: readonly (typeof CRITERIA)[number][];
+  readonly answers: ReadonlyMap<Criterion, number>;
+  /** What is being done where the dances are not there yet; null where they are. */
+  readonly waiting: string | null;
+}
+
+/** The questions beside the stage, and the transport below them. */
+export class PairView {
+  readonly element: HTMLElement;
+  readonly #heading = el('h1', { attributes: { tabindex: -1 } });
+  readonly #waiting = el('p', { class: 'study-waiting', attributes: { role: 'status' } });
+  readonly #questions = el('div', { class: 'questions' });
+  readonly #play: HTMLButtonElement;
+  readonly #slider: HTMLInputElement;
+  readonly #clock = el('span', { class: 'study-time' });
+  readonly #next: HTMLButtonElement;
+  readonly #back: HTMLButtonElement;
+  #state: PairState | null = null;
+
+  constructor(private readonly actions: PairActions) {
+    this.#play = textButton('btn primary', 'Play', actions.togglePlay);
+    this.#slider = el('input', {
+      attributes: { type: 'range', min: 0, step: 0.05, 'aria-label': 'Time' },
+      on: {
+        input: () => {
+          actions.seek(Number(this.#slider.value));
+        },
+      },
+    });
+    this.#next = textButton('btn primary', 'Next pair', actions.next);
+    this.#back = textButton('btn ghost', 'Back', actions.back);
+    this.element = el(
+      'section',
+      { class: 'pair', attributes: { 'aria-label': 'Questions' } },
+      this.#heading,
+      this.#waiting,
+      el('div', { class: 'study-transport' }, this.#play, this.#slider, this.#clock),
+      this.#questions,
+      el('div', { class: 'study-actions' }, this.#back, this.#next),
+      el('p', {
+        class: 'key-help',
+        text: 'Keys: Space plays and pauses, 1 to 5 answer the next open question, then the one in focus, Enter goes on, Backspace goes back.',
+      }),
+    );
+  }
+
+  /** @param isNew a pair that was not shown before gets the focus */
+  show(state: PairState, isNew: boolean): void {
+    const { number, pairs, criteria, answers, waiting } = state;
+    this.#state = state;
+    setText(this.#heading, `Pair ${number + 1} of ${pairs}`);
+    setText(this.#waiting, waiting ?? '');
+    this.#waiting.hidden = waiting === null;
+    this.#play.disabled = this.#slider.disabled = waiting !== null;
+    if (isNew) {
+      this.#questions.replaceChildren(...criteria.map((criterion) => this.#question(criterion)));
+      this.#heading.focus();
+    }
+    for (const { id } of criteria)
+      for (const input of this.#questions.querySelectorAll<HTMLInputElement>(`input[name="${id}"]`))
+        input.checked = Number(input.value) === answers.get(id);
+    this.#back.disabled = number === 0;
+    this.#next.disabled = criteria.some(({ id }) => !answers.has(id));
+    setText(this.#next, number + 1 < pairs ? 'Next pair' : 'Finish');
+  }
+
+  showTime(seconds: number, duration: number, playing: boolean): void {
+    this.#slider.max = String(duration);
+    this.#slider.value = String(seconds);
+    setText(this.#clock, `${seconds.toFixed(1)} / ${duration.toFixed(1)} s`);
+    setText(this.#play, playing ? 'Pause' : 'Play');
+  }
+
+  /** Keys of the whole page while a pair is shown; true where the key meant something. */
+  handleKey(event: KeyboardEvent): boolean {
+    const state = this.#state;
+    if (!state || event.ctrlKey || event.metaKey || event.altKey) return false;
+    const target = event.target instanceof HTMLElement ? event.target : null;
+    const choice = CHOICES[Number(event.key) - 1];
+    if (choice) {
+      const { criteria, answers } = state;
+      const focused = target instanceof HTMLInputElement ? target.name : '';
+      const question =
+        criteria.find(({ id }) => !answers.has(id)) ?? criteria.find(({ id }) => id === focused);
+      if (question) this.actions.answer(question.id, choice.score);
+      return question !== undefined;
+    }
+    // A button does what it says itself, and a space chooses what has the focus.
+    const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
+    if (target instanceof HTMLButtonElement || (event.key === ' ' && isUnchosen)) return false;
+    if (event.key === ' ' && state.waiting === null) this.actions.togglePlay();
+    else if (event.key === 'Enter' && !this.#next.disabled) this.actions.next();
+    else if (event.key === 'Backspace' && state.number > 0) this.actions.back();
+    else return false;
+    return true;
+  }
+
+  #question({ id, question }: (typeof CRITERIA)[number]): HTMLElement {
+    return el(
+      'fieldset',
+      {},
+      el('legend', { text: question }),
+      el(
+        'div',
+        { class: 'likert' },
+        ...CHOICES.map(({ score, text }, i) =>
+          el(
+            'label',
+            {},
+            el('input', {
+              attributes: { type: 'radio', name: id, value: score },
+              on: {
+                change: () => {
+                  this.actions.answer(id, score);
+                },
+              },
+            }),
+            el('span', { text }),
+            el('kbd', { text: String(i + 1), attributes: { 'aria-hidden': 'true' } }),
+          ),
+        ),
+      ),
+    );
+  }
+}
