@@ -34,13 +34,18 @@ export type ReadReport =
   /** Several people, of whom one can be picked: about where each is, left, top, right and bottom in pixels. */
   | {
       readonly kind: 'persons';
-      readonly time: number;
       readonly boxes: readonly (readonly [number, number, number, number])[];
+      readonly image: ImageBitmap;
     }
   /** A small picture of a moment for the timeline. */
   | { readonly kind: 'thumbnail'; readonly time: number; readonly image: ImageBitmap }
-  /** The newest picture: its time, and 33 x 2 landmarks in pixels where the person is seen. */
-  | { readonly kind: 'picture'; readonly time: number; readonly landmarks: Float32Array | null };
+  /** The newest picture, small, its time, and 33 x 2 landmarks in pixels of the video where the person is seen. */
+  | {
+      readonly kind: 'picture';
+      readonly time: number;
+      readonly landmarks: Float32Array | null;
+      readonly image: ImageBitmap;
+    };
 
 export interface SolveRequest {
   readonly observations: Observations;
@@ -59,8 +64,11 @@ export interface VideoMotion {
   readonly advice: readonly string[];
 }
 
-/** Pictures for the timeline: as many over the whole video, seconds between two at the least, and their height. */
-const THUMBNAILS = { most: 80, spacing: 0.5, height: 48 };
+/** Pictures for the timeline: as many over the whole video, and seconds between two, at the least. */
+const THUMBNAILS = { most: 80, spacing: 0.5 };
+/** Heights of small pictures, pixels. */
+const THUMBNAIL_HEIGHT = 48;
+const SHOWN_HEIGHT = 270;
 /** Least time between two reports of pictures. */
 const REPORT_INTERVAL_MS = 200;
 
@@ -77,24 +85,25 @@ async function read(
     });
     const tracker = new PersonTracker(graphs, pick);
     const recorder = new Recorder(width, height);
-    const thumbnails = new Thumbnails(duration, width / height);
+    const thumbnails = new Shrinker(width / height, THUMBNAIL_HEIGHT);
+    const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
+    const isThumbnail = thumbnailTimes(duration);
     let reported = 0;
     // Who was picked is not asked about again.
     let asked = pick !== null;
     for await (const { time, picture } of video.pictures(0, Infinity)) {
       const tracked = await tracker.next(picture);
       recorder.add(time, tracked);
-      const image = thumbnails.next(time, picture);
-      if (image) void report({ kind: 'thumbnail', time, image });
+      if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
       if (!asked && tracked.persons && tracked.persons.length > 0) {
         asked = true;
-        if (tracked.persons.length > 1)
-          void report({ kind: 'persons', time, boxes: tracked.persons.map(bodyBox) });
+        const boxes = tracked.persons.map(bodyBox);
+        if (boxes.length > 1) void report({ kind: 'persons', boxes, image: shown.of(picture) });
       }
       if (performance.now() - reported > REPORT_INTERVAL_MS) {
         reported = performance.now();
         const landmarks = tracked.landmarks?.image.slice() ?? null;
-        void report({ kind: 'picture', time, landmarks });
+        void report({ kind: 'picture', time, landmarks, image: shown.of(picture) });
       }
       await yieldToEvents(signal);
     }
@@ -106,28 +115,32 @@ async function read(
   }
 }
 
-/** Small pictures of a video, evenly over its time. */
-class Thumbnails {
+/** Makes small pictures of those of a video. */
+class Shrinker {
   readonly #context: OffscreenCanvasRenderingContext2D;
-  readonly #spacing: number;
-  #last = -Infinity;
 
   /** @param aspect width / height of the video */
-  constructor(duration: number, aspect: number) {
-    this.#spacing = Math.max(THUMBNAILS.spacing, duration / THUMBNAILS.most);
-    const width = Math.max(1, Math.round(THUMBNAILS.height * aspect));
-    this.#context = new OffscreenCanvas(width, THUMBNAILS.height).getContext('2d')!;
+  constructor(aspect: number, height: number) {
+    this.#context = new OffscreenCanvas(Math.max(1, Math.round(height * aspect)), height).getContext('2d')!;
   }
 
-  /** The picture in small where it is time for one. */
-  next(time: number, picture: Picture): ImageBitmap | null {
-    if (time - this.#last < this.#spacing) return null;
-    this.#last = time;
+  of(picture: Picture): ImageBitmap {
     const { canvas } = this.#context;
     this.#context.setTransform(canvas.width / picture.width, 0, 0, canvas.height / picture.height, 0, 0);
     picture.draw(this.#context);
     return canvas.transferToImageBitmap();
   }
+}
+
+/** True for the pictures of a video, evenly over its time, that are shown on the timeline. */
+function thumbnailTimes(duration: number): (time: number) => boolean {
+  const spacing = Math.max(THUMBNAILS.spacing, duration / THUMBNAILS.most);
+  let last = -Infinity;
+  return (time) => {
+    if (time - last < spacing) return false;
+    last = time;
+    return true;
+  };
 }
 
 function solve({ observations, options }: SolveRequest): VideoMotion {

@@ -82,18 +82,19 @@ export class VideoPanel {
         setText(this.#status, `Loading what finds the dancer, ${Math.round(100 * report.fraction)} %`);
         return;
       case 'persons':
-        this.#picture.showPersons(report.time, report.boxes);
+        this.#picture.showPersons(report);
         setText(this.#status, 'Several people: the largest is followed. Click another one to follow them.');
         return;
       case 'picture':
-        this.#showPicture(report.time, report.landmarks);
+        this.#picture.showRead(report.image, report.landmarks);
+        this.#showPart(report.time);
     }
   }
 
-  #showPicture(time: number, landmarks: Float32Array | null): void {
+  /** How far the reading is. */
+  #showPart(time: number): void {
     const now = performance.now();
     if (this.#begun === 0) this.#begun = now;
-    this.#picture.showRead(time, landmarks);
     const share = this.#duration > 0 ? Math.min(1, time / this.#duration) : 0;
     this.#progress(share);
     if (this.#picture.choosing) return;

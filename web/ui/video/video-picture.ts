@@ -6,6 +6,12 @@ import { drawSkeleton } from './skeleton-overlay';
 /** About where a person is seen: left, top, right, bottom, pixels. */
 type Box = readonly [number, number, number, number];
 
+/** People of whom one can be picked, and the picture in which they are. */
+interface People {
+  readonly boxes: readonly Box[];
+  readonly image: ImageBitmap;
+}
+
 /** How far the video may be from the dance before it is set right, seconds. */
 const MAX_DRIFT = 0.12;
 
@@ -35,7 +41,7 @@ export class VideoPicture {
   readonly #skeleton = el('input', { attributes: { type: 'checkbox', checked: true } });
   #size = { width: 1, height: 1 };
   #observations: Observations | null = null;
-  #people: { readonly time: number; readonly boxes: readonly Box[] } | null = null;
+  #people: People | null = null;
 
   /** @param pick is called with the place of a person that was clicked, pixels of the picture */
   constructor(
@@ -55,7 +61,7 @@ export class VideoPicture {
       if (this.#observations) this.#drawAt(this.#video.currentTime);
     });
     this.#skeleton.addEventListener('change', () => {
-      this.#canvas.hidden = !this.#skeleton.checked;
+      this.#drawAt(this.#video.currentTime);
     });
     this.root = el(
       'div',
@@ -78,9 +84,10 @@ export class VideoPicture {
     this.root.style.setProperty('--aspect', String(width / height));
   }
 
-  /** People who can be picked, in the picture of this time. */
-  showPersons(time: number, boxes: readonly Box[]): void {
-    this.#people = { time, boxes };
+  /** People who can be picked in a picture. */
+  showPersons(people: People): void {
+    this.#people?.image.close();
+    this.#people = people;
     this.#choose();
   }
 
@@ -89,8 +96,7 @@ export class VideoPicture {
     if (!this.#people) return;
     const { width, height } = this.#size;
     this.#video.pause();
-    this.#video.currentTime = this.#people.time;
-    drawSkeleton(this.#canvas, null);
+    drawSkeleton(this.#canvas, null, this.#people.image);
     setText(this.#another, 'Keep this person');
     this.#persons.replaceChildren(
       ...this.#people.boxes.map(([left, top, right, bottom], i) => {
@@ -116,6 +122,7 @@ export class VideoPicture {
 
   #endChoice(): void {
     this.#persons.replaceChildren();
+    this.#drawAt(this.#video.currentTime);
     setText(this.#another, FOLLOW_ANOTHER);
   }
 
@@ -127,10 +134,9 @@ export class VideoPicture {
   }
 
   /** The picture that was read last; while persons can be chosen theirs stays. */
-  showRead(time: number, landmarks: Float32Array | null): void {
-    if (this.choosing) return;
-    this.#video.currentTime = time;
-    drawSkeleton(this.#canvas, landmarks);
+  showRead(image: ImageBitmap, landmarks: Float32Array | null): void {
+    if (!this.choosing) drawSkeleton(this.#canvas, this.#skeleton.checked ? landmarks : null, image);
+    image.close();
   }
 
   /** The whole video has been read. */
@@ -156,7 +162,7 @@ export class VideoPicture {
 
   #drawAt(time: number): void {
     const { times, presence, image } = this.#observations ?? {};
-    if (!times || !presence || !image || this.#canvas.hidden) return;
+    if (!times || !presence || !image || this.choosing) return;
     let low = 0;
     let high = times.length - 1;
     while (low < high) {
@@ -165,10 +171,12 @@ export class VideoPicture {
       else high = middle - 1;
     }
     const size = image.length / Math.max(1, times.length);
-    drawSkeleton(this.#canvas, presence[low]! > 0 ? image.subarray(low * size, (low + 1) * size) : null);
+    const seen = this.#skeleton.checked && presence[low]! > 0;
+    drawSkeleton(this.#canvas, seen ? image.subarray(low * size, (low + 1) * size) : null);
   }
 
   dispose(): void {
+    this.#people?.image.close();
     this.#video.pause();
     this.#video.removeAttribute('src');
     URL.revokeObjectURL(this.#address);
