@@ -14,24 +14,19 @@ export interface OpenedModel {
   readonly arrays: Map<string, NpzArray>;
 }
 
-/** A model folder's manifest, its graphs and its golden sampling. */
-export function readModel(folder: URL, provider: Provider = 'webgpu') {
-  const read = (path: string): Uint8Array => new Uint8Array(readFileSync(new URL(path, folder)));
-  const manifest = parseManifest(JSON.parse(new TextDecoder().decode(read('manifest.json'))));
-  const graphs = Object.fromEntries(
-    GRAPHS.map((name) => [name, read(manifest.graphs[name].files[provider].path)]),
-  ) as Record<GraphName, Uint8Array>;
-  return { manifest, graphs, golden: read(manifest.golden?.path ?? 'golden.npz') };
-}
-
 /**
  * @param provider whose files to take: WebGPU's are in single precision, so they agree with PyTorch to rounding; wasm's
  *   compute products in 8 bits
  */
 export async function openModel(folder: URL, provider: Provider = 'webgpu'): Promise<OpenedModel> {
-  const { manifest, graphs, golden } = readModel(folder, provider);
+  const read = (path: string): Uint8Array => new Uint8Array(readFileSync(new URL(path, folder)));
+  const manifest = parseManifest(JSON.parse(new TextDecoder().decode(read('manifest.json'))));
+  const graphs = Object.fromEntries(
+    GRAPHS.map((name) => [name, read(manifest.graphs[name].files[provider].path)]),
+  ) as Record<GraphName, Uint8Array>;
   const session = await openSession(manifest, graphs, 'wasm', 1);
-  return { manifest, session, golden: readGolden(golden), arrays: readNpz(golden) };
+  const bytes = read(manifest.golden?.path ?? 'golden.npz');
+  return { manifest, session, golden: readGolden(bytes), arrays: readNpz(bytes) };
 }
 
 export const TINY = new URL('../../fixtures/tiny-model/', import.meta.url);
