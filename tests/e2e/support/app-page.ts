@@ -61,10 +61,14 @@ export class App {
     );
   }
 
-  /** Waits until the state meets a condition. `is` runs in the page and sees nothing of the test but its argument. */
+  /**
+   * Waits until the page has loaded its app and the state meets a condition. `is` runs in the page and sees nothing of
+   * the test but its argument.
+   */
   async until<A = undefined>(is: (state: AppState, argument: A) => unknown, argument?: A): Promise<void> {
     const options = { timeout: TIMEOUT_MS, intervals: [50, 100, 250], message: is.toString() };
-    await expect.poll(async () => Boolean(await this.read(is, argument)), options).toBe(true);
+    const expression = `Boolean(window.reactdance && (${is.toString()})(window.reactdance.store.getState(), ${JSON.stringify(argument)}))`;
+    await expect.poll(() => this.page.evaluate<boolean>(expression), options).toBe(true);
   }
 
   /** Chooses files through the button that asks for them. */

@@ -56,7 +56,11 @@ function residentMemory(id) {
  */
 export async function until(page, condition) {
   const end = performance.now() + 1_200_000;
-  const expression = `((s) => { if (s.problem) throw new Error(s.problem.title); return Boolean(${condition}); })(window.reactdance.store.getState())`;
+  const expression = `(() => {
+    const s = window.reactdance?.store.getState();
+    if (s?.problem) throw new Error(s.problem.title);
+    return s !== undefined && Boolean(${condition});
+  })()`;
   while (!(await page.evaluate(expression))) {
     if (performance.now() > end) throw new Error(`The page never came to ${condition}`);
     await new Promise((resolve) => setTimeout(resolve, 20));
