@@ -215,7 +215,7 @@ void project.restore().then((restored) => (restored ? undefined : openDemo()));
 // The scores of recorded dances are only shown beside others, so they may come last and may be missing.
 void model
   .manifest()
-  .then(() => readReference(manifestUrl))
+  .then(({ id }) => readReference(manifestUrl, id))
   .then(
     (reference) => apply(store, referenceLoaded(reference)),
     () => undefined,

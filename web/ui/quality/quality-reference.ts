@@ -5,7 +5,6 @@ const known = v.nullable(v.number());
 
 /** The part of metrics.json, the evaluation of a shipped model, with the scores of the recorded dancers. */
 const schema = v.object({
-  model: v.string(),
   rows: v.object({
     truth: v.object({
       mean: v.object({
@@ -20,12 +19,15 @@ const schema = v.object({
   }),
 });
 
-/** Reads the scores of the recorded dancers; null where there are none, as beside a visitor's own model. */
-export async function readReference(manifestUrl: string): Promise<Reference | null> {
+/**
+ * Reads the scores of the recorded dancers; null where there are none, as beside a visitor's own model.
+ * @param model id of the model of that manifest
+ */
+export async function readReference(manifestUrl: string, model: string): Promise<Reference | null> {
   try {
     const response = await fetch(new URL('metrics.json', manifestUrl));
     if (!response.ok) return null;
-    const { model, rows } = v.parse(schema, await response.json());
+    const { rows } = v.parse(schema, await response.json());
     const { mean } = rows.truth;
     return {
       model,
