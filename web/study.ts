@@ -7,7 +7,7 @@ import { saveFile } from './ui/download/save-and-share';
 import { readParameters } from './ui/files/parameters';
 import { systemTheme } from './ui/shell/theme';
 import { builtInSet } from './ui/study/built-in-set';
-import { SessionStorage } from './ui/study/session';
+import { KeptSession } from './ui/study/session';
 import { Study } from './ui/study/study';
 import { createStage, type Stage } from './view/stage';
 
@@ -77,7 +77,7 @@ const study = new Study({
       loadSong: (file, audio) => loadSong(file, audio),
       generator: () => generator(onStatus),
     }),
-  storage: new SessionStorage(() => localStorage),
+  storage: new KeptSession(() => localStorage),
   saveFile,
   seed: () => crypto.getRandomValues(new Uint32Array(1))[0]!,
   now: () => performance.now(),

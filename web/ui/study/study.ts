@@ -10,7 +10,7 @@ import { PairPlayer, type ShownPair, type StudyStage } from './pair-player';
 import { PairView } from './pair-view';
 import { makePlan, type Pair } from './plan';
 import { resultView } from './result-view';
-import { answersTo, firstOpen, type Session, type SessionStorage, withAnswer } from './session';
+import { answersTo, firstOpen, type Session, type KeptSession, withAnswer } from './session';
 import { contentOf, OURS, type StudySet } from './set';
 import { SetupView } from './setup-view';
 import { summarise } from './summary';
@@ -22,7 +22,7 @@ export interface StudyServices {
   readonly readLeader: (request: LeaderRequest) => Promise<{ readonly motion: SolvedMotion }>;
   /** The set that needs no files; `onStatus` is told what is being loaded. */
   readonly builtIn: (onStatus: (text: string) => void) => Promise<StudySet>;
-  readonly storage: SessionStorage;
+  readonly storage: KeptSession;
   readonly saveFile: (file: Blob, name: string) => void;
   /** A new seed. */
   readonly seed: () => number;

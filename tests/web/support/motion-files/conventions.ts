@@ -1,4 +1,6 @@
 import { type BodyNames, MIXAMO } from '../made-bvh';
+import { ASF_NAMES } from './amc';
+import { SMPL_NAMES, SOMA_NAMES } from './arrays';
 
 /** A skeleton as a program writes it. */
 interface WrittenConvention {
@@ -72,21 +74,7 @@ export const CONVENTIONS: readonly WrittenConvention[] = [
   {
     label: 'CMU, ASF',
     reported: 'CMU (ASF)',
-    names: {
-      root: 'root',
-      spine: ['lowerback', 'upperback', 'thorax'],
-      neck: 'lowerneck',
-      head: 'head',
-      sides: SMALL_LETTERS,
-      hip: '*femur',
-      knee: '*tibia',
-      ankle: '*foot',
-      toe: '*toes',
-      collar: '*clavicle',
-      shoulder: '*humerus',
-      elbow: '*radius',
-      wrist: '*wrist',
-    },
+    names: ASF_NAMES,
   },
   { label: 'LaFAN1', reported: 'CMU / MotionBuilder', names: { ...HUMAN_IK, toe: '*Toe' } },
   {
@@ -196,21 +184,7 @@ export const CONVENTIONS: readonly WrittenConvention[] = [
   {
     label: 'SMPL-X',
     reported: 'SMPL',
-    names: {
-      root: 'pelvis',
-      spine: ['spine1', 'spine2', 'spine3'],
-      neck: 'neck',
-      head: 'head',
-      sides: ['left', 'right'],
-      hip: '*_hip',
-      knee: '*_knee',
-      ankle: '*_ankle',
-      toe: '*_foot',
-      collar: '*_collar',
-      shoulder: '*_shoulder',
-      elbow: '*_elbow',
-      wrist: '*_wrist',
-    },
+    names: SMPL_NAMES,
   },
   {
     label: 'Biped of 3ds Max',
@@ -329,7 +303,7 @@ export const CONVENTIONS: readonly WrittenConvention[] = [
   {
     label: 'SOMA',
     reported: 'SOMA',
-    names: { ...HUMAN_IK, spine: ['Spine1', 'Spine2', 'Chest'], neck: 'Neck1', hip: '*Leg', knee: '*Shin' },
+    names: SOMA_NAMES,
   },
   {
     label: 'Rokoko',
