@@ -9,6 +9,7 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.diffusion.model import Model
+from training.diffusion.sampler import advance
 
 
 class Condition(nn.Module):
@@ -27,15 +28,31 @@ class Condition(nn.Module):
 
 
 class Step(nn.Module):
-    """The prediction of one sampling step over B blocks, see `ReactionModel.predict`."""
+    """One sampling step over B blocks: `ReactionModel.predict`, then `advance` with a (1), b (1) and extrapolation (S).
+
+    Returns the next noisy latents and the prediction x0, (B, block, R, C), which a graphics card keeps for the next
+    step.
+    """
 
     def __init__(self, model: Model) -> None:
         super().__init__()
         self.model = model
         self.denoiser = model.denoiser  # registers its parameters
 
-    def forward(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
-        return self.model.predict(x, memory, valid, keep, time)
+    def forward(
+        self,
+        x: Tensor,
+        before: Tensor,
+        memory: Tensor,
+        valid: Tensor,
+        keep: Tensor,
+        time: Tensor,
+        a: Tensor,
+        b: Tensor,
+        extrapolation: Tensor,
+    ) -> tuple[Tensor, Tensor]:
+        x0 = self.model.predict(x, memory, valid, keep, time)
+        return advance(x, x0, before, a, b, extrapolation), x0
 
 
 class Decode(nn.Module):

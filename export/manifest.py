@@ -16,7 +16,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 3
+FORMAT, VERSION = "reactdance-model", 4
 LAYER_NAMES = ("coarse", "fine")
 
 

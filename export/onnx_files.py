@@ -57,12 +57,16 @@ def graphs(model: Model) -> list[Graph]:
             Step(model),
             {
                 "x": state,
+                "before": state,
                 "memory": ("blocks", block, memory),
                 "valid": ("blocks", block),
                 "keep": (1,),
                 "time": (1,),
+                "a": (1,),
+                "b": (1,),
+                "extrapolation": (len(STREAMS),),
             },
-            {"x0": state},
+            {"next": state, "x0": state},
             int8=True,
         ),
         Graph(

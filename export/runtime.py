@@ -52,8 +52,10 @@ class Exported:
         return self._condition(leader, silence, silence[:, 0], torch.zeros(1))[1]
 
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
-        (x0,) = self._run("step", x=x, memory=memory, valid=valid, keep=keep, time=time)
-        return x0
+        one, zero = torch.ones(1), torch.zeros(1)
+        none = torch.zeros(len(self.manifest["latent"]["streams"]))
+        step = {"a": zero, "b": one, "extrapolation": none}
+        return self._run("step", x=x, before=x, memory=memory, valid=valid, keep=keep, time=time, **step)[1]
 
     def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
         reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)

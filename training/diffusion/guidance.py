@@ -44,7 +44,7 @@ def blend(branches: Branches, coarse: Tensor, music: float, variety: float) -> T
 
 def per_channel(values: Tensor, channels: int) -> Tensor:
     """(C,) of values (S,), one for each stream: the channels of a layer are its streams' one after the other."""
-    return values.repeat_interleave(channels // len(values))
+    return values[:, None].expand(-1, channels // len(values)).flatten()
 
 
 def layer_gains(fine: Tensor, layers: int) -> Tensor:

@@ -30,22 +30,33 @@ def sample(
     """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C).
 
     All blocks of a step are computed in parallel. The last prediction is extrapolated from the one before it,
-    x0 + c (x0 - x0 before) with c of each stream, as multistep solvers do (Lu et al. 2022, DPM-Solver++): few steps
-    stop short of where many would arrive, with too little energy and too little difference between seeds.
+    see `advance`: few steps stop short of where many would arrive, with too little energy and too little difference
+    between seeds.
     """
     frames, size = len(memory), sampling.block
     blocks = overlapping(frames, size) if sampling.stitching else partition(frames, size)
     memory_blocks = gather(memory, blocks, size)
     valid = gather(torch.ones(frames), blocks, size)
-    extrapolation = per_channel(torch.tensor(sampling.extrapolation), sampling.channels)
-    x, before = initial, None
+    extrapolation = torch.tensor(sampling.extrapolation)
+    x, before = initial, initial
     for k, step in enumerate(steps):
         time = torch.tensor([step.time], dtype=torch.float32)
         x0 = scatter(predict(gather(x, blocks, size), memory_blocks, valid, time), blocks, frames)
-        if k == len(steps) - 1 and before is not None:
-            x0 = x0 + extrapolation * (x0 - before)
-        x, before = step.a * x + step.b * x0, x0
+        last = 0 < k == len(steps) - 1
+        c = extrapolation if last else torch.zeros_like(extrapolation)
+        x, before = advance(x, x0, before, step.a, step.b, c), x0
     return x
+
+
+def advance(
+    x: Tensor, x0: Tensor, before: Tensor, a: float | Tensor, b: float | Tensor, extrapolation: Tensor
+) -> Tensor:
+    """The next noisy latents (..., R, C), a x + b (x0 + c (x0 - before)), of x, its prediction x0 and the one before.
+
+    a and b: of a DDIM step, see `Step`. extrapolation: c (S,) of each stream. With c = 0 this is DDIM (Song et al.
+    2021, Eq. 12), else a multistep solver's way (Lu et al. 2022, DPM-Solver++).
+    """
+    return a * x + b * (x0 + per_channel(extrapolation, x.shape[-1]) * (x0 - before))
 
 
 def sample_branch(

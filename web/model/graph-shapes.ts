@@ -18,6 +18,7 @@ export function tensorsOf({
   const joints = skeleton.joints.length;
   const { block, channels, memory_width: memory } = latent;
   const [layers, streams] = [latent.layers.length, latent.streams.length];
+  const state = [null, block, layers, channels];
   return {
     condition: {
       inputs: {
@@ -30,13 +31,17 @@ export function tensorsOf({
     },
     step: {
       inputs: {
-        x: [null, block, layers, channels],
+        x: state,
+        before: state,
         memory: [null, block, memory],
         valid: [null, block],
         keep: [1],
         time: [1],
+        a: [1],
+        b: [1],
+        extrapolation: [streams],
       },
-      outputs: { x0: [null, block, layers, channels] },
+      outputs: { next: state, x0: state },
     },
     decode: {
       inputs: {

@@ -74,7 +74,7 @@ const names = v.pipe(
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(3),
+  version: v.literal(4),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),

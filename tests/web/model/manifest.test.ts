@@ -39,7 +39,7 @@ describe('parseManifest', () => {
     ['memory_width', (json) => void (json.latent.memory_width = 64), '"memory" of the graph "condition"'],
     ['block', (json) => void (json.latent.block = 60), '"x" of the graph "step"'],
     ['features', (json) => void (json.audio.features = 54), '"music" of the graph "condition"'],
-    ['streams', (json) => void json.latent.streams.pop(), '"gains" of the graph "decode"'],
+    ['streams', (json) => void json.latent.streams.pop(), '"extrapolation" of the graph "step"'],
   ])('compares %s with what the graphs take', (_, change, words) => {
     expect(failure(change).message).toContain(`declares ${words} as `);
   });

@@ -14,7 +14,7 @@ const graph = (path: string, inputs: Shapes, outputs: Shapes) => ({
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 3,
+    version: 4,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -107,12 +107,16 @@ export function smallJson() {
         'step.onnx',
         {
           x: ['blocks', 6, 2, 3],
+          before: ['blocks', 6, 2, 3],
           memory: ['blocks', 6, 2],
           valid: ['blocks', 6],
           keep: [1],
           time: [1],
+          a: [1],
+          b: [1],
+          extrapolation: [3],
         },
-        { x0: ['blocks', 6, 2, 3] },
+        { next: ['blocks', 6, 2, 3], x0: ['blocks', 6, 2, 3] },
       ),
       decode: graph(
         'decode.onnx',

@@ -9,6 +9,7 @@ import type {
   ConditionRunner,
   DecodeInput,
   DecodeRunner,
+  HeldLatents,
   StepInput,
   StepRunner,
 } from '../sample/graphs';
@@ -46,6 +47,8 @@ async function open(
     // Exactly one: with two, onnxruntime would fall back to the second without a notice.
     executionProviders: [provider],
     graphOptimizationLevel: 'all',
+    // Latents stay on the graphics card from step to step; reading them in between would wait for it each time.
+    ...(provider === 'webgpu' && name === 'step' && { preferredOutputLocation: 'gpu-buffer' as const }),
   });
   const missing = [
     ...wanted.inputs.filter((input) => !session.inputNames.includes(input)),
@@ -99,21 +102,37 @@ class GpuLoss {
 /** How long after a failed run the loss of the GPU is waited for, which would explain it, milliseconds. */
 const LOSS_MS = 500;
 
-async function run(session: ort.InferenceSession, feeds: Tensors): Promise<Arrays> {
-  const results = await session.run(feeds);
+/** Reads all results. Reading is what waits for a GPU; a result is only there once it has been read. */
+async function readAll(results: Tensors): Promise<Arrays> {
   const arrays: Arrays = {};
   for (const [name, value] of Object.entries(results)) {
-    // Reading is what waits for a GPU; a result is only there once it has been read.
     arrays[name] = (await value.getData()) as Float32Array;
     value.dispose();
   }
   return arrays;
 }
 
-function output(arrays: Arrays, name: string): Float32Array {
-  const array = arrays[name];
-  if (array === undefined) throw new Error(`onnxruntime returned no "${name}"`);
-  return array;
+function output<T>(results: Readonly<Record<string, T>>, name: string): T {
+  const result = results[name];
+  if (result === undefined) throw new Error(`onnxruntime returned no "${name}"`);
+  return result;
+}
+
+/** A result that stays where the runtime has it. */
+class HeldTensor implements HeldLatents {
+  /** @param inTurn runs a job between the runs of graphs */
+  constructor(
+    readonly tensor: ort.Tensor,
+    readonly inTurn: <T>(job: () => Promise<T>) => Promise<T>,
+  ) {}
+
+  read(): Promise<Float32Array> {
+    return this.inTurn(async () => (await this.tensor.getData()) as Float32Array);
+  }
+
+  free(): void {
+    this.tensor.dispose();
+  }
 }
 
 /**
@@ -150,11 +169,10 @@ export async function openSession(
   delete runtime.env.wasm.wasmBinary;
   const { condition, step, decode } = sessions as Record<GraphName, ort.InferenceSession>;
   const loss = provider === 'webgpu' ? new GpuLoss(runtime.env.webgpu.device) : null;
+  const inTurn = <T>(job: () => Promise<T>): Promise<T> =>
+    enqueue(() => (loss ? loss.unlessLost(job) : job()));
   const runNext = (graph: ort.InferenceSession, feeds: () => Tensors): Promise<Arrays> =>
-    enqueue(() => {
-      const start = (): Promise<Arrays> => run(graph, feeds());
-      return loss ? loss.unlessLost(start) : start();
-    });
+    inTurn(async () => readAll(await graph.run(feeds())));
   const { latent, audio } = manifest;
   const joints = manifest.skeleton.joints.length;
   const tensor = (data: Float32Array | readonly number[], dims: readonly number[]): ort.Tensor =>
@@ -172,16 +190,26 @@ export async function openSession(
       }));
       return { memory: output(results, 'memory'), unfamiliarity: output(results, 'unfamiliarity') };
     },
-    step: async ({ blocks, x, memory, valid, keep, time }: StepInput) => {
-      const state = [blocks, latent.block, layers, latent.channels];
-      const results = await runNext(step, () => ({
-        x: tensor(x, state),
-        memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
-        valid: tensor(valid, [blocks, latent.block]),
-        keep: tensor([keep], [1]),
-        time: tensor([time], [1]),
-      }));
-      return output(results, 'x0');
+    step: async ({ blocks, x, before, memory, valid, keep, time, a, b, extrapolation }: StepInput) => {
+      const state = (latents: Float32Array | HeldLatents): ort.Tensor =>
+        latents instanceof HeldTensor
+          ? latents.tensor
+          : tensor(latents as Float32Array, [blocks, latent.block, layers, latent.channels]);
+      const results = await inTurn(() =>
+        step.run({
+          x: state(x),
+          before: state(before),
+          memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
+          valid: tensor(valid, [blocks, latent.block]),
+          keep: tensor([keep], [1]),
+          time: tensor([time], [1]),
+          a: tensor([a], [1]),
+          b: tensor([b], [1]),
+          extrapolation: tensor(extrapolation, [streams]),
+        }),
+      );
+      const held = (name: string): HeldTensor => new HeldTensor(output(results, name), inTurn);
+      return { next: held('next'), x0: held('x0') };
     },
     decode: async ({ latents, leader, gains, bones }: DecodeInput) => {
       const results = await runNext(decode, () => ({

@@ -21,11 +21,21 @@ export interface ConditionOutput {
 
 export type ConditionRunner = (input: ConditionInput) => Promise<ConditionOutput>;
 
-/** Inputs of the step graph; `width` is layers x channels. */
+/** Latents, blocks x block x layers x channels, where a graph left them: in memory or on the graphics card. */
+export interface HeldLatents {
+  /** A copy in memory. */
+  read(): Promise<Float32Array>;
+  /** Frees them; once they are free, no graph takes them. */
+  free(): void;
+}
+
+/** Inputs of the step graph. */
 export interface StepInput {
   readonly blocks: number;
-  /** blocks x block x width, noisy latents. */
-  readonly x: Float32Array;
+  /** blocks x block x layers x channels, noisy latents. */
+  readonly x: Float32Array | HeldLatents;
+  /** As many: the prediction of the step before, any where `extrapolation` is 0. */
+  readonly before: Float32Array | HeldLatents;
   /** blocks x block x memory width, of the condition graph. */
   readonly memory: Float32Array;
   /** blocks x block, 1 inside the clip and 0 in padding. */
@@ -34,10 +44,21 @@ export interface StepInput {
   readonly keep: number;
   /** Timestep divided by the number of train steps. */
   readonly time: number;
+  /** The next latents are a x + b (x0 + c (x0 - before)), with x0 predicted and c of each stream in `extrapolation`. */
+  readonly a: number;
+  readonly b: number;
+  readonly extrapolation: readonly number[];
 }
 
-/** Returns the predicted clean latents, blocks x block x width. */
-export type StepRunner = (input: StepInput) => Promise<Float32Array>;
+export interface StepOutput {
+  /** Noisy latents of the next step, clean ones after the last. */
+  readonly next: HeldLatents;
+  /** Predicted clean latents. */
+  readonly x0: HeldLatents;
+}
+
+/** One sampling step over blocks. */
+export type StepRunner = (input: StepInput) => Promise<StepOutput>;
 
 /** Inputs of the decode graph. */
 export interface DecodeInput {

@@ -1,7 +1,7 @@
 import { yieldToEvents } from '../../common/yield-to-events';
 import type { Manifest } from '../manifest';
-import { gather, partition, scatter, validity } from './blocks';
-import type { StepRunner } from './graphs';
+import { type Block, gather, partition, scatter, validity } from './blocks';
+import type { StepOutput, StepRunner } from './graphs';
 import type { ScheduleStep } from './schedule';
 
 export interface Sampling {
@@ -24,49 +24,65 @@ export interface Sampling {
 }
 
 /**
- * Samples the latents of a whole clip by DDIM, block by block (block-wise local conditioning, paper 3.4). The last
- * prediction is extrapolated from the one before it, x0 + c (x0 - x0 before), as multistep solvers do (Lu et al. 2022,
- * DPM-Solver++); `sample` in Python says why.
+ * Samples the latents of a whole clip by DDIM, block by block (block-wise local conditioning, paper 3.4): no block needs
+ * another, so some of them go through all steps before the others do. The last prediction is extrapolated from the one
+ * before it, as multistep solvers do (Lu et al. 2022, DPM-Solver++); `sample` in Python says why.
  * @returns latents x layers x channels, normalised
  * @throws the signal's reason, between two graph runs
  */
 export async function sample(sampling: Sampling): Promise<Float32Array> {
-  const { latent, schedule, memory, keep, noise, runStep, blocksPerRun, signal } = sampling;
+  const { latent, schedule, noise, blocksPerRun } = sampling;
   const width = latent.layers.length * latent.channels;
   const blocks = partition(noise.length / width, latent.block);
-  const total = schedule.length * blocks.length;
-  let done = 0;
-  let x = noise;
-  let before: Float32Array | undefined;
-  for (const [step, { time, a, b }] of schedule.entries()) {
-    const predicted = new Float32Array(x.length);
-    for (let first = 0; first < blocks.length; first += blocksPerRun) {
-      const some = blocks.slice(first, first + blocksPerRun);
-      await yieldToEvents(signal);
-      const output = await runStep({
-        blocks: some.length,
-        x: gather(x, width, some, latent.block),
-        memory: gather(memory, latent.memory_width, some, latent.block),
-        valid: validity(some, latent.block),
-        keep,
-        time,
-      });
-      scatter(predicted, width, output, some, latent.block);
-      done += some.length;
-      sampling.onProgress?.(done, total);
-    }
-    if (step === schedule.length - 1 && before) extrapolate(predicted, before, sampling);
-    x = x.map((value, i) => a * value + b * predicted[i]!);
-    before = predicted;
+  const result = new Float32Array(noise.length);
+  for (let first = 0; first < blocks.length; first += blocksPerRun) {
+    const some = blocks.slice(first, first + blocksPerRun);
+    const sampled = await sampleBlocks(sampling, some, (step) => {
+      const done = first * schedule.length + step * some.length;
+      sampling.onProgress?.(done, schedule.length * blocks.length);
+    });
+    scatter(result, width, sampled, some, latent.block);
   }
-  return x;
+  return result;
 }
 
-/** Adds c (x0 - x0 before) to x0, latents x layers x channels, with c of each channel's stream. */
-function extrapolate(x0: Float32Array, before: Float32Array, { latent, extrapolation }: Sampling): void {
-  const perStream = latent.channels / latent.streams.length;
-  for (let i = 0; i < x0.length; i++) {
-    const stream = Math.floor((i % latent.channels) / perStream);
-    x0[i]! += extrapolation[stream]! * (x0[i]! - before[i]!);
+/** @returns blocks x block x layers x channels */
+async function sampleBlocks(
+  { latent, extrapolation, schedule, memory, keep, noise, runStep, signal }: Sampling,
+  blocks: readonly Block[],
+  onStep: (done: number) => void,
+): Promise<Float32Array> {
+  const conditions = {
+    blocks: blocks.length,
+    memory: gather(memory, latent.memory_width, blocks, latent.block),
+    valid: validity(blocks, latent.block),
+    keep,
+  };
+  const start = gather(noise, latent.layers.length * latent.channels, blocks, latent.block);
+  const none = extrapolation.map(() => 0);
+  let held: StepOutput | null = null;
+  try {
+    for (const [k, step] of schedule.entries()) {
+      await yieldToEvents(signal);
+      const last = k > 0 && k === schedule.length - 1;
+      const output = await runStep({
+        ...conditions,
+        ...step,
+        x: held?.next ?? start,
+        before: held?.x0 ?? start,
+        extrapolation: last ? extrapolation : none,
+      });
+      free(held);
+      held = output;
+      onStep(k + 1);
+    }
+    return held ? await held.next.read() : start;
+  } finally {
+    free(held);
   }
+}
+
+function free(held: StepOutput | null): void {
+  held?.next.free();
+  held?.x0.free();
 }

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { parseManifest } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';
-import type { StepRunner } from '../../../../web/model/sample/graphs';
+import type { HeldLatents, StepInput, StepRunner } from '../../../../web/model/sample/graphs';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';
 import { ddim } from '../../../../web/model/sample/schedule';
 import { small } from '../../support/small-manifest';
@@ -25,17 +25,42 @@ interface Extrapolated {
 }
 const width = latent.layers.length * latent.channels;
 
-/** Stands in for the graph: mixes each valid token with its left neighbour inside the block, the memory and the time. */
-const mixing: StepRunner = (input) => {
-  const { time } = input;
-  const x0 = input.x.map((value, i) => {
+/** How many latents that a step returned are not freed. */
+let unfreed = 0;
+
+function held(values: Float32Array): HeldLatents {
+  unfreed += 1;
+  return { read: () => Promise.resolve(values), free: () => void (unfreed -= 1) };
+}
+
+/** Stands in for the graph: its formula around a prediction of `channels` in each layer. */
+function stepping(
+  predict: (x: Float32Array, input: StepInput) => Float32Array,
+  channels = latent.channels,
+): StepRunner {
+  const read = (latents: Float32Array | HeldLatents): Promise<Float32Array> =>
+    latents instanceof Float32Array ? Promise.resolve(latents) : latents.read();
+  return async (input) => {
+    const [x, before] = [await read(input.x), await read(input.before)];
+    const x0 = predict(x, input);
+    const perStream = channels / input.extrapolation.length;
+    const next = x.map((value, i) => {
+      const c = input.extrapolation[Math.floor((i % channels) / perStream)]!;
+      return input.a * value + input.b * (x0[i]! + c * (x0[i]! - before[i]!));
+    });
+    return { next: held(next), x0: held(x0) };
+  };
+}
+
+/** Mixes each valid token with its left neighbour inside the block, the memory and the time. */
+const mixing = stepping((x, { valid, memory, time }) =>
+  x.map((value, i) => {
     const token = Math.floor(i / width);
-    if (input.valid[token] !== 1) return NaN;
-    const left = token % latent.block === 0 ? 0 : (input.x[i - width] ?? 0);
-    return 0.5 * value + 0.3 * left + (input.memory[token * latent.memory_width] ?? 0) + time;
-  });
-  return Promise.resolve(x0);
-};
+    if (valid[token] !== 1) return NaN;
+    const left = token % latent.block === 0 ? 0 : (x[i - width] ?? 0);
+    return 0.5 * value + 0.3 * left + (memory[token * latent.memory_width] ?? 0) + time;
+  }),
+);
 
 function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
   return {
@@ -92,7 +117,7 @@ describe('sample', () => {
       schedule: ddim({ ...tiny.diffusion, last_time }, steps),
       extrapolation,
       noise: Float32Array.from(noise),
-      runStep: ({ x, time }) => Promise.resolve(x.map((value) => value / 2 + time)),
+      runStep: stepping((x, { time }) => x.map((value) => value / 2 + time), channels),
     });
     latents.forEach((value, i) => expect(result[i]).toBeCloseTo(value, 5));
   });
@@ -124,7 +149,8 @@ describe('sample', () => {
         onProgress: (done, total) => calls.push([done, total]),
       }),
     );
-    expect(calls).toEqual([2, 3, 5, 6, 8, 9, 11, 12].map((done) => [done, 12]));
+    // Two blocks go through all four steps, then the third one.
+    expect(calls).toEqual([2, 4, 6, 8, 9, 10, 11, 12].map((done) => [done, 12]));
   });
 
   it('stops before the next step when a message cancels it while a step runs', async () => {
@@ -138,5 +164,11 @@ describe('sample', () => {
     };
     await expect(sample(sampling(10, { runStep, signal: controller.signal }))).rejects.toThrow('enough');
     expect(steps).toBe(2);
+    expect(unfreed).toBe(0);
+  });
+
+  it('frees what the steps returned', async () => {
+    await sample(sampling(50, { blocksPerRun: 2 }));
+    expect(unfreed).toBe(0);
   });
 });
