@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import torch
 from torch import Tensor
 
-from tests.python.support.duets import made_duet
+from tests.python.support.small_training import write_duets
 from training.baselines import __main__ as program
 from training.baselines.duolando import Duolando, normalised_codebooks
 from training.baselines.gesturelsm import GestureLsm
@@ -87,13 +86,7 @@ def test_it_learns_which_pose_belongs_to_which_leader(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("data") / "duets.npz"
-    arrays: dict[str, Any] = {}
-    for seed in range(3):
-        duet = made_duet(300, seed)
-        arrays |= {f"made_{seed}/leader": duet.leader, f"made_{seed}/follower": duet.reactor}
-    np.savez(path, **arrays)
-    return path
+    return write_duets(tmp_path_factory.mktemp("data"))
 
 
 @pytest.mark.parametrize("name", METHODS)
