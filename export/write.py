@@ -9,8 +9,6 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import tyro
-
 from export.golden import Scene, reference
 from export.golden import write as write_golden
 from export.manifest import Card, manifest
@@ -18,6 +16,7 @@ from export.onnx_files import describe, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from export.weights import round_convolutions
 from training.checkpoint import load_model, read_card
+from training.command_line import run_program
 from training.diffusion.model import Model
 
 GOLDEN = "golden.npz"
@@ -62,4 +61,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -18,6 +18,7 @@ from lightning_fabric import Fabric
 from torch import Tensor, nn
 from torch.utils.tensorboard import SummaryWriter
 
+from training.config import check_limits
 from training.data.sources import read_split
 from training.data.splits import Split
 
@@ -66,6 +67,14 @@ class LoopOptions:
     def __post_init__(self) -> None:
         if not self.val:
             raise ValueError("no duets to validate on: name one or more with --val")
+        check_limits(
+            self,
+            **dict.fromkeys(("steps", "batch", "devices", "log_every", "evaluate_every"), (1, math.inf)),
+            **dict.fromkeys(("learning_rate", "weight_decay", "threads"), (0, math.inf)),
+            minutes=(1e-3, math.inf),
+            ema_decay=(0, 1),
+            seed=(0, 2**20),
+        )
         if self.solo is None and self.solo_prefixes != ("",):
             raise ValueError("--solo-prefixes chooses among the dances of --solo, which was not given")
 
@@ -282,7 +291,9 @@ class Run(Generic[M]):
             part.replace(self.state)
 
     def load(self) -> None:
-        """Inverse of `save`, strict."""
+        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved."""
+        if not self.state.exists():
+            raise FileNotFoundError(f"{self.state} is missing: there is nothing to go on from with --resume")
         parts = {"model": self.stage, "optimizer": self.optimizer}
         rest = self.fabric.load(self.state, parts, strict=True)
         self.ema.module.load_state_dict(rest["ema"], strict=True)

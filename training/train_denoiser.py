@@ -11,11 +11,18 @@ from pathlib import Path
 
 import numpy as np
 import torch
-import tyro
 from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
-from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig, FrameConfig
+from training.command_line import run_program
+from training.config import (
+    STRIDE,
+    DenoiserConfig,
+    DenoiserLossConfig,
+    DiffusionConfig,
+    FrameConfig,
+    check_latent_frames,
+)
 from training.data.duet import Duet
 from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
@@ -74,6 +81,14 @@ class Options(LoopOptions):
         super().__post_init__()
         if self.solo is None and self.solo_copies != 1:
             raise ValueError("--solo-copies is of the dances of --solo, which was not given")
+        if self.songs is None and self.pieces != Options.pieces:
+            raise ValueError("--pieces is the number of songs from --songs, which was not given")
+        check_latent_frames("stride", self.stride)
+        if len(self.loss.layers) != len(self.denoiser.depths):
+            raise ValueError(
+                f"{len(self.denoiser.depths)} residual layers (--denoiser.depths) need as many --loss.layers, "
+                f"got {self.loss.layers}"
+            )
         if self.loss.windows > self.batch:
             raise ValueError(
                 f"a batch of {self.batch} windows has no {self.loss.windows} to decode (--loss.windows)"
@@ -237,4 +252,4 @@ def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -187,7 +187,9 @@ def test_the_stride_of_training_windows_is_handed_on(data: Path, trained: Path) 
 def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:
     hfsq, _ = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)
-    stage = train_denoiser.Stage2(denoiser, hfsq, diffusion, DenoiserLossConfig())
+    stage = train_denoiser.Stage2(
+        denoiser, hfsq.requires_grad_(True).train(), diffusion, DenoiserLossConfig()
+    )
     assert not any(p.requires_grad for p in stage.hfsq.parameters())
     assert not stage.hfsq.training
     trainable = {id(p) for p in stage.parameters() if p.requires_grad}

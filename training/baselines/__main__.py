@@ -14,13 +14,13 @@ from pathlib import Path
 
 import numpy as np
 import torch
-import tyro
 from torch import Tensor, nn
 
 from training.baselines.method import BaselineConfig, Known, Method, Name, Window
 from training.baselines.trained import make_method
 from training.checkpoint import load_hfsq, save_weights
-from training.config import ConditionConfig
+from training.command_line import run_program
+from training.config import ConditionConfig, check_latent_frames
 from training.data.music_pairing import build_music_bank, variants
 from training.denoiser.clips import Augmentation, augmented_clips, feature_values
 from training.denoiser.losses import decoded_windows
@@ -56,6 +56,8 @@ class Options(LoopOptions):
             raise ValueError(
                 "baselines learn from duets alone and from the start: leave --solo and --init out"
             )
+        check_latent_frames("stride", self.stride)
+        BaselineConfig(self.method, self.width, self.depth)
 
 
 class Training(nn.Module):
@@ -122,4 +124,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

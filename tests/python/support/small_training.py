@@ -42,7 +42,7 @@ def stage1(data: Path, out: Path, **changes: object) -> train_hfsq.Options:
 
 def stage2(data: Path, out: Path, **changes: object) -> train_denoiser.Options:
     base = train_denoiser.Options(
-        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=4, synths=1, pieces=0, denoiser=DENOISER,
+        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=4, synths=1, denoiser=DENOISER,
         diffusion=DiffusionConfig(steps=2), loss=DenoiserLossConfig(windows=2), log_every=1, evaluate_every=2,
         augmentation=Augmentation(tempos=(1.0,), copies=1), precision="32-true",
     )  # fmt: skip
