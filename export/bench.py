@@ -1,6 +1,6 @@
 """The Python half of `npm run bench`: the same work under onnxruntime native and PyTorch eager.
 
-    python -m export.bench --checkpoint training/checkpoints/salsa --model web/public/models/salsa --out /tmp/bench
+    python -m export.bench --checkpoint training/checkpoints/salsa --model web/public/models/salsa --out runs/bench
 
 Writes scene.npz, the leader and the song that the browser half computes with too, and python.json, the seconds.
 """

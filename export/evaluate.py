@@ -1,11 +1,9 @@
 """Measure a model on held-out duets: exported graphs under onnxruntime, or a checkpoint under PyTorch.
 
-    python -m export.evaluate --model web/public/models/salsa --checkpoint training/checkpoints/salsa \
-        --data ../shared/data/cmu_salsa/duets.npz --val salsa_03 --test salsa_05 salsa_11 \
-        --out runs/evaluation \
-        --out-of-distribution ../shared/data/cmu_solo/solo.npz --solve \
-        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls \
-        --settings.beats-unknown salsa_05
+    python -m export.evaluate --model web/public/models/mine --checkpoint runs/mine \
+        --data my-duets --val duo_3 --test duo_5 --out runs/report \
+        --out-of-distribution solo.npz --solve \
+        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
 checkpoint alone it is measured under PyTorch.
