@@ -37,8 +37,8 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     """
     if model.diffusion.stitching:
         raise ValueError(
-            "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without overlap "
-            "(docs/paper.md says why)"
+            "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without "
+            "overlap (docs/paper.md says why)"
         )
     folder.mkdir(parents=True, exist_ok=True)
     model = round_convolutions(model)

@@ -37,6 +37,9 @@ class FrameConfig:
     sigma: float = 15.0  # frames
     radius: int = 45  # frames; the Gaussian is cut at three sigma
 
+    def __post_init__(self) -> None:
+        check_limits(self, sigma=(0.1, math.inf), radius=(1, math.inf))
+
 
 @dataclass(frozen=True)
 class MaskingConfig:
