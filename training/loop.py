@@ -18,9 +18,10 @@ from lightning_fabric import Fabric
 from torch import Tensor, nn
 from torch.utils.tensorboard import SummaryWriter
 
-from training.config import check_limits
+from training.config import check_latent_frames, check_limits
 from training.data.sources import read_split
 from training.data.splits import Split
+from training.denoiser.clips import Augmentation
 
 Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
 M = TypeVar("M", bound=nn.Module)
@@ -77,6 +78,28 @@ class LoopOptions:
         )
         if self.solo is None and self.solo_prefixes != ("",):
             raise ValueError("--solo-prefixes chooses among the dances of --solo, which was not given")
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowOptions(LoopOptions):
+    """Options of the programs that train on windows of latents: the denoiser and the baselines."""
+
+    music_cache: Path | None = None
+    """Folder in which music features are kept between runs."""
+    steps: int = 6000
+    batch: int = 32
+    stride: int = 4
+    """Frames between training windows, a multiple of 4 (the paper's Table 6)."""
+    learning_rate: float = 5e-4
+    weight_decay: float = 0.02
+    synths: int = 3
+    """Synthesised pieces of music per duet and tempo."""
+    evaluate_every: int = 600
+    augmentation: Augmentation = field(default_factory=Augmentation)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_latent_frames("stride", self.stride)
 
 
 def read_duets_to_train(options: LoopOptions) -> Split:
