@@ -1,6 +1,6 @@
 """The Python half of `npm run bench`: the same work under onnxruntime native and PyTorch eager.
 
-    python -m export.bench --checkpoint training/checkpoints/salsa --model web/public/models/salsa --out /tmp/bench
+    python -m export.bench --checkpoint training/checkpoints/salsa --model web/public/models/salsa --out runs/bench
 
 Writes scene.npz, the leader and the song that the browser half computes with too, and python.json, the seconds.
 """
@@ -17,10 +17,10 @@ from typing import TypeVar
 
 import numpy as np
 import torch
-import tyro
 
 from export.runtime import open_model
 from training.checkpoint import load_model
+from training.command_line import run_program
 from training.config import STREAMS, STRIDE
 from training.data.made import made_dancer
 from training.diffusion.model import ReactionModel
@@ -112,4 +112,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

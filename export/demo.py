@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import tyro
 
 from export.runtime import open_model
+from training.command_line import run_program
 from training.config import FPS
 from training.data.augment import warp_factor, warp_motion
 from training.data.sources import read_duets
@@ -80,4 +80,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -1,11 +1,9 @@
 """Measure a model on held-out duets: exported graphs under onnxruntime, or a checkpoint under PyTorch.
 
-    python -m export.evaluate --model web/public/models/salsa --checkpoint training/checkpoints/salsa \
-        --data ../shared/data/cmu_salsa/duets.npz --val salsa_03 --test salsa_05 salsa_11 \
-        --out runs/evaluation \
-        --out-of-distribution ../shared/data/cmu_solo/solo.npz --solve \
-        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls \
-        --settings.beats-unknown salsa_05
+    python -m export.evaluate --model web/public/models/mine --checkpoint runs/mine \
+        --data my-duets --val duo_3 --test duo_5 --out runs/report \
+        --out-of-distribution solo.npz --solve \
+        --settings.phase-seeds 16 --settings.guidance-grid 0 0.5 1.2 --settings.controls
 
 With a model folder its graphs are measured, and the checkpoint, if given, adds the rows of its autoencoder; with a
 checkpoint alone it is measured under PyTorch.
@@ -23,12 +21,12 @@ from typing import Any, Literal
 
 import numpy as np
 import torch
-import tyro
 from rich.console import Console
 
 from export.manifest import quality_rules
 from export.runtime import open_model
 from training.checkpoint import load_model, solos_seen
+from training.command_line import run_program
 from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
@@ -163,7 +161,7 @@ def paired_duets(options: Options, duets: Split) -> list[HeldOutDuet]:
     """
     chosen = duets.test if options.measure == "test" else duets.val
     if not chosen:
-        raise SystemExit(f"no duets to measure on: name them with --{options.measure}")
+        raise ValueError(f"no duets to measure on: name them with --{options.measure}")
     if not options.music:
         return [HeldOutDuet(duet, None) for duet in chosen]
     variant = Variant(1.0, "song" if options.songs else "synth", 0)
@@ -177,7 +175,7 @@ def main(options: Options) -> None:
     if options.threads:
         torch.set_num_threads(options.threads)
     if options.model is None and options.checkpoint is None:
-        raise SystemExit("give --model (a folder with manifest.json), --checkpoint, or both")
+        raise ValueError("give --model (a folder with manifest.json), --checkpoint, or both")
     duets = read_split(options.data, options.val, options.test)
     held_out = paired_duets(options, duets)
     facts: dict[str, Any] = {"data": options.data.name, "split": {"val": options.val, "test": options.test}}
@@ -243,4 +241,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -139,6 +139,14 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
 
 
 def _range(control: str, default: float) -> dict[str, float]:
-    """Least and greatest weight of a control, the distance between two of them, and the default."""
+    """Least and greatest weight of a control, the distance between two of them, and the default.
+
+    Raises ValueError for a default that the control does not reach.
+    """
     limits = CONTROLS[control]
+    if not limits.low <= default <= limits.high:
+        raise ValueError(
+            f"the default {default:g} of the control {control} is not between {limits.low:g} and {limits.high:g}: "
+            "change it in denoiser.json, or the control in training/config.py"
+        )
     return {"min": limits.low, "max": limits.high, "step": limits.step, "default": default}

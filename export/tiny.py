@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import torch
-import tyro
 
 from export.golden import Scene
 from export.manifest import Card
 from export.write import write_model
+from training.command_line import run_program
 from training.config import ConditionConfig, DenoiserConfig, DiffusionConfig, FrameConfig, HfsqConfig
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.model import Model
@@ -72,4 +72,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

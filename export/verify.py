@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import torch
-import tyro
 from rich.console import Console
 from rich.table import Table
 from torch import Tensor
@@ -19,6 +18,7 @@ from export.golden import Scene, reference
 from export.runtime import Exported, open_model
 from export.weights import round_convolutions
 from training.checkpoint import load_model
+from training.command_line import run_program
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.react import measure_bones
@@ -131,4 +131,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -9,8 +9,6 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import tyro
-
 from export.golden import Scene, reference
 from export.golden import write as write_golden
 from export.manifest import Card, manifest
@@ -18,6 +16,7 @@ from export.onnx_files import describe, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from export.weights import round_convolutions
 from training.checkpoint import load_model, read_card
+from training.command_line import run_program
 from training.diffusion.model import Model
 
 GOLDEN = "golden.npz"
@@ -38,7 +37,8 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     """
     if model.diffusion.stitching:
         raise ValueError(
-            "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without overlap"
+            "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without "
+            "overlap (docs/paper.md says why)"
         )
     folder.mkdir(parents=True, exist_ok=True)
     model = round_convolutions(model)
@@ -62,4 +62,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -13,12 +14,31 @@ STRIDE = 4  # motion frames per latent frame (paper 3.2: n = N/4)
 STREAMS: tuple[str, ...] = ("upper", "lower", "placement")
 
 
+def check_limits(options: Any, **limits: tuple[float, float]) -> None:
+    """Raises ValueError where a number among the options is below the first or above the second of its limits."""
+    for name, (low, high) in limits.items():
+        value = getattr(options, name)
+        for number in value if isinstance(value, tuple) else (value,):
+            if number is not None and not low <= number <= high:
+                allowed = f"at least {low:g}" if math.isinf(high) else f"between {low:g} and {high:g}"
+                raise ValueError(f"--{name.replace('_', '-')} {number:g} is not {allowed}")
+
+
+def check_latent_frames(what: str, frames: int) -> None:
+    """Raises ValueError for a number of frames that is no whole number of latent frames."""
+    if frames <= 0 or frames % STRIDE:
+        raise ValueError(f"a {what} of {frames} frames is not a multiple of {STRIDE}, a latent frame")
+
+
 @dataclass(frozen=True)
 class FrameConfig:
     """The frame of reference: the leader's heading, smoothed over time on the whole clip."""
 
     sigma: float = 15.0  # frames
     radius: int = 45  # frames; the Gaussian is cut at three sigma
+
+    def __post_init__(self) -> None:
+        check_limits(self, sigma=(0.1, math.inf), radius=(1, math.inf))
 
 
 @dataclass(frozen=True)
@@ -30,6 +50,13 @@ class MaskingConfig:
     base_noise: float = 0.1  # std of the noise on the base layer of those windows, in units of the code range
     code: float = 0.15  # share of windows with code masking
     code_rate: float = 0.1  # share of code dimensions masked in those windows
+
+    def __post_init__(self) -> None:
+        check_limits(self, residual=(0, 1), code=(0, 1), code_rate=(0, 1), base_noise=(0, math.inf))
+        if self.cutoff is not None and not 0 < self.cutoff < FPS / 2:
+            raise ValueError(
+                f"--cutoff {self.cutoff:g} Hz is not between 0 and {FPS / 2:g}, half the frame rate"
+            )
 
 
 @dataclass(frozen=True)
@@ -55,6 +82,10 @@ class HfsqConfig:
     beta: float = 0.25  # Eq. 5
     weight_kl: float = 1e-4
 
+    def __post_init__(self) -> None:
+        check_limits(self, levels=(2, math.inf), scales=(1e-6, math.inf))
+        check_limits(self, **dict.fromkeys(("groups", "layers", "group_width", "codebook"), (1, math.inf)))
+
 
 @dataclass(frozen=True)
 class ConditionConfig:
@@ -72,6 +103,12 @@ class ConditionConfig:
     leader_blur: float = 6.0  # frames, sigma of a Gaussian over time, which removes the leader's timing
     blurred: float = 0.25  # share of windows with a blurred leader
 
+    def __post_init__(self) -> None:
+        shares = ("drop_layer", "drop_all", "drop_leader", "drop_music", "blurred")
+        check_limits(self, **dict.fromkeys(shares, (0, 1)))
+        if not (self.leader or self.music):
+            raise ValueError("--no-leader and --no-music together leave nothing to react to")
+
 
 @dataclass(frozen=True)
 class DenoiserConfig:
@@ -88,6 +125,9 @@ class DenoiserConfig:
     dropout: float = 0.15  # of channels, for a whole window at once
     condition: ConditionConfig = field(default_factory=ConditionConfig)
 
+    def __post_init__(self) -> None:
+        check_limits(self, block=(1, 10_000), dropout=(0, 0.99))
+
 
 @dataclass(frozen=True)
 class DiffusionConfig:
@@ -103,12 +143,18 @@ class DiffusionConfig:
         0.0,
         0.0,
     )  # of each stream's last two predictions, see `sample`
-    stitching: bool = False
+    stitching: bool = (
+        False  # windows overlap by half and cross-fade; in Python alone, such a model is not exported
+    )
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
     variety: float = 1.0  # default distance v from the mean of several seeds, see `blend`
     mean_seeds: int = 4  # seeds 0, 1, ... whose mean that is
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
+
+    def __post_init__(self) -> None:
+        check_limits(self, max_steps=(1, self.train_steps), mean_seeds=(1, 64), foot_contact=(0, math.inf))
+        check_limits(self, extrapolation=(-10, 10))
 
 
 @dataclass(frozen=True)
@@ -141,6 +187,9 @@ class DenoiserLossConfig:
     energy: float = 0.2
     orientation: float = 0.05
     windows: int = 8  # the windows with least noise in the batch, the only ones that are decoded
+
+    def __post_init__(self) -> None:
+        check_limits(self, snr=(0, 1), windows=(0, math.inf))
 
 
 def to_json(config: Any) -> dict[str, Any]:

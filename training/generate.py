@@ -6,13 +6,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import tyro
 
 from training.checkpoint import load_model
+from training.command_line import run_program
 from training.config import FPS
 from training.data.bvh.reader import read_bvh
 from training.data.sources import read_duets
@@ -43,6 +44,20 @@ class Options:
     fps: float | None = None
     """Frame rate of the BVH file where its header is wrong."""
 
+    def __post_init__(self) -> None:
+        bvh = self.leader.suffix.lower() == ".bvh"
+        if bvh and self.duet is not None:
+            raise ValueError("--duet names one of several duets; a BVH file holds one dancer")
+        if not bvh and self.fps is not None:
+            raise ValueError("--fps is the frame rate of a BVH file; --leader is none")
+        if self.song is None and self.music_guidance is not None:
+            raise ValueError("--music-guidance weighs a song, which was not given: add --song")
+        if not self.seeds:
+            raise ValueError("no dance to make: give one or more --seeds")
+        weights = (self.coarse, self.fine, self.music_guidance, self.variety)
+        if not all(weight is None or math.isfinite(weight) for weight in weights):
+            raise ValueError("weights of guidance are finite numbers")
+
 
 def read_leader(options: Options) -> np.ndarray:
     """(T, 22, 3) metres, 30 fps."""
@@ -50,7 +65,7 @@ def read_leader(options: Options) -> np.ndarray:
         return read_bvh(options.leader, fps=options.fps).motion
     duets = {duet.name: duet for duet in read_duets(options.leader)}
     if options.duet not in duets:
-        raise SystemExit(f"name one of the duets in {options.leader} with --duet: {', '.join(duets)}")
+        raise ValueError(f"name one of the duets in {options.leader} with --duet: {', '.join(duets)}")
     return duets[options.duet].leader
 
 
@@ -80,4 +95,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

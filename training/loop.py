@@ -18,8 +18,10 @@ from lightning_fabric import Fabric
 from torch import Tensor, nn
 from torch.utils.tensorboard import SummaryWriter
 
+from training.config import check_latent_frames, check_limits
 from training.data.sources import read_split
 from training.data.splits import Split
+from training.denoiser.clips import Augmentation
 
 Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
 M = TypeVar("M", bound=nn.Module)
@@ -66,8 +68,38 @@ class LoopOptions:
     def __post_init__(self) -> None:
         if not self.val:
             raise ValueError("no duets to validate on: name one or more with --val")
+        check_limits(
+            self,
+            **dict.fromkeys(("steps", "batch", "devices", "log_every", "evaluate_every"), (1, math.inf)),
+            **dict.fromkeys(("learning_rate", "weight_decay", "threads"), (0, math.inf)),
+            minutes=(1e-3, math.inf),
+            ema_decay=(0, 1),
+            seed=(0, 2**20),
+        )
         if self.solo is None and self.solo_prefixes != ("",):
             raise ValueError("--solo-prefixes chooses among the dances of --solo, which was not given")
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowOptions(LoopOptions):
+    """Options of the programs that train on windows of latents: the denoiser and the baselines."""
+
+    music_cache: Path | None = None
+    """Folder in which music features are kept between runs."""
+    steps: int = 6000
+    batch: int = 32
+    stride: int = 4
+    """Frames between training windows, a multiple of 4 (the paper's Table 6)."""
+    learning_rate: float = 5e-4
+    weight_decay: float = 0.02
+    synths: int = 3
+    """Synthesised pieces of music per duet and tempo."""
+    evaluate_every: int = 600
+    augmentation: Augmentation = field(default_factory=Augmentation)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_latent_frames("stride", self.stride)
 
 
 def read_duets_to_train(options: LoopOptions) -> Split:
@@ -282,7 +314,9 @@ class Run(Generic[M]):
             part.replace(self.state)
 
     def load(self) -> None:
-        """Inverse of `save`, strict."""
+        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved."""
+        if not self.state.exists():
+            raise FileNotFoundError(f"{self.state} is missing: there is nothing to go on from with --resume")
         parts = {"model": self.stage, "optimizer": self.optimizer}
         rest = self.fabric.load(self.state, parts, strict=True)
         self.ema.module.load_state_dict(rest["ema"], strict=True)

@@ -11,17 +11,22 @@ from pathlib import Path
 
 import numpy as np
 import torch
-import tyro
 from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
-from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig, FrameConfig
+from training.command_line import run_program
+from training.config import (
+    STRIDE,
+    DenoiserConfig,
+    DenoiserLossConfig,
+    DiffusionConfig,
+    FrameConfig,
+)
 from training.data.duet import Duet
 from training.data.music_pairing import MusicBank, build_music_bank, variants
 from training.data.npz import read_solo
 from training.data.splits import Split
 from training.denoiser.clips import (
-    Augmentation,
     Clip,
     augmented_clips,
     feature_values,
@@ -36,7 +41,7 @@ from training.diffusion.react import Request, at_height, react
 from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import LoopOptions, Run, launch, read_duets_to_train
+from training.loop import Run, WindowOptions, launch, read_duets_to_train
 from training.motion.skeleton import body_height
 
 UNFAMILIAR_RATIO = 1.2
@@ -44,36 +49,32 @@ UNFAMILIAR_RATIO = 1.2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options(LoopOptions):
+class Options(WindowOptions):
     """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq); solo: dances
     of which pairs are made (see training/data/solo_pairs.py).
     """
 
     songs: Path | None = None
     """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
-    music_cache: Path | None = None
-    """Folder in which music features are kept between runs."""
     solo_copies: int = 1
     """Pairs of every solo dance and of its mirror image."""
-    steps: int = 6000
-    batch: int = 32
-    stride: int = 4
-    """Frames between training windows, a multiple of 4 (the paper's Table 6)."""
-    learning_rate: float = 5e-4
-    weight_decay: float = 0.02
-    synths: int = 3
     pieces: int = 2
-    """Synthesised pieces and songs per duet and tempo."""
-    evaluate_every: int = 600
+    """Songs per duet and tempo."""
     denoiser: DenoiserConfig = field(default_factory=DenoiserConfig)
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
     loss: DenoiserLossConfig = field(default_factory=DenoiserLossConfig)
-    augmentation: Augmentation = field(default_factory=Augmentation)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.solo is None and self.solo_copies != 1:
             raise ValueError("--solo-copies is of the dances of --solo, which was not given")
+        if self.songs is None and self.pieces != Options.pieces:
+            raise ValueError("--pieces is the number of songs from --songs, which was not given")
+        if len(self.loss.layers) != len(self.denoiser.depths):
+            raise ValueError(
+                f"{len(self.denoiser.depths)} residual layers (--denoiser.depths) need as many --loss.layers, "
+                f"got {self.loss.layers}"
+            )
         if self.loss.windows > self.batch:
             raise ValueError(
                 f"a batch of {self.batch} windows has no {self.loss.windows} to decode (--loss.windows)"
@@ -237,4 +238,4 @@ def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

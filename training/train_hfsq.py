@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import tyro
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
-from training.checkpoint import save_hfsq, start_from
-from training.config import STRIDE, FrameConfig, HfsqConfig
+from training.checkpoint import load_hfsq, save_hfsq, start_from
+from training.command_line import run_program
+from training.config import STRIDE, FrameConfig, HfsqConfig, check_latent_frames
 from training.data.duet import Duet
 from training.data.npz import read_solo
 from training.data.splits import Split
@@ -46,10 +46,11 @@ class Options(LoopOptions):
         super().__post_init__()
         if self.keep_latents and self.init is None:
             raise ValueError("--keep-latents keeps those of a checkpoint: name it with --init")
-        if self.window <= 0 or self.window % STRIDE:
+        if self.hfsq.quantiser == "none":
             raise ValueError(
-                f"a window of {self.window} frames is not a multiple of {STRIDE}, a latent frame"
+                "--hfsq.quantiser none has nothing to learn: training.evaluation.no_latent_baseline writes it"
             )
+        check_latent_frames("window", self.window)
 
 
 def main(options: Options) -> None:
@@ -83,9 +84,17 @@ def read_clips(options: Options, duets: Split) -> list[Clip]:
 
 
 def initial_autoencoder(options: Options, clips: list[Clip]) -> Autoencoder:
-    """Random weights with the clips' statistics, or those of another checkpoint."""
+    """Random weights with the clips' statistics, or those of another checkpoint.
+
+    Raises ValueError where that one was quantised in another way.
+    """
     autoencoder = Autoencoder(options.hfsq)
     if options.init:
+        before = load_hfsq(options.init)[0].config
+        for name in ("levels", "scales"):
+            there, here = getattr(before, name), getattr(options.hfsq, name)
+            if there != here:
+                raise ValueError(f"--init was trained with --hfsq.{name} {there}, not {here}")
         start_from(autoencoder, options.init, "hfsq")
     else:
         set_input_statistics(autoencoder, clips)
@@ -137,4 +146,4 @@ def finish(run: Run[Autoencoder], clips: list[Clip], val: tuple[Duet, ...], opti
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

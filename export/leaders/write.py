@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import tyro
 
 from export.leaders.body import joints_of
 from export.leaders.dances import DANCES
 from export.leaders.steps import Dance
+from training.command_line import run_program
 from training.config import FPS
 from training.music.demo import Options as Song
 from training.music.features import features, load_audio
@@ -76,4 +76,4 @@ def partners(options: Options, motions: dict[str, np.ndarray], folder: Path) -> 
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

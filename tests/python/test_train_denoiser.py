@@ -20,7 +20,7 @@ from training.config import (
     FrameConfig,
     HfsqConfig,
 )
-from training.denoiser.clips import Clip, make_clip
+from training.denoiser.clips import Augmentation, Clip, feature_values, make_clip
 from training.denoiser.losses import decoded_windows
 from training.denoiser.windows import Batch, Windows
 from training.hfsq.autoencoder import Autoencoder
@@ -172,6 +172,13 @@ def test_only_the_cleanest_windows_are_compared_as_motion(hfsq: Autoencoder, bat
         assert cleanest_wrong[name] > clean[name] + 1e-4
 
 
+def test_windows_that_are_cut_short_are_not_compared_as_motion(hfsq: Autoencoder, batch: Batch) -> None:
+    valid = batch.valid.clone()
+    valid[: LOSS.windows, -1] = 0
+    _, parts, _ = loss_of(hfsq, batch._replace(valid=valid), near(batch))
+    assert set(parts) == {"simple/0"}
+
+
 def test_motion_counts_by_its_share_of_signal(hfsq: Autoencoder, batch: Batch) -> None:
     """The same error in the cleanest window costs more than in the noisiest of those that are decoded."""
     loss = replace(LOSS, windows=WINDOWS)
@@ -198,6 +205,13 @@ def test_motion_counts_by_its_share_of_signal(hfsq: Autoencoder, batch: Batch) -
         ),
         ({"diffusion": DiffusionConfig(last_time=1.5)}, "the last time has to be between"),
         ({"val": ()}, "name one or more with --val"),
+        ({"pieces": 5}, "--pieces is the number of songs from --songs"),
+        ({"stride": 6}, "a stride of 6 frames is not a multiple of 4"),
+        ({"loss": DenoiserLossConfig(layers=(1.0,))}, "need as many --loss.layers"),
+        ({"minutes": 0.0}, "--minutes 0 is not at least"),
+        ({"steps": 0}, "--steps 0 is not at least 1"),
+        ({"log_every": 0}, "--log-every 0 is not at least 1"),
+        ({"ema_decay": 2.0}, "--ema-decay 2 is not between 0 and 1"),
     ],
 )
 def test_options_that_are_wrong_or_would_be_ignored_are_refused(changes: dict, sentence: str) -> None:
@@ -206,9 +220,36 @@ def test_options_that_are_wrong_or_would_be_ignored_are_refused(changes: dict, s
         Options(**given)
 
 
+@pytest.mark.parametrize(
+    ("config", "changes", "sentence"),
+    [
+        (DiffusionConfig, {"max_steps": 2000}, "--max-steps 2000 is not between 1 and 1000"),
+        (
+            DiffusionConfig,
+            {"extrapolation": (0.0, 99.0, 0.0)},
+            "--extrapolation 99 is not between -10 and 10",
+        ),
+        (DiffusionConfig, {"mean_seeds": 0}, "--mean-seeds 0 is not between 1 and 64"),
+        (ConditionConfig, {"drop_layer": 2.0}, "--drop-layer 2 is not between 0 and 1"),
+        (ConditionConfig, {"leader": False, "music": False}, "leave nothing to react to"),
+        (DenoiserLossConfig, {"snr": 3.0}, "--snr 3 is not between 0 and 1"),
+        (Augmentation, {"copies": 0}, "--copies 0 is not at least 1"),
+        (Augmentation, {"scales": (1.2, 0.8)}, "--scales are the least and the greatest"),
+    ],
+)
+def test_values_outside_their_limits_are_refused(config: type, changes: dict, sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        config(**changes)
+
+
 def test_a_weight_for_every_residual_layer(hfsq: Autoencoder, batch: Batch) -> None:
     with pytest.raises(ValueError, match=r"stage 1 has 1 residual layers, so --loss\.layers needs"):
         loss_of(hfsq, batch, batch.latents, replace(LOSS, layers=(1.0, 0.5)))
+
+
+def test_a_training_without_music_is_refused(clip: Clip) -> None:
+    with pytest.raises(ValueError, match="no music beside it"):
+        feature_values([replace(clip, music=[])])
 
 
 @pytest.mark.parametrize("stride", [1, 2, 6, 0])

@@ -15,11 +15,11 @@ import pytest
 import torch
 
 from tests.python.support.duets import made_duet
+from tests.python.support.small_training import DENOISER, HFSQ, stage1, stage2, write_duets
 from training import train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
 from training.checkpoints import average
 from training.config import (
-    ConditionConfig,
     DenoiserConfig,
     DenoiserLossConfig,
     DiffusionConfig,
@@ -29,42 +29,15 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer
-from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
+from training.denoiser.clips import Clip, solo_pair_clips
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop import fast_precision
 
-HFSQ = HfsqConfig(groups=2, widths=(16, 16, 8), depth=1, refine_width=8)
-DENOISER = DenoiserConfig(width=16, depths=(1, 1), mlp=2, condition=ConditionConfig(depth=1))
-NAMES = ("made_0", "made_1", "made_2")
-
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("data") / "duets.npz"
-    arrays = {}
-    for seed, name in enumerate(NAMES):
-        duet = made_duet(300, seed)
-        arrays |= {f"{name}/leader": duet.leader, f"{name}/follower": duet.reactor}
-    np.savez(path, **arrays)
-    return path
-
-
-def stage1(data: Path, out: Path, **changes: object) -> train_hfsq.Options:
-    base = train_hfsq.Options(
-        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=2, tempos=(1.0,), hfsq=HFSQ,
-        log_every=1, evaluate_every=2, precision="32-true",
-    )  # fmt: skip
-    return replace(base, **changes)
-
-
-def stage2(data: Path, out: Path, **changes: object) -> train_denoiser.Options:
-    base = train_denoiser.Options(
-        data=data, out=out, val=("made_1",), test=("made_2",), steps=2, batch=4, synths=1, pieces=0, denoiser=DENOISER,
-        diffusion=DiffusionConfig(steps=2), loss=DenoiserLossConfig(windows=2), log_every=1, evaluate_every=2,
-        augmentation=Augmentation(tempos=(1.0,), copies=1), precision="32-true",
-    )  # fmt: skip
-    return replace(base, **changes)
+    return write_duets(tmp_path_factory.mktemp("data"))
 
 
 @pytest.fixture(scope="module")
@@ -214,7 +187,9 @@ def test_the_stride_of_training_windows_is_handed_on(data: Path, trained: Path) 
 def test_stage_1_is_frozen_in_stage_2(data: Path, trained: Path) -> None:
     hfsq, _ = load_hfsq(trained)
     denoiser, diffusion = load_denoiser(trained, hfsq)
-    stage = train_denoiser.Stage2(denoiser, hfsq, diffusion, DenoiserLossConfig())
+    stage = train_denoiser.Stage2(
+        denoiser, hfsq.requires_grad_(True).train(), diffusion, DenoiserLossConfig()
+    )
     assert not any(p.requires_grad for p in stage.hfsq.parameters())
     assert not stage.hfsq.training
     trainable = {id(p) for p in stage.parameters() if p.requires_grad}
@@ -268,7 +243,7 @@ def test_two_processes_train_together(data: Path, tmp_path: Path) -> None:
     script = tmp_path / "two.py"
     script.write_text(
         "from pathlib import Path\n"
-        "from tests.python.test_training import stage1, stage2\n"
+        "from tests.python.support.small_training import stage1, stage2\n"
         "from training import train_denoiser, train_hfsq\n"
         f"data, out = Path({str(data)!r}), Path({str(tmp_path)!r})\n"
         "train_hfsq.main(stage1(data, out, devices=2))\n"

@@ -9,46 +9,34 @@ codes of `training.train_hfsq --hfsq.quantiser rvq`, duolando with one layer and
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
+from dataclasses import asdict, dataclass
 
 import numpy as np
 import torch
-import tyro
 from torch import Tensor, nn
 
 from training.baselines.method import BaselineConfig, Known, Method, Name, Window
 from training.baselines.trained import make_method
 from training.checkpoint import load_hfsq, save_weights
+from training.command_line import run_program
 from training.config import ConditionConfig
 from training.data.music_pairing import build_music_bank, variants
-from training.denoiser.clips import Augmentation, augmented_clips, feature_values
+from training.denoiser.clips import augmented_clips, feature_values
 from training.denoiser.losses import decoded_windows
 from training.denoiser.windows import Batch, Windows
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import LoopOptions, Run, launch, read_duets_to_train
+from training.loop import Run, WindowOptions, launch, read_duets_to_train
 from training.motion.skeleton import body_height
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options(LoopOptions):
+class Options(WindowOptions):
     """out: with stage 1's checkpoint in it."""
 
     method: Name
     width: int = 128
     depth: int = 4
     """Transformer layers of all networks of the method together."""
-    music_cache: Path | None = None
-    """Folder in which music features are kept between runs."""
-    steps: int = 6000
-    batch: int = 32
-    stride: int = 4
-    learning_rate: float = 5e-4
-    weight_decay: float = 0.02
-    synths: int = 3
-    """Synthesised pieces per duet and tempo."""
-    evaluate_every: int = 600
-    augmentation: Augmentation = field(default_factory=Augmentation)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -56,6 +44,7 @@ class Options(LoopOptions):
             raise ValueError(
                 "baselines learn from duets alone and from the start: leave --solo and --init out"
             )
+        BaselineConfig(self.method, self.width, self.depth)
 
 
 class Training(nn.Module):
@@ -122,4 +111,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -33,6 +33,12 @@ class BaselineConfig:
     steps: int = 10
     """Of sampling, for diffusion."""
 
+    def __post_init__(self) -> None:
+        if self.width % self.heads:
+            raise ValueError(f"a width of {self.width} cannot be shared by {self.heads} heads")
+        if self.depth < 2:
+            raise ValueError(f"{self.depth} layers are too few: a method may have two networks")
+
 
 class Known(NamedTuple):
     """What a method is given of N windows, or of one whole dance."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import torch
-import tyro
 from safetensors.torch import load_file
 
 from training.checkpoint import load_denoiser, load_hfsq, read_config, save_denoiser
+from training.command_line import run_program
 
 
 @dataclass(frozen=True)
@@ -55,4 +55,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -18,6 +18,7 @@ import numpy as np
 import tyro
 from scipy.spatial.transform import Rotation
 
+from training.command_line import run_program
 from training.config import FPS
 from training.data.naming import naming
 from training.motion.skeleton import JOINTS
@@ -258,7 +259,9 @@ class Solos:
     """The npz archive."""
 
     def arrays(self) -> dict[str, np.ndarray]:
-        named = (subject.partition("=") for subject in self.subjects)
+        named = [subject.partition("=") for subject in self.subjects]
+        if wrong := [name for name, _, number in named if not number.isdigit()]:
+            raise ValueError(f"--subjects are NAME=NUMBER each, got {', '.join(wrong)}")
         return {
             f"{name}_{trial}": motion
             for name, _, number in named
@@ -278,4 +281,4 @@ def main(options: Duets | Solos) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))  # pyright: ignore[reportArgumentType]
+    run_program(main, Options)  # pyright: ignore[reportArgumentType]

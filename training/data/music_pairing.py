@@ -18,12 +18,9 @@ from training.data.splits import Split
 from training.data.step_tempo import duet_tempo
 from training.music import features as features_module
 from training.music import stretch, synth
-from training.music.features import features, load_audio
+from training.music.features import SONG_SUFFIXES, features, load_audio
 from training.music.recipe import AudioRecipe
 from training.music.tempo import Tempo
-
-SONG_SUFFIXES = (".flac", ".mp3", ".ogg", ".opus", ".wav")
-
 
 Source = Literal["synth", "song"]
 

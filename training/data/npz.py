@@ -51,7 +51,7 @@ def read_npz(path: Path | str) -> list[Duet]:
 def read_solo(path: Path | str, prefixes: tuple[str, ...] = ("",)) -> list[Solo]:
     """Solo dances of an archive with keys NAME: (T, 22, 3) metres, y up; sorted by name, floors put at 0.
 
-    prefixes: of the names that are read.
+    prefixes: of the names that are read. Raises ValueError where there is none.
     """
     path = Path(path)
     with naming(path), _open(path) as archive:
@@ -59,4 +59,6 @@ def read_solo(path: Path | str, prefixes: tuple[str, ...] = ("",)) -> list[Solo]
         names = sorted(
             key for key in archive.files if key not in ("fps", "joints") and key.startswith(prefixes)
         )
+        if not names:
+            raise ValueError(f"no dance in it has a name that begins with {' or '.join(prefixes)}")
         return [Solo(name, put_on_floor(archive[name])) for name in names]

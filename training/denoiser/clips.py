@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,7 +11,7 @@ import torch
 from scipy.ndimage import gaussian_filter1d
 from torch import Tensor
 
-from training.config import STRIDE, ConditionConfig, FrameConfig
+from training.config import STRIDE, ConditionConfig, FrameConfig, check_limits
 from training.data.augment import mirror, mirror_motion, scale_leader, swap_roles, tempo_warp
 from training.data.duet import Duet, Solo
 from training.data.music_pairing import MusicBank
@@ -31,6 +32,11 @@ class Augmentation:
     yaw: float = 20.0  # degrees; the frame of reference is turned by up to this much
     copies: int = 3  # of every combination, each with its own grid offset, leader scale and yaw
 
+    def __post_init__(self) -> None:
+        check_limits(self, copies=(1, math.inf), scales=(0.1, 10))
+        if self.scales[0] > self.scales[1]:
+            raise ValueError(f"--scales are the least and the greatest, got {self.scales}")
+
 
 @dataclass(frozen=True)
 class Clip:
@@ -50,7 +56,9 @@ class Clip:
 
 
 def feature_values(clips: Sequence[Clip]) -> tuple[Tensor, Tensor]:
-    """All leader features (n, 68) and music features (m, 54) of clips."""
+    """All leader features (n, 68) and music features (m, 54) of clips. Raises ValueError where there are none."""
+    if not any(clip.music for clip in clips):
+        raise ValueError("there is nothing to train on: no duet, or no music beside it")
     return torch.cat([c.features for c in clips]), torch.cat([m for c in clips for m in c.music])
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from training.config import STRIDE, ConditionConfig
+from training.config import STRIDE, ConditionConfig, check_latent_frames
 from training.denoiser.clips import Clip
 from training.music.recipe import MUSIC_FEATURES
 
@@ -49,8 +49,7 @@ class Windows:
         self, clips: Sequence[Clip], block: int, margin: int, stride: int, config: ConditionConfig, seed: int
     ) -> None:
         """Raises ValueError where the stride, in frames, is not a multiple of a latent frame's 4."""
-        if stride <= 0 or stride % STRIDE:
-            raise ValueError(f"a stride of {stride} frames is not a multiple of {STRIDE}, a latent frame")
+        check_latent_frames("stride", stride)
         self.clips, self.block, self.margin, self.config = clips, block, margin, config
         self.starts: list[tuple[int, int]] = [
             (i, s)

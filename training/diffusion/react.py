@@ -57,7 +57,9 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     )
     coarse, fine = sampling.guidance if request.guidance is None else request.guidance
     weight = sampling.music_guidance if request.music_guidance is None else request.music_guidance
-    steps = ddim_steps(sampling.alpha_bar, request.steps or sampling.steps, sampling.last_time)
+    steps = ddim_steps(
+        sampling.alpha_bar, sampling.steps if request.steps is None else request.steps, sampling.last_time
+    )
     initial = initial_noise(sampling, request.seed, len(memory))
     variety = sampling.variety if request.variety is None else request.variety
     if request.at_every_step:

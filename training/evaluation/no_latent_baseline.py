@@ -13,9 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import tyro
-
 from training.checkpoint import save_hfsq
+from training.command_line import run_program
 from training.config import FrameConfig, HfsqConfig
 from training.data.sources import read_split
 from training.hfsq.autoencoder import Autoencoder
@@ -47,4 +46,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -9,14 +9,14 @@ rows. Table 4 trains nothing: it changes the guidance of the weights of `--check
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-import tyro
-
-from training.config import FPS
+from training.command_line import run_program
+from training.config import FPS, DenoiserConfig, check_limits
 from training.data.music_pairing import build_music_bank, variants
 from training.data.sources import read_split
 from training.evaluation.protocol import TRUTH
@@ -61,6 +61,15 @@ class Options:
                 raise ValueError(
                     f"there is no table {number} here: give one of {', '.join(map(str, TABLES))}"
                 )
+        if not (self.table and self.test and self.seeds and self.sampling_seeds):
+            raise ValueError("give one or more of each: --table, --test, --seeds, --sampling-seeds")
+        check_limits(self, processes=(1, math.inf))
+        if self.table == (4,) and (self.seeds != Options.seeds or self.scale != Scale()):
+            raise ValueError("table 4 trains nothing: leave --seeds and --scale out")
+        if self.scale.width % DenoiserConfig.heads:
+            raise ValueError(
+                f"--scale.width {self.scale.width} cannot be shared by {DenoiserConfig.heads} heads"
+            )
         if 4 in self.table and self.checkpoint is None:
             raise ValueError("table 4 changes the guidance of trained weights: give them with --checkpoint")
         if self.checkpoint is not None and 4 not in self.table:
@@ -138,4 +147,4 @@ def facts(table: Table, options: Options, data: Data) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

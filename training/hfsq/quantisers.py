@@ -198,6 +198,8 @@ def make_quantiser(config: HfsqConfig) -> Quantiser:
                 f"{name} is an option of the quantiser {kind}; {config.quantiser} does not read it"
             )
     if config.quantiser == "none":
+        if config.layers != 1:
+            raise ValueError(f"without a quantiser there is a single layer, config asks for {config.layers}")
         return Unquantised(STRIDE * max(STREAM_WIDTHS))
     kinds = {"hfsq": Hfsq, "rvq": ResidualVectorQuantiser, "kl": KlBottleneck}
     return kinds[config.quantiser](config)

@@ -47,7 +47,8 @@ def training_clips(
 ) -> list[Clip]:
     """Every training duet and solo, also mirrored, duets also role-swapped and at other tempos.
 
-    cutoff: Hz, that of the masking. Clips of fewer than `shortest` frames are left out.
+    cutoff: Hz, that of the masking. Clips of fewer than `shortest` frames are left out; raises ValueError where none is
+    as long.
     """
     clips: list[Streams] = []
     for duet in duets:
@@ -59,6 +60,8 @@ def training_clips(
         # The soloist is leader and reactor: body streams are as in a duet, the placement stream has the height alone.
         alone = Duet(solo.name, solo.motion, solo.motion)
         clips += [streams_of(variant, frame) for variant in (alone, mirror(alone))]
+    if all(len(streams[0]) < shortest for streams in clips):
+        raise ValueError(f"no dance to train on has {shortest} frames")
     return [
         Clip(streams, cast(Streams, tuple(slow_motion(stream, cutoff) for stream in streams)))
         for streams in clips

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 import soundfile
-import tyro
 from scipy.signal import fftconvolve
 
+from training.command_line import run_program
 from training.music.synth import CLAVE_23, Kit, Track, bass_note, cycle_starts, midi_hertz, percussion
 from training.music.tempo import CYCLE, Tempo
 
@@ -168,4 +168,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -10,6 +10,9 @@ import soundfile
 
 from training.music.recipe import AudioRecipe
 
+SONG_SUFFIXES = (".wav", ".flac", ".mp3", ".ogg", ".opus")
+"""Files that `load_audio` reads."""
+
 
 def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
     """Reads a sound file as the mean of its channels at the recipe's rate.
@@ -20,10 +23,13 @@ def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
 
     Raises
     ------
-    soundfile.LibsndfileError
-        When the file is not one of wav, flac, ogg, opus, mp3 (libsndfile's formats).
+    ValueError
+        That names the file when it is not there or holds none of libsndfile's formats.
     """
-    channels, rate = soundfile.read(path, dtype="float32", always_2d=True)
+    try:
+        channels, rate = soundfile.read(path, dtype="float32", always_2d=True)
+    except soundfile.LibsndfileError as error:
+        raise ValueError(f"{path} cannot be read as a song: {error}") from error
     return librosa.resample(
         channels.mean(axis=1), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
     )

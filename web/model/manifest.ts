@@ -1,5 +1,6 @@
 import * as v from 'valibot';
 import { FLOOR } from '../motion/retarget/axes-and-units';
+import { FPS } from '../motion/skeleton/clip';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
 import { AppError } from '../common/error';
 import { shapeProblem } from './graph-shapes';
@@ -95,7 +96,7 @@ const schema = v.object({
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),
   /** That of every clip on the page. */
-  fps: v.literal(30),
+  fps: v.literal(FPS),
   /** Mean unfamiliarity from which a leader is unlike all that the model was trained on. */
   leader: v.object({ unfamiliar_from: v.pipe(positive, v.gtValue(0)) }),
   latent: v.object({

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import torch
 from torch import Tensor
 
-from tests.python.support.duets import made_duet
+from tests.python.support.small_training import write_duets
 from training.baselines import __main__ as program
 from training.baselines.duolando import Duolando, normalised_codebooks
 from training.baselines.gesturelsm import GestureLsm
-from training.baselines.intergen import distance_map_loss
+from training.baselines.intergen import InterGen, distance_map_loss
 from training.baselines.method import BaselineConfig, Known, Method, Window
 from training.baselines.trained import load_baseline, make_method
 from training.checkpoint import save_hfsq
@@ -87,13 +86,7 @@ def test_it_learns_which_pose_belongs_to_which_leader(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("data") / "duets.npz"
-    arrays: dict[str, Any] = {}
-    for seed in range(3):
-        duet = made_duet(300, seed)
-        arrays |= {f"made_{seed}/leader": duet.leader, f"made_{seed}/follower": duet.reactor}
-    np.savez(path, **arrays)
-    return path
+    return write_duets(tmp_path_factory.mktemp("data"))
 
 
 @pytest.mark.parametrize("name", METHODS)
@@ -121,7 +114,7 @@ def test_codes_come_back_from_their_latents() -> None:
     hfsq = autoencoder("duolando")
     hfsq.latent_mean.normal_()
     hfsq.latent_std.uniform_(0.5, 2)
-    method = make_method(BaselineConfig("duolando", width=16, depth=1), hfsq)
+    method = make_method(BaselineConfig("duolando", width=16, depth=2), hfsq)
     assert isinstance(method, Duolando)
     codes = torch.randint(0, 16, (2, 9, 3))
     latents = torch.cat([book[codes[..., s]] for s, book in enumerate(method.codebooks)], dim=-1)[:, :, None]
@@ -161,6 +154,32 @@ def test_the_reactors_network_looks_at_the_leaders() -> None:
         for leader in (known.leader, -known.leader)
     )
     assert not torch.allclose(made, other, atol=1e-3)
+
+
+def test_the_leaders_network_is_given_clean_tokens_in_sampling_and_learns_to_denoise_them() -> None:
+    hfsq = autoencoder("intergen")
+    method = make_method(BaselineConfig("intergen", width=16, depth=4, block=BLOCK), hfsq).eval()
+    assert isinstance(method, InterGen)
+    known, latents = asked(method, poses_of("intergen", hfsq), WINDOWS, BLOCK, 0)
+    predict, given = method.predict, []
+    method.predict = lambda *inputs: (given.append(inputs), predict(*inputs))[1]
+    method.sample(known._replace(memory=known.memory[:1], leader=known.leader[:1]), torch.Generator())
+    for _, leader, _, _, (time, leader_time) in given:
+        assert torch.equal(leader, known.leader[:1])
+        assert float(time) > 0
+        assert float(leader_time) == 0
+    couple = [
+        torch.from_numpy(made_dancer(4 * BLOCK, seed))[None].repeat(WINDOWS, 1, 1, 1) for seed in (1, 2)
+    ]
+    window = Window(latents, lambda x, rows: couple[1][rows] + 0.1 * x.mean() + 0.05, *couple)
+    assert set(method.loss(known, window)) == {
+        *("simple", "leader", "kinematic", "contact", "distances", "orientation")
+    }
+    *_, (time, leader_time) = given[-1]
+    clean = leader_time == 0
+    assert 0 < clean.sum() < WINDOWS
+    assert torch.equal(given[-1][1][clean], known.leader[clean])
+    assert (given[-1][1][~clean] != known.leader[~clean]).any(dim=2).all()
 
 
 def test_the_map_of_distances_counts_joints_that_are_near() -> None:

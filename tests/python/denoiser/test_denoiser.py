@@ -113,6 +113,10 @@ def test_each_layer_has_its_own_null_embedding_of_each_condition(model: Model) -
     without = model.denoiser(**inputs)
     inputs["memory"] = torch.randn_like(inputs["memory"])
     assert torch.equal(without, model.denoiser(**inputs)), "a dropped condition leaks"
+    own = model.denoiser.transformers[0].conditioning
+    leader, music = own(inputs["memory"], inputs["keep_leader"][:, 0], inputs["keep_music"][:, 0])
+    assert torch.equal(leader, own.no_leader.expand_as(leader))
+    assert torch.equal(music, own.no_music.expand_as(music))
 
 
 def test_music_is_a_condition_per_token(model: Model) -> None:

@@ -92,7 +92,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
     # Guidance at every step, of the checkpoint: each cell is another dance.
     assert len({cell["mpjpe_mm"] for cell in stored["guidance"]}) == 4
-    with pytest.raises(SystemExit, match="--model"):
+    with pytest.raises(ValueError, match="--model"):
         main(Options(data=tmp_path / "duets.npz", out=tmp_path / "out"))
 
 

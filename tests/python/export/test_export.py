@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import onnx
-import onnxruntime
 import pytest
-import torch
 
 from export import tiny
 from export.golden import reference
-from export.onnx_files import example, graphs, to_proto
 from export.runtime import open_model
 from export.verify import tolerance, verify
-from export.write import write_model
 from training.data.made import made_dancer
-from training.denoiser.denoiser import Denoiser
 from training.diffusion.react import Request, react
 
 FIXTURE = Path(__file__).parents[2] / "fixtures" / "tiny-model"
@@ -74,31 +68,6 @@ def test_onnxruntime_agrees_with_pytorch() -> None:
 def test_verification_notices_other_weights() -> None:
     with pytest.raises(ValueError, match="differ from PyTorch"):
         verify(tiny.tiny_model(seed=1), FIXTURE, (1,))
-
-
-def test_a_model_that_is_sampled_with_stitching_is_refused(tmp_path: Path) -> None:
-    model = tiny.tiny_model()
-    stitched = replace(model, diffusion=replace(model.diffusion, stitching=True))
-    with pytest.raises(ValueError, match="stitching cannot be exported"):
-        write_model(stitched, tiny.CARD, tmp_path / "model", tiny.SCENE)
-    assert not (tmp_path / "model").exists()
-
-
-def test_the_step_graph_of_another_mask_and_other_positions_agrees_with_pytorch() -> None:
-    model = tiny.tiny_model()
-    config = replace(model.denoiser.config, mask="bidirectional", positions="sinusoidal")
-    denoiser = Denoiser(model.hfsq.latent_width, model.hfsq.layers, config).eval()
-    for parameter in denoiser.parameters():
-        torch.nn.init.normal_(parameter, std=0.1)
-    step = next(g for g in graphs(replace(model, denoiser=denoiser)) if g.name == "step")
-    given = {name: example(shape, latents=64, blocks=2) for name, shape in step.inputs.items()}
-    given["valid"] = torch.ones(2, 60)
-    given["valid"][1, 40:] = 0
-    session = onnxruntime.InferenceSession(to_proto(step).SerializeToString())
-    made = session.run(None, {name: value.numpy() for name, value in given.items()})
-    with torch.no_grad():
-        for one, truth in zip(made, step.module(**given), strict=True):
-            assert np.abs(one - truth.numpy()).max() < 1e-4
 
 
 @pytest.mark.parametrize("file", ["step.onnx", "step-int8.onnx"])

@@ -35,6 +35,7 @@ const duet: Duet = {
   block: golden.block,
 };
 const report = measure(duet, golden.rules);
+const reactor = { ...duet, positions: duet.reactor };
 
 /** Both say the same number, to a billionth of it. */
 function agree(ours: number, theirs: number | undefined): void {
@@ -96,13 +97,21 @@ describe('the worst moments are at the made faults', () => {
     report[part].worst.map(({ frame }) => frame / golden.fps);
 
   test('a foot slides at half a metre per second, and all worst moments are slower than a step', () => {
-    const seen = visibleSlide(footContacts({ ...duet, positions: duet.reactor }, golden.rules.contact));
+    const seen = visibleSlide(footContacts(reactor, golden.rules.contact));
     expect(seen[315]).toBeCloseTo(0.5, 1);
     expect(report.feet.worst).toHaveLength(3);
     for (const { value } of report.feet.worst) {
       expect(value).toBeGreaterThan(golden.rules.contact.slide_speed);
       expect(value).toBeLessThan(RELEASE_SPEED);
     }
+  });
+
+  test('feet are in contact as low and as slow as the rule says', () => {
+    const count = (changes: object): number =>
+      footContacts(reactor, { ...golden.rules.contact, ...changes }).inContact.reduce((a, b) => a + b, 0);
+    expect(count({ height: 0.02 })).toBeLessThan(count({}));
+    expect(count({ vertical_speed: 0.05 })).toBeLessThan(count({}));
+    expect(count({ percentile: 50 })).toBeGreaterThan(count({}));
   });
 
   test('the bodies run into each other around 12.3 s', () => {

@@ -5,13 +5,24 @@ import type { SolvedMotion } from '../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../web/motion/skeleton/kinematics';
 import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { uniform } from '../../../web/ui/store/guidance-matrix';
-import type { Guidance, LoadedLeader, LoadedSong } from '../../../web/ui/store/reaction';
+import type { Guidance, LoadedLeader, LoadedSong, Settings } from '../../../web/ui/store/reaction';
 import { small } from './small-manifest';
 
 /** Guidance of the small model with the same weights for every body part. */
 export function uniformGuidance(coarse: number, fine: number): Guidance {
   return uniform(small.latent.streams, small.latent.layers, (layer) => (layer === 'coarse' ? coarse : fine));
 }
+
+/** What a dance of the small model was asked for. */
+export const madeSettings: Settings = {
+  guidance: uniformGuidance(0, 0),
+  music: 2,
+  variety: 1,
+  steps: 10,
+  seed: 1,
+  role: 'reactor',
+  height: null,
+};
 
 /** A motion without movement, all joints in one place. */
 export function still(frames: number): SolvedMotion {

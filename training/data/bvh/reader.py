@@ -1,4 +1,4 @@
-"""Reader of duets kept as BVH files: NAME_leader.bvh and NAME_reactor.bvh, and NAME.wav, .mp3, .ogg or .flac if any."""
+"""Reader of duets kept as BVH files: NAME_leader.bvh and NAME_reactor.bvh, and the song NAME.mp3 or the like if any."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from training.data.bvh.rest_pose import rest_frames
 from training.data.duet import Duet, Solo
 from training.data.naming import naming
 from training.motion.floor import put_on_floor
-
-SONG_SUFFIXES = (".wav", ".mp3", ".ogg", ".flac")
+from training.music.features import SONG_SUFFIXES
 
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:

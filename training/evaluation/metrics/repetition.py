@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from training.motion.heading import heading, turn_in
+from training.motion.skeleton import JOINTS
 
 WINDOW_FRAMES, HOP_FRAMES = 60, 10  # windows of 2 s, one every third of a second
 MIN_GAP_FRAMES = 120  # least distance between the starts of two windows that are compared
@@ -43,7 +44,7 @@ def nearest_repeats(motion: np.ndarray) -> np.ndarray:
         )
         distance[max(i - MIN_GAP_FRAMES + 1, 0) : i + MIN_GAP_FRAMES] = np.inf
         if np.isfinite(distance).any():
-            result.append(np.sqrt(max(float(distance.min()), 0.0) / 22) * 1000)
+            result.append(np.sqrt(max(float(distance.min()), 0.0) / len(JOINTS)) * 1000)
     return np.array(result)
 
 

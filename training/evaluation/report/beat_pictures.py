@@ -16,10 +16,10 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-import tyro
 from rich.console import Console
 from rich.table import Table
 
+from training.command_line import run_program
 from training.config import FPS
 from training.data.duet import Duet
 from training.data.npz import read_npz
@@ -92,4 +92,4 @@ def main(options: Options) -> None:
 
 
 if __name__ == "__main__":
-    main(tyro.cli(Options))
+    run_program(main, Options)

@@ -4,6 +4,8 @@ import { AppError } from '../../common/error';
 const COMMON_RATES = [
   24, 25, 30, 48, 50, 60, 72, 75, 90, 100, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500,
 ];
+/** Frames per second of a file that does not state them. */
+export const ASSUMED_FPS = 30;
 /** Accepted frame rates. */
 const MIN_FPS = 5;
 const MAX_FPS = 1000;

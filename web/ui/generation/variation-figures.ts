@@ -1,6 +1,7 @@
 import { VARIATION_COUNT } from '../store/actions/variations';
 import { headingOf } from '../../motion/skeleton/heading';
 import { mostDifferentFrame } from '../../motion/skeleton/difference';
+import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Reaction } from '../store/reaction';
 import { generatedRole } from '../store/roles';
 import { danceFps } from '../store/selectors';
@@ -44,7 +45,7 @@ export function drawFigures(
 /** Joint positions (22 x 3, metres) in a frame; at the end of the dance in the last one. */
 function poseAt({ motion }: Reaction, frame: number): Float32Array {
   const at = Math.min(motion.frames - 1, Math.max(0, frame));
-  return motion.positions.subarray(at * 66, (at + 1) * 66);
+  return motion.positions.subarray(at * JOINT_COUNT * 3, (at + 1) * JOINT_COUNT * 3);
 }
 
 /** Gives the canvas the pixels of its element; false while it has no size. */

@@ -1,8 +1,10 @@
 import type { Song } from '../../audio/client';
 import type { Generator, Manifest } from '../../model/client';
 import type { ReadLeader } from '../../motion/client';
-import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { mirrored } from './mirror';
+import { solve } from '../../motion/fit/ik';
+import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
+import { headingOf } from '../../motion/skeleton/heading';
+import { JOINT_COUNT, MIRROR } from '../../motion/skeleton/skeleton';
 import { OURS, type StudyDuet, type StudySet } from './set';
 
 /** The leaders that ship with the page, by their files. */
@@ -20,6 +22,8 @@ const METHODS = [OURS, ...Object.keys(ENDS), 'mirror'];
 
 /** Of the first leader's partners; those of the others follow. */
 const FIRST_SEED = 1206;
+/** How far ahead of the leader's first place the mirror stands, metres. */
+const MIRROR_DISTANCE = 0.45;
 
 /** What the set is made of, as arguments so that it can be tested without a browser. */
 export interface BuiltInParts {
@@ -87,4 +91,21 @@ export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
     };
   });
   return { name: 'built-in', reference: OURS, duets };
+}
+
+/** A partner who dances as the leader's image in a mirror that stands still before the leader: a simple baseline. */
+export function mirrored({ positions, frames, fps }: MotionClip): SolvedMotion {
+  const heading = headingOf(positions.subarray(0, JOINT_COUNT * 3));
+  const [nx, nz] = [Math.sin(heading), Math.cos(heading)];
+  const offset = positions[0]! * nx + positions[2]! * nz + MIRROR_DISTANCE;
+  const image = new Float32Array(positions.length);
+  for (let frame = 0; frame < frames; frame++) {
+    for (let joint = 0; joint < JOINT_COUNT; joint++) {
+      const from = 3 * (frame * JOINT_COUNT + MIRROR[joint]!);
+      const [x, y, z] = [positions[from]!, positions[from + 1]!, positions[from + 2]!];
+      const through = 2 * (x * nx + z * nz - offset);
+      image.set([x - through * nx, y, z - through * nz], 3 * (frame * JOINT_COUNT + joint));
+    }
+  }
+  return solve({ fps, frames, positions: image });
 }

@@ -1,4 +1,5 @@
 /** Answers and summary as tables (RFC 4180, with the first line for the titles). */
+import Papa from 'papaparse';
 import { AppError } from '../../common/error';
 import { type Answer, CRITERIA, preferred } from './answers';
 import type { Comparison } from './summary';
@@ -21,17 +22,9 @@ const MAX_LINES = 100_000;
 
 type Cell = string | number;
 
-/** Programs take what begins with one of these for a formula; the apostrophe makes it a text. */
-const FORMULA = /^[=+\-@\t\r]/;
-
-function cellText(cell: Cell): string {
-  if (typeof cell === 'number') return String(cell);
-  const safe = FORMULA.test(cell) ? `'${cell}` : cell;
-  return /[",\n\r]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
-}
-
-const table = (titles: readonly string[], rows: readonly (readonly Cell[])[]): string =>
-  [titles, ...rows].map((row) => `${row.map(cellText).join(',')}\r\n`).join('');
+/** Programs take a text that begins with one of =, +, - and @ for a formula; an apostrophe before it keeps it a text. */
+const table = (fields: string[], data: Cell[][]): string =>
+  `${Papa.unparse({ fields, data }, { escapeFormulae: true })}\r\n`;
 
 /** One line an answer. */
 export function answersCsv(answers: readonly Answer[]): string {
@@ -48,7 +41,7 @@ export function answersCsv(answers: readonly Answer[]): string {
     preferred(answer) ?? 'none',
     Math.round(answer.seconds * 10) / 10,
   ]);
-  return table(TITLES, rows);
+  return table([...TITLES], rows);
 }
 
 const round = (value: number): number => Math.round(value * 1e4) / 1e4;
@@ -71,43 +64,31 @@ function refused(what: string): AppError {
   );
 }
 
-/** The cells of a table. */
-function cellsOf(text: string): string[][] {
-  const rows: string[][] = [[]];
-  const cell = /(?:"((?:[^"]|"")*)"|([^",\r\n]*))(,|\r\n|\n|\r|$)/y;
-  while (cell.lastIndex < text.length) {
-    const match = cell.exec(text);
-    if (!match) throw refused(`line ${rows.length} is not closed`);
-    const [, quoted, plain = '', end] = match;
-    rows.at(-1)!.push(quoted?.replaceAll('""', '"') ?? plain);
-    if (end !== ',') rows.push([]);
-    if (rows.length > MAX_LINES) throw refused(`there are more than ${MAX_LINES} lines`);
-  }
-  return rows.filter((row) => row.length > 1 || (row[0] ?? '') !== '');
-}
-
 /**
  * Reads what `answersCsv` wrote.
  * @throws {AppError} `not-answers`, with the line
  */
 export function readAnswers(text: string): Answer[] {
-  const [titles, ...rows] = cellsOf(text.replace(/^\uFEFF/, ''));
-  if (titles?.join() !== TITLES.join()) throw refused('the first line does not name their columns');
-  return rows.map((row, i) => {
-    if (row.length !== TITLES.length) throw refused(`line ${i + 2} has ${row.length} cells`);
-    const [participant, set, seed, pair, duet, left, right, criterion, score, , seconds] = row.map((cell) =>
-      /^'[=+\-@\t\r]/.test(cell) ? cell.slice(1) : cell,
-    ) as [string, string, string, string, string, string, string, string, string, string, string];
+  const { data, errors, meta } = Papa.parse<Record<(typeof TITLES)[number], string>>(text, {
+    header: true,
+    delimiter: ',',
+    skipEmptyLines: true,
+    transform: (cell) => cell.replace(/^'(?=[=+\-@\t\r])/, ''),
+  });
+  if (meta.fields?.join() !== TITLES.join()) throw refused('the first line does not name their columns');
+  if (errors[0]) throw refused(`line ${(errors[0].row ?? 0) + 2} is damaged (${errors[0].message})`);
+  if (data.length > MAX_LINES) throw refused(`there are more than ${MAX_LINES} lines`);
+  return data.map(({ participant, set, duet, left, right, criterion, ...row }, i) => {
     const known = CRITERIA.find(({ id }) => id === criterion)?.id;
     if (!known) throw refused(`line ${i + 2} asks for something else`);
     const numbers = {
-      seed: Number(seed),
-      pair: Number(pair),
-      score: Number(score),
-      seconds: Number(seconds),
+      seed: Number(row.seed),
+      pair: Number(row.pair),
+      score: Number(row.score),
+      seconds: Number(row.seconds),
     };
-    const { score: value } = numbers;
-    if (!Object.values(numbers).every(Number.isFinite) || !Number.isInteger(value) || Math.abs(value) > 2)
+    const { score } = numbers;
+    if (!Object.values(numbers).every(Number.isFinite) || !Number.isInteger(score) || Math.abs(score) > 2)
       throw refused(`line ${i + 2} has a number that is none of theirs`);
     return { participant, set, duet, left, right, criterion: known, ...numbers };
   });

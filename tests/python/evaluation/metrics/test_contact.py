@@ -51,6 +51,6 @@ def test_pfc_by_hand():
 
 def test_pfc_does_not_count_falling():
     motion = standing(5)
-    motion[:, 0, 1] += np.array([0.0, 0.0, 0.01, 0.03, 0.03])  # twice up, then down twice as hard
+    motion[:, 0, 1] += np.array([0.0, 0.0, 0.01, 0.03, 0.02])  # twice up, then down three times as hard
     motion[:, [7, 10, 8, 11], 0] += 0.02 * np.arange(5)[:, None]
     assert physical_foot_contact(motion) == pytest.approx(1e4 * 0.02**2 * (1 + 1 + 0) / 3)

@@ -7,7 +7,7 @@ import type { Reaction } from '../../../../web/ui/store/reaction';
 import * as change from '../../support/actions';
 import { compareSet, takesSwapped, letterGiven } from '../../../../web/ui/store/actions/takes';
 import { small } from '../../support/small-manifest';
-import { uniformGuidance, leader, still } from '../../support/made-state';
+import { madeSettings, leader, still } from '../../support/made-state';
 
 /** A model whose answers the test gives. */
 class ManualGenerator {
@@ -41,16 +41,7 @@ describe('the coarse layer', () => {
   const turn = (): Promise<void> => new Promise((done) => setTimeout(done));
   const state = () => store.getState();
   const reaction = (latents: Float32Array | null): Reaction => {
-    const settings = {
-      guidance: uniformGuidance(0, 0),
-      music: 2,
-      variety: 1,
-      steps: 10,
-      seed: 1,
-      role: 'reactor' as const,
-      height: null,
-    };
-    const inputs = { leader: leader(60), song: null, shift: 0, settings };
+    const inputs = { leader: leader(60), song: null, shift: 0, settings: madeSettings };
     return { motion: still(60), latents, inputs, label: latents ? null : 'demo reaction', seconds: 1 };
   };
   const show = (shown: Reaction) => change.apply(store, change.reactionAdded(shown));

@@ -7,17 +7,8 @@ import { laneTexts, momentCard, momentLabel } from '../../../../web/ui/quality/q
 import * as change from '../../support/actions';
 import { madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
-import { uniformGuidance, leader, song } from '../../support/made-state';
+import { madeSettings, leader, song } from '../../support/made-state';
 
-const settings = {
-  guidance: uniformGuidance(0, 0),
-  music: 2,
-  variety: 1,
-  steps: 10,
-  seed: 1,
-  role: 'reactor' as const,
-  height: null,
-};
 const stander = (sway = 0.05) =>
   madeStander({ frames: 90, path: (frame) => [sway * Math.sin(frame / 4.8), 0] });
 
@@ -26,7 +17,7 @@ describe('measuring', () => {
   let calls: { question: QualityRequest; signal: AbortSignal; answer: (report: Report) => void }[];
   const react = (motion = stander()): void => {
     const state = store.getState();
-    const inputs = { leader: state.leader!, song: state.song, shift: state.shift, settings };
+    const inputs = { leader: state.leader!, song: state.song, shift: state.shift, settings: madeSettings };
     change.apply(store, change.reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));
   };
   /** What promises do comes before the next task. */

@@ -4,7 +4,7 @@ import { reactorMotion } from '../../../../web/ui/store/reactor-motion';
 import { footLockSet, reactionAdded } from '../../../../web/ui/store/actions/reaction';
 import { createAppStore, apply } from '../../../../web/ui/store/store';
 import { madeStander } from '../../support/made-stander';
-import { uniformGuidance, leader } from '../../support/made-state';
+import { madeSettings, leader } from '../../support/made-state';
 
 test('the foot lock is on at first, and switching it changes the motion that is drawn, not the generated one', () => {
   const motion = madeStander({ frames: 90, path: (frame) => [0.05 * Math.sin(frame / 4.8), 0] });
@@ -13,16 +13,7 @@ test('the foot lock is on at first, and switching it changes the motion that is 
   const shown = () => reactorMotion(store.getState());
   expect(shown()).toBeNull();
 
-  const settings = {
-    guidance: uniformGuidance(0, 0),
-    music: 2,
-    variety: 1,
-    steps: 10,
-    seed: 1,
-    role: 'reactor' as const,
-    height: null,
-  };
-  const inputs = { leader: leader(90), song: null, shift: 0, settings };
+  const inputs = { leader: leader(90), song: null, shift: 0, settings: madeSettings };
   apply(store, reactionAdded({ motion, latents: null, inputs, label: null, seconds: 1 }));
   const locked = shown();
   const ankles = locked!.positions.filter((_, i) => i % (JOINT_COUNT * 3) === J.left_ankle * 3);

@@ -25,15 +25,15 @@ describe('answers as a table', () => {
     expect(answersCsv(answers).split('\r\n')).toEqual([
       'participant,set,seed,pair,duet,left,right,criterion,score,preferred,seconds',
       '"Ana, ""the first""",files,7,1,salsa,ours,edge,naturalness,-2,ours,12.3',
-      `'=1+1,files,7,2,"a\nb",truth,ours,music,0,none,4`,
+      `"'=1+1",files,7,2,"a\nb",truth,ours,music,0,none,4`,
       '',
     ]);
   });
 
   test.each([
     ['another table', 'a,b\r\n1,2\r\n', /first line/],
-    ['a row that is cut off', `${answersCsv(answers)}Ana,files\r\n`, /line 4 has 2 cells/],
-    ['an open quote', answersCsv(answers).replace('first"""', 'first'), /not closed|cells/],
+    ['a row that is cut off', `${answersCsv(answers)}Ana,files\r\n`, /line 4 is damaged/],
+    ['an open quote', answersCsv(answers).replace('first"""', 'first'), /line 3 is damaged/],
     ['a score of 3', answersCsv(answers).replace('-2,ours', '3,ours'), /line 2 has a number/],
     ['no number', answersCsv(answers).replace('12.3', 'soon'), /line 2 has a number/],
     ['another question', answersCsv(answers).replace('naturalness', 'taste'), /line 2 asks/],

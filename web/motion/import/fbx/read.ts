@@ -8,7 +8,7 @@ import { AppError } from '../../../common/error';
 import { writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
 import { pickDancer } from '../../retarget/dancers';
-import { nearestRate } from '../../retarget/frame-rate';
+import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
 import type { AxisName } from '../../retarget/axes-and-units';
 import type { LocalPoses, MotionSource } from '../../retarget/source';
 
@@ -16,7 +16,6 @@ import type { LocalPoses, MotionSource } from '../../retarget/source';
 const TICKS = 46_186_158_000;
 /** Frames per second of the time modes; 0 is one of its own. */
 const TIME_MODES = [0, 120, 100, 60, 50, 48, 30, 30, 29.97, 29.97, 25, 24, 1000, 23.976, 0, 96, 72, 59.94];
-const USUAL_RATE = 30;
 /** Largest number of joints and other objects. */
 const MAX_MODELS = 2000;
 
@@ -80,7 +79,7 @@ function timingOf(clip: Clip, settings: FbxScene['settings']): Timing {
     }
   const mode = TIME_MODES[Number(settings.get('TimeMode')?.[0] ?? 0)] ?? 0;
   const custom = Number(settings.get('CustomFrameRate')?.[0] ?? 0);
-  const stated = mode > 0 ? mode : custom > 0 ? custom : USUAL_RATE;
+  const stated = mode > 0 ? mode : custom > 0 ? custom : ASSUMED_FPS;
   const dense = nearestRate(TICKS / step);
   const fps = dense !== null && dense >= 20 ? dense : Math.min(120, Math.max(24, stated));
   const frames = end > start ? Math.floor(((end - start) / TICKS) * fps + 1e-3) + 1 : 0;

@@ -1,6 +1,6 @@
 import { readAccessor } from './accessor';
 import { damagedGltf, type Gltf, type GltfFile } from './container';
-import { nearestRate } from '../../retarget/frame-rate';
+import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
 import { normaliseQuat, type Quat, slerp } from '../../math/quat';
 
 /** Values of one property of a node over time. */
@@ -42,7 +42,7 @@ export function tracksOf(file: GltfFile, clip: Gltf['animations'][number]): Trac
 
 const isRising = (times: Float32Array): boolean => times.every((time, i) => i === 0 || time >= times[i - 1]!);
 
-/** Length of a clip and its frame rate: that of its densest track where that is a usual one, else 30. */
+/** Length of a clip and its frame rate: that of its densest track where that is a usual one, else `ASSUMED_FPS`. */
 export function timingOf(tracks: Tracks): { start: number; frames: number; fps: number } {
   let [start, end, step] = [Infinity, -Infinity, Infinity];
   for (const { times } of tracks.values()) {
@@ -52,7 +52,7 @@ export function timingOf(tracks: Tracks): { start: number; frames: number; fps: 
     if (times.length > 2) step = Math.min(step, (last - first) / (times.length - 1));
   }
   const dense = nearestRate(1 / step);
-  const fps = dense !== null && dense >= 20 ? dense : 30;
+  const fps = dense !== null && dense >= 20 ? dense : ASSUMED_FPS;
   return { start, frames: end > start ? Math.floor((end - start) * fps + 1e-3) + 1 : 0, fps };
 }
 

@@ -2,13 +2,12 @@ import { sourceOfRotations } from './amass';
 import { bodyOf, JOINT_COUNTS, sourceOfPositions, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { type DamageError, type NpzArray, readNpy, unzipArrays } from '../../../common/npz';
-import { checkedRate } from '../../retarget/frame-rate';
+import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource } from '../../retarget/source';
 
 /** Largest size of all arrays of an archive together, bytes. */
 const MAX_BYTES = 256 * 1024 * 1024;
 /** Frames per second where the file has none. */
-const USUAL_RATE = 30;
 /** Names of the frame rate, of rotations and of the root's place, as research writes them. */
 const RATES = ['mocap_framerate', 'mocap_frame_rate', 'fps', 'frame_rate', 'framerate'];
 const ROTATIONS = ['poses', 'smpl_poses', 'full_pose', 'fullpose'];
@@ -60,7 +59,7 @@ function rateOf(arrays: ReadonlyMap<string, NpzArray>): Pick<MotionSource, 'fram
   const array = RATES.map((name) => arrays.get(name)).find((found) => found?.data.length === 1);
   const rate = array?.data[0];
   return {
-    frameRate: () => (rate === undefined ? USUAL_RATE : checkedRate(rate)),
+    frameRate: () => (rate === undefined ? ASSUMED_FPS : checkedRate(rate)),
     rateAssumed: rate === undefined,
   };
 }

@@ -1,6 +1,6 @@
 import { sourceOfPositions, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
-import { checkedRate } from '../../retarget/frame-rate';
+import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
 import { PARENTS, SMPL22 } from '../../skeleton/skeleton';
 
@@ -115,7 +115,7 @@ export function readCsv(text: string, part: number): MotionSource {
     { joints: jointsOf(names), places },
     {
       format: 'CSV',
-      frameRate: () => checkedRate(rate ?? 30),
+      frameRate: () => checkedRate(rate ?? ASSUMED_FPS),
       rateAssumed: rate === null,
       unit: null,
       upAxis: null,

@@ -1,6 +1,6 @@
 import { sourceOfPositions, SMPL_JOINTS, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
-import { checkedRate } from '../../retarget/frame-rate';
+import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
 
 /** Largest number of joints of one dancer. */
@@ -75,7 +75,7 @@ export function readJsonMotion(text: string, part: number): MotionSource {
     { joints, places: placesOf(frames, joints.length) },
     {
       format: 'JSON',
-      frameRate: () => checkedRate(rate ?? 30),
+      frameRate: () => checkedRate(rate ?? ASSUMED_FPS),
       rateAssumed: rate === null,
       unit: METRES,
       upAxis: 'y',

@@ -1,0 +1,57 @@
+"""What a person reads who gives a program something wrong."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from training.command_line import run_program
+from training.data.splits import split
+from training.generate import Options
+
+
+def failing(error: type[Exception]) -> None:
+    raise error("a mistake in the code")
+
+
+def test_what_the_project_finds_wrong_is_one_sentence(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = ["generate", "--checkpoint", "a", "--leader", "b.npz", "--out", "c"]
+    monkeypatch.setattr(sys, "argv", line)
+    with pytest.raises(SystemExit, match=r"^not among the duets: \['x'\]$"):
+        run_program(lambda options: split([], ["x"], []), Options)
+    with pytest.raises(SystemExit, match=r"^\[Errno 2\] No such file or directory: 'b\.npz'$"):
+        run_program(lambda options: np.load(options.leader), Options)
+    monkeypatch.setattr(sys, "argv", [*line, "--music-guidance", "3"])
+    with pytest.raises(SystemExit):
+        run_program(lambda options: None, Options)
+    assert "--music-guidance weighs a song" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("error", [ValueError, RuntimeError, TypeError])
+def test_other_errors_keep_their_traceback(monkeypatch: pytest.MonkeyPatch, error: type[Exception]) -> None:
+    monkeypatch.setattr(sys, "argv", ["generate", "--checkpoint", "a", "--leader", "b.npz", "--out", "c"])
+    with pytest.raises(error, match="a mistake in the code"):
+        run_program(lambda options: failing(error), Options)
+    with pytest.raises(ValueError, match="could not convert"):
+        run_program(lambda options: float("x"), Options)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"leader": Path("b.bvh"), "duet": "one"}, "a BVH file holds one dancer"),
+        ({"fps": 30.0}, "--fps is the frame rate of a BVH file"),
+        ({"music_guidance": 3.0}, "add --song"),
+        ({"seeds": ()}, "give one or more --seeds"),
+        ({"coarse": float("nan")}, "finite numbers"),
+    ],
+)
+def test_a_dance_is_not_made_with_options_that_would_be_ignored(changes: dict, sentence: str) -> None:
+    given = {"checkpoint": Path("a"), "leader": Path("b.npz"), "out": Path("c")}
+    with pytest.raises(ValueError, match=sentence):
+        Options(**given | changes)
