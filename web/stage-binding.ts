@@ -68,6 +68,14 @@ export function bindStage(stage: Stage, store: Watched): () => void {
     bindBusy(stage, store),
     watch(
       store,
+      (state) => state.job,
+      (job, { reaction }) => {
+        // Weights of guidance change frames of the dance that is there; anything else takes longer.
+        if (job?.stage === 'waiting' && reaction) stage.expectFrames();
+      },
+    ),
+    watch(
+      store,
       (state) => state.playback.time,
       (time) => stage.setTime(time),
     ),

@@ -4,6 +4,10 @@ export interface FrameLoop {
   invalidate(): void;
   /** Delays the frame that was asked for by one, for when the page has much else to show at that moment. */
   delay(): void;
+  /** Draws no more frames for a moment, as new ones are expected: until `release`, at most `HOLD_MS`. */
+  hold(): void;
+  /** Ends a hold. The next frame shows something new and is drawn even if another hold begins before. */
+  release(): void;
   /** Draws the frame that waited for the last one to be presented. */
   resume(): void;
   /** Draws now, for when waiting would show an empty canvas. */
@@ -17,6 +21,8 @@ export interface FrameLoop {
 const TIMED_FRAMES = 60;
 /** Longest step between two frames, seconds: after a pause the camera goes on instead of jumping. */
 const MAX_STEP = 0.25;
+/** Longest time in which no frame is drawn because new ones are expected, milliseconds. */
+const HOLD_MS = 100;
 /** Time without a frame after which the stage is at rest, milliseconds. */
 const REST_MS = 200;
 
@@ -24,6 +30,8 @@ const REST_MS = 200;
 export const idleLoop: FrameLoop = {
   invalidate: () => undefined,
   delay: () => undefined,
+  hold: () => undefined,
+  release: () => undefined,
   resume: () => undefined,
   flush: () => undefined,
   frameMs: 0,
@@ -46,6 +54,9 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
   let request = 0;
   let askedAt = 0;
   let delayed = false;
+  let heldUntil = 0;
+  /** Whether the next frame shows what was waited for. */
+  let awaited = false;
   /** Whether a frame could have been drawn before the last one was presented. */
   let waiting = false;
   let restTimer: ReturnType<typeof setTimeout> | undefined;
@@ -59,6 +70,7 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     const dt = running ? Math.min(MAX_STEP, Math.max(0, (now - lastFrameAt) / 1000)) : 1 / 60;
     lastFrameAt = now;
     const start = performance.now();
+    awaited = false;
     clearTimeout(restTimer);
     running = draw(dt);
     times.push(performance.now() - start);
@@ -80,6 +92,7 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     });
   }
   function drawAsked(now: number): void {
+    if (!awaited && performance.now() < heldUntil) return invalidate();
     beforeFrame(performance.now() - askedAt);
     frame(now);
   }
@@ -87,6 +100,13 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     invalidate,
     delay() {
       delayed = request !== 0;
+    },
+    hold() {
+      heldUntil = performance.now() + HOLD_MS;
+    },
+    release() {
+      heldUntil = 0;
+      awaited = true;
     },
     resume() {
       if (!waiting || disposed) return;

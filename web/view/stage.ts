@@ -105,6 +105,7 @@ export class Stage {
       this.view.rig.frameNewcomers(couple, this.view.time, before === 0);
       if (before === 0) this.view.alignLights();
     }
+    this.loop.release();
     this.loop.invalidate();
     // The rest of the page shows a new dance at the same moment; without a graphics card both at once take too long.
     this.loop.delay();
@@ -176,6 +177,14 @@ export class Stage {
    */
   setBusy(busy: boolean): void {
     if (this.view.canvas.setBusy(busy)) this.loop.flush();
+  }
+
+  /**
+   * Says that new frames will come in a moment. Where there is no graphics card, pictures of the old ones would take
+   * the processor from the model: they are left out, so that the new ones come sooner.
+   */
+  expectFrames(): void {
+    if (this.softwareRendered) this.loop.hold();
   }
 
   /** Brings both dancers into the picture. */

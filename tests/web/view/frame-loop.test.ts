@@ -58,6 +58,27 @@ describe('the frame loop', () => {
     expect(waiting).toBeNull();
   });
 
+  it('holds old frames until new ones come, not for long, and draws the new ones before the next hold', () => {
+    const draw = vi.fn(() => true);
+    const loop = makeLoop({ draw });
+    loop.invalidate();
+    tick(0);
+    loop.hold();
+    vi.advanceTimersByTime(60);
+    tick(60);
+    expect(draw).toHaveBeenCalledTimes(1);
+    loop.release();
+    loop.hold();
+    tick(64);
+    expect(draw).toHaveBeenCalledTimes(2);
+    vi.advanceTimersByTime(90);
+    tick(154);
+    expect(draw).toHaveBeenCalledTimes(2);
+    vi.advanceTimersByTime(20);
+    tick(174);
+    expect(draw).toHaveBeenCalledTimes(3);
+  });
+
   it('says how long a frame waited, before it is drawn', () => {
     const calls: (string | number)[] = [];
     const loop = makeLoop({
