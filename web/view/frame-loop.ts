@@ -50,13 +50,33 @@ export interface FrameCallbacks {
   readonly atRest: () => void;
 }
 
+/** Whether frames are held back; see `FrameLoop.hold` and `release`. */
+function createHold(): { begin(): void; end(): void; drawn(): void; readonly holds: boolean } {
+  let until = 0;
+  /** Whether the next frame shows what was waited for. */
+  let awaited = false;
+  return {
+    begin() {
+      until = performance.now() + HOLD_MS;
+    },
+    end() {
+      until = 0;
+      awaited = true;
+    },
+    drawn() {
+      awaited = false;
+    },
+    get holds() {
+      return !awaited && performance.now() < until;
+    },
+  };
+}
+
 export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameCallbacks): FrameLoop {
   let request = 0;
   let askedAt = 0;
   let delayed = false;
-  let heldUntil = 0;
-  /** Whether the next frame shows what was waited for. */
-  let awaited = false;
+  const hold = createHold();
   /** Whether a frame could have been drawn before the last one was presented. */
   let waiting = false;
   let restTimer: ReturnType<typeof setTimeout> | undefined;
@@ -70,7 +90,7 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     const dt = running ? Math.min(MAX_STEP, Math.max(0, (now - lastFrameAt) / 1000)) : 1 / 60;
     lastFrameAt = now;
     const start = performance.now();
-    awaited = false;
+    hold.drawn();
     clearTimeout(restTimer);
     running = draw(dt);
     times.push(performance.now() - start);
@@ -92,7 +112,7 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     });
   }
   function drawAsked(now: number): void {
-    if (!awaited && performance.now() < heldUntil) return invalidate();
+    if (hold.holds) return invalidate();
     beforeFrame(performance.now() - askedAt);
     frame(now);
   }
@@ -101,13 +121,8 @@ export function createFrameLoop({ draw, presented, beforeFrame, atRest }: FrameC
     delay() {
       delayed = request !== 0;
     },
-    hold() {
-      heldUntil = performance.now() + HOLD_MS;
-    },
-    release() {
-      heldUntil = 0;
-      awaited = true;
-    },
+    hold: hold.begin,
+    release: hold.end,
     resume() {
       if (!waiting || disposed) return;
       waiting = false;

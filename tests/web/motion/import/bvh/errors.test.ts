@@ -158,7 +158,11 @@ describe('invalid numbers', () => {
     );
   });
   test('in the number of frames', () => {
-    expectFailure(good.replace('Frames: 12', 'Frames: many'), 'bad-number', '"many" is not a number of frames');
+    expectFailure(
+      good.replace('Frames: 12', 'Frames: many'),
+      'bad-number',
+      '"many" is not a number of frames',
+    );
   });
 });
 
