@@ -51,19 +51,19 @@ export interface FrameCallbacks {
 }
 
 /** Whether frames are held back; see `FrameLoop.hold` and `release`. */
-function createHold(): { begin(): void; end(): void; drawn(): void; readonly holds: boolean } {
+function createHold(): Record<'begin' | 'end' | 'drawn', () => void> & { readonly holds: boolean } {
   let until = 0;
   /** Whether the next frame shows what was waited for. */
   let awaited = false;
   return {
-    begin() {
+    begin: () => {
       until = performance.now() + HOLD_MS;
     },
-    end() {
+    end: () => {
       until = 0;
       awaited = true;
     },
-    drawn() {
+    drawn: () => {
       awaited = false;
     },
     get holds() {
