@@ -79,6 +79,27 @@ class Options:
     """Measure the solved skeleton too, without and with foot lock, by the page's own code under Node."""
     settings: Settings = field(default_factory=Settings)
 
+    def __post_init__(self) -> None:
+        settings, measured = self.settings, self.test if self.measure == "test" else self.val
+        wrong = {
+            "give --model (a folder with manifest.json), --checkpoint, or both": not (
+                self.model or self.checkpoint
+            ),
+            "give one or more --settings.seeds": not settings.seeds,
+            "--songs are not read with --no-music": self.songs and not self.music,
+            "--settings.guidance-grid is measured under PyTorch: give --checkpoint": settings.guidance_grid
+            and not self.checkpoint,
+            "--controlled and --settings.controlled-leaders are for --settings.controls": not settings.controls
+            and (self.controlled or settings.controlled_leaders),
+            "--settings.seen-leaders are of --out-of-distribution, which was not given": settings.seen_leaders
+            and not self.out_of_distribution,
+            f"--settings.beats-unknown names a dance that is not measured ({', '.join(measured)} are)": measured
+            and not set(settings.beats_unknown) <= set(measured),
+        }
+        for sentence, found in wrong.items():
+            if found:
+                raise ValueError(sentence)
+
 
 def reactor_generator(
     model: ReactionModel, steps: int | None = None, at_every_step: bool = False
@@ -174,8 +195,6 @@ def main(options: Options) -> None:
     console = Console()
     if options.threads:
         torch.set_num_threads(options.threads)
-    if options.model is None and options.checkpoint is None:
-        raise ValueError("give --model (a folder with manifest.json), --checkpoint, or both")
     duets = read_split(options.data, options.val, options.test)
     held_out = paired_duets(options, duets)
     facts: dict[str, Any] = {"data": options.data.name, "split": {"val": options.val, "test": options.test}}

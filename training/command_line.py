@@ -12,7 +12,7 @@ import tyro
 ROOT = Path(__file__).parents[1]
 
 
-def run_program(main: Callable[[Any], None], options: Any) -> None:
+def run_program(main: Callable[[Any], object], options: Any) -> None:
     """Calls `main` with `options`, a dataclass filled in from the command line.
 
     What the project itself finds wrong with options or files, and files that cannot be opened, end the program with

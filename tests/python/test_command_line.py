@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -52,6 +53,6 @@ def test_other_errors_keep_their_traceback(monkeypatch: pytest.MonkeyPatch, erro
     ],
 )
 def test_a_dance_is_not_made_with_options_that_would_be_ignored(changes: dict, sentence: str) -> None:
-    given = {"checkpoint": Path("a"), "leader": Path("b.npz"), "out": Path("c")}
+    given: dict[str, Any] = {"checkpoint": Path("a"), "leader": Path("b.npz"), "out": Path("c")}
     with pytest.raises(ValueError, match=sentence):
         Options(**given | changes)

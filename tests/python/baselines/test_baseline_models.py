@@ -162,7 +162,7 @@ def test_the_leaders_network_is_given_clean_tokens_in_sampling_and_learns_to_den
     assert isinstance(method, InterGen)
     known, latents = asked(method, poses_of("intergen", hfsq), WINDOWS, BLOCK, 0)
     predict, given = method.predict, []
-    method.predict = lambda *inputs: (given.append(inputs), predict(*inputs))[1]
+    method.predict = lambda *inputs: (given.append(inputs), predict(*inputs))[1]  # pyright: ignore[reportAttributeAccessIssue]
     method.sample(known._replace(memory=known.memory[:1], leader=known.leader[:1]), torch.Generator())
     for _, leader, _, _, (time, leader_time) in given:
         assert torch.equal(leader, known.leader[:1])

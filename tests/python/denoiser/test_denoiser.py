@@ -11,7 +11,7 @@ import torch
 from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder, condition_dropout
-from training.denoiser.denoiser import Denoiser
+from training.denoiser.denoiser import Conditioning, Denoiser
 from training.denoiser.transformer import ChannelDropout, phase, sinusoidal
 from training.diffusion.model import Model
 
@@ -114,6 +114,7 @@ def test_each_layer_has_its_own_null_embedding_of_each_condition(model: Model) -
     inputs["memory"] = torch.randn_like(inputs["memory"])
     assert torch.equal(without, model.denoiser(**inputs)), "a dropped condition leaks"
     own = model.denoiser.transformers[0].conditioning
+    assert isinstance(own, Conditioning)
     leader, music = own(inputs["memory"], inputs["keep_leader"][:, 0], inputs["keep_music"][:, 0])
     assert torch.equal(leader, own.no_leader.expand_as(leader))
     assert torch.equal(music, own.no_music.expand_as(music))

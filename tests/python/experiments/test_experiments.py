@@ -168,3 +168,11 @@ def test_wrong_options_are_refused_in_one_sentence() -> None:
         Options(table=(4,), **given)
     with pytest.raises(ValueError, match="for table 4 alone"):
         Options(table=(3,), checkpoint=Path("x"), **given)
+    with pytest.raises(ValueError, match="one or more of each"):
+        Options(table=(3,), seeds=(), **given)
+    with pytest.raises(ValueError, match="--processes 0 is not at least 1"):
+        Options(table=(3,), processes=0, **given)
+    with pytest.raises(ValueError, match="leave --seeds and --scale out"):
+        Options(table=(4,), checkpoint=Path("x"), seeds=(0,), **given)
+    with pytest.raises(ValueError, match=r"--scale\.width 15 cannot be shared by 4 heads"):
+        Options(table=(3,), scale=Scale(width=15), **given)

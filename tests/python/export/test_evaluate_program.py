@@ -92,8 +92,24 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
     # Guidance at every step, of the checkpoint: each cell is another dance.
     assert len({cell["mpjpe_mm"] for cell in stored["guidance"]}) == 4
-    with pytest.raises(ValueError, match="--model"):
-        main(Options(data=tmp_path / "duets.npz", out=tmp_path / "out"))
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"model": None}, "give --model"),
+        ({"settings": Settings(seeds=())}, "one or more --settings.seeds"),
+        ({"music": False, "songs": Path("songs")}, "--songs are not read"),
+        ({"settings": Settings(guidance_grid=(1.0,))}, "give --checkpoint"),
+        ({"controlled": (Path("leader.bvh"),)}, "are for --settings.controls"),
+        ({"settings": Settings(seen_leaders=("indian",))}, "of --out-of-distribution"),
+        ({"settings": Settings(beats_unknown=("three",))}, r"not measured \(one, two are\)"),
+    ],
+)
+def test_options_that_would_be_ignored_are_refused(changes: dict, sentence: str):
+    given = {"data": Path("duets.npz"), "out": Path("out"), "model": TINY, "test": ("one", "two")}
+    with pytest.raises(ValueError, match=sentence):
+        Options(**given | changes)
 
 
 def test_the_shipped_model_is_that_of_the_held_out_recipe():
@@ -118,7 +134,7 @@ def test_the_shipped_numbers_are_those_of_the_held_out_checkpoint(tmp_path: Path
     )
     model = open_model(tmp_path, threads=1)
     val, test = (tuple(stored["split"][part]) for part in ("val", "test"))
-    options = Options(data=data, out=Path(), val=val, test=test)
+    options = Options(data=data, out=Path(), model=tmp_path, val=val, test=test)
     held_out = paired_duets(options, read_split(options.data, options.val, options.test))[0]
     sampling = stored["sampling"]
     made = reactor_generator(model, sampling["steps"])(
