@@ -1,3 +1,5 @@
+import { setFlagsFromString } from 'node:v8';
+import { runInNewContext } from 'node:vm';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
 import * as change from '../../../support/actions';
@@ -19,12 +21,25 @@ function page(): change.Store {
   return store;
 }
 
-/** Puts one leader after the other on the page, each at a time of its own. */
-function load(store: change.Store, times: number, megabytes: number): void {
-  for (let number = 0; number < times; number++) {
+/** Puts one leader after the other on the page, each at a time of its own; returns them without holding them. */
+function load(store: change.Store, times: number, megabytes: number): WeakRef<LoadedLeader>[] {
+  return Array.from({ length: times }, () => {
     vi.advanceTimersByTime(2000);
-    change.apply(store, change.leaderLoaded(large(megabytes)));
-  }
+    const loaded = large(megabytes);
+    change.apply(store, change.leaderLoaded(loaded));
+    return new WeakRef(loaded);
+  });
+}
+
+/** Indices of those that something still holds. */
+async function held(leaders: readonly WeakRef<LoadedLeader>[]): Promise<number[]> {
+  setFlagsFromString('--expose_gc');
+  const collectGarbage = runInNewContext('gc') as () => void;
+  // Weak references hold their objects until the present task ends.
+  vi.useRealTimers();
+  await new Promise((resolve) => void setTimeout(resolve, 0));
+  collectGarbage();
+  return leaders.flatMap((leader, index) => (leader.deref() ? [index] : []));
 }
 
 function react(store: change.Store, id: string): void {
@@ -40,13 +55,23 @@ describe('the history of undo', () => {
   beforeEach(() => void vi.useFakeTimers());
   afterEach(() => void vi.useRealTimers());
 
-  it('frees the oldest steps whose songs, leaders and motions together take too much', () => {
+  it('frees the oldest steps whose songs, leaders and motions together take too much', async () => {
     const store = page();
-    load(store, 8, 20);
+    const leaders = load(store, 8, 20);
     // The leader on the page is no part of it; three before it are 60 MB.
     expect(steps(store)).toBe(3);
-    load(store, 8, 20);
+    leaders.push(...load(store, 8, 20));
     expect(steps(store)).toBe(3);
+    expect(await held(leaders)).toEqual([12, 13, 14, 15]);
+  });
+
+  it('frees what only undone steps held once something else is done', async () => {
+    const store = page();
+    const leaders = load(store, 4, 1);
+    change.apply(store, undone());
+    change.apply(store, undone());
+    leaders.push(...load(store, 1, 1));
+    expect(await held(leaders)).toEqual([0, 1, 4]);
   });
 
   it('keeps a hundred small steps, and the last one however large', () => {
