@@ -1,21 +1,28 @@
-/** Time and memory over the length of a dance, as SVG. */
+/** Figures of measurements beside each other, as SVG. */
 
 const PANEL = { width: 300, height: 180, left: 44, top: 28 };
+const COLOURS = ['#2a6fb0', '#c05a1a', '#3f8a4a', '#7d4fa8', '#8a7a2a'];
 
 /**
- * @param {readonly import('./lengths.mjs').Length[]} lengths ascending
- * @returns {string}
+ * @typedef {object} Panel lines over the same values, from 0 up and from left to right
+ * @property {string} title
+ * @property {readonly { at: number, text: string }[]} ticks below
+ * @property {readonly Line[]} lines
  */
-export function plotLengths(lengths) {
-  const panels = [
-    panel('seconds until the partner dances', lengths, ({ song, leader, dance }) => song + leader + dance),
-    panel('most memory of the page’s processes, MB', lengths, ({ memory }) => memory),
-  ];
+
+/**
+ * @typedef {object} Line
+ * @property {string} [name] written at its end; without one each point has its value
+ * @property {readonly (readonly [number, number])[]} points
+ */
+
+/** @param {readonly Panel[]} panels */
+export function plot(panels) {
   const width = panels.length * (PANEL.width + 2 * PANEL.left);
   const height = PANEL.height + PANEL.top + 40;
   const placed = panels.map(
     (content, i) =>
-      `<g transform="translate(${i * (PANEL.width + 2 * PANEL.left) + PANEL.left},${PANEL.top})">${content}</g>`,
+      `<g transform="translate(${i * (PANEL.width + 2 * PANEL.left) + PANEL.left},${PANEL.top})">${draw(content)}</g>`,
   );
   return [
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}"`,
@@ -24,31 +31,35 @@ export function plotLengths(lengths) {
   ].join('');
 }
 
-/**
- * @param {string} title
- * @param {readonly import('./lengths.mjs').Length[]} lengths
- * @param {(length: import('./lengths.mjs').Length) => number} valueOf
- */
-function panel(title, lengths, valueOf) {
-  const values = lengths.map(valueOf);
-  const [longest, most] = [lengths.at(-1)?.minutes ?? 1, Math.max(...values)];
-  /** @param {number} minutes */
-  const x = (minutes) => ((minutes / longest) * PANEL.width).toFixed(1);
+/** @param {Panel} panel */
+function draw({ title, ticks, lines }) {
+  const all = lines.flatMap(({ points }) => points);
+  const [right, top] = [Math.max(...all.map(([at]) => at)), Math.max(...all.map(([, value]) => value))];
+  /** @param {number} at */
+  const x = (at) => ((at / right) * PANEL.width).toFixed(1);
   /** @param {number} value */
-  const y = (value) => (PANEL.height * (1 - value / most)).toFixed(1);
-  const points = lengths.map(({ minutes }, i) => [x(minutes), y(values[i] ?? 0)]);
+  const y = (value) => (PANEL.height * (1 - value / top)).toFixed(1);
   return [
     `<text y="-12" font-weight="bold">${title}</text>`,
     `<path d="M0 0V${PANEL.height}H${PANEL.width}" fill="none" stroke="#999"/>`,
-    `<path d="M${points.map((point) => point.join(' ')).join('L')}" fill="none" stroke="#2a6fb0" stroke-width="2"/>`,
-    ...points.map(([px, py]) => `<circle cx="${px}" cy="${py}" r="3" fill="#2a6fb0"/>`),
-    ...points.map(
-      ([px, py], i) =>
-        `<text x="${px}" y="${Number(py) - 8}" text-anchor="end">${(values[i] ?? 0).toFixed(0)}</text>`,
-    ),
-    ...lengths.map(
-      ({ minutes }) =>
-        `<text x="${x(minutes)}" y="${PANEL.height + 16}" text-anchor="middle">${minutes} min</text>`,
+    ...lines.map(({ name, points }, i) => {
+      const colour = COLOURS[i % COLOURS.length];
+      const path = `M${points.map(([at, value]) => `${x(at)} ${y(value)}`).join('L')}`;
+      /** @param {readonly [number, number]} point */
+      const label = ([at, value]) =>
+        [
+          `<text x="${x(at)}" y="${(Number(y(value)) - 8).toFixed(1)}" text-anchor="end"`,
+          ` stroke="#fff" stroke-width="3" paint-order="stroke">${name ?? ''} ${value.toFixed(0)}</text>`,
+        ].join('');
+      const dots = name === undefined ? points : points.slice(-1);
+      return [
+        `<path d="${path}" fill="none" stroke="${colour}" stroke-width="2"/>`,
+        ...dots.map(([at, value]) => `<circle cx="${x(at)}" cy="${y(value)}" r="3" fill="${colour}"/>`),
+        ...dots.map(label),
+      ].join('');
+    }),
+    ...ticks.map(
+      ({ at, text }) => `<text x="${x(at)}" y="${PANEL.height + 16}" text-anchor="middle">${text}</text>`,
     ),
   ].join('');
 }

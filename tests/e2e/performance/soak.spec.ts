@@ -1,8 +1,12 @@
 /**
  * The page used for long: memory beyond that of songs, leaders, takes and steps of undo stays as it is. SOAK_MINUTES=60
  * goes on for an hour, with at least 200 generations and 60 loads, after the list of takes and the steps of undo are
- * full, so that all memory stays as it is; docs/performance.md has its table.
+ * full, so that all memory stays as it is; writes soak.json and docs/soak.svg.
  */
+import { writeFileSync } from 'node:fs';
+import path from 'node:path';
+import { plot } from '../../../tools/bench/plot.mjs';
+import { root } from '../../../tools/run.mjs';
 import { App } from '../support/app-page';
 import { bvh, wav } from '../support/files';
 import { expect, test } from '../support/fixtures';
@@ -22,13 +26,27 @@ const MORE: Memory = {
   buffers: 1,
   elements: 1,
   workers: 2,
-  process: 60,
+  process: 30,
+  browser: 30,
 };
 
-test.use({ viewport: { width: 800, height: 600 } });
-test.setTimeout((MINUTES + 10) * 60_000);
+const FADERS = ['Coarse guidance', 'Fine guidance', 'Music guidance', 'Variety'];
 
-test('memory stays flat over generations and loads', async ({ page, browser }) => {
+test.use({ viewport: { width: 800, height: 600 } });
+test.setTimeout((2 * MINUTES + 10) * 60_000);
+
+/** Memory after so much use. */
+interface Row {
+  readonly minutes: number;
+  readonly generations: number;
+  readonly loads: number;
+  readonly memory: Memory;
+}
+
+test('memory stays flat over generations and loads, and takes stay as they are', async ({
+  page,
+  browser,
+}) => {
   const meter = await MemoryMeter.open(page, browser);
   const app = new App(page);
   await app.openWithoutPicture();
@@ -36,15 +54,21 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
 
   let generations = 0;
   let loads = 0;
+  /** After one of the faders has been moved, or the steps or the seed were changed. */
   const generate = async (): Promise<void> => {
-    const value = ((++generations * 37) % 97) / 100;
-    const fader = generations % 3 === 0 ? 'Coarse guidance' : 'Fine guidance';
-    await page.getByRole('slider', { name: fader }).fill(String(value));
-    if (generations % 4 === 0) await page.getByRole('button', { name: 'Generate' }).click();
-    await app.until(({ reaction, settings, job, quality }) => {
-      const made = JSON.stringify(reaction?.inputs.settings.guidance);
-      return quality && !job && made === JSON.stringify(settings?.guidance);
-    });
+    const press = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
+    generations++;
+    if (generations % 10 === 5) await press(generations % 20 === 5 ? 'More steps' : 'Fewer steps');
+    else if (generations % 10 === 0) await press('Roll a new seed');
+    else {
+      const [fader, step] = [generations % 4, (generations * 7) % 15];
+      const slider = page.getByRole('slider', { name: FADERS[fader]!, exact: true });
+      await slider.fill(String(((FADERS[fader] === 'Music guidance' ? 10 : 1) * step) / 20));
+    }
+    await app.until(
+      ({ reaction, settings, job, quality }) =>
+        quality && !job && JSON.stringify(reaction?.inputs.settings) === JSON.stringify(settings),
+    );
   };
   const load = async (): Promise<void> => {
     const name = `leader ${++loads}.bvh`;
@@ -58,9 +82,22 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
       name,
     );
   };
-  const rows: (readonly [string, Memory])[] = [];
+  /** All takes, each with a sum of its motion. */
+  const takes = (): Promise<readonly (readonly unknown[])[]> =>
+    app.read(({ takes }) =>
+      takes.map(({ id, starred, reaction: { inputs, motion } }) => [
+        id,
+        starred,
+        inputs.leader.name,
+        motion.rotations.reduce((sum, value, i) => sum + value * (i % 1009), 0),
+      ]),
+    );
+  const rows: Row[] = [];
+  const start = Date.now();
   const note = async (): Promise<void> => {
-    rows.push([`${generations} generations, ${loads} loads`, await meter.measure()]);
+    const memory = await meter.measure();
+    rows.push({ minutes: (Date.now() - start) / 60_000, generations, loads, memory });
+    if (MINUTES > 0) writeFileSync(path.join(root, 'soak.json'), JSON.stringify(rows));
   };
   /** Generations and loads, evenly mixed. */
   const work = async (more: { readonly generations: number; readonly loads: number }): Promise<void> => {
@@ -73,6 +110,12 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
   };
 
   await note();
+  await work({ generations: 1, loads: 1 });
+  await page
+    .getByRole('button', { name: /^Star / })
+    .first()
+    .click();
+  const [starred = []] = await takes();
   await work(WARM_UP);
   await note();
   const end = Date.now() + MINUTES * 60_000;
@@ -83,24 +126,65 @@ test('memory stays flat over generations and loads', async ({ page, browser }) =
   }
 
   test.info().annotations.push({ type: 'measured', description: table(rows) });
-  if (MINUTES > 0) console.log(table(rows));
-  const warm = rows[1]![1];
-  const last = rows.at(-1)![1];
+  if (MINUTES > 0) {
+    console.log(table(rows));
+    writeFileSync(path.join(root, 'docs/soak.svg'), plotOf(rows));
+  }
+  const made = await takes();
+  if (MINUTES > 0) expect(made).toHaveLength(40);
+  else expect(made.length).toBeGreaterThan(WARM_UP.loads + REST.loads);
+  expect(made).toContainEqual(starred);
+  expect(await app.read(({ problem }) => problem)).toBeNull();
+  await app.until(({ autosave }) => autosave === 'stored');
+  await page.reload();
+  await app.until(({ takes }, number) => takes.length === number, made.length);
+  expect(await takes()).toEqual(made);
+
+  const warm = rows[1]!.memory;
+  const last = rows.at(-1)!.memory;
   for (const kind of Object.keys(MORE) as (keyof Memory)[])
     expect(last[kind] - warm[kind], `${kind}, megabytes added\n${table(rows)}`).toBeLessThan(MORE[kind]);
-  const takes = await app.read(({ takes }) => takes.length);
-  if (MINUTES > 0) expect(takes).toBe(40);
-  else expect(takes).toBeGreaterThan(WARM_UP.loads + REST.loads);
-  expect(await app.read(({ problem }) => problem)).toBeNull();
 });
 
 /** In Markdown, megabytes. */
-function table(rows: readonly (readonly [string, Memory])[]): string {
-  const parts = ['heap', 'held', 'buffers', 'elements', 'workers', 'process'] as const;
+function table(rows: readonly Row[]): string {
+  const parts = Object.keys(MORE) as (keyof Memory)[];
   const lines = [
-    ['MB after', ...parts],
-    ['---', ...parts.map(() => '---:')],
-    ...rows.map(([name, memory]) => [name, ...parts.map((part) => memory[part].toFixed(1))]),
+    ['minutes', 'generations', 'loads', ...parts],
+    ['---:', '---:', '---:', ...parts.map(() => '---:')],
+    ...rows.map(({ minutes, generations, loads, memory }) => [
+      minutes.toFixed(1),
+      generations,
+      loads,
+      ...parts.map((part) => memory[part].toFixed(1)),
+    ]),
   ];
   return lines.map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+}
+
+/** Memory over time. */
+function plotOf(rows: readonly Row[]): string {
+  const line = (name: string, part: keyof Memory) => ({
+    name,
+    points: rows.map(({ minutes, memory }) => [minutes, memory[part]] as const),
+  });
+  const ticks = [0, 15, 30, 45, 60].filter((at) => at <= MINUTES).map((at) => ({ at, text: `${at} min` }));
+  return plot([
+    {
+      title: 'processes, MB',
+      ticks,
+      lines: [line('pages', 'process'), line('browser', 'browser')],
+    },
+    {
+      title: 'objects and buffers, MB',
+      ticks,
+      lines: [
+        line('workers with WebAssembly', 'workers'),
+        line('takes and undo', 'held'),
+        line('objects', 'heap'),
+        line('elements', 'elements'),
+        line('other buffers', 'buffers'),
+      ],
+    },
+  ]);
 }

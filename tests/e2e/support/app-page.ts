@@ -98,6 +98,8 @@ export class App {
     }, data);
     for (const type of ['dragenter', 'dragover', 'drop'])
       await this.page.dispatchEvent('body', type, { dataTransfer: transfer });
+    // The page would hold the files for as long as it is open.
+    await transfer.dispose();
   }
 
   /** Waits for the reaction to the leader of this name, made here. */

@@ -2,9 +2,9 @@
 import { writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { root, runOrThrow } from '../../run.mjs';
+import { plot } from '../plot.mjs';
 import { measureColdStart } from './cold-start.mjs';
 import { measureLength } from './lengths.mjs';
-import { plotLengths } from './plot.mjs';
 import { measureSlider } from './slider.mjs';
 
 /** @typedef {Awaited<ReturnType<typeof measureApp>>} AppFigures */
@@ -42,4 +42,23 @@ export function appTables({ coldStart, slider, lengths }) {
         `| ${[minutes, song.toFixed(1), leader.toFixed(1), dance.toFixed(1), memory.toFixed(0), longestTask.toFixed(0)].join(' | ')} |`,
     ),
   ].join('\n');
+}
+
+/**
+ * Time and memory over the length of a dance.
+ *
+ * @param {readonly import('./lengths.mjs').Length[]} lengths ascending
+ */
+function plotLengths(lengths) {
+  const ticks = lengths.map(({ minutes }) => ({ at: minutes, text: `${minutes} min` }));
+  /** @param {string} title @param {(length: import('./lengths.mjs').Length) => number} valueOf */
+  const panel = (title, valueOf) => ({
+    title,
+    ticks,
+    lines: [{ points: lengths.map((length) => /** @type {const} */ ([length.minutes, valueOf(length)])) }],
+  });
+  return plot([
+    panel('seconds until the partner dances', ({ song, leader, dance }) => song + leader + dance),
+    panel('most memory of the page’s processes, MB', ({ memory }) => memory),
+  ]);
 }
