@@ -19,9 +19,12 @@ const WARM_UP = MINUTES > 0 ? { generations: 40, loads: 40 } : { generations: 4,
 const REST =
   MINUTES > 0 ? { generations: 200, loads: 60, parts: 4 } : { generations: 10, loads: 14, parts: 1 };
 
-/** Most that may be added after the warm-up, megabytes; what is held may grow until lists and undo are full. */
+/**
+ * Most that may be added after the warm-up, megabytes; what is held may grow until lists and undo are full, objects
+ * until all that is called often is compiled.
+ */
 const MORE: Memory = {
-  heap: 1,
+  heap: MINUTES > 0 ? 2 : 1,
   held: MINUTES > 0 ? 3 : 10,
   buffers: 1,
   elements: 1,
