@@ -179,7 +179,7 @@ def _joints(frames: Sequence[Mapping[str, list[float]]], skeleton: Skeleton) -> 
     }
     motion = np.stack([joints[name] for name in JOINTS], axis=1).astype(np.float32)
     if not np.isfinite(motion).all():
-        raise ValueError("a value that is no finite number")
+        raise ValueError("a value that is not a finite number")
     return motion
 
 

@@ -69,7 +69,7 @@ function checkDuration(duration: number): void {
   const minutes = (duration / 60).toFixed(1);
   throw new AppError(
     'too-long',
-    `The song lasts ${minutes} minutes; songs of up to ${MAX_DURATION / 60} minutes are taken.`,
+    `The song lasts ${minutes} minutes; songs of up to ${MAX_DURATION / 60} minutes can be used.`,
     'Cut out the part to dance to with a sound editor and load that.',
   );
 }
@@ -111,7 +111,7 @@ async function decode(bytes: ArrayBuffer): Promise<AudioBuffer> {
   } catch (cause) {
     throw new AppError(
       'not-audio',
-      'The file is not a sound that this browser can decode.',
+      'This browser cannot decode the sound in this file.',
       'Use a WAV, MP3, OGG, FLAC, M4A or Opus file.',
       { cause },
     );

@@ -61,7 +61,7 @@ export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const start = bytes.length > 12 && view.getUint8(6) > 1 ? 12 : 10;
   if (bytes.length <= start || text(0, MAGIC.length) !== MAGIC)
-    throw damaged(`The array "${name}" is no NumPy array.`);
+    throw damaged(`The array "${name}" is not a NumPy array.`);
   const end = start + (start === 12 ? view.getUint32(8, true) : view.getUint16(8, true));
   const header = new TextDecoder().decode(bytes.subarray(start, end));
   const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
@@ -108,7 +108,7 @@ export function unzipArrays(
     throw damaged(
       tooLarge
         ? `The archive holds more than ${maxBytes / 1024 ** 2} MB.`
-        : 'The archive of arrays is damaged: it is no whole zip file.',
+        : 'The archive of arrays is damaged: it is not a whole zip file.',
       cause,
     );
   }

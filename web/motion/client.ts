@@ -35,7 +35,7 @@ export async function readLeader(request: LeaderRequest, signal?: AbortSignal): 
 function workerError(reason: string): AppError {
   return new AppError(
     'worker-crashed',
-    `The reading of the motion stopped unexpectedly (${reason}).`,
+    `Reading the motion stopped unexpectedly (${reason}).`,
     'Try again. If it happens again, close other tabs or use a shorter motion.',
   );
 }

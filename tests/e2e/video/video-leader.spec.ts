@@ -51,7 +51,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
 
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();
-  await page.getByRole('checkbox', { name: 'Beside it the video of the leader' }).check();
+  await page.getByRole('checkbox', { name: 'Show the leader’s video beside it' }).check();
   const coming = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save video' }).click();
   const [left, right] = await halvesOf(page, await (await coming).path());

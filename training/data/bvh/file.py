@@ -105,7 +105,7 @@ def frame_rate(frame_time: str) -> float:
     """Frames per second from a frame time in seconds as written; 0.0333 means 30, but 0.0333667 is 29.97."""
     seconds = float(frame_time)
     if not 1e-3 <= seconds <= 0.2:
-        raise ValueError(f"no dance is recorded with a frame time of {frame_time} seconds")
+        raise ValueError(f"no recording of a dance has a frame time of {frame_time} seconds")
     last_decimal = 10.0 ** -len(frame_time.partition(".")[2])
     rate = min(_USUAL_RATES, key=lambda usual: abs(1 / usual - seconds))
     return float(rate) if abs(1 / rate - seconds) <= min(last_decimal, 0.02 * seconds) else 1 / seconds

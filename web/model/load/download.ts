@@ -210,7 +210,7 @@ export async function download(
       throw new AppError(
         'model-corrupt',
         `The model file ${file.path} is not the one its manifest lists: ${wrong}.`,
-        'Load the page again; if it stays so, copy the whole model folder to the server anew.',
+        'Reload the page; if this happens again, copy the whole model folder to the server once more.',
       );
     }
     try {

@@ -74,7 +74,7 @@ export async function readMotion(
   if (!file || !format) {
     throw new AppError(
       'not-motion',
-      'This is no motion file of a known format.',
+      'This is not a motion file in a format that can be read here.',
       'Use BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
     );
   }

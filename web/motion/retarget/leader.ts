@@ -177,7 +177,7 @@ const FEET_BACKWARDS = -0.3;
 function motionWarnings(clip: MotionClip, fps: number): string[] {
   if (clip.frames <= FPS || medianAcceleration(clip) <= MAX_ACCELERATION) return [];
   return [
-    `The dancer moves hastily for a person. If the dance looks hurried, the frame rate of the file (${Number(fps.toFixed(2))}) is wrong: set half of it.`,
+    `The dancer moves faster than people do. If the dance looks hurried, the frame rate of the file (${Number(fps.toFixed(2))}) is wrong: set half of it.`,
   ];
 }
 
@@ -211,7 +211,7 @@ export function leaderOf(
     } else {
       ({ body, up, certain } = orientedBody(source, withSidesExchanged(named), fps, options));
       warnings.push(
-        'The feet pointed backwards: left and right of this file were exchanged, and are put right.',
+        'The feet pointed backwards: left and right of this file were swapped, which is corrected.',
       );
     }
   }

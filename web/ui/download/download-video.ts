@@ -98,7 +98,7 @@ function createBeside(
   const root = el(
     'label',
     { class: 'row soft', attributes: { for: box.id } },
-    'Beside it the video of the leader',
+    'Show the leader’s video beside it',
     box,
   );
   return {

@@ -148,7 +148,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
         making ? 'Cancel' : allVariationsMade(state.variations) ? 'Three others' : 'Three reactions',
       );
       button.title = making
-        ? 'Make no more'
+        ? 'Stop here'
         : 'Makes three reactions that differ as much as possible, for you to pick from';
     },
   };

@@ -174,12 +174,16 @@ function unzip(bytes: Uint8Array): Unzipped {
 function readManifest(files: Unzipped): Manifest {
   const content = files[MANIFEST];
   if (!content)
-    throw new AppError('not-a-project', `The archive holds no ${MANIFEST}, so it is no project.`, HINT_SAVED);
+    throw new AppError(
+      'not-a-project',
+      `The archive holds no ${MANIFEST}, so it is not a project.`,
+      HINT_SAVED,
+    );
   let json: unknown;
   try {
     json = JSON.parse(strFromU8(content));
   } catch {
-    throw new AppError('damaged-project', `${MANIFEST} in the project is no JSON.`, HINT_AGAIN);
+    throw new AppError('damaged-project', `${MANIFEST} in the project is not JSON.`, HINT_AGAIN);
   }
   const header = v.safeParse(v.object({ format: v.literal(FORMAT), version: v.number() }), json);
   if (header.success && header.output.version > VERSION)

@@ -164,7 +164,7 @@ export class Restorer {
         : []),
       ...(changed > 0
         ? [
-            `The settings of ${changed === 1 ? 'a take' : `${changed} takes`} are beyond what this model takes; the ` +
+            `The settings of ${changed === 1 ? 'a take' : `${changed} takes`} are outside this model’s range; the ` +
               'nearest are shown.',
           ]
         : []),

@@ -18,7 +18,7 @@ interface Overlay {
 
 export const OVERLAYS: readonly Overlay[] = [
   { what: 'ghost', label: 'Coarse ghost', key: 'G', hint: 'The partner without the fine layer' },
-  { what: 'contacts', label: 'Foot contacts', key: 'N', hint: 'Rings under feet that stand' },
+  { what: 'contacts', label: 'Foot contacts', key: 'N', hint: 'Rings under planted feet' },
   { what: 'hands', label: 'Hand links', key: 'H', hint: 'Arcs between hands within reach' },
   { what: 'trails', label: 'Trails', key: 'P', hint: 'Where hands and feet have just been' },
   { what: 'skeleton', label: 'Skeleton', key: 'K', hint: 'Bones and joints inside the bodies' },

@@ -94,8 +94,8 @@ export function fullProblem(): Problem {
     code: 'storage-full',
     title: 'The space that this browser has for the page is full.',
     hint:
-      'All is still here, but what does not fit is lost when the page is closed. Delete takes that you don’t need, ' +
-      'or free space on this device: the rest is then kept by itself. Or save a project file.',
+      'Everything is still here, but what does not fit is lost when the page is closed. Delete takes that you don’t need, ' +
+      'or free space on this device: the rest is then kept automatically. Or save a project file.',
     remedy: 'project',
     refused: null,
   };

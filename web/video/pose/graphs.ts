@@ -83,7 +83,7 @@ function readList(bytes: Uint8Array): v.InferOutput<typeof listSchema> {
     throw new AppError(
       'manifest-invalid',
       'The list of the networks that read videos is damaged.',
-      'Load the page again; if it stays so, copy the folder models/pose to the server anew.',
+      'Reload the page; if this happens again, copy the folder models/pose to the server once more.',
       { cause },
     );
   }

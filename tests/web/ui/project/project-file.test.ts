@@ -377,7 +377,7 @@ describe('what does not fit', () => {
         nearest,
         nearest,
       ]);
-      expect(losses).toEqual([expect.stringContaining('settings of 3 takes are beyond')]);
+      expect(losses).toEqual([expect.stringContaining('settings of 3 takes are outside')]);
     },
   );
 

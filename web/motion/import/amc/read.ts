@@ -37,7 +37,7 @@ function framesOf(text: string, bones: readonly Bone[]): Frames {
     }
     const values = words.slice(1);
     if (values.length < count || !values.every((word) => NUMBER.test(word) && Math.abs(Number(word)) < 1e7))
-      throw damagedAsf(`line ${number + 1} has not ${count} numbers for ${name.slice(0, 40)}`);
+      throw damagedAsf(`line ${number + 1} does not have ${count} numbers for ${name.slice(0, 40)}`);
     frame.set(name, values.map(Number));
   });
   return frames;

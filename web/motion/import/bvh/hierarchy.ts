@@ -98,7 +98,7 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
     });
 
   const readNode = (parent: number, endSite: boolean, depth: number): void => {
-    if (depth > MAX_DEPTH) throw invalid(`joints hang on one another more than ${MAX_DEPTH} deep`);
+    if (depth > MAX_DEPTH) throw invalid(`joints are nested more than ${MAX_DEPTH} deep`);
     const written = tokens.restOfLine();
     const name = endSite ? `end of ${nodes[parent]!.name}` : written;
     if (name === '') throw invalid('a joint has no name');
@@ -115,7 +115,7 @@ export function readHierarchy(lines: readonly string[], end: number): BvhNode[] 
         const token = tokens.peek();
         const channel = CHANNELS.find((known) => known.toLowerCase() === token?.toLowerCase());
         if (channel === undefined)
-          throw invalid(`"${token ?? ''}" in ${name} is no channel of position or rotation`);
+          throw invalid(`"${token ?? ''}" in ${name} is not a channel of position or rotation`);
         if (channels.includes(channel)) throw invalid(`${name} has the channel ${channel} twice`);
         channels.push(channel);
         tokens.next();

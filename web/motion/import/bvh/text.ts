@@ -71,7 +71,7 @@ export function parseBvhText(text: string): BvhFile {
   }
   const stated = Number(frames.value);
   if (frames.value === '' || !Number.isInteger(stated) || stated < 0) {
-    const where = `Line ${frames.line + 1}: "${frames.value}" is no number of frames.`;
+    const where = `Line ${frames.line + 1}: "${frames.value}" is not a number of frames.`;
     throw new AppError('bad-number', where, HINT_EXPORT_AGAIN);
   }
   const { frameLines, warnings, truncated } = readFrames(lines, time.line + 1, stated, nodes);

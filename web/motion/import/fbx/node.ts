@@ -50,7 +50,7 @@ export class FbxBudget {
   /** @throws {AppError} `unreadable-file` */
   node(depth: number): void {
     if (++this.nodes > MAX_NODES) throw damagedFbx(`it has more than ${MAX_NODES} nodes`);
-    if (depth > MAX_DEPTH) throw damagedFbx(`its nodes hang on one another more than ${MAX_DEPTH} deep`);
+    if (depth > MAX_DEPTH) throw damagedFbx(`its nodes are nested more than ${MAX_DEPTH} deep`);
   }
 
   /** @throws {AppError} `unreadable-file` */

@@ -28,7 +28,7 @@ function orderedModels({ models, parents }: FbxScene): Model[] {
   const state = new Map<string, 'visiting' | 'done'>();
   const visit = (id: string): void => {
     if (state.get(id) === 'done') return;
-    if (state.get(id) === 'visiting') throw damagedFbx('its joints hang on one another in a circle');
+    if (state.get(id) === 'visiting') throw damagedFbx('its joints form a circle');
     state.set(id, 'visiting');
     const parent = parents.get(id);
     if (parent !== undefined) visit(parent);

@@ -52,7 +52,7 @@ export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>):
   nodes.forEach(({ children }, parent) => {
     for (const child of children) {
       if (child >= nodes.length || parents[child] !== -1)
-        throw damagedGltf('a node hangs on two others, or is missing');
+        throw damagedGltf('a node has two parents, or is missing');
       parents[child] = parent;
     }
   });
@@ -64,7 +64,7 @@ export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>):
     places.set(node, order.push(node) - 1);
     waiting.push(...nodes[node]!.children.toReversed());
   }
-  if (order.length < nodes.length) throw damagedGltf('its nodes hang on one another in a circle');
+  if (order.length < nodes.length) throw damagedGltf('its nodes form a circle');
   return {
     nodes: order,
     joints: order.map((node) => ({

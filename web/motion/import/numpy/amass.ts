@@ -58,7 +58,7 @@ export function sourceOfRotations(
     upAxis: 'z',
     parts: [],
     part: 0,
-    warnings: ['The file holds rotations without a body; an average adult dances them.'],
+    warnings: ['The file holds rotations without a body, so that of an average adult is used.'],
     truncated: false,
     localPoses,
   };

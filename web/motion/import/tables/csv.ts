@@ -13,7 +13,7 @@ const MAX_COLUMNS = 3000;
 function invalid(what: string): AppError {
   return new AppError(
     'not-motion',
-    `This CSV file is no motion: ${what}.`,
+    `This CSV file does not hold a motion: ${what}.`,
     'The first line names a column for every joint and axis, as left_hip_x; one line a frame follows.',
   );
 }

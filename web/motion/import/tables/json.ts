@@ -10,7 +10,7 @@ const METRES = { name: 'metres', metres: 1 } as const;
 function invalid(what: string): AppError {
   return new AppError(
     'not-motion',
-    `This JSON file is no motion: ${what}.`,
+    `This JSON file does not hold a motion: ${what}.`,
     'Use a file that this page wrote as JSON, or the same form: "fps", "joints" and "positions" by dancer.',
   );
 }
@@ -34,7 +34,8 @@ function placesOf(frames: readonly unknown[], joints: number): Float32Array {
   if (error) throw error;
   const places = new Float32Array(frames.length * joints * 3);
   frames.forEach((frame, i) => {
-    if (!isList(frame) || frame.length !== joints) throw invalid(`frame ${i + 1} has not ${joints} points`);
+    if (!isList(frame) || frame.length !== joints)
+      throw invalid(`frame ${i + 1} does not have ${joints} points`);
     frame.forEach((point: unknown, joint) => {
       for (let axis = 0; axis < 3; axis++) {
         const value: unknown = isList(point) && point.length === 3 ? point[axis] : undefined;

@@ -102,7 +102,7 @@ export function readVmd(bytes: Uint8Array): MotionSource {
     upAxis: 'y',
     parts: [],
     part: 0,
-    warnings: ['A VMD holds a motion without a body; a usual MMD body of 1.60 m dances it.'],
+    warnings: ['A VMD file holds a motion without a body, so a usual MMD body of 1.60 m is used.'],
     truncated: false,
     localPoses: (wanted): LocalPoses => {
       const rotations = new Float32Array(wanted.length * count * 4);

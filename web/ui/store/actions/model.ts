@@ -28,7 +28,7 @@ export function modelOpened(manifest: Manifest, seed: number): Change {
     const before = state.manifest;
     const sameRecipe = before !== null && JSON.stringify(before.audio) === JSON.stringify(manifest.audio);
     const lost =
-      state.song && !sameRecipe ? ` It hears songs in another way: drop ${state.song.name} again.` : '';
+      state.song && !sameRecipe ? ` It analyses songs in another way: drop ${state.song.name} again.` : '';
     return {
       ...manifestLoaded(manifest, seed)(state),
       ...(!sameRecipe && { song: null, shift: 0 }),

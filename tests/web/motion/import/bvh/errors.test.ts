@@ -158,7 +158,7 @@ describe('invalid numbers', () => {
     );
   });
   test('in the number of frames', () => {
-    expectFailure(good.replace('Frames: 12', 'Frames: many'), 'bad-number', '"many" is no number of frames');
+    expectFailure(good.replace('Frames: 12', 'Frames: many'), 'bad-number', '"many" is not a number of frames');
   });
 });
 
@@ -181,7 +181,7 @@ describe('the wrong number of columns', () => {
 describe('an invalid skeleton', () => {
   test.each([
     [/\tOFFSET/, '\tOFFSETS', 'has no OFFSET'],
-    [/Xrotation/, 'Xscale', '"Xscale" in mixamorig:Hips is no channel'],
+    [/Xrotation/, 'Xscale', '"Xscale" in mixamorig:Hips is not a channel'],
     [/JOINT/, 'BONE', 'expected JOINT, End Site or "}" in mixamorig:Hips, found "BONE"'],
     [/ROOT/, 'START', 'expected ROOT, found "START"'],
   ])('%s', (what, by, message) => expectFailure(good.replace(what, by), 'bad-hierarchy', message));

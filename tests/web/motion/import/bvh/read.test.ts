@@ -258,11 +258,11 @@ describe('variants of the format', () => {
     expectSame(leaderBvh(odd), made, pairsOf(MIXAMO));
   });
 
-  test('exchanged left and right are put right, with a warning', () => {
+  test('swapped left and right are corrected, with a warning', () => {
     const swapped = { ...MIXAMO, sides: ['Right', 'Left'] as const };
     const made = madeBvh({ joints: madeBody(swapped) });
     const file = leaderBvh(made.text);
-    expect(file.report.warnings.join()).toMatch(/left and right of this file were exchanged/);
+    expect(file.report.warnings.join()).toMatch(/left and right of this file were swapped/);
     expect(file.report.joints.left_knee).toBe('mixamorig:RightLeg');
     expectSame(file, made, pairsOf(swapped));
   });
