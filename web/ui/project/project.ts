@@ -194,7 +194,11 @@ export class Project {
       apply(store, visitRestored(content));
       this.frame(restorer.stored.page.framing);
     }
-    await this.means.stage()?.ready();
+    // The work comes back also where a body can't be drawn.
+    await this.means
+      .stage()
+      ?.ready()
+      .catch(() => undefined);
   }
 
   /** Restores the takes of other songs and leaders than the page's. */
