@@ -75,7 +75,16 @@ const store = createAppStore(systemTheme());
 syncPreferences(store, () => localStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
 const model = createModelLink(store, (onStatus, folder) =>
-  createGenerator({ manifestUrl, folder: folder ?? undefined, backend, onStatus }),
+  createGenerator({
+    manifestUrl,
+    folder: folder ?? undefined,
+    backend,
+    onStatus: (status) => {
+      onStatus(status);
+      // Opening the graphs takes all of a small processor: the couple of an earlier visit is drawn before.
+      return status.kind === 'open' ? project.coupleShown : undefined;
+    },
+  }),
 );
 const rememberedJoints = new RememberedJointsStorage(() => localStorage);
 const readers = {
@@ -94,11 +103,13 @@ const video = createVideoFeature(
   videoTrack,
 );
 const project = new Project(store, files, readers, {
-  camera: () => stage,
+  stage: () => stage,
   storage: new ProjectDatabase(),
   tabs: tabMeans(globalThis),
   persistence: navigator.storage,
 });
+// The browser reads while the page is built.
+const restoring = project.restore();
 const generation = new Generation(store, model.generator);
 const variations = new VariationMaker(store, model.generator);
 createCoarseLayer(store, model.generator);
@@ -211,7 +222,7 @@ if (stage) {
 
 // ---- what is loaded at the start ----
 
-void project.restore().then((restored) => (restored ? undefined : openDemo()));
+void restoring.then((restored) => (restored ? undefined : openDemo()));
 // The scores of recorded dances are only shown beside others, so they may come last and may be missing.
 void model
   .manifest()

@@ -29,7 +29,8 @@ type ReportOf<T extends Tasks[string]> = Parameters<T>[1] extends TaskContext<in
 interface CallOptions<Report = never> {
   /** Cancels the call. */
   readonly signal?: AbortSignal | undefined;
-  readonly onReport?: ((report: Report) => void) | undefined;
+  /** Where it returns a promise, the worker's `report` resolves after that. */
+  readonly onReport?: ((report: Report) => unknown) | undefined;
   /** Buffers of the input that are handed to the worker instead of copied. */
   readonly transfers?: readonly ArrayBufferLike[] | undefined;
 }
@@ -122,17 +123,17 @@ const PATIENCE: Patience = { first: 60, next: 60 };
  * nothing of it.
  */
 class Reports {
-  #onReport: Reporter | undefined;
+  #onReport: ((report: unknown) => unknown) | undefined;
   readonly #hear: () => void;
 
-  constructor(hear: () => void, onReport: Reporter | undefined) {
+  constructor(hear: () => void, onReport: ((report: unknown) => unknown) | undefined) {
     this.#hear = hear;
     this.#onReport = onReport;
   }
 
-  readonly take = (report: unknown): void => {
+  readonly take: Reporter = async (report) => {
     this.#hear();
-    void this.#onReport?.(report);
+    await this.#onReport?.(report);
   };
 
   end(): void {
@@ -199,7 +200,7 @@ export class WorkerConnection<T extends Tasks> {
     signal?.throwIfAborted();
     if (this.#end) throw this.#end;
     const id = ++this.#calls;
-    const reports = new Reports(this.#watch.hear, onReport as Reporter | undefined);
+    const reports = new Reports(this.#watch.hear, onReport as ((report: unknown) => unknown) | undefined);
     const report = proxy(reports.take);
     let cancel: () => void = () => undefined;
     let fail: (error: Error) => void = () => undefined;

@@ -47,8 +47,11 @@ export interface GeneratorOptions {
   readonly backend?: Preference | undefined;
   /** Number of wasm threads, for measurements; by default as many as suit the machine. */
   readonly threads?: number | undefined;
-  /** Called while a model is loaded, which is also done again after a crash. */
-  readonly onStatus?: ((status: Status | ReloadFailure) => void) | undefined;
+  /**
+   * Called while a model is loaded, which is also done again after a crash. Its graphs are opened after the promise
+   * that it returns for the status `open`.
+   */
+  readonly onStatus?: ((status: Status | ReloadFailure) => unknown) | undefined;
 }
 
 /** A model that was there could not be loaded again. */

@@ -39,7 +39,12 @@ function sourceOf({ source }: SourceCall): Source {
 
 const tasks = {
   async load(options: LoadOptions, { report }: TaskContext<Status>): Promise<Loaded> {
-    model = await loadModel(options, globalThis, (status) => void report(status));
+    model = await loadModel(
+      options,
+      globalThis,
+      (status) => void report(status),
+      () => report({ kind: 'open' }),
+    );
     return { manifest: model.pipeline.manifest, backend: model.backend };
   },
 

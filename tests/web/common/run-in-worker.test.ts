@@ -94,7 +94,7 @@ describe('a connection to a worker', () => {
     expect(reports).toEqual(Array.from({ length: 20 }, (_, i) => i + 1));
   });
 
-  it('lets the page cancel a task before it goes on after a report', async () => {
+  it('waits with a task that awaits its report until the page has taken it, and may have cancelled the task', async () => {
     const connection = new WorkerConnection<Tested>(open());
     const controller = new AbortController();
     const counting = connection.call(
@@ -102,8 +102,10 @@ describe('a connection to a worker', () => {
       {},
       {
         signal: controller.signal,
-        onReport: (at) => {
-          if (at === 3) controller.abort();
+        onReport: async (at) => {
+          if (at < 3) return;
+          await new Promise((resolve) => setTimeout(resolve, 20));
+          controller.abort();
         },
       },
     );

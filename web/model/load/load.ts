@@ -98,12 +98,14 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
 /**
  * Fetches, verifies, opens and tests a model.
  * @param scope the worker's global scope
+ * @param beforeOpening what the graphs are opened after; it tells the status `open`
  * @throws {AppError}
  */
 export async function loadModel(
   { manifestUrl, folder, backend: preference, threads, processorBecause }: LoadOptions,
   scope: typeof globalThis,
   onStatus: (status: Status) => void,
+  beforeOpening: () => Promise<void>,
 ): Promise<LoadedModel> {
   const get = folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch);
   const cache = folder ? undefined : responseCache(scope);
@@ -129,7 +131,7 @@ export async function loadModel(
         });
       },
     });
-    onStatus({ kind: 'open' });
+    await beforeOpening();
     return openSession(manifest, graphs, provider, backend.threads, runtime);
   };
 

@@ -20,7 +20,7 @@ export function createDownloadVideo(
   let plan: Plan;
   const sizes = radioGroup(
     'Size of the video',
-    VIDEO_SIZES.map((size) => [size, size.replace('x', ':')] as const),
+    VIDEO_SIZES.map((size) => [size, size === 'stage' ? 'As on stage' : size.replace('x', ':')] as const),
     (size) => {
       apply(store, downloadChosen({ size }));
     },
@@ -56,8 +56,6 @@ export function createDownloadVideo(
   /** Asks the browser how it can write the video, while the menu is open; only the latest answer counts. */
   const ask = async (state: AppState): Promise<void> => {
     if (state.openPanel !== 'download') return;
-    const pixels = services.stageSize();
-    sizes.label('stage', pixels ? `As on stage, ${pixels.width} × ${pixels.height}` : 'As on stage');
     const request = ++lastRequest;
     // A request that fails, because the page is offline, is repeated when the menu is opened again.
     const answer = await services.planVideo().catch(() => undefined);
@@ -130,6 +128,7 @@ function captionField(
 }
 
 type Plan = VideoPlan | null | undefined;
+type Pixels = NonNullable<ReturnType<Services['stageSize']>>;
 
 /** The heading, what will be written, and the buttons. */
 function createHead(services: Services): {
@@ -153,7 +152,8 @@ function createHead(services: Services): {
       cancel.hidden = !running;
       share.hidden = running || !savedVideo(plan, state)?.shareable;
       save.disabled = !state.reaction || !plan;
-      setText(about, services.stageSize() ? videoText(plan, state) : 'A video needs the 3D picture.');
+      const stage = services.stageSize();
+      setText(about, stage ? videoText(plan, state, stage) : 'A video needs the 3D picture.');
       const named = fileNameParts(state);
       save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
     },
@@ -194,14 +194,14 @@ function savedVideo(plan: Plan, { saved }: AppState): Saved | null {
 }
 
 /** Text beside the heading: what will be written, what was, or why no video can be written. */
-function videoText(plan: Plan, state: AppState): string {
+function videoText(plan: Plan, state: AppState, stage: Pixels): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
-  const pace = plan.way === 'record' ? `, takes ${duration(danceDuration(state))}` : ', as you see it';
-  return `${container}${pace}`;
+  if (plan.way === 'record') return `${container}, takes ${duration(danceDuration(state))}`;
+  return `${container}, ${state.download.size === 'stage' ? `${stage.width} × ${stage.height}` : 'as you see it'}`;
 }
 
 /** `6 s left`, `2:05 left`. */

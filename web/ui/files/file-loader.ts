@@ -90,10 +90,11 @@ export class FileLoader implements Files {
     this.retry[kind]?.();
   };
 
-  readSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
-    return this.runSong(blob, name, label, () => {
+  readSong(blob: Blob, name: string, label: string | null, after: Promise<void>): Promise<LoadedSong | null> {
+    const done = (): void => {
       this.endReading('song');
-    });
+    };
+    return this.runSong(blob, name, label, done, after);
   }
 
   readLeader(source: LeaderSource): Promise<LoadedLeader | null> {
@@ -137,9 +138,11 @@ export class FileLoader implements Files {
     name: string,
     label: string | null,
     done: (song: LoadedSong) => void,
+    after = Promise.resolve(),
   ): Promise<LoadedSong | null> {
     const read = async (signal: AbortSignal, progress: (fraction: number) => void): Promise<LoadedSong> => {
       const { audio } = await this.readers.manifest();
+      await after;
       const onProgress = ({ fraction }: { readonly fraction: number }): void => {
         progress(fraction);
       };

@@ -28,16 +28,18 @@ import { Restorer, restoringOf, type StoredFileReaders } from './restore';
 import type { ProjectStorage } from './storage';
 import { AppError } from '../../common/error';
 
-/** The camera of the stage. */
-interface ProjectCamera {
+/** What is needed of the stage. */
+interface ProjectStage {
   readonly framing: () => Framing;
   readonly frameAs: (framing: Framing) => void;
+  /** Resolves when the couple is drawn. */
+  readonly ready: () => Promise<void>;
 }
 
-/** What the browser gives the page to store with, and the stage's camera. */
+/** What the browser gives the page to store with, and the stage. */
 export interface ProjectMeans {
-  /** Null without a stage. */
-  readonly camera: () => ProjectCamera | null;
+  /** Null where there is none. */
+  readonly stage: () => ProjectStage | null;
   readonly storage: ProjectStorage;
   readonly tabs: TabMeans;
   readonly persistence: Persistence;
@@ -51,6 +53,8 @@ export class Project {
   /** Reads without changing the page; null for what fails. */
   private readonly background: StoredFileReaders;
   private persistenceAsked = false;
+  /** Resolves when the couple of an earlier visit is drawn, or there is none to draw. */
+  coupleShown: Promise<void> = Promise.resolve();
 
   constructor(
     private readonly store: Store,
@@ -64,7 +68,7 @@ export class Project {
       takeStored: () => void this.askPersistence(),
     });
     this.foreground = {
-      song: ({ file, name, label }) => files.readSong(file, name, label),
+      song: ({ file, name, label }) => files.readSong(file, name, label, this.coupleShown),
       leader: ({ name, label, files: leader, options }) =>
         files.readLeader({ name, label, files: leader, options }),
     };
@@ -73,9 +77,16 @@ export class Project {
 
   /**
    * Restores what an earlier visit stored and starts autosave; false when there is nothing to restore. What is there is
-   * said at once, the couple is shown as soon as the leader is read, and the song and the other takes come after them.
+   * said at once, the couple is drawn as soon as the leader is read, and the song and the other takes come after it.
    */
-  async restore(): Promise<boolean> {
+  restore(): Promise<boolean> {
+    let shown = (): void => undefined;
+    this.coupleShown = new Promise((resolve) => (shown = resolve));
+    return this.restoreStored(shown).finally(shown);
+  }
+
+  /** @param shown called when the couple is drawn, or could not be read */
+  private async restoreStored(shown: () => void): Promise<boolean> {
     const { store } = this;
     const found = await this.autosave.read();
     const { project, losses } = found ? checked(found) : NOTHING;
@@ -87,19 +98,9 @@ export class Project {
     void isPersistent(this.means.persistence).then((answer) => apply(store, persistenceAnswered(answer)));
     apply(store, firstVisitEnded());
     apply(store, restoringSet(restoringOf(project)));
-    const before = store.getState();
     const restorer = new Restorer(project, assignId);
     const song = restorer.readPageSong(this.foreground);
-    await Promise.all([this.readers.manifest(), restorer.readPageLeader(this.foreground)]);
-    const now = store.getState();
-    // Files that the visitor has chosen in the meantime stay.
-    const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
-    const content = restorer.content(now);
-    if (superseded) apply(store, takesRestored(content.takes ?? []));
-    else {
-      apply(store, visitRestored(content));
-      this.frame(project.page.framing);
-    }
+    await this.restoreCouple(restorer).finally(shown);
     await song;
     this.showPageSong(restorer);
     this.autosave.start();
@@ -167,16 +168,37 @@ export class Project {
     this.autosave.dispose();
   }
 
-  private readonly framing = (): Framing | null => this.means.camera()?.framing() ?? null;
+  private readonly framing = (): Framing | null => this.means.stage()?.framing() ?? null;
 
   /** Frames the couple as in an earlier visit. */
   private frame(framing: Framing | null): void {
-    if (framing) this.means.camera()?.frameAs(framing);
+    if (framing) this.means.stage()?.frameAs(framing);
   }
 
   private showPageSong(restorer: Restorer): void {
     const read = restorer.pageSong();
     if (read) apply(this.store, songRestored(read.song, read.takes));
+  }
+
+  /** Reads the page's leader and shows what was on the page with it, until the couple is drawn. */
+  private async restoreCouple(restorer: Restorer): Promise<void> {
+    const { store } = this;
+    const before = store.getState();
+    await Promise.all([this.readers.manifest(), restorer.readPageLeader(this.foreground)]);
+    const now = store.getState();
+    // Files that the visitor has chosen in the meantime stay.
+    const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
+    const content = restorer.content(now);
+    if (superseded) apply(store, takesRestored(content.takes ?? []));
+    else {
+      apply(store, visitRestored(content));
+      this.frame(restorer.stored.page.framing);
+    }
+    // The work comes back also where a body can't be drawn.
+    await this.means
+      .stage()
+      ?.ready()
+      .catch(() => undefined);
   }
 
   /** Restores the takes of other songs and leaders than the page's. */

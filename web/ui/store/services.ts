@@ -41,8 +41,16 @@ export interface Files {
   readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
   /** Reads the leader on the page, or the one that was refused last, again with these options. */
   readonly rereadLeader: (options: ImportOptions) => Promise<LoadedLeader | null>;
-  /** Reads a song without putting it on the page; null when that failed or a newer song cancelled it. */
-  readonly readSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
+  /**
+   * Reads a song without putting it on the page, under its name at once and in fact when `after` resolves; null when
+   * that failed or a newer song cancelled it.
+   */
+  readonly readSong: (
+    blob: Blob,
+    name: string,
+    label: string | null,
+    after: Promise<void>,
+  ) => Promise<LoadedSong | null>;
   /** The same for a leader. */
   readonly readLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
 }

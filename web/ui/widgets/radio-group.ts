@@ -1,12 +1,10 @@
-import { el, setText } from './dom';
+import { el } from './dom';
 
 /** A row of buttons of which one is chosen; arrow keys move the choice. */
 interface RadioGroup<T extends string> {
   readonly element: HTMLElement;
   /** Shows which one is chosen. */
   readonly show: (value: T) => void;
-  /** Changes the words on a button. */
-  readonly label: (value: T, text: string) => void;
 }
 
 const MOVES: Readonly<Record<string, 1 | -1>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
@@ -49,10 +47,6 @@ export function radioGroup<T extends string>(
         buttons[index]?.setAttribute('aria-checked', String(value === shown));
         buttons[index]?.setAttribute('tabindex', value === shown ? '0' : '-1');
       });
-    },
-    label: (wanted, text) => {
-      const button = buttons[options.findIndex(([value]) => value === wanted)];
-      if (button) setText(button, text);
     },
   };
 }

@@ -154,6 +154,17 @@ describe('reading files', () => {
     expect(store.getState().song).toMatchObject({ name: 'a.mp3', label: 'demo song' });
   });
 
+  it('a stored song is named at once and read when it may', async () => {
+    readers.loadSong = vi.fn(() => Promise.resolve(songData(2)));
+    let go = (): void => undefined;
+    const reading = files.readSong(file('a', SONG), 'a.mp3', null, new Promise((resolve) => (go = resolve)));
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(store.getState().reading.song?.name).toBe('a.mp3');
+    expect(readers.loadSong).not.toHaveBeenCalled();
+    go();
+    expect(await reading).toMatchObject({ name: 'a.mp3' });
+  });
+
   it('a leader is read again at another frame rate from its stored bytes', async () => {
     expect(await files.rereadLeader({ fps: 60 })).toBeNull();
     await files.openLeader(source('a.bvh', BVH, 'demo leader'));

@@ -43,7 +43,7 @@ describe('autosave', () => {
     change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
     project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
-      camera: () => null,
+      stage: () => null,
       storage: {
         read: () => Promise.resolve(null),
         write: ({ takes }: StoredProject) => {
