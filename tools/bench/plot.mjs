@@ -7,7 +7,7 @@ const COLOURS = ['#2a6fb0', '#c05a1a', '#3f8a4a', '#7d4fa8', '#8a7a2a'];
  * @typedef {object} Panel lines over the same values, from 0 up and from left to right
  * @property {string} title
  * @property {readonly { at: number, text: string }[]} ticks below
- * @property {readonly Line[]} lines
+ * @property {readonly Line[]} lines those with names from the highest to the lowest
  */
 
 /**
@@ -39,6 +39,7 @@ function draw({ title, ticks, lines }) {
   const x = (at) => ((at / right) * PANEL.width).toFixed(1);
   /** @param {number} value */
   const y = (value) => (PANEL.height * (1 - value / top)).toFixed(1);
+  let lowest = -Infinity;
   return [
     `<text y="-12" font-weight="bold">${title}</text>`,
     `<path d="M0 0V${PANEL.height}H${PANEL.width}" fill="none" stroke="#999"/>`,
@@ -46,11 +47,15 @@ function draw({ title, ticks, lines }) {
       const colour = COLOURS[i % COLOURS.length];
       const path = `M${points.map(([at, value]) => `${x(at)} ${y(value)}`).join('L')}`;
       /** @param {readonly [number, number]} point */
-      const label = ([at, value]) =>
-        [
-          `<text x="${x(at)}" y="${(Number(y(value)) - 8).toFixed(1)}" text-anchor="end"`,
+      const label = ([at, value]) => {
+        const free = Number(y(value)) - 8;
+        // Names stand one below the other: lines are named from the highest to the lowest.
+        lowest = name === undefined ? free : Math.max(free, lowest + 12);
+        return [
+          `<text x="${x(at)}" y="${lowest.toFixed(1)}" text-anchor="end" fill="${name ? colour : '#333'}"`,
           ` stroke="#fff" stroke-width="3" paint-order="stroke">${name ?? ''} ${value.toFixed(0)}</text>`,
         ].join('');
+      };
       const dots = name === undefined ? points : points.slice(-1);
       return [
         `<path d="${path}" fill="none" stroke="${colour}" stroke-width="2"/>`,

@@ -183,8 +183,8 @@ function plotOf(rows: readonly Row[]): string {
       ticks,
       lines: [
         line('workers with WebAssembly', 'workers'),
-        line('takes and undo', 'held'),
         line('objects', 'heap'),
+        line('takes and undo', 'held'),
         line('elements', 'elements'),
         line('other buffers', 'buffers'),
       ],
