@@ -1,9 +1,9 @@
-import { readFile } from 'node:fs/promises';
 import type { Download, Page } from '@playwright/test';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { probe } from '../support/ffprobe';
 import { demoSettings as settings, serveDemo } from '../support/made-demo';
+import { openWritten } from '../support/written-video';
 
 const FRAMES = 24;
 const PREFIX = 'made-demo-song_made-demo-leader_demo-reaction_s77_c0.50-f0.25-m1.50_footlock';
@@ -38,36 +38,28 @@ interface VideoContent {
 }
 
 async function contentOf(page: Page, file: string): Promise<VideoContent> {
-  return page.evaluate(
-    async (base64) => {
-      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-      const video = document.createElement('video');
-      video.src = URL.createObjectURL(new Blob([bytes]));
-      await new Promise((resolve) => (video.onloadeddata = resolve));
-      video.currentTime = video.duration / 2;
-      await new Promise((resolve) => (video.onseeked = resolve));
-      const context = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d');
-      if (!context) throw new Error('There is no 2D context to read the video with.');
-      context.drawImage(video, 0, 0);
-      const { data } = context.getImageData(0, 0, video.videoWidth, video.videoHeight);
-      let [warm, cool] = [0, 0];
-      for (let i = 0; i < data.length; i += 4) {
-        const [red = 0, green = 0, blue = 0] = [data[i], data[i + 1], data[i + 2]];
-        if (red >= 90 && red >= 1.3 * green && green >= blue) warm += 4 / data.length;
-        if (blue >= 90 && blue >= 1.3 * red) cool += 4 / data.length;
-      }
-      const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
-      const samples = sound.getChannelData(0).map(Math.abs);
-      const loudest = Math.max(...samples);
-      return {
-        warm,
-        cool,
-        loudest,
-        soundStart: samples.findIndex((sample) => sample > 0.2 * loudest) / 48000,
-      };
-    },
-    (await readFile(file)).toString('base64'),
-  );
+  const written = await openWritten(page, file);
+  return written.evaluate(async ({ video, bytes }) => {
+    const context = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d');
+    if (!context) throw new Error('There is no 2D context to read the video with.');
+    context.drawImage(video, 0, 0);
+    const { data } = context.getImageData(0, 0, video.videoWidth, video.videoHeight);
+    let [warm, cool] = [0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      const [red = 0, green = 0, blue = 0] = [data[i], data[i + 1], data[i + 2]];
+      if (red >= 90 && red >= 1.3 * green && green >= blue) warm += 4 / data.length;
+      if (blue >= 90 && blue >= 1.3 * red) cool += 4 / data.length;
+    }
+    const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
+    const samples = sound.getChannelData(0).map(Math.abs);
+    const loudest = Math.max(...samples);
+    return {
+      warm,
+      cool,
+      loudest,
+      soundStart: samples.findIndex((sample) => sample > 0.2 * loudest) / 48000,
+    };
+  });
 }
 
 test('a video has every frame and the song, and the stage is unchanged', async ({ page }) => {
