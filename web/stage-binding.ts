@@ -4,7 +4,8 @@ import { besideStage } from './ui/generation/coarse-layer';
 import { combineDisposers } from './ui/widgets/dom';
 import type { VideoStage } from './ui/download/downloads';
 import { coarseMotion, earlierMotion, otherCoarseMotion } from './ui/store/reactor-motion';
-import { type Store, watch, watchAll } from './ui/store/store';
+import type { AppState } from './ui/store/state';
+import { type Store, watch, watchAll, type Watched } from './ui/store/store';
 import { showOther } from './ui/takes/other-dancer';
 import { createOffscreenStage } from './view/offscreen-stage';
 import type { PictureSize, Stage } from './view/stage';
@@ -14,8 +15,33 @@ const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 /** Time after a generation in which the page still shows and measures the result, milliseconds. */
 const BUSY_AFTER_MS = 1000;
 
+/**
+ * The state as the stage on the page shows it: while a video is read, its dancer is alone on the stage as far as they are
+ * read, except while the present dance is played.
+ */
+export function withPartRead(store: Store): Watched {
+  const onStage = (state: AppState): AppState => {
+    const { partRead, playback, coarse } = state;
+    if (!partRead || playback.playing) return state;
+    return {
+      ...state,
+      leader: partRead.leader,
+      reaction: null,
+      preview: null,
+      earlier: null,
+      compare: 'off',
+      coarse: { ...coarse, motion: null, other: null },
+      playback: { ...playback, time: partRead.time },
+    };
+  };
+  return {
+    getState: () => onStage(store.getState()),
+    subscribe: (listener) => store.subscribe((state) => listener(onStage(state))),
+  };
+}
+
 /** Updates a stage whenever the state changes; returns a function that stops it. */
-export function bindStage(stage: Stage, store: Store): () => void {
+export function bindStage(stage: Stage, store: Watched): () => void {
   return combineDisposers(
     watch(
       store,
@@ -63,7 +89,7 @@ export function bindStage(stage: Stage, store: Store): () => void {
  * Shows the couple. One reaction crossfades to the next; switching the generated role, the foot lock or the takes of a
  * split view is shown at once, and so is a preview, which is to follow the hand.
  */
-function bindDancers(stage: Stage, store: Store): () => void {
+function bindDancers(stage: Stage, store: Watched): () => void {
   let before = '';
   return watchAll(
     store,
@@ -79,7 +105,7 @@ function bindDancers(stage: Stage, store: Store): () => void {
 }
 
 /** Tells the stage that the page is busy while a reaction is generated, and shortly afterwards. */
-function bindBusy(stage: Stage, store: Store): () => void {
+function bindBusy(stage: Stage, store: Watched): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   return combineDisposers(
     watch(

@@ -3,16 +3,19 @@ import type { Role } from '../../web/view/theme';
 import type { DancerOptions, Stage } from '../../web/view/stage';
 import type { Inputs, Take } from '../../web/ui/store/reaction';
 import type { AppState } from '../../web/ui/store/state';
-import { initialState } from '../../web/ui/store/store';
+import { initialState, type Watched } from '../../web/ui/store/store';
+import { partReadSet } from '../../web/ui/store/actions/files';
 import { compareSet, takesSwapped, takeChosen } from '../../web/ui/store/actions/takes';
+import { playbackSet } from '../../web/ui/store/actions/view';
 import * as change from './support/actions';
 import { uniformGuidance, leader, still } from './support/made-state';
 
 let bindStage: (stage: Stage, store: change.Store) => () => void;
+let withPartRead: (store: change.Store) => Watched;
 beforeAll(async () => {
   // Node has no screen to ask.
   vi.stubGlobal('matchMedia', () => ({ matches: false }));
-  ({ bindStage } = await import('../../web/stage-binding'));
+  ({ bindStage, withPartRead } = await import('../../web/stage-binding'));
 });
 
 const dancer = leader(30);
@@ -57,5 +60,25 @@ it('crossfades from one take to the next, but not in a split view', () => {
   expect(crossfadeAfter(takesSwapped())).toBe(false);
   expect(crossfadeAfter(takeChosen('c'))).toBe(true);
   expect(crossfadeAfter(compareSet('ghost'), takeChosen('a'), takeChosen('c'))).toBe(true);
+  stop();
+});
+
+it('shows what has been read of a video alone, except while the dance before is played', () => {
+  const store = change.createAppStore('dark');
+  const { reaction } = take('a');
+  store.setState({ ...initialState('dark'), leader: dancer, reaction, compare: 'ghost', other: 'b' });
+  const onStage = withPartRead(store);
+  let seen = onStage.getState();
+  const stop = onStage.subscribe((state) => (seen = state));
+  const read = leader(60);
+  change.apply(store, partReadSet({ leader: read, time: 1.5 }));
+  expect(seen).toMatchObject({ reaction: null, compare: 'off', playback: { time: 1.5 } });
+  expect(seen.leader).toBe(read);
+  change.apply(store, playbackSet({ playing: true }));
+  expect(seen).toBe(store.getState());
+  change.apply(store, playbackSet({ playing: false }));
+  expect(seen.leader).toBe(read);
+  change.apply(store, partReadSet(null));
+  expect(seen).toMatchObject({ leader: dancer, reaction, compare: 'ghost' });
   stop();
 });

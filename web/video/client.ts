@@ -17,12 +17,14 @@ export interface VideoReader {
   /**
    * What is seen in all pictures of a video.
    * @param pick where the person stands who is followed; null takes the largest
+   * @param options how the motions are made that are reported meanwhile
    * @throws {AppError} what is wrong with the video
    * @throws the signal's reason
    */
   read(
     file: Blob,
     pick: Point | null,
+    options: Omit<WorldOptions, 'trim'>,
     signal: AbortSignal,
     onReport: (report: ReadReport) => void,
   ): Promise<Observations>;
@@ -45,8 +47,8 @@ export function createVideoReader(): VideoReader {
   const connection = new WorkerConnection<VideoTasks>(worker, { toError: crashed });
   const graphs = new URL('models/pose/pose.json', document.baseURI).href;
   return {
-    read: (file, pick, signal, onReport) =>
-      connection.call('read', { file, graphs, pick }, { signal, onReport }),
+    read: (file, pick, options, signal, onReport) =>
+      connection.call('read', { file, graphs, pick, options }, { signal, onReport }),
     solve: (observations, options, signal) => connection.call('solve', { observations, options }, { signal }),
     dispose: () => {
       connection.dispose();

@@ -1,4 +1,5 @@
 /** Reads videos and makes motions of what was seen, off the main thread. */
+import { AppError } from '../common/error';
 import { serve, type TaskContext } from '../common/run-in-worker';
 import { yieldToEvents } from '../common/yield-to-events';
 import { writeBvh } from '../motion/bvh/write';
@@ -18,6 +19,8 @@ export interface ReadRequest {
   readonly graphs: string;
   /** Where the person stands who is followed, pixels of the first picture with people; null takes the largest. */
   readonly pick: Point | null;
+  /** How the motions of what has been read so far are made; all of that is used. */
+  readonly options: Omit<WorldOptions, 'trim'>;
 }
 
 /** What happens while a video is being read. */
@@ -45,7 +48,9 @@ export type ReadReport =
       readonly time: number;
       readonly landmarks: Float32Array | null;
       readonly image: ImageBitmap;
-    };
+    }
+  /** The motion of all that has been read so far. */
+  | { readonly kind: 'part'; readonly motion: VideoMotion };
 
 export interface SolveRequest {
   readonly observations: Observations;
@@ -71,9 +76,11 @@ const THUMBNAIL_HEIGHT = 48;
 const SHOWN_HEIGHT = 270;
 /** Least time between two reports of pictures. */
 const REPORT_INTERVAL_MS = 200;
+/** Seconds of video after which the motion is made for the first time, and again after so many times as many. */
+const PART = { first: 2, growth: 3 };
 
 async function read(
-  { file, graphs: list, pick }: ReadRequest,
+  { file, graphs: list, pick, options }: ReadRequest,
   { signal, report }: TaskContext<ReadReport>,
 ): Promise<Observations> {
   const video = await openVideo(file);
@@ -89,6 +96,7 @@ async function read(
     const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
     const isThumbnail = thumbnailTimes(duration);
     let reported = 0;
+    let nextPart = PART.first;
     // Who was picked is not asked about again.
     let asked = pick !== null;
     for await (const { time, picture } of video.pictures(0, Infinity)) {
@@ -104,6 +112,11 @@ async function read(
         reported = performance.now();
         const landmarks = tracked.landmarks?.image.slice() ?? null;
         void report({ kind: 'picture', time, landmarks, image: shown.of(picture) });
+      }
+      if (time >= nextPart) {
+        nextPart *= PART.growth;
+        const motion = motionSoFar(recorder.observations(), options);
+        if (motion) void report({ kind: 'part', motion });
       }
       await yieldToEvents(signal);
     }
@@ -141,6 +154,17 @@ function thumbnailTimes(duration: number): (time: number) => boolean {
     last = time;
     return true;
   };
+}
+
+/** Null while too little was seen: more pictures may change that, so nothing is refused before the end of the video. */
+function motionSoFar(observations: Observations, options: ReadRequest['options']): VideoMotion | null {
+  try {
+    checkSeen(observations);
+    return solve({ observations, options: { ...options, trim: null } });
+  } catch (error) {
+    if (error instanceof AppError) return null;
+    throw error;
+  }
 }
 
 function solve({ observations, options }: SolveRequest): VideoMotion {

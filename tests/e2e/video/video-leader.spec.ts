@@ -1,31 +1,23 @@
-import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
-import { App } from '../support/app-page';
+import { App, maxDistance } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { openStudio, SHOT } from '../support/video-files';
+import { openWritten } from '../support/written-video';
 
 // A small stage, for a software renderer.
 test.use({ viewport: { width: 1000, height: 560 }, colorScheme: 'dark' });
 
 /** Mean brightness of the left and the right half of a video's middle picture, 0 to 255. */
 async function halvesOf(page: Page, file: string): Promise<[number, number]> {
-  return page.evaluate(
-    async (base64) => {
-      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-      const video = document.createElement('video');
-      video.src = URL.createObjectURL(new Blob([bytes]));
-      await new Promise((resolve) => (video.onloadeddata = resolve));
-      video.currentTime = video.duration / 2;
-      await new Promise((resolve) => (video.onseeked = resolve));
-      const context = new OffscreenCanvas(2, 1).getContext('2d')!;
-      context.imageSmoothingQuality = 'high';
-      context.drawImage(video, 0, 0, 2, 1);
-      const { data } = context.getImageData(0, 0, 2, 1);
-      const mean = (i: number): number => (data[i]! + data[i + 1]! + data[i + 2]!) / 3;
-      return [mean(0), mean(4)];
-    },
-    (await readFile(file)).toString('base64'),
-  );
+  const written = await openWritten(page, file);
+  return written.evaluate(({ video }) => {
+    const context = new OffscreenCanvas(2, 1).getContext('2d')!;
+    context.imageSmoothingQuality = 'high';
+    context.drawImage(video, 0, 0, 2, 1);
+    const { data } = context.getImageData(0, 0, 2, 1);
+    const mean = (i: number): number => (data[i]! + data[i + 1]! + data[i + 2]!) / 3;
+    return [mean(0), mean(4)];
+  });
 }
 
 test('a video becomes the leader, gets a partner, and is shown beside it in the exported video', async ({
@@ -33,21 +25,49 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   browser,
 }) => {
   const studio = await openStudio(browser);
-  const video = Buffer.from(await studio.call('film', 'salsa', SHOT, 3), 'base64');
+  const format = { container: 'webm', sound: true } as const;
+  const video = Buffer.from(await studio.call('film', 'salsa', SHOT, 5, format), 'base64');
   await studio.close();
   const app = new App(page);
   await app.open();
   await app.settled();
-  await app.drop({ name: 'dance.webm', mimeType: 'video/webm', buffer: video });
   const panel = page.getByRole('region', { name: 'Video of the leader' });
+  const drop = () => app.drop({ name: 'dance.webm', mimeType: 'video/webm', buffer: video });
+  const onStage = () =>
+    page.evaluate<number[][]>(
+      "['leader', 'reactor'].map((role) => Array.from(window.reactdance.stage.jointPositions(role)))",
+    );
+
+  // The first seconds are on the stage while the rest is read; when that is cancelled the dance before is there again.
+  const before = await onStage();
+  await drop();
   await expect(panel.getByRole('progressbar')).toBeVisible();
+  await app.until(({ partRead }) => partRead);
+  const [alone, nobody] = await onStage();
+  expect(maxDistance(alone!, before[0]!)).toBeGreaterThan(0.05);
+  expect(Math.max(...nobody!.map(Math.abs))).toBe(0);
+  await panel.getByRole('button', { name: 'Cancel' }).click();
+  await expect(panel).toBeHidden();
+  expect(await app.read(({ leader, partRead }) => [leader?.name, partRead])).toEqual(['Demo leader', null]);
+  await expect.poll(onStage).toEqual(before);
+
+  await drop();
   await app.reaction('dance.webm');
   await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
-  const lane = page.getByRole('img', { name: /The video dance.webm; confidence over 2\.\d s of dance/ });
+  const lane = page.getByRole('img', { name: /The video dance.webm; confidence over 4\.\d s of dance/ });
   await expect(lane).toBeVisible();
   const reactor = await app.reactor();
-  expect(reactor.length / 66).toBeGreaterThan(75);
+  expect(reactor.length / 66).toBeGreaterThan(135);
   expect(reactor.every(Number.isFinite)).toBe(true);
+
+  // Its sound is the song after one click.
+  await panel.getByRole('button', { name: 'Use its sound as the song' }).click();
+  await app.until(({ reaction }) => reaction?.inputs.song?.name === 'dance.webm');
+  const song = await app.read(({ song, shift }) => ({ ...song!.data, sound: null, shift }));
+  expect(song.duration).toBeCloseTo(5, 0);
+  expect(song.silent).toBe(false);
+  // It begins with the video, and the dance with the first picture of the dancer.
+  expect(Math.abs(song.shift)).toBeLessThanOrEqual(3);
 
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();

@@ -203,6 +203,13 @@ export interface SongCounting extends Counting {
   readonly bytes: number;
 }
 
+/** The dance of the first seconds of a video. */
+export interface PartRead {
+  readonly leader: LoadedLeader;
+  /** The moment of it that the stage shows, seconds. */
+  readonly time: number;
+}
+
 export interface AppState {
   readonly theme: Theme;
   readonly camera: View;
@@ -275,6 +282,8 @@ export interface AppState {
   /** A sentence about what has just happened, shown for a few seconds. */
   readonly toast: string | null;
   readonly playback: Playback;
+  /** What has been read of a leader's video while the rest is being read. */
+  readonly partRead: PartRead | null;
   /** The part of the dance that the lanes show, seconds; null shows all of it. */
   readonly zoom: Span | null;
 }

@@ -7,6 +7,12 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 export type Change = (state: AppState) => Partial<AppState>;
 export type Store = StoreApi<AppState>;
 
+/** A state that can be watched: the store's, or one that is computed from it. */
+export interface Watched {
+  readonly getState: () => AppState;
+  readonly subscribe: (listener: (state: AppState) => void) => () => void;
+}
+
 /** The state before anything is loaded. */
 export function initialState(theme: Theme): AppState {
   return {
@@ -57,6 +63,7 @@ export function initialState(theme: Theme): AppState {
     notices: [],
     toast: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
+    partRead: null,
     zoom: null,
   };
 }
@@ -73,7 +80,7 @@ export function apply(store: Store, change: Change): void {
 
 /** Calls back now and whenever the selected value changes; returns the unsubscription. */
 export function watch<T>(
-  store: Store,
+  store: Watched,
   select: (state: AppState) => T,
   show: (value: T, state: AppState) => void,
 ): () => void {
@@ -89,7 +96,7 @@ export function watch<T>(
 
 /** `watch` for several values at once. */
 export function watchAll(
-  store: Store,
+  store: Watched,
   select: (state: AppState) => readonly unknown[],
   show: (state: AppState) => void,
 ): () => void {

@@ -2,7 +2,7 @@ import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from '../store/reactor-motion';
 import type { Take } from '../store/reaction';
 import type { Letter } from '../store/state';
-import { type Store, watchAll } from '../store/store';
+import { watchAll, type Watched } from '../store/store';
 import { otherTake, takeOnStage, takeTitle } from '../store/take';
 
 /** The reactor of the other take, drawn at the same playhead. */
@@ -20,7 +20,7 @@ interface ComparingStage {
 }
 
 /** Shows the other take on the stage while two takes are compared; returns a function that stops it. */
-export function showOther(store: Store, stage: ComparingStage): () => void {
+export function showOther(store: Watched, stage: ComparingStage): () => void {
   const labelOf = (letter: Letter, take: Take | null): string =>
     take ? `${letter} ${takeTitle(take)}` : letter;
   return watchAll(

@@ -21,7 +21,7 @@ export interface VideoFeature {
  */
 export function createVideoFeature(
   store: Store,
-  files: () => Pick<Files, 'openLeader' | 'openSong'>,
+  files: () => Pick<Files, 'openLeader' | 'readLeader' | 'openSong'>,
   host: () => HTMLElement,
   playback: Pick<Services, 'seek' | 'togglePlay'>,
   track: VideoTrack,

@@ -14,10 +14,12 @@ import { problemShown } from '../store/actions/notices';
 import { shiftSet } from '../store/actions/timeline';
 import { firstVisitEnded } from '../store/actions/files';
 import { fileProblem, isAbort } from '../store/problems';
+import type { LeaderSource } from '../store/reaction';
 import type { Files } from '../store/services';
 import { apply, watch, watchAll, type Store } from '../store/store';
 import { combineDisposers } from '../widgets/dom';
 import type { Thumbnail, VideoTrack } from './video-lane';
+import { PartPlayer } from './part-player';
 import { VideoPanel } from './video-panel';
 
 /** Height of a dancer until it is told, metres. */
@@ -44,13 +46,16 @@ interface Session {
 export class VideoLeader {
   #session: Session | null = null;
   #reading: AbortController | null = null;
+  readonly #part: PartPlayer;
 
   constructor(
     private readonly store: Store,
-    private readonly files: Pick<Files, 'openLeader' | 'openSong'>,
+    private readonly files: Pick<Files, 'openLeader' | 'readLeader' | 'openSong'>,
     private readonly host: HTMLElement,
     private readonly track: VideoTrack,
-  ) {}
+  ) {
+    this.#part = new PartPlayer(store);
+  }
 
   /** @param songOfVideo whether the page's song played while the video was recorded */
   async open(file: File, songOfVideo: boolean): Promise<void> {
@@ -88,15 +93,17 @@ export class VideoLeader {
     const signal = AbortSignal.any([reading.signal, ended.signal]);
     try {
       panel.showReading();
+      this.#part.end();
       session.thumbnails = [];
       this.#showLane(session);
       const onReport = (report: ReadReport): void => {
         if (report.kind === 'thumbnail') {
           session.thumbnails = [...session.thumbnails, report];
           this.#showLane(session);
-        } else panel.showReport(report);
+        } else if (report.kind === 'part') void this.#showPart(session, report.motion, signal);
+        else panel.showReport(report);
       };
-      const observations = await reader.read(file, pick, signal, onReport);
+      const observations = await reader.read(file, pick, session.options, signal, onReport);
       session.observations = observations;
       await this.#solve(session, session.options);
     } catch (error) {
@@ -106,6 +113,14 @@ export class VideoLeader {
         await this.files.openSong(file, file.name, null);
       else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
     }
+  }
+
+  /** Shows what has been read so far on the stage, unless the reading has ended meanwhile. */
+  async #showPart({ file, panel }: Session, { bvh }: VideoMotion, signal: AbortSignal): Promise<void> {
+    const leader = await this.files.readLeader(sourceOf(file, bvh));
+    if (!leader || signal.aborted) return;
+    this.#part.play(leader);
+    panel.showPart(leader.motion.frames / leader.motion.fps);
   }
 
   /** Makes the motion with these options and puts it on the page as the leader. */
@@ -121,18 +136,15 @@ export class VideoLeader {
       panel.showMotion(observations, motion);
       this.#showLane(session);
       const { shift } = this.store.getState();
-      await this.files.openLeader({
-        name: file.name,
-        label: null,
-        files: [{ name: 'leader.bvh', bytes: new TextEncoder().encode(motion.bvh) }],
-        options: {},
-      });
+      await this.files.openLeader(sourceOf(file, motion.bvh));
       const moved = before ? shift + (before.start - motion.start) * FPS : -motion.start * FPS;
       if (before ? shift !== 0 || session.songOfVideo : session.songOfVideo)
         apply(this.store, shiftSet(moved));
     } catch (error) {
       if (ended.signal.aborted || isAbort(error)) return;
       apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+    } finally {
+      this.#part.end();
     }
   }
 
@@ -178,8 +190,15 @@ export class VideoLeader {
     if (!session) return;
     this.#session = null;
     session.ended.abort();
+    this.#part.end();
     this.track.set(null);
     session.reader.dispose();
     session.panel.dispose();
   }
+}
+
+/** The dancer of a video, as a leader that is read. */
+function sourceOf({ name }: File, bvh: string): LeaderSource {
+  const bytes = new TextEncoder().encode(bvh);
+  return { name, label: null, files: [{ name: 'leader.bvh', bytes }], options: {} };
 }

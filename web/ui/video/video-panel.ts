@@ -28,6 +28,7 @@ export class VideoPanel {
   readonly #controls: Controls;
   #duration = 0;
   #begun = 0;
+  #part = 0;
   #hasSound = false;
 
   constructor(host: HTMLElement, file: File, actions: PanelActions) {
@@ -55,8 +56,8 @@ export class VideoPanel {
       this.#picture.root,
       this.#status,
       el('div', { class: 'reading' }, this.#meter, this.#cancel),
-      this.#advice,
       this.#sound,
+      this.#advice,
       this.#controls.root,
     );
     host.append(this.#root);
@@ -65,12 +66,12 @@ export class VideoPanel {
 
   showReading(): void {
     this.#reading(true);
-    this.#begun = 0;
+    this.#begun = this.#part = 0;
     setText(this.#status, 'Opening the video');
     this.#progress(0);
   }
 
-  showReport(report: Exclude<ReadReport, { kind: 'thumbnail' }>): void {
+  showReport(report: Exclude<ReadReport, { kind: 'thumbnail' | 'part' }>): void {
     switch (report.kind) {
       case 'opened':
         this.#duration = report.duration;
@@ -87,12 +88,12 @@ export class VideoPanel {
         return;
       case 'picture':
         this.#picture.showRead(report.image, report.landmarks);
-        this.#showPart(report.time);
+        this.#showProgress(report.time);
     }
   }
 
   /** How far the reading is. */
-  #showPart(time: number): void {
+  #showProgress(time: number): void {
     const now = performance.now();
     if (this.#begun === 0) this.#begun = now;
     const share = this.#duration > 0 ? Math.min(1, time / this.#duration) : 0;
@@ -100,7 +101,16 @@ export class VideoPanel {
     if (this.#picture.choosing) return;
     const left = share > 0.02 ? ((now - this.#begun) / 1000) * (1 / share - 1) : null;
     const seen = `${time.toFixed(0)} of ${this.#duration.toFixed(0)} s`;
-    setText(this.#status, left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`);
+    const progress = left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`;
+    setText(
+      this.#status,
+      this.#part === 0 ? progress : `${progress}. On the stage: ${this.#part.toFixed(0)} s`,
+    );
+  }
+
+  /** So many seconds of the dance are on the stage already. */
+  showPart(seconds: number): void {
+    this.#part = seconds;
   }
 
   /** The video has been read, and this is what became of it. */

@@ -1,5 +1,6 @@
 /** Films our mannequin with a camera that is known, into a video file. */
 import {
+  AudioBufferSource,
   BufferTarget,
   CanvasSource,
   MovOutputFormat,
@@ -52,6 +53,8 @@ export interface VideoFormat {
   readonly container: 'webm' | 'mp4' | 'mov';
   /** Whether pictures come at uneven times, as phones write them. */
   readonly uneven?: boolean;
+  /** Whether a knock is heard every half second. */
+  readonly sound?: boolean;
 }
 
 const CONTAINERS = {
@@ -75,7 +78,7 @@ export async function written(
     readonly rotation?: Rotation;
     readonly bitrate?: number;
   },
-  { container, uneven = false }: VideoFormat,
+  { container, uneven = false, sound = false }: VideoFormat,
 ): Promise<Blob> {
   const target = new BufferTarget();
   const output = new Output({ format: CONTAINERS[container](), target });
@@ -85,7 +88,10 @@ export async function written(
     keyFrameInterval: 1,
   });
   output.addVideoTrack(source, { ...(rotation !== undefined && { rotation }) });
+  const knocks = new AudioBufferSource({ codec: 'opus', bitrate: 64_000 });
+  if (sound) output.addAudioTrack(knocks);
   await output.start();
+  if (sound) await knocks.add(knocking(seconds));
   const frames = Math.round(seconds * fps);
   const moment = (frame: number): number =>
     (frame + (uneven && frame > 0 && frame < frames ? 0.4 * Math.sin(1.7 * frame) : 0)) / fps;
@@ -95,6 +101,18 @@ export async function written(
   }
   await output.finalize();
   return new Blob([target.buffer!], { type: `video/${container === 'mov' ? 'quicktime' : container}` });
+}
+
+/** A sound that knocks every half second. */
+function knocking(seconds: number): AudioBuffer {
+  const [sampleRate, spacing] = [48_000, 24_000];
+  const buffer = new AudioBuffer({ length: Math.round(seconds * sampleRate), sampleRate });
+  const samples = buffer.getChannelData(0);
+  samples.forEach((_, i) => {
+    const since = (i % spacing) / sampleRate;
+    samples[i] = 0.8 * Math.exp(-40 * since) * Math.sin(2 * Math.PI * 220 * since);
+  });
+  return buffer;
 }
 
 /** Films dancers. */

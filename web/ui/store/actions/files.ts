@@ -1,6 +1,6 @@
 /** Song and leader. */
 import type { LeaderSource, LoadedLeader, LoadedSong } from '../reaction';
-import type { AppState, GivenFiles, Reading, InputKind } from '../state';
+import type { AppState, GivenFiles, InputKind, PartRead, Reading } from '../state';
 import type { Change } from '../store';
 
 export function readingSet(side: InputKind, reading: Reading | null): Change {
@@ -30,6 +30,11 @@ export function leaderLoaded(leader: LoadedLeader): Change {
     reading: { ...state.reading, leader: null },
     playback: { ...state.playback, time: 0, playing: false, region: null },
   });
+}
+
+/** Shows the first seconds of a video on the stage while the rest is being read; null ends that. */
+export function partReadSet(partRead: PartRead | null): Change {
+  return () => ({ partRead });
 }
 
 /** Keeps a leader that could not be read, so that it can be read again in another way; null forgets it. */
