@@ -53,10 +53,11 @@ export class VideoPanel {
       'section',
       { class: 'float video-panel', attributes: { 'aria-label': 'Video of the leader' } },
       el('div', { class: 'head' }, el('h2', { text: file.name }), closeButton(actions.close)),
-      this.#picture.root,
+      // Above the picture, which may reach below the edge of a low window.
       this.#status,
       el('div', { class: 'reading' }, this.#meter, this.#cancel),
       this.#sound,
+      this.#picture.root,
       this.#advice,
       this.#controls.root,
     );
