@@ -107,8 +107,9 @@ export class Stage {
     }
     this.loop.release();
     this.loop.invalidate();
-    // The rest of the page shows a new dance at the same moment; without a graphics card both at once take too long.
-    this.loop.delay();
+    // The rest of the page shows a new dance at the same moment, which crossfades; without a graphics card both at once
+    // take too long.
+    if (crossfade) this.loop.delay();
   }
 
   /**

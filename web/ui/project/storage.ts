@@ -242,17 +242,23 @@ export class ProjectDatabase implements ProjectStorage {
     ) => void,
   ): Promise<void> {
     const transaction = (await this.open()).transaction(STORES, 'readwrite');
-    const sent: Promise<unknown>[] = [transaction.done];
+    // A full storage also aborts the requests beside the one that did not fit. They are not waited for: Chromium may end
+    // the transaction and leave some without an answer.
+    const failures: unknown[] = [];
     try {
-      request(transaction, (one) => sent.push(one));
+      request(transaction, (one) => void one.catch((error: unknown) => failures.push(error)));
       transaction.commit();
     } catch (error) {
       // Else what was sent before would be kept.
       transaction.abort();
-      await settled(sent).catch(() => undefined);
+      await transaction.done.catch(() => undefined);
       throw error;
     }
-    await settled(sent);
+    try {
+      await transaction.done;
+    } catch (error) {
+      throw failures.find(isFull) ?? error;
+    }
   }
 
   private async removeUnused(wanted: Ids): Promise<void> {
@@ -337,15 +343,6 @@ async function convertLeaders(
     const files = [{ name, bytes: new TextEncoder().encode(text) }];
     await leaders.put({ id, name, label, files, options: fps === null ? {} : { fps } });
   }
-}
-
-/** Waits for all; throws the first failure, and leaves no rejection unhandled. */
-async function settled(all: readonly Promise<unknown>[]): Promise<void> {
-  const errors = (await Promise.allSettled(all)).flatMap((result): unknown[] =>
-    result.status === 'rejected' ? [result.reason] : [],
-  );
-  // A full storage also aborts the requests beside the one that did not fit.
-  if (errors.length > 0) throw errors.find(isFull) ?? errors[0];
 }
 
 function isSame(one: unknown, other: unknown): boolean {
