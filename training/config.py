@@ -143,9 +143,8 @@ class DiffusionConfig:
         0.0,
         0.0,
     )  # of each stream's last two predictions, see `sample`
-    stitching: bool = (
-        False  # windows overlap by half and cross-fade; in Python alone, such a model is not exported
-    )
+    # Windows overlap by half and cross-fade; in Python alone, such a model is not exported.
+    stitching: bool = False
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
     variety: float = 1.0  # default distance v from the mean of several seeds, see `blend`

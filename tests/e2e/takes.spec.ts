@@ -303,9 +303,8 @@ test('full storage is reported, nothing on the page is lost, and autosave goes o
 
   await take(page, oldest).focus();
   await page.keyboard.press('Delete');
-  // Chromium gives the space of what is deleted, and of writes that failed, back when it tidies up, which may be minutes
-  // later.
-  await leave(20_000_000);
+  // Chromium gives the space of what is deleted back when it tidies up, which may be minutes later.
+  await leave(2_500_000);
   // The page tries again every 20 s.
   await expect(note).toBeHidden({ timeout: 50_000 });
   await rename(takes(page).first(), 'There at last');

@@ -19,8 +19,8 @@ class Scale:
     stage2_steps: int = 1000
     stage1_learning_rate: float = 1e-3
     learning_rate: float = 1.5e-3
-    """Of the denoiser and of the baselines. Both rates are higher than those of a long training: so few steps get three
-    times as near to the motion with them."""
+    """Of the denoiser and of the baselines. Both rates are higher than those of a long training: after so few steps
+    stage 1 reconstructs with less than half the error, and stage 2 has a lower loss."""
     batch: int = 12
     width: int = 96
     """Of the denoiser and of the baselines."""

@@ -39,12 +39,7 @@ function sourceOf({ source }: SourceCall): Source {
 
 const tasks = {
   async load(options: LoadOptions, { report }: TaskContext<Status>): Promise<Loaded> {
-    model = await loadModel(
-      options,
-      globalThis,
-      (status) => void report(status),
-      () => report({ kind: 'open' }),
-    );
+    model = await loadModel(options, globalThis, report);
     return { manifest: model.pipeline.manifest, backend: model.backend };
   },
 

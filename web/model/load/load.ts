@@ -98,14 +98,13 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
 /**
  * Fetches, verifies, opens and tests a model.
  * @param scope the worker's global scope
- * @param beforeOpening what the graphs are opened after; it tells the status `open`
+ * @param onStatus may delay the opening of the graphs: what it returns for the status `open` is waited for
  * @throws {AppError}
  */
 export async function loadModel(
   { manifestUrl, folder, backend: preference, threads, processorBecause }: LoadOptions,
   scope: typeof globalThis,
-  onStatus: (status: Status) => void,
-  beforeOpening: () => Promise<void>,
+  onStatus: (status: Status) => unknown,
 ): Promise<LoadedModel> {
   const get = folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch);
   const cache = folder ? undefined : responseCache(scope);
@@ -131,7 +130,7 @@ export async function loadModel(
         });
       },
     });
-    await beforeOpening();
+    await onStatus({ kind: 'open' });
     return openSession(manifest, graphs, provider, backend.threads, runtime);
   };
 
