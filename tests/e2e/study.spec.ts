@@ -88,13 +88,22 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   expect(summary[1]).toMatch(/^ours,edge,naturalness,2,/);
 });
 
-test('the dances of the page are shown without a file', async ({ page }) => {
+test('the dances of the page are shown without a file, also after a first failure', async ({ page }) => {
+  await page.route('**/*.bvh', (route) => route.abort());
   await page.goto(STUDY);
   await page.getByRole('button', { name: 'Dances of this page' }).click();
   await page.getByLabel('Pairs, at most').fill('2');
   await page.getByLabel('Seed of the order').fill('3');
   await page.getByRole('button', { name: 'Start' }).click();
   const questions = page.getByRole('region', { name: 'Questions' });
+  const again = questions.getByRole('button', { name: 'Try again' });
+  await expect(again).toBeVisible({ timeout: 60_000 });
+  // What was not seen is not answered.
+  await page.keyboard.press('1');
+  await expect(questions.getByRole('radio').first()).toBeDisabled();
+  await expect(questions.getByRole('radio', { checked: true })).toHaveCount(0);
+  await page.unroute('**/*.bvh');
+  await again.click();
   const play = questions.getByRole('button', { name: 'Pause' });
   await expect(play).toBeEnabled({ timeout: 60_000 });
   const time = (): Promise<number> =>

@@ -10,6 +10,7 @@ interface PairActions {
   readonly answer: (criterion: Criterion, score: number) => void;
   readonly back: () => void;
   readonly next: () => void;
+  readonly retry: () => void;
 }
 
 /** What is shown of a pair. */
@@ -21,6 +22,8 @@ export interface PairState {
   readonly answers: ReadonlyMap<Criterion, number>;
   /** What is being done where the dances are not there yet; null where they are. */
   readonly waiting: string | null;
+  /** The dances could not be made. */
+  readonly failed: boolean;
 }
 
 /** The questions beside the stage, and the transport below them. */
@@ -34,6 +37,7 @@ export class PairView {
   readonly #clock = el('span', { class: 'study-time' });
   readonly #next: HTMLButtonElement;
   readonly #back: HTMLButtonElement;
+  readonly #retry: HTMLButtonElement;
   #state: PairState | null = null;
 
   constructor(private readonly actions: PairActions) {
@@ -48,11 +52,13 @@ export class PairView {
     });
     this.#next = textButton('btn primary', 'Next pair', actions.next);
     this.#back = textButton('btn ghost', 'Back', actions.back);
+    this.#retry = textButton('btn primary', 'Try again', actions.retry);
     this.element = el(
       'section',
       { class: 'pair', attributes: { 'aria-label': 'Questions' } },
       this.#heading,
       this.#waiting,
+      this.#retry,
       el('div', { class: 'study-transport' }, this.#play, this.#slider, this.#clock),
       this.#questions,
       el('div', { class: 'study-actions' }, this.#back, this.#next),
@@ -65,16 +71,20 @@ export class PairView {
 
   /** @param isNew a pair that was not shown before gets the focus */
   show(state: PairState, isNew: boolean): void {
-    const { number, pairs, criteria, answers, waiting } = state;
+    const { number, pairs, criteria, answers, waiting, failed } = state;
+    const isReady = waiting === null && !failed;
     this.#state = state;
     setText(this.#heading, `Pair ${number + 1} of ${pairs}`);
     setText(this.#waiting, waiting ?? '');
     this.#waiting.hidden = waiting === null;
-    this.#play.disabled = this.#slider.disabled = waiting !== null;
+    this.#retry.hidden = !failed;
+    this.#play.disabled = this.#slider.disabled = !isReady;
     if (isNew) {
       this.#questions.replaceChildren(...criteria.map((criterion) => this.#question(criterion)));
       this.#heading.focus();
     }
+    // Nobody answers before the dances were seen.
+    for (const fieldset of this.#questions.querySelectorAll('fieldset')) fieldset.disabled = !isReady;
     for (const { id } of criteria)
       for (const input of this.#questions.querySelectorAll<HTMLInputElement>(`input[name="${id}"]`))
         input.checked = Number(input.value) === answers.get(id);
@@ -96,7 +106,9 @@ export class PairView {
     if (!state || event.ctrlKey || event.metaKey || event.altKey) return false;
     const target = event.target instanceof HTMLElement ? event.target : null;
     const choice = CHOICES[Number(event.key) - 1];
+    const isReady = state.waiting === null && !state.failed;
     if (choice) {
+      if (!isReady) return false;
       const { criteria, answers } = state;
       const focused = target instanceof HTMLInputElement ? target.name : '';
       const question =
@@ -107,7 +119,7 @@ export class PairView {
     // A button does what it says itself, and a space chooses what has the focus.
     const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
     if (target instanceof HTMLButtonElement || (event.key === ' ' && isUnchosen)) return false;
-    if (event.key === ' ' && state.waiting === null) this.actions.togglePlay();
+    if (event.key === ' ' && isReady) this.actions.togglePlay();
     else if (event.key === 'Enter' && !this.#next.disabled) this.actions.next();
     else if (event.key === 'Backspace' && state.number > 0) this.actions.back();
     else return false;

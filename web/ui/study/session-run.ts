@@ -18,6 +18,7 @@ export interface SessionServices {
 
 interface SessionEvents {
   readonly onProblem: (error: unknown) => void;
+  readonly onRetry: () => void;
   readonly onEnd: (session: Session) => void;
 }
 
@@ -51,6 +52,10 @@ export class SessionRun {
       },
       next: () => {
         this.#go(this.#number + 1);
+      },
+      retry: () => {
+        this.events.onRetry();
+        this.#go(this.#number);
       },
     });
     this.#player = new PairPlayer(services.stage, services.player, (seconds, duration) => {
@@ -103,7 +108,7 @@ export class SessionRun {
     return criteriaFor(this.#set?.duets.find(({ name }) => name === duet)?.song !== null);
   }
 
-  #showPair(waiting: string | null, isNew: boolean): void {
+  #showPair(waiting: string | null, isNew: boolean, failed = false): void {
     const session = this.#session!;
     const pair = session.pairs[this.#number]!;
     this.#view.show(
@@ -113,6 +118,7 @@ export class SessionRun {
         criteria: this.#criteria(pair),
         answers: answersTo(session, this.#number),
         waiting,
+        failed,
       },
       isNew,
     );
@@ -142,7 +148,10 @@ export class SessionRun {
       const next = this.#session?.pairs[this.#number + 1];
       if (next) await this.#dances(next).catch(() => undefined);
     } catch (error) {
-      if (this.#shown === pair) this.events.onProblem(error);
+      if (this.#shown !== pair) return;
+      this.#isWaiting = false;
+      this.#showPair(null, false, true);
+      this.events.onProblem(error);
     }
   }
 

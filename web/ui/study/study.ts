@@ -53,6 +53,9 @@ export class Study {
       onProblem: (error) => {
         this.#fail(error);
       },
+      onRetry: () => {
+        this.#alert.hidden = true;
+      },
       onEnd: ({ answers, content, participant }) => {
         this.#showResult(answers, content, this.#set?.reference ?? null, participant);
       },
