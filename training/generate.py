@@ -1,17 +1,22 @@
-"""Generate the reactor for a leader and a song with a checkpoint.
+"""Generate the reactor for a leader and a song with a checkpoint, also one of `training.baselines`.
 
     python -m training.generate --checkpoint training/checkpoints/salsa --leader leader.bvh --song song.mp3 \\
         --out runs/dance
+
+Writes leader.npy and reactor_SEED.npy, (T, 22, 3) metres at 30 fps, y up, which the page reads, and a filmstrip of each
+seed.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from training.baselines.trained import load_baseline
 from training.checkpoint import load_model
 from training.command_line import run_program
 from training.config import FPS
@@ -22,6 +27,8 @@ from training.evaluation.report.filmstrip import filmstrip
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
 
+STEERING = ("steps", "coarse", "fine", "music_guidance", "variety")
+
 
 @dataclass(frozen=True)
 class Options:
@@ -29,7 +36,7 @@ class Options:
     leader: Path
     """A BVH file, or any source of duets (then name the duet)."""
     out: Path
-    """Folder for reactor.npz and the filmstrip."""
+    """Folder for the motions and filmstrips."""
     duet: str | None = None
     song: Path | None = None
     seeds: tuple[int, ...] = (1204,)
@@ -69,29 +76,51 @@ def read_leader(options: Options) -> np.ndarray:
     return duets[options.duet].leader
 
 
-def main(options: Options) -> None:
+Generate = Callable[[np.ndarray, np.ndarray | None, int], np.ndarray]
+"""The reactor (T, 22, 3) of a leader (T, 22, 3), music (T', 54) and a seed."""
+
+
+def load_generator(options: Options) -> Generate:
+    """The checkpoint with the weights of the options.
+
+    Raises ValueError for a weight that the checkpoint would ignore, and FileNotFoundError.
+    """
+    if (options.checkpoint / "baseline.json").exists():
+        given = [name for name in STEERING if getattr(options, name) is not None]
+        if given:
+            flags = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+            raise ValueError(
+                f"{options.checkpoint} is a baseline, which has no such control: leave {flags} out"
+            )
+        return load_baseline(options.checkpoint).react
     model = load_model(options.checkpoint)
-    leader = read_leader(options)
-    recipe = AudioRecipe()
-    music = features(load_audio(options.song, recipe), recipe) if options.song else None
     coarse, fine = model.diffusion.guidance
     guidance = (
         coarse if options.coarse is None else options.coarse,
         fine if options.fine is None else options.fine,
     )
 
+    def generate(leader: np.ndarray, music: np.ndarray | None, seed: int) -> np.ndarray:
+        weights = (options.steps, guidance, options.music_guidance, options.variety)
+        return react(model, Request(leader, music, seed, *weights))
+
+    return generate
+
+
+def main(options: Options) -> None:
+    generate = load_generator(options)
+    leader = read_leader(options)
+    recipe = AudioRecipe()
+    music = features(load_audio(options.song, recipe), recipe) if options.song else None
+
     options.out.mkdir(parents=True, exist_ok=True)
-    made: dict[str, np.ndarray] = {}
+    np.save(options.out / "leader.npy", leader.astype(np.float32))
     for seed in options.seeds:
-        request = Request(
-            leader, music, seed, options.steps, guidance, options.music_guidance, options.variety
-        )
-        reactor = react(model, request)
-        made[f"seed_{seed}/leader"], made[f"seed_{seed}/follower"] = leader, reactor
-        filmstrip(leader, reactor, options.out / f"seed_{seed}.png")
+        reactor = generate(leader, music, seed)
+        np.save(options.out / f"reactor_{seed}.npy", reactor.astype(np.float32))
+        filmstrip(leader, reactor, options.out / f"reactor_{seed}.png")
         print(f"seed {seed}: {len(reactor) / FPS:.1f} s", flush=True)
-    np.savez_compressed(options.out / "reactor.npz", **made)  # pyright: ignore[reportArgumentType]
-    print(f"wrote {options.out / 'reactor.npz'} and a filmstrip for each seed")
+    print(f"wrote leader.npy, and a reactor with its filmstrip for each seed, to {options.out}")
 
 
 if __name__ == "__main__":

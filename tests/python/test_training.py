@@ -16,7 +16,7 @@ import torch
 
 from tests.python.support.duets import made_duet
 from tests.python.support.small_training import DENOISER, HFSQ, stage1, stage2, write_duets
-from training import train_denoiser, train_hfsq
+from training import generate, train_denoiser, train_hfsq
 from training.checkpoint import load_denoiser, load_hfsq, load_model
 from training.checkpoints import average
 from training.config import (
@@ -30,6 +30,7 @@ from training.config import (
 from training.data.duet import Solo
 from training.data.made import made_dancer
 from training.denoiser.clips import Clip, solo_pair_clips
+from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop import fast_precision
@@ -61,6 +62,21 @@ def test_both_stages_leave_a_checkpoint_a_log_and_curves(trained: Path) -> None:
         rows = [json.loads(line) for line in (trained / stage / "log.jsonl").read_text().splitlines()]
         assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
         assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
+
+
+def test_a_dance_is_generated_as_asked(data: Path, trained: Path, tmp_path: Path) -> None:
+    given = generate.Options(
+        checkpoint=trained, leader=data, duet="made_2", out=tmp_path, seeds=(1, 2), coarse=0.5, variety=0.0
+    )
+    generate.main(given)
+    leader = np.load(tmp_path / "leader.npy")
+    for seed in given.seeds:
+        request = Request(
+            leader, None, seed, guidance=(0.5, load_model(trained).diffusion.guidance[1]), variety=0.0
+        )
+        reactor = np.load(tmp_path / f"reactor_{seed}.npy")
+        assert reactor == pytest.approx(react(load_model(trained), request), abs=1e-6)
+        assert (tmp_path / f"reactor_{seed}.png").stat().st_size > 1000
 
 
 def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,6 +11,7 @@ import torch
 from torch import Tensor
 
 from tests.python.support.small_training import write_duets
+from training import generate
 from training.baselines import __main__ as program
 from training.baselines.duolando import Duolando, normalised_codebooks
 from training.baselines.gesturelsm import GestureLsm
@@ -108,6 +109,14 @@ def test_the_program_trains_it_and_it_dances(name: str, data: Path, tmp_path: Pa
     assert np.isfinite(made).all()
     assert np.array_equal(made, again)
     assert not np.array_equal(made, other)
+    given = generate.Options(
+        checkpoint=tmp_path, leader=data, duet="made_2", out=tmp_path / "dance", seeds=(3,)
+    )
+    generate.main(given)
+    [leader, reactor] = [np.load(given.out / f"{dancer}.npy") for dancer in ("leader", "reactor_3")]
+    assert reactor == pytest.approx(baseline.react(leader, None, 3), abs=1e-6)
+    with pytest.raises(ValueError, match="no such control: leave --steps, --variety out"):
+        generate.main(replace(given, steps=2, variety=1.0))
 
 
 def test_codes_come_back_from_their_latents() -> None:
