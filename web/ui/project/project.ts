@@ -4,7 +4,7 @@ import type { Files, FileReaders } from '../store/services';
 import { leaderlessProblem, projectProblem } from '../store/problems';
 import { slug } from '../store/format';
 import type { Take } from '../store/reaction';
-import type { AppState } from '../store/state';
+import type { AppState, Restoring } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
@@ -80,6 +80,7 @@ export class Project {
    * said at once, the couple is drawn as soon as the leader is read, and the song and the other takes come after it.
    */
   restore(): Promise<boolean> {
+    apply(this.store, restoringSet(NOT_KNOWN));
     let shown = (): void => undefined;
     this.coupleShown = new Promise((resolve) => (shown = resolve));
     return this.restoreStored(shown).finally(shown);
@@ -92,6 +93,7 @@ export class Project {
     const { project, losses } = found ? checked(found) : NOTHING;
     for (const loss of losses) apply(store, noticeAdded(loss));
     if (!project || (project.leaders.length === 0 && project.songs.length === 0)) {
+      apply(store, restoringSet(null));
       this.autosave.start();
       return false;
     }
@@ -232,6 +234,8 @@ export class Project {
 }
 
 const NOTHING = { project: null, losses: [] };
+/** Whether an earlier visit stored anything, before it is looked up. */
+const NOT_KNOWN: Restoring = { what: '', takes: [] };
 
 function backgroundReaders(readers: FileReaders): StoredFileReaders {
   return {

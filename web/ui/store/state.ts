@@ -28,9 +28,9 @@ export interface ComingTake {
   readonly title: string;
 }
 
-/** What an earlier visit stored, while it is being read. */
+/** What an earlier visit stored, while it is being looked up and read. */
 export interface Restoring {
-  /** Song, leader and number of takes: `descarga.mp3, lead_0412.bvh, 3 takes`. */
+  /** Song, leader and number of takes: `descarga.mp3, leader_0412.bvh, 3 takes`; empty while it is not known. */
   readonly what: string;
   /** The newest first; those that are among `takes` already are there. */
   readonly takes: readonly ComingTake[];
