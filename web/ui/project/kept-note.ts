@@ -47,9 +47,8 @@ export const mountKeptNote: Mount = (root, store, services) => {
       (state) => [state.restoring, state.leader],
       ({ restoring, leader }) => {
         // Once the couple is there, the rest comes quietly.
-        const what = leader === null && restoring ? restoring.what : '';
-        coming.hidden = what === '';
-        setText(coming, what && `Bringing back your work: ${what}`);
+        coming.hidden = !restoring || leader !== null;
+        setText(coming, restoring && !coming.hidden ? `Bringing back your work: ${restoring.what}` : '');
       },
     ),
     () => {

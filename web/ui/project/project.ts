@@ -4,11 +4,12 @@ import type { Files, FileReaders } from '../store/services';
 import { leaderlessProblem, projectProblem } from '../store/problems';
 import { slug } from '../store/format';
 import type { Take } from '../store/reaction';
-import type { AppState, Restoring } from '../store/state';
+import type { AppState } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
 import {
+  nothingRestored,
   persistenceAnswered,
   projectCleared,
   projectOpened,
@@ -80,7 +81,6 @@ export class Project {
    * said at once, the couple is drawn as soon as the leader is read, and the song and the other takes come after it.
    */
   restore(): Promise<boolean> {
-    apply(this.store, restoringSet(NOT_KNOWN));
     let shown = (): void => undefined;
     this.coupleShown = new Promise((resolve) => (shown = resolve));
     return this.restoreStored(shown).finally(shown);
@@ -93,7 +93,7 @@ export class Project {
     const { project, losses } = found ? checked(found) : NOTHING;
     for (const loss of losses) apply(store, noticeAdded(loss));
     if (!project || (project.leaders.length === 0 && project.songs.length === 0)) {
-      apply(store, restoringSet(null));
+      apply(store, nothingRestored());
       this.autosave.start();
       return false;
     }
@@ -234,8 +234,6 @@ export class Project {
 }
 
 const NOTHING = { project: null, losses: [] };
-/** Whether an earlier visit stored anything, before it is looked up. */
-const NOT_KNOWN: Restoring = { what: '', takes: [] };
 
 function backgroundReaders(readers: FileReaders): StoredFileReaders {
   return {

@@ -66,8 +66,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   root.append(block);
 
   const show = (state: AppState): void => {
-    // Who comes back does not see it for a moment: it waits until nothing is found of an earlier visit.
-    block.hidden = !state.firstVisit || state.restoring !== null;
+    block.hidden = !state.firstVisit;
     root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';
@@ -78,7 +77,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   return combineDisposers(
     watchAll(
       store,
-      (state) => [state.firstVisit, state.restoring, state.demo, state.reaction, state.leader, state.song],
+      (state) => [state.firstVisit, state.demo, state.reaction, state.leader, state.song],
       show,
     ),
     () => {

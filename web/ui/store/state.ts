@@ -28,9 +28,9 @@ export interface ComingTake {
   readonly title: string;
 }
 
-/** What an earlier visit stored, while it is being looked up and read. */
+/** What an earlier visit stored, while it is being read. */
 export interface Restoring {
-  /** Song, leader and number of takes: `descarga.mp3, leader_0412.bvh, 3 takes`; empty while it is not known. */
+  /** Song, leader and number of takes: `descarga.mp3, leader_0412.bvh, 3 takes`. */
   readonly what: string;
   /** The newest first; those that are among `takes` already are there. */
   readonly takes: readonly ComingTake[];
