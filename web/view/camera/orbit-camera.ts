@@ -6,7 +6,7 @@ import { FIELD_OF_VIEW } from './framing';
 const POLE = Math.PI / 2;
 const UP = new Vector3(0, 1, 0);
 /** Share of the picture's height that a couple leaves free at each edge, wherever it stands. */
-const FREE_EDGE = 0.1;
+const FREE_EDGE = 0.09;
 /** How small a couple may become for controls, as a share of its usual size. */
 const MIN_ZOOM = 0.5;
 
