@@ -8,7 +8,7 @@ import { inspectLeader, type LeaderRequest, readLeader } from './motion/client';
 import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
-import { bindStage, openCamera, shiftForFirstVisit, withPartRead } from './stage-binding';
+import { bindStage, openCamera, leaveRoomForControls, withPartRead } from './stage-binding';
 import { createFigures } from './view/figures';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
@@ -217,7 +217,7 @@ mountKeyboard(store, services);
 mountUndoKeys(store);
 if (stage) {
   bindStage(stage, withPartRead(store));
-  shiftForFirstVisit(stage, store);
+  leaveRoomForControls(stage, store);
 }
 
 // ---- what is loaded at the start ----

@@ -133,18 +133,21 @@ function bindBusy(stage: Stage, store: Watched): () => void {
 const WIDE = matchMedia('(min-width: 761px)');
 const LOW = matchMedia('(max-height: 500px)');
 const FIRST_VISIT_SHIFT_PX = { low: 135, high: 200 };
+/** Height of the cameras and of the stage's tools, along the edges of the picture. */
+const CONTROLS_PX = 44;
 
-/** Shifts the dancers beside the first-visit block, where there is room; returns a function that stops it. */
-export function shiftForFirstVisit(stage: Stage, store: Store): () => void {
-  const shift = (): void => {
-    const beside = store.getState().firstVisit && WIDE.matches;
-    stage.shiftRight(beside ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0);
+/** Keeps the dancers clear of the first-visit block or of the stage's controls; returns a function that stops it. */
+export function leaveRoomForControls(stage: Stage, store: Store): () => void {
+  const leave = (): void => {
+    const { firstVisit } = store.getState();
+    const left = firstVisit && WIDE.matches ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0;
+    stage.leaveRoom({ left, edges: firstVisit ? 0 : CONTROLS_PX });
   };
-  for (const query of [WIDE, LOW]) query.addEventListener('change', shift);
+  for (const query of [WIDE, LOW]) query.addEventListener('change', leave);
   return combineDisposers(
-    watch(store, (state) => state.firstVisit, shift),
+    watch(store, (state) => state.firstVisit, leave),
     () => {
-      for (const query of [WIDE, LOW]) query.removeEventListener('change', shift);
+      for (const query of [WIDE, LOW]) query.removeEventListener('change', leave);
     },
   );
 }

@@ -44,6 +44,11 @@ test('worst moments of the demo are marked, a click goes there, and the foot loc
   await expect(card).toContainText(`0:${seconds}`);
   await expect(mark).toHaveAccessibleDescription(/\. (Up|By|Around) .*\.$/);
   const place = await mark.boundingBox();
+  // After a click and a key it does not stay over the other marks.
+  await page.mouse.move(400, 5);
+  await expect(card).toBeHidden();
+  await mark.hover();
+  await expect(card).toBeVisible();
   await page.keyboard.press('Escape');
   await expect(card).toBeHidden();
   await page.mouse.move(400, 5);

@@ -2,6 +2,7 @@ import type { Page } from '@playwright/test';
 import { App } from './support/app-page';
 import { expect, test } from './support/fixtures';
 import { demoSettings, serveDemo } from './support/made-demo';
+import { rested } from './support/stage-rest';
 
 // A small phone: what draws here is the processor.
 test.use({ viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
@@ -85,6 +86,11 @@ test('two fingers zoom stage and timeline, and the page does not scroll', async 
       await page.getByRole('button', { name: 'Frame both' }).tap();
       await expect.poll(() => distance(page), { timeout: 2000 }).not.toBeCloseTo(near, 1);
     }).toPass({ timeout: 15_000 });
+    await rested(page);
+    const { width, height } = (await page.locator('.picture').boundingBox())!;
+    const tools = (await page.getByRole('group', { name: 'Stage tools' }).boundingBox())!;
+    const lowest = Math.max(...(await app.warmPixels())) / width;
+    expect(lowest, 'the feet are above the tools').toBeLessThan(height - tools.height);
     const door = page.getByRole('button', { name: /^Takes/ });
     await door.tap();
     await expect(page.getByRole('grid', { name: 'Takes' })).toBeVisible();

@@ -1,6 +1,7 @@
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
 import type { Detail } from './camera/focus';
+import type { Covered } from './camera/orbit-camera';
 import type { PictureSize } from './canvas';
 import type { DancerName, OtherMode } from './dancer/dancers';
 import { createDynamicResolution } from './dynamic-resolution';
@@ -167,9 +168,9 @@ export class Stage {
     this.view.rig.setView(view, this.view.pose(), this.view.time);
   }
 
-  /** Moves the couple to the right by CSS pixels, beside what lies over the picture. */
-  shiftRight(pixels: number): void {
-    this.view.rig.shift(pixels);
+  /** Leaves room for what lies over the picture. */
+  leaveRoom(covered: Covered): void {
+    this.view.rig.leaveRoom(covered);
   }
 
   /**

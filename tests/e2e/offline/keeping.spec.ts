@@ -38,12 +38,18 @@ test('a take is kept whose page is reloaded, or whose browser process ends, in t
   context,
 }) => {
   const app = await withTake(page);
+  await page.addInitScript(() => {
+    new MutationObserver(() => {
+      if (document.querySelector('.first-visit:not([hidden])')) Object.assign(window, { greeted: true });
+    }).observe(document, { subtree: true, childList: true, attributes: true });
+  });
   for (const [index, seed] of [101, 102, 103].entries()) {
     const reloaded = page.waitForEvent('load');
     await takeMade(page, seed, 'location.reload()');
     await reloaded;
     await app.until(({ takes, restoring }, count) => takes.length === count && !restoring, index + 2);
     expect(await seeds(app)).toContain(seed);
+    expect(await page.evaluate("'greeted' in window"), 'nobody is greeted as a newcomer').toBe(false);
     await page.keyboard.press('Escape');
   }
 

@@ -128,7 +128,7 @@ function captionField(
 }
 
 type Plan = VideoPlan | null | undefined;
-type Pixels = NonNullable<ReturnType<Services['stageSize']>>;
+type Pixels = NonNullable<ReturnType<Services['videoSize']>>;
 
 /** The heading, what will be written, and the buttons. */
 function createHead(services: Services): {
@@ -152,8 +152,8 @@ function createHead(services: Services): {
       cancel.hidden = !running;
       share.hidden = running || !savedVideo(plan, state)?.shareable;
       save.disabled = !state.reaction || !plan;
-      const stage = services.stageSize();
-      setText(about, stage ? videoText(plan, state, stage) : 'A video needs the 3D picture.');
+      const size = services.videoSize();
+      setText(about, size ? videoText(plan, state, size) : 'A video needs the 3D picture.');
       const named = fileNameParts(state);
       save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
     },
@@ -194,14 +194,14 @@ function savedVideo(plan: Plan, { saved }: AppState): Saved | null {
 }
 
 /** Text beside the heading: what will be written, what was, or why no video can be written. */
-function videoText(plan: Plan, state: AppState, stage: Pixels): string {
+function videoText(plan: Plan, state: AppState, { width, height }: Pixels): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(plan, state);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
   if (plan.way === 'record') return `${container}, takes ${duration(danceDuration(state))}`;
-  return `${container}, ${state.download.size === 'stage' ? `${stage.width} × ${stage.height}` : 'as you see it'}`;
+  return `${container}, ${width} × ${height}`;
 }
 
 /** `6 s left`, `2:05 left`. */

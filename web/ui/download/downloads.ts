@@ -49,7 +49,7 @@ interface DownloadTools {
 
 type Downloads = Pick<
   Services,
-  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'stageSize'
+  'saveMotion' | 'planVideo' | 'saveVideo' | 'cancelVideo' | 'shareSaved' | 'videoSize'
 >;
 
 type SaveFile = typeof saveFile;
@@ -68,7 +68,7 @@ export function createDownloads(store: Store, tools: DownloadTools): Downloads {
     apply(store, savedChanged({ name, bytes: file.size, shareable: canShare(lastSaved) }));
   };
   return {
-    stageSize: tools.stageSize,
+    videoSize: () => (tools.openVideoStage ? videoSize(store, tools) : null),
     planVideo: () => planFor(store, tools),
     saveMotion: (format) => void saveMotion(store, format, save),
     ...createVideoJob(store, tools, save),

@@ -9,6 +9,7 @@ import { firstVisitEnded } from '../store/actions/files';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
 import {
+  nothingRestored,
   persistenceAnswered,
   projectCleared,
   projectOpened,
@@ -92,6 +93,7 @@ export class Project {
     const { project, losses } = found ? checked(found) : NOTHING;
     for (const loss of losses) apply(store, noticeAdded(loss));
     if (!project || (project.leaders.length === 0 && project.songs.length === 0)) {
+      apply(store, nothingRestored());
       this.autosave.start();
       return false;
     }

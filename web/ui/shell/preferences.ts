@@ -19,6 +19,8 @@ const schema = v.object({
   loop: v.fallback(v.boolean(), false),
   footLock: v.fallback(v.boolean(), true),
   seedLocked: v.fallback(v.boolean(), false),
+  /** False for who has used the page: they are not greeted as newcomers while their work is looked up. */
+  firstVisit: v.fallback(v.boolean(), true),
   shown: v.fallback(
     v.object({
       skeleton: v.boolean(),
@@ -36,18 +38,19 @@ const schema = v.object({
 type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
-  ({ theme, camera, speed, loop, footLock, seedLocked, shown: overlays }: Preferences): Change =>
+  ({ theme, camera, speed, loop, footLock, seedLocked, firstVisit, shown: overlays }: Preferences): Change =>
   (state) => ({
     theme: theme ?? state.theme,
     camera,
     footLock,
     seedLocked,
+    firstVisit,
     overlays,
     playback: { ...state.playback, speed, loop },
   });
 
 const chosen = (
-  { camera, footLock, seedLocked, overlays, playback: { speed, loop } }: AppState,
+  { camera, footLock, seedLocked, firstVisit, overlays, playback: { speed, loop } }: AppState,
   theme: Theme | null,
 ): Preferences => ({
   theme,
@@ -56,6 +59,7 @@ const chosen = (
   loop,
   footLock,
   seedLocked,
+  firstVisit,
   shown: overlays,
 });
 

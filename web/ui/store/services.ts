@@ -113,8 +113,8 @@ export interface Services {
   readonly cancelVideo: () => void;
   /** Shares the file that was written last with another app, by the system's own dialog. */
   readonly shareSaved: () => void;
-  /** Size of the picture on the stage in pixels; null without a stage. */
-  readonly stageSize: () => { readonly width: number; readonly height: number } | null;
+  /** Size of the chosen video in pixels; null without a stage. */
+  readonly videoSize: () => { readonly width: number; readonly height: number } | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
   /** Stores the work of this tab from now on, no longer that of another tab. */

@@ -30,7 +30,7 @@ export interface ComingTake {
 
 /** What an earlier visit stored, while it is being read. */
 export interface Restoring {
-  /** Song, leader and number of takes: `descarga.mp3, lead_0412.bvh, 3 takes`. */
+  /** Song, leader and number of takes: `descarga.mp3, leader_0412.bvh, 3 takes`. */
   readonly what: string;
   /** The newest first; those that are among `takes` already are there. */
   readonly takes: readonly ComingTake[];

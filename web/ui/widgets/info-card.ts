@@ -48,6 +48,8 @@ export class InfoCard {
   private readonly contents = new WeakMap<HTMLElement, CardContent>();
   /** The button whose card is open. */
   private current: HTMLElement | null = null;
+  /** The button that has the focus by the keyboard, not by a click. */
+  private reachedByKey: HTMLElement | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly resized = new ResizeObserver(() => {
     this.close();
@@ -87,10 +89,14 @@ export class InfoCard {
       }, HOVER_DELAY_MS);
     });
     button.addEventListener('pointerleave', this.closeSoon);
-    button.addEventListener('focus', open);
+    button.addEventListener('focus', () => {
+      this.reachedByKey = button.matches(':focus-visible') ? button : null;
+      open();
+    });
     // A tap need not give the focus, and the press itself has closed an open card.
     button.addEventListener('click', open);
     button.addEventListener('blur', () => {
+      this.reachedByKey = null;
       this.close();
     });
   }
@@ -122,11 +128,11 @@ export class InfoCard {
     if (this.card.matches(':popover-open')) this.card.hidePopover();
   }
 
-  /** The pointer has left button or card: a button that has the keyboard's focus keeps its card. */
+  /** The pointer has left button or card: a button that was reached by the keyboard keeps its card. */
   private readonly closeSoon = ({ pointerType }: PointerEvent): void => {
     if (pointerType !== 'mouse') return;
     clearTimeout(this.timer);
-    if (this.current?.matches(':focus-visible')) return;
+    if (this.current && this.current === this.reachedByKey) return;
     this.timer = setTimeout(() => {
       this.close();
     }, HOVER_DELAY_MS);

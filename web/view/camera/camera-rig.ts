@@ -4,7 +4,7 @@ import { CoupleFollower, type Dance } from './couple-follower';
 import { focusShot, type Detail } from './focus';
 import { measureCouple, nearestAngle, reframed, shotOf, type Couple } from './framing';
 import type { HeadingPlan } from './heading-plan';
-import { OrbitCamera } from './orbit-camera';
+import { OrbitCamera, type Covered } from './orbit-camera';
 import { gestureBetween, ShotMove } from './shot-change';
 
 /** The camera of the stage: its views, moves between them, the person's gestures, and following the couple. */
@@ -59,9 +59,9 @@ export class CameraRig {
     this.orbit.resize(width, height);
   }
 
-  /** Moves the middle of the picture to the right by `pixels`. */
-  shift(pixels: number): void {
-    this.orbit.shiftPicture(pixels);
+  /** Leaves room for what lies over the picture. */
+  leaveRoom(covered: Covered): void {
+    this.orbit.leaveRoom(covered);
     this.onChange();
   }
 

@@ -5,13 +5,25 @@ import { FIELD_OF_VIEW } from './framing';
 
 const POLE = Math.PI / 2;
 const UP = new Vector3(0, 1, 0);
+/** Share of the picture's height that a couple leaves free at each edge, wherever it stands. */
+const FREE_EDGE = 0.09;
+/** How small a couple may become for controls, as a share of its usual size. */
+const MIN_ZOOM = 0.5;
+
+/** What lies over the picture, in CSS pixels. */
+export interface Covered {
+  /** By how much the couple moves to the right, beside what is on the left. */
+  readonly left: number;
+  /** Height of the controls along the upper and the lower edge. */
+  readonly edges: number;
+}
 
 /** A perspective camera with orbit controls that is read and placed as a `Shot`. */
 export class OrbitCamera {
   readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.05, 80);
   readonly controls: OrbitControls;
   private size = { width: 1, height: 1 };
-  private offsetPixels = 0;
+  private covered: Covered = { left: 0, edges: 0 };
   private readonly spherical = new Spherical();
   private readonly vector = new Vector3();
 
@@ -71,14 +83,17 @@ export class OrbitCamera {
     this.updateViewOffset();
   }
 
-  /** Moves the middle of the picture to the right by `pixels`. */
-  shiftPicture(pixels: number): void {
-    this.offsetPixels = pixels;
+  /** Leaves room for what lies over the picture; in a low picture the couple is smaller for it. */
+  leaveRoom(covered: Covered): void {
+    this.covered = covered;
     this.updateViewOffset();
   }
 
   private updateViewOffset(): void {
     const { width, height } = this.size;
-    this.camera.setViewOffset(width, height, -this.offsetPixels, 0, width, height);
+    const { left, edges } = this.covered;
+    const between = (1 - (2 * edges) / height) / (1 - 2 * FREE_EDGE);
+    this.camera.zoom = Math.max(MIN_ZOOM, Math.min(1, between));
+    this.camera.setViewOffset(width, height, -left, 0, width, height);
   }
 }

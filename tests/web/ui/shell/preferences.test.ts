@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { syncPreferences, type PreferenceStorage } from '../../../../web/ui/shell/preferences';
 import type { Theme } from '../../../../web/ui/store/state';
+import { firstVisitEnded } from '../../../../web/ui/store/actions/files';
 import { footLockSet } from '../../../../web/ui/store/actions/reaction';
 import { seedLockSet } from '../../../../web/ui/store/actions/settings';
 import { apply, createAppStore } from '../../../../web/ui/store/store';
@@ -43,9 +44,10 @@ describe('preferences', () => {
     apply(store, seedLockSet(true));
     apply(store, overlayToggled('trails'));
     apply(store, playbackSet({ speed: 0.5, loop: true }));
+    apply(store, firstVisitEnded());
     stop();
-    const { theme, camera, footLock, seedLocked, overlays, playback } = visit().store.getState();
-    expect(seedLocked).toBe(true);
+    const { theme, camera, footLock, seedLocked, firstVisit, overlays, playback } = visit().store.getState();
+    expect([seedLocked, firstVisit]).toEqual([true, false]);
     expect(overlays).toMatchObject({ trails: true, skeleton: false });
     expect({ theme, camera, footLock, speed: playback.speed, loop: playback.loop }).toEqual({
       theme: 'light',

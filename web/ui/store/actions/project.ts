@@ -21,6 +21,12 @@ export function restoringSet(restoring: Restoring | null): Change {
   return (state) => (restoring || state.restoring ? { restoring } : {});
 }
 
+/** An earlier visit stored nothing: it begins as a first one, unless the visitor has chosen a file meanwhile. */
+export function nothingRestored(): Change {
+  return ({ leader, song, reading }) =>
+    leader || song || reading.leader || reading.song ? {} : { firstVisit: true };
+}
+
 /** What an earlier visit stored is on the page again. */
 export function visitRestored(content: Partial<AppState>): Change {
   return () => ({ ...content, firstVisit: false, demo: 'ready', history: NO_HISTORY });
