@@ -43,7 +43,7 @@ export function tooFew(frames: number): AppError | null {
 }
 
 type About = Pick<MotionSource, 'format' | 'frameRate' | 'rateAssumed' | 'unit' | 'upAxis'> &
-  Partial<Pick<MotionSource, 'parts' | 'part' | 'warnings'>>;
+  Partial<Pick<MotionSource, 'convention' | 'parts' | 'part' | 'warnings'>>;
 
 /**
  * A source of positions: every joint is moved from its parent, and none turns.

@@ -69,6 +69,11 @@ const MIDDLE_SIZE = 1.18;
 const MIN_SIZE = 0.7;
 const MAX_SIZE = 2;
 
+/** Whether a body has the size of a person. @param size leg plus trunk plus neck, metres */
+export function isOfPerson(size: number): boolean {
+  return size >= MIN_SIZE && size <= MAX_SIZE;
+}
+
 /**
  * The unit in which a body's size is nearest to the middle of the range, by ratio.
  *
@@ -77,7 +82,7 @@ const MAX_SIZE = 2;
  * @returns metres per unit; `known` is false where no unit fits and the body is scaled to an adult
  */
 export function findUnit(size: number, stated: Unit | null): Unit & { known: boolean } {
-  const fits = (metres: number): boolean => size * metres >= MIN_SIZE && size * metres <= MAX_SIZE;
+  const fits = (metres: number): boolean => isOfPerson(size * metres);
   if (stated && fits(stated.metres)) return { ...stated, known: true };
   const deviation = (metres: number): number => Math.abs(Math.log((size * metres) / MIDDLE_SIZE));
   const best = UNITS.reduce((a, b) => (deviation(b.metres) < deviation(a.metres) ? b : a));

@@ -1,4 +1,4 @@
-import { ALL_UNITS, type AxisName, findUnit, findUp, floorHeight, UP_AXES } from './axes-and-units';
+import { ALL_UNITS, type AxisName, findUnit, findUp, floorHeight, isOfPerson, UP_AXES } from './axes-and-units';
 import { type Body, measureBody, nodesOfBody, retarget, withToes } from './retarget';
 import { sampleNodes, worldPose } from './sample';
 import { type MotionSource, withoutFirst } from './source';
@@ -128,6 +128,11 @@ function restPoseRemark(frames: number): string {
   return `${first}, with ${landing}, in which the body jumps from it into the dance.`;
 }
 
+/** The remark on which of several clips or dancers was read, as nobody has chosen one. */
+function partRemark({ parts, part }: MotionSource): string {
+  return `The file holds ${parts.length} motions; “${parts[part]!}” was read. Another one can be chosen under “Joints and units”.`;
+}
+
 /** The body of a source with the axes that were found or set. */
 function orientedBody(source: MotionSource, map: JointMap, fps: number, options: ImportOptions) {
   const motion = sampleNodes(source, nodesOfBody(source.joints, map), fps, FPS);
@@ -167,7 +172,14 @@ function unitOf(source: MotionSource, body: Body, options: ImportOptions) {
     );
   }
   const chosen = ALL_UNITS.find(({ name }) => name === options.unit);
-  return chosen ? { ...chosen, known: true } : findUnit(size, source.unit);
+  if (!chosen) return { ...findUnit(size, source.unit), doubt: null };
+  const doubt = isOfPerson(size * chosen.metres) ? null : sizeDoubt(chosen.name, size * chosen.metres);
+  return { ...chosen, known: true, doubt };
+}
+
+/** The warning about a body that a unit chosen by hand makes a dwarf or a giant. */
+function sizeDoubt(unit: string, size: number): string {
+  return `In ${unit} the dancer is ${size < 1 ? 'smaller' : 'larger'} than people are: ${size.toFixed(2)} m from the feet to the neck.`;
 }
 
 /** Mean of the cosines by which feet point backwards, from which on left and right are exchanged. */
@@ -230,12 +242,14 @@ export function leaderOf(
 
   if (!certain) warnings.push(`It is not clear which way is up; ${up} was taken.`);
   if (!unit.known) warnings.push('No unit gives this body the size of a person; it was scaled to one.');
+  if (unit.doubt) warnings.push(unit.doubt);
   // The frame rate of a file that `writeBvh` wrote is right.
   if (!own) warnings.push(...motionWarnings(clip, fps));
   warnings.push(...map.doubts);
   const remarks = rest > 0 ? [restPoseRemark(rest)] : [];
   if (source.rateAssumed && options.fps === undefined)
     remarks.push(`The file states no frame rate; ${Number(fps.toFixed(2))} was taken.`);
+  if (source.parts.length > 1 && options.part === undefined) remarks.push(partRemark(source));
   const report: LeaderReport = {
     format: source.format,
     parts: source.parts,
@@ -243,7 +257,7 @@ export function leaderOf(
     mappedBy: map.by,
     confidence: map.confidence,
     skeleton,
-    convention: map.convention,
+    convention: source.convention ?? map.convention,
     joints: sourceNames(source, map, body, estimated),
     estimated,
     retargeted: map.spine.length > 0 ? estimated.filter((name) => TRUNK_JOINTS.includes(name)) : [],

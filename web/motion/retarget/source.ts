@@ -27,6 +27,8 @@ export interface MotionSource {
   /** Name of the format as the visitor knows it. */
   readonly format: string;
   readonly joints: readonly SourceJoint[];
+  /** What the skeleton is called, where the joints were made here and their names do not tell. */
+  readonly convention?: string;
   /** The pose without any motion, as one frame. */
   readonly rest: LocalPoses;
   readonly frames: number;

@@ -121,7 +121,7 @@ describe('arrays and tables of joints', () => {
     const file = await read({}, [`a.${ending}`, write(joints)]);
     expect(file.report.parts).toEqual(['leader', 'reactor']);
     expect(worstMillimetres(file, joints)).toBeLessThan(0.1);
-    expect(file.report.remarks).toEqual([]);
+    expect(file.report.remarks).toHaveLength(1);
   });
 
   test.each([',', ';', '\t'])('CSV with %j', async (separator) => {
@@ -150,15 +150,16 @@ describe('arrays and tables of joints', () => {
 describe('FBX', () => {
   const dance = madeMotion();
   test.each([
-    ['centimetres, y up', {}],
-    ['metres, z up', { unitsPerMetre: 1, up: 'z' as const }],
-    ['inches, with pre-rotations', { unitsPerMetre: 1 / 0.0254, preRotation: true }],
-    ['z up, with pre-rotations', { up: 'z' as const, preRotation: true }],
-  ])('%s', async (_, options) => {
+    ['centimetres, y up', 'centimetres', {}],
+    ['metres, z up', 'metres', { unitsPerMetre: 1, up: 'z' as const }],
+    ['inches, with pre-rotations', 'inches', { unitsPerMetre: 1 / 0.0254, preRotation: true }],
+    ['z up, with pre-rotations', 'centimetres', { up: 'z' as const, preRotation: true }],
+  ])('%s', async (_, unit, options) => {
     for (const bytes of [writeFbxBinary(dance, options), writeFbxAscii(dance, options)]) {
       const file = await read({}, ['a.fbx', bytes]);
       expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
-      expect(file.report).toMatchObject({ format: 'FBX', convention: 'Mixamo', sourceFps: 30, warnings: [] });
+      const expected = { format: 'FBX', convention: 'Mixamo', unit, sourceFps: 30, warnings: [] };
+      expect(file.report).toMatchObject(expected);
     }
   });
 
@@ -169,6 +170,11 @@ describe('FBX', () => {
     expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
     expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0, sourceFps: 60 });
     expect((await read({ part: 1 }, ['a.fbx', bytes])).report.part).toBe(1);
+  });
+
+  test('a unit that makes a dwarf is doubted', async () => {
+    const file = await read({ unit: 'millimetres' }, ['a.fbx', writeFbxBinary(dance)]);
+    expect(file.report.warnings.join()).toContain('smaller than people are');
   });
 
   test('three reads the same from the same file', () => {
@@ -238,11 +244,13 @@ describe('glTF and VRM', () => {
     await expect(read({}, ['a.gltf', gltf])).rejects.toMatchObject({ code: 'missing-file' });
   });
 
-  test('one of several clips', async () => {
+  test('one of several clips, which is said until one is chosen', async () => {
     const bytes = writeGlb(dance, { clips: ['dance', 'still'] });
-    expect(worstMillimetres(await read({}, ['a.glb', bytes]), dance)).toBeLessThan(WORST);
+    const first = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(first, dance)).toBeLessThan(WORST);
+    expect(first.report.remarks.join()).toContain('2 motions; “dance” was read');
     const still = await read({ part: 1 }, ['a.glb', bytes]);
-    expect(still.report).toMatchObject({ parts: ['dance', 'still'], part: 1 });
+    expect(still.report).toMatchObject({ parts: ['dance', 'still'], part: 1, remarks: [] });
     expect(worstMillimetres(still, dance)).toBeGreaterThan(50);
   });
 

@@ -61,7 +61,8 @@ describe('C3D', () => {
   ])('%s', async (_, options) => {
     const file = await read({}, ['a.c3d', writeC3d(dance, options)]);
     expect(file.report).toMatchObject({
-      format: 'C3D (Plug-in Gait)',
+      format: 'C3D',
+      convention: 'Plug-in Gait',
       upAxis: 'z',
       unit: 'mm',
       sourceFps: 30,

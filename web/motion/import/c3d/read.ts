@@ -82,7 +82,8 @@ export function readC3d(bytes: Uint8Array, part: number): MotionSource {
   return sourceOfPositions(
     { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
     {
-      format: 'C3D (Plug-in Gait)',
+      format: 'C3D',
+      convention: 'Plug-in Gait',
       frameRate: () => checkedRate(file.rate),
       rateAssumed: false,
       unit: { name: file.unit.slice(0, 12), metres },

@@ -9,7 +9,7 @@ import { writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
 import { pickDancer } from '../../retarget/dancers';
 import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
-import type { AxisName } from '../../retarget/axes-and-units';
+import { ALL_UNITS, type AxisName } from '../../retarget/axes-and-units';
 import type { LocalPoses, MotionSource } from '../../retarget/source';
 
 /** Ticks of FBX in a second. */
@@ -192,7 +192,9 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
     frameRate: () => fps,
     rateAssumed: false,
     unit: {
-      name: centimetres === 1 ? 'centimetres' : `units of ${centimetres} cm`,
+      name:
+        ALL_UNITS.find(({ metres }) => Math.abs(100 * metres - centimetres) < 1e-4 * centimetres)?.name ??
+        `units of ${centimetres} cm`,
       metres: centimetres / 100,
     },
     upAxis: upOf(scene),
