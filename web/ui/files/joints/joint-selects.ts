@@ -13,6 +13,13 @@ interface JointSelects {
   readonly changed: () => JointChoice | null;
 }
 
+/** The trunk, then the limbs with the left one of each pair before the right one, so that sides are columns. */
+const ROWS = [...SMPL22].sort((a, b) => Number(isOfSide(a)) - Number(isOfSide(b)));
+
+function isOfSide(name: JointName): boolean {
+  return /^(left|right)_/.test(name);
+}
+
 const valueOf = (select: HTMLSelectElement): number | null =>
   select.value === '' ? null : Number(select.value);
 
@@ -34,7 +41,7 @@ export function jointSelects(
     const mapped = Object.values(chosen()).filter((joint) => joint !== null);
     draw(new Set(mapped), focused && valueOf(focused));
   };
-  const rows = SMPL22.map((name) => {
+  const rows = ROWS.map((name) => {
     const select = el(
       'select',
       {

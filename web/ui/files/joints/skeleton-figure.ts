@@ -44,8 +44,11 @@ export function drawSkeleton(
   context.lineWidth = 2;
   context.strokeStyle = style.getPropertyValue('--text-3') || 'gray';
   context.globalAlpha = 0.6;
+  // A root on which a single joint hangs is a place on the floor; others are hips.
+  const children = new Map<number, number>();
+  for (const { parent } of joints) children.set(parent, (children.get(parent) ?? 0) + 1);
   joints.forEach(({ parent }, joint) => {
-    if (parent < 0 || joints[parent]!.parent < 0) return;
+    if (parent < 0 || (joints[parent]!.parent < 0 && children.get(parent) === 1)) return;
     context.beginPath();
     context.moveTo(...at(parent));
     context.lineTo(...at(joint));
