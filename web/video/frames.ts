@@ -68,10 +68,10 @@ async function videoTrack(input: Input): Promise<InputVideoTrack> {
     );
   }
   if (!(await track.canDecode().catch(() => false))) {
-    const codec = (await track.getCodec()) ?? 'unknown';
+    const codec = await track.getCodec();
     throw new AppError(
       'video-codec',
-      `This browser cannot decode the video's codec (${codec}).`,
+      `This browser cannot decode the video's codec${codec ? ` (${codec})` : ''}.`,
       'Save the video as H.264 MP4 or as VP9 WebM, or open the page in another browser.',
     );
   }

@@ -79,7 +79,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(left).toBeGreaterThan(right + 25);
   await page.keyboard.press('Escape');
 
-  // What can't be read is a sentence, and the leader stays.
+  // What can't be read is a sentence, and the leader stays with its video.
   await app.drop({
     name: 'broken.mp4',
     mimeType: 'video/mp4',
@@ -87,4 +87,6 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   });
   await expect(app.alert).toHaveAttribute('data-code', 'not-a-video');
   expect(await app.read(({ leader }) => leader?.name)).toBe('dance.webm');
+  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
+  await expect(lane).toBeVisible();
 });

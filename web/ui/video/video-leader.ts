@@ -31,6 +31,8 @@ interface Session {
   readonly reader: VideoReader;
   readonly panel: VideoPanel;
   readonly ended: AbortController;
+  /** The video whose dancer is the leader until this one has been read; it is shown again if that fails. */
+  before: Session | null;
   /** Whether the song starts with the video: it played while that was recorded, or is its sound. */
   songOfVideo: boolean;
   observations: Observations | null;
@@ -59,13 +61,14 @@ export class VideoLeader {
 
   /** @param songOfVideo whether the page's song played while the video was recorded */
   async open(file: File, songOfVideo: boolean): Promise<void> {
-    this.#close();
+    const before = this.#putAside();
     apply(this.store, firstVisitEnded());
     const ended = new AbortController();
     const session: Session = {
       file,
       reader: createVideoReader(),
       ended,
+      before,
       songOfVideo,
       observations: null,
       options: { height: DEFAULT_HEIGHT, focal: DEFAULT_FOCAL, trim: null },
@@ -73,7 +76,7 @@ export class VideoLeader {
       thumbnails: [],
       panel: new VideoPanel(this.host, file, {
         close: () => {
-          this.#close();
+          this.#end(session);
         },
         pick: (point) => void this.#read(session, point),
         change: (options) => void this.#solve(session, { ...session.options, ...options }),
@@ -108,7 +111,7 @@ export class VideoLeader {
       await this.#solve(session, session.options);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
-      this.#close();
+      this.#end(session);
       if (error instanceof AppError && error.code === 'sound-only')
         await this.files.openSong(file, file.name, null);
       else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
@@ -137,6 +140,7 @@ export class VideoLeader {
       this.#showLane(session);
       const { shift } = this.store.getState();
       await this.files.openLeader(sourceOf(file, motion.bvh));
+      if (session.before) this.#end(session.before);
       const moved = before ? shift + (before.start - motion.start) * FPS : -motion.start * FPS;
       if (before ? shift !== 0 || session.songOfVideo : session.songOfVideo)
         apply(this.store, shiftSet(moved));
@@ -179,21 +183,33 @@ export class VideoLeader {
         ({ leader }) => leader,
         (leader) => {
           const own = leader?.name === session.file.name && leader.label === null;
-          if (leader !== before && !own) this.#close();
+          if (leader !== before && !own) this.#end(session);
         },
       ),
     );
   }
 
-  #close(): void {
-    const session = this.#session;
-    if (!session) return;
-    this.#session = null;
+  /** Makes room for another video: one that is only being read ends, one whose dancer is the leader waits. */
+  #putAside(): Session | null {
+    if (this.#session && !this.#session.motion) this.#end(this.#session);
+    this.#session?.panel.hide();
+    return this.#session;
+  }
+
+  #end(session: Session): void {
     session.ended.abort();
-    this.#part.end();
-    this.track.set(null);
     session.reader.dispose();
     session.panel.dispose();
+    if (this.#session?.before === session) this.#session.before = null;
+    if (this.#session !== session) return;
+    this.#part.end();
+    const { before } = session;
+    this.#session = before;
+    if (!before?.observations || !before.motion) this.track.set(null);
+    else {
+      before.panel.showMotion(before.observations, before.motion);
+      this.#showLane(before);
+    }
   }
 }
 

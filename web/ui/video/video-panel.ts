@@ -30,6 +30,7 @@ export class VideoPanel {
   #begun = 0;
   #part = 0;
   #hasSound = false;
+  #soundUsed = false;
 
   constructor(host: HTMLElement, file: File, actions: PanelActions) {
     this.#picture = new VideoPicture(file, actions.pick);
@@ -56,9 +57,9 @@ export class VideoPanel {
       // Above the picture, which may reach below the edge of a low window.
       this.#status,
       el('div', { class: 'reading' }, this.#meter, this.#cancel),
+      this.#advice,
       this.#sound,
       this.#picture.root,
-      this.#advice,
       this.#controls.root,
     );
     host.append(this.#root);
@@ -114,8 +115,14 @@ export class VideoPanel {
     this.#part = seconds;
   }
 
+  /** Another video is shown in its place. */
+  hide(): void {
+    this.#root.hidden = true;
+  }
+
   /** The video has been read, and this is what became of it. */
   showMotion(observations: Observations, motion: VideoMotion): void {
+    this.#root.hidden = false;
     this.#reading(false);
     this.#picture.showObservations(observations);
     const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= UNSURE), 0);
@@ -129,7 +136,7 @@ export class VideoPanel {
   }
 
   showSoundUsed(): void {
-    this.#sound.hidden = true;
+    this.#sound.hidden = this.#soundUsed = true;
   }
 
   /** Shows the moment of the dance that is played. @param start moment of the video at which the dance begins */
@@ -149,7 +156,7 @@ export class VideoPanel {
     this.#root.classList.toggle('is-reading', on);
     this.#meter.hidden = this.#cancel.hidden = !on;
     this.#controls.root.hidden = on;
-    this.#sound.hidden = on || !this.#hasSound;
+    this.#sound.hidden = on || !this.#hasSound || this.#soundUsed;
   }
 
   #progress(share: number): void {
