@@ -63,6 +63,8 @@ export interface VideoMotion {
   readonly bvh: string;
   /** Time of its first frame, seconds of the video. */
   readonly start: number;
+  /** How far the camera was from the dancer, metres, with this focal length (see `WorldOptions`). */
+  readonly camera: { readonly distance: number; readonly focal: number };
   /** How sure each frame is, 0 to 1. */
   readonly confidence: Float32Array;
   /** What to film better. */
@@ -172,6 +174,7 @@ function solve({ observations, options }: SolveRequest): VideoMotion {
   return {
     bvh: writeBvh(result.motion),
     start: result.series.start,
+    camera: { distance: result.distance, focal: options.focal },
     confidence: confidenceOf(result.series),
     advice: adviceOn(result.series, result.flipped),
   };

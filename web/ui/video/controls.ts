@@ -1,33 +1,45 @@
-import { DEFAULT_FOCAL, type WorldOptions } from '../../video/client';
+import type { VideoMotion, WorldOptions } from '../../video/client';
 import { el } from '../widgets/dom';
 
 export interface Controls {
   readonly root: HTMLElement;
   /** @param seconds length of the video */
   readonly setDuration: (seconds: number) => void;
+  /** @param camera where it was, as the motion has it */
+  readonly setCamera: (camera: VideoMotion['camera']) => void;
 }
 
 /** Time after the last change before the motion is made anew. */
 const WAIT_MS = 350;
 
-/** Corrections of a motion from a video: height, focal length of the camera, and the part that is used. */
+/** Focal lengths of cameras, relative to the longer side of their pictures. */
+const FOCAL = { min: 0.3, max: 6 };
+
+/** Corrections of a motion from a video: height of the dancer, distance of the camera, and the part that is used. */
 export function createControls(change: (options: Partial<WorldOptions>) => void): Controls {
   let duration = 0;
+  let camera: VideoMotion['camera'] | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
   const later = (): void => {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const [from, to] = [start.valueAsNumber, end.valueAsNumber];
       const trim = from > 0 || to < duration ? { start: from, end: to } : null;
-      const [tall, lens] = [height.valueAsNumber / 100, focal.valueAsNumber];
-      if ([from, to, tall, lens].every(Number.isFinite) && from < to)
-        change({ height: tall, focal: lens, trim });
+      const tall = height.valueAsNumber / 100;
+      const focal = focalFor(distance.valueAsNumber);
+      if ([from, to, tall, focal].every(Number.isFinite) && from < to) change({ height: tall, focal, trim });
     }, WAIT_MS);
+  };
+  /** The lens that sees the dancer as large from this distance. */
+  const focalFor = (metres: number): number => {
+    if (!camera) return NaN;
+    if (metres === rounded(camera.distance)) return camera.focal;
+    return Math.min(FOCAL.max, Math.max(FOCAL.min, (camera.focal * metres) / camera.distance));
   };
   const number = (id: string, min: number, max: number, step: number, value: number): HTMLInputElement =>
     el('input', { attributes: { type: 'number', id, min, max, step, value }, on: { change: later } });
   const height = number('video-height', 100, 230, 1, 170);
-  const focal = number('video-focal', 0.5, 3, 0.05, DEFAULT_FOCAL);
+  const distance = number('video-distance', 0.5, 30, 0.1, 0);
   const start = number('video-start', 0, 600, 0.1, 0);
   const end = number('video-end', 0, 600, 0.1, 0);
   const row = (label: string, unit: string, input: HTMLInputElement): HTMLElement =>
@@ -37,7 +49,7 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
     {},
     el('summary', { text: 'Correct the motion' }),
     row('Height of the dancer', 'cm', height),
-    row('Lens: above 0.9 for zoom, below for wide angle', '', focal),
+    row('Distance of the camera', 'm', distance),
     row('Use from', 's', start),
     row('Use to', 's', end),
   );
@@ -47,5 +59,14 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
       duration = Math.ceil(seconds * 10) / 10;
       end.value = String(duration);
     },
+    setCamera: (found) => {
+      camera = found;
+      distance.value = String(rounded(found.distance));
+    },
   };
+}
+
+/** In tenths of a metre, as the control has it. */
+function rounded(metres: number): number {
+  return Math.round(10 * metres) / 10;
 }

@@ -2,7 +2,7 @@
 import { AppError } from '../../common/error';
 import { solve } from '../../motion/fit/ik';
 import { between, rotate } from '../../motion/math/quat';
-import { gaussianFilter } from '../../motion/math/statistics';
+import { gaussianFilter, median } from '../../motion/math/statistics';
 import { cross, direction, dot, readVec, scale, sub, writeVec, X_AXIS } from '../../motion/math/vec3';
 import { FPS, type MotionClip, type SolvedMotion } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
@@ -33,6 +33,8 @@ export interface WorldOptions {
 export interface Reconstruction {
   readonly motion: SolvedMotion;
   readonly series: Series;
+  /** Median depth of the dancer in front of the camera, metres. */
+  readonly distance: number;
   /** Frames in which a flip was undone. */
   readonly flipped: number;
 }
@@ -70,7 +72,8 @@ export function reconstruct(observations: Observations, options: WorldOptions): 
   placeLegs(landmarks, cues, ground);
   const positions = jointsOf(upright(landmarks, ground));
   const clip: MotionClip = { fps: FPS, frames: series.frames, positions };
-  return { motion: holdRoot(solve(clip), cues.stances), series, flipped: changed };
+  const motion = holdRoot(solve(clip), cues.stances);
+  return { motion, series, distance: median(depth), flipped: changed };
 }
 
 /** Stances, depth and floor. */

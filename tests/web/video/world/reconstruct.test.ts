@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
+import { median } from '../../../../web/motion/math/statistics';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import type { Observations } from '../../../../web/video/observations';
 import { reconstruct, STATURE } from '../../../../web/video/world/reconstruct';
@@ -44,6 +45,16 @@ describe('a motion from projections of a known one', () => {
 
   it('is near it with noise of 3 cm on every landmark', () => {
     expect(meanError(solved(projected(truth, CAMERA, 0.03)))).toBeLessThan(0.07);
+  });
+
+  it('is as far from the camera as the dancer was', () => {
+    const seen = projected(truth, CAMERA, 0);
+    const result = solved(seen);
+    const away = Array.from({ length: truth.frames }, (_, t) => 4 - truth.positions[3 * JOINT_COUNT * t + 2]!);
+    expect(Math.abs(result.distance - median(away))).toBeLessThan(0.2);
+    // A lens of half the length sees the same from half as far.
+    const wide = reconstruct(seen, { height, focal: CAMERA.focal / CAMERA.width / 2, trim: null });
+    expect(Math.abs(wide.distance - result.distance / 2)).toBeLessThan(0.2);
   });
 
   it('walks as far as the dancer did', () => {
