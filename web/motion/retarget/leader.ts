@@ -1,4 +1,12 @@
-import { ALL_UNITS, type AxisName, findUnit, findUp, floorHeight, isOfPerson, UP_AXES } from './axes-and-units';
+import {
+  ALL_UNITS,
+  type AxisName,
+  findUnit,
+  findUp,
+  floorHeight,
+  isOfPerson,
+  UP_AXES,
+} from './axes-and-units';
 import { type Body, measureBody, nodesOfBody, retarget, withToes } from './retarget';
 import { sampleNodes, worldPose } from './sample';
 import { type MotionSource, withoutFirst } from './source';

@@ -50,7 +50,10 @@ describe('a motion from projections of a known one', () => {
   it('is as far from the camera as the dancer was', () => {
     const seen = projected(truth, CAMERA, 0);
     const result = solved(seen);
-    const away = Array.from({ length: truth.frames }, (_, t) => 4 - truth.positions[3 * JOINT_COUNT * t + 2]!);
+    const away = Array.from(
+      { length: truth.frames },
+      (_, t) => 4 - truth.positions[3 * JOINT_COUNT * t + 2]!,
+    );
     expect(Math.abs(result.distance - median(away))).toBeLessThan(0.2);
     // A lens of half the length sees the same from half as far.
     const wide = reconstruct(seen, { height, focal: CAMERA.focal / CAMERA.width / 2, trim: null });
