@@ -34,8 +34,8 @@ export function adviceOn(series: Series, flipped: number): string[] {
   const long = gaps.filter(({ start, end }) => end - start > MAX_BRIDGE);
   if (long.length > 0)
     advice.push(
-      `The dancer is not seen ${long.length === 1 ? 'once' : `${long.length} times`} for longer than half a second ` +
-        `(first at ${(series.start + long[0]!.start).toFixed(1)} s): the motion there is a guess.`,
+      `The dancer is out of sight for longer than half a second${long.length === 1 ? '' : ` ${long.length} times, first`} ` +
+        `at ${(series.start + long[0]!.start).toFixed(1)} s: the motion there is a guess.`,
     );
   if (often((frame) => hidden(frame, [L.left_ankle, L.right_ankle])))
     advice.push('The feet are often hidden or cut off: film the whole body, with some floor below the feet.');
