@@ -21,16 +21,16 @@ const REST =
 
 /**
  * Most that may be added after the warm-up, megabytes; what is held may grow until lists and undo are full, objects
- * until all that is called often is compiled. Elements vary by half a megabyte from one collection to the next.
+ * until all that is called often is compiled. The browser's process fills its caches in the first five minutes.
  */
 const MORE: Memory = {
   heap: MINUTES > 0 ? 2 : 1,
   held: MINUTES > 0 ? 3 : 10,
   buffers: 1,
-  elements: MINUTES > 0 ? 2 : 1,
+  elements: 1,
   workers: 2,
   process: 30,
-  browser: 30,
+  browser: MINUTES > 0 ? 40 : 30,
 };
 
 const FADERS = ['Coarse guidance', 'Fine guidance', 'Music guidance', 'Variety'];

@@ -52,6 +52,7 @@ export class MemoryMeter {
   private constructor(
     readonly page: CDPSession,
     readonly browser: CDPSession,
+    private readonly dropRecords: () => Promise<void>,
   ) {
     page.on('Target.attachedToTarget', ({ sessionId }) => this.#workers.add(sessionId));
     page.on('Target.detachedFromTarget', ({ sessionId }) => {
@@ -64,10 +65,12 @@ export class MemoryMeter {
   }
 
   static async open(page: Page, browser: Browser): Promise<MemoryMeter> {
-    await withoutRecording(page);
+    const dropRecords = networkRecorder(page);
+    await dropRecords();
     const meter = new MemoryMeter(
       await page.context().newCDPSession(page),
       await browser.newBrowserCDPSession(),
+      dropRecords,
     );
     await meter.page.send('HeapProfiler.enable');
     await meter.page.send('Target.setAutoAttach', {
@@ -80,6 +83,7 @@ export class MemoryMeter {
 
   /** After a collection of garbage on all threads. */
   async measure(): Promise<Memory> {
+    await this.dropRecords();
     // What only a collected object held is collected the second time.
     for (let times = 0; times < 2; times++) await this.page.send('HeapProfiler.collectGarbage');
     const own = await this.page.send('Runtime.getHeapUsage');
@@ -145,12 +149,18 @@ interface Internals {
 
 /**
  * Has Chromium keep no copies of what the page reads. It does so for Playwright, as for open developer tools, in the
- * page's process: five of every song, up to 100 MB, which would be taken for memory of the page.
+ * page's process: five of every song, up to 100 MB, which would be taken for memory of the page. It also keeps a record
+ * of every request.
+ *
+ * @returns drops the records until now
  */
-async function withoutRecording(page: Page): Promise<void> {
+function networkRecorder(page: Page): () => Promise<void> {
   const { _mainFrameSession } = (page as unknown as Internals)._connection.toImpl(page).delegate;
   const nothing = { maxTotalBufferSize: 0, maxResourceBufferSize: 0 };
-  await _mainFrameSession._client.send('Network.enable', nothing);
+  return async () => {
+    await _mainFrameSession._client.send('Network.disable', {});
+    await _mainFrameSession._client.send('Network.enable', nothing);
+  };
 }
 
 /** Linux's description of a process; empty elsewhere and where it has ended. */
