@@ -55,20 +55,7 @@ test('numbers that differ from the reference move the work to the processor, wit
   });
 });
 
-test('the worker computes on WebGPU when it is asked to', async ({ page }) => {
-  const opened = await page.evaluate(() =>
-    model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }),
-  );
-  expect(opened).toMatchObject({ backend: { name: 'webgpu' } });
-  const checked = await page.evaluate(() => model.statuses.find(({ kind }) => kind === 'checked'));
-  expect(checked).toMatchObject({ kind: 'checked' });
-  expect(checked !== undefined && 'error' in checked ? checked.error : NaN).toBeLessThan(1e-4);
-  await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const { positions } = await page.evaluate(() => model.generate({ frames: 250, steps: 1 }));
-  expect(positions).toHaveLength(250 * 66);
-});
-
-test('a device that is lost in the middle of a run moves the work to the processor, with the reason', async ({
+test('the worker computes on WebGPU, and a device that is lost in the middle of a run moves the work to the processor', async ({
   page,
 }) => {
   // The worker's own script, with a note of the device that it asks for.
@@ -83,7 +70,12 @@ test('a device that is lost in the middle of a run moves the work to the process
     await route.fulfill({ response, body: noteDevice + (await response.text()) });
   });
   await page.goto('/');
-  await page.evaluate(() => model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }));
+  const opened = await page.evaluate(() =>
+    model.open({ manifestUrl: 'tiny/manifest.json', backend: 'webgpu' }),
+  );
+  expect(opened).toMatchObject({ backend: { name: 'webgpu' } });
+  const checked = await page.evaluate(() => model.statuses.find(({ kind }) => kind === 'checked'));
+  expect(checked !== undefined && 'error' in checked ? checked.error : NaN).toBeLessThan(1e-4);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const asked = { frames: 60, steps: 8 };
   const generating = page.evaluate((request) => model.generate(request), asked);
