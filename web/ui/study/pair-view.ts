@@ -26,6 +26,11 @@ export interface PairState {
   readonly failed: boolean;
 }
 
+/** Whether the dances are on the stage. */
+function areShown({ waiting, failed }: PairState): boolean {
+  return waiting === null && !failed;
+}
+
 /** The questions beside the stage, and the transport below them. */
 export class PairView {
   readonly element: HTMLElement;
@@ -72,7 +77,7 @@ export class PairView {
   /** @param isNew a pair that was not shown before gets the focus */
   show(state: PairState, isNew: boolean): void {
     const { number, pairs, criteria, answers, waiting, failed } = state;
-    const isReady = waiting === null && !failed;
+    const isReady = areShown(state);
     this.#state = state;
     setText(this.#heading, `Pair ${number + 1} of ${pairs}`);
     setText(this.#waiting, waiting ?? '');
@@ -106,7 +111,7 @@ export class PairView {
     if (!state || event.ctrlKey || event.metaKey || event.altKey) return false;
     const target = event.target instanceof HTMLElement ? event.target : null;
     const choice = CHOICES[Number(event.key) - 1];
-    const isReady = state.waiting === null && !state.failed;
+    const isReady = areShown(state);
     if (choice) {
       if (!isReady) return false;
       const { criteria, answers } = state;
