@@ -1,4 +1,4 @@
-import { FPS, type SolvedMotion } from '../../motion/skeleton/clip';
+import { FPS, type MotionClip } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { smoothstep } from '../body/field';
 
@@ -29,7 +29,7 @@ const SMOOTHING = 0.5;
  * the whole dance by dynamic programming (Viterbi 1967), smoothed. It knows what comes, so that it turns slowly where
  * dancers change places fast.
  */
-export function planHeading(leader: SolvedMotion, reactor: SolvedMotion): HeadingPlan {
+export function planHeading(leader: MotionClip, reactor: MotionClip): HeadingPlan {
   const frames = Math.min(leader.frames, reactor.frames);
   const steps = Math.max(1, Math.ceil(frames / leader.fps / STEP));
   const costs = hiddenCosts(leader, reactor, frames, steps);
@@ -44,8 +44,8 @@ export function planHeading(leader: SolvedMotion, reactor: SolvedMotion): Headin
 
 /** How much of the couple is hidden in every step (rows) from every heading (columns), 0 to 1. */
 function hiddenCosts(
-  { positions: leader, fps }: SolvedMotion,
-  { positions: reactor }: SolvedMotion,
+  { positions: leader, fps }: MotionClip,
+  { positions: reactor }: MotionClip,
   frames: number,
   steps: number,
 ): Float64Array {

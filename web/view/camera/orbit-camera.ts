@@ -27,8 +27,8 @@ export class OrbitCamera {
   private readonly spherical = new Spherical();
   private readonly vector = new Vector3();
 
-  /** @param surface element that takes the pointer */
-  constructor(surface: HTMLElement) {
+  /** @param surface element that takes the pointer; null without one */
+  constructor(surface: HTMLElement | null) {
     this.controls = new OrbitControls(this.camera, surface);
     this.controls.dampingFactor = 0.12;
     this.controls.minDistance = 1.2;
