@@ -112,6 +112,13 @@ test('of several people the largest is followed, and another one who is clicked'
   const box = (await panel.locator('.persons').boundingBox())!;
   await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
   await expect(panel.getByRole('progressbar')).toBeVisible();
+  // Cancelled, the person who was followed before is there as they were.
+  await panel.getByRole('button', { name: 'Cancel' }).click();
+  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
+  await expect.poll(skeletonAt).toBeLessThan(0.5);
+  await panel.getByRole('button', { name: 'Follow another person' }).click();
+  await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
+  await expect(panel.getByRole('progressbar')).toBeVisible();
   await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
   await expect.poll(skeletonAt).toBeGreaterThan(0.5);
 });

@@ -78,6 +78,9 @@ export class VideoLeader {
         close: () => {
           this.#end(session);
         },
+        cancel: () => {
+          this.#cancelReading(session);
+        },
         pick: (point) => void this.#read(session, point),
         change: (options) => void this.#solve(session, { ...session.options, ...options }),
         useSound: () => void this.#useSound(session),
@@ -97,21 +100,21 @@ export class VideoLeader {
     try {
       panel.showReading();
       this.#part.end();
-      session.thumbnails = [];
-      this.#showLane(session);
+      let thumbnails: readonly Thumbnail[] = [];
+      this.#showLane(session, thumbnails);
       const onReport = (report: ReadReport): void => {
         if (report.kind === 'thumbnail') {
-          session.thumbnails = [...session.thumbnails, report];
-          this.#showLane(session);
+          thumbnails = [...thumbnails, report];
+          this.#showLane(session, thumbnails);
         } else if (report.kind === 'part') void this.#showPart(session, report.motion, signal);
         else panel.showReport(report);
       };
       const observations = await reader.read(file, pick, session.options, signal, onReport);
-      session.observations = observations;
+      Object.assign(session, { observations, thumbnails });
       await this.#solve(session, session.options);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
-      this.#end(session);
+      this.#endReading(session);
       if (error instanceof AppError && error.code === 'sound-only')
         await this.files.openSong(file, file.name, null);
       else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
@@ -153,7 +156,7 @@ export class VideoLeader {
   }
 
   /** The video on the timeline, as far as it is read. */
-  #showLane({ file, motion, thumbnails }: Session): void {
+  #showLane({ file, motion, ...session }: Session, thumbnails = session.thumbnails): void {
     const { start = 0, confidence = new Float32Array() } = motion ?? {};
     this.track.set({ name: file.name, file, start, confidence, thumbnails, fps: FPS });
   }
@@ -205,11 +208,27 @@ export class VideoLeader {
     this.#part.end();
     const { before } = session;
     this.#session = before;
-    if (!before?.observations || !before.motion) this.track.set(null);
-    else {
-      before.panel.showMotion(before.observations, before.motion);
-      this.#showLane(before);
-    }
+    if (!before || !this.#showAgain(before)) this.track.set(null);
+  }
+
+  #cancelReading(session: Session): void {
+    this.#reading?.abort();
+    this.#endReading(session);
+  }
+
+  /** After a reading that brought nothing: shows the person who was followed before; the video closes if there is none. */
+  #endReading(session: Session): void {
+    if (this.#showAgain(session)) this.#part.end();
+    else this.#end(session);
+  }
+
+  /** Shows what was read of a video before; false where nothing was. */
+  #showAgain(session: Session): boolean {
+    const { observations, motion, panel } = session;
+    if (!observations || !motion) return false;
+    panel.showMotion(observations, motion);
+    this.#showLane(session);
+    return true;
   }
 }
 

@@ -9,6 +9,8 @@ import { VideoPicture } from './video-picture';
 /** What the visitor does on the panel. */
 export interface PanelActions {
   readonly close: () => void;
+  /** What is being read is not wanted. */
+  readonly cancel: () => void;
   /** Another person is to be followed. */
   readonly pick: (point: Point) => void;
   readonly change: (options: Partial<WorldOptions>) => void;
@@ -47,7 +49,7 @@ export class VideoPanel {
       },
       this.#fill,
     );
-    this.#cancel = textButton('btn tint', 'Cancel', actions.close);
+    this.#cancel = textButton('btn tint', 'Cancel', actions.cancel);
     this.#sound = textButton('btn tint', 'Use its sound as the song', actions.useSound);
     this.#controls = createControls(actions.change);
     this.#root = el(
