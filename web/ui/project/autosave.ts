@@ -69,7 +69,11 @@ export class Autosave {
     try {
       await this.right.takeIfFree();
       const found = await this.storage.read();
-      if (found) this.anythingStored = this.hasFitted = true;
+      if (found) {
+        this.anythingStored = this.hasFitted = true;
+        // Restoring may take seconds; who reads meanwhile that the work is open elsewhere changes nothing in vain.
+        if (!this.right.held) this.sayElsewhere();
+      }
       return found;
     } catch (error) {
       this.report(isNewer(error) ? 'newer' : 'refused');
@@ -167,11 +171,15 @@ export class Autosave {
   /** Waits for the right to write; says so unless the tab that has it gives way at once. */
   private readonly wait = (): void => {
     this.right.wait();
+    this.sayElsewhere();
+  };
+
+  private sayElsewhere(): void {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
       if (!this.right.held) this.report('elsewhere');
     }, PATIENCE_MS);
-  };
+  }
 
   /** This tab has got the right to write after another one had it. */
   private async goOn(): Promise<void> {

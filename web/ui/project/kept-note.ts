@@ -1,7 +1,7 @@
 import { el, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
-import { watch, watchAll } from '../store/store';
+import { watchAll } from '../store/store';
 
 /** Where the work of this tab is not kept although the browser would keep it: why, and what the button offers. */
 const NOTES: Readonly<Partial<Record<AutosaveStatus, { readonly text: string; readonly button: string }>>> = {
@@ -32,14 +32,16 @@ export const mountKeptNote: Mount = (root, store, services) => {
   const coming = el('div', { class: 'float toast restoring', attributes: { role: 'status' } });
   root.append(note, coming);
   return combineDisposers(
-    watch(
+    watchAll(
       store,
-      (state) => state.autosave,
-      (status) => {
+      (state) => [state.autosave, state.restoring],
+      ({ autosave: status, restoring }) => {
         const shown = NOTES[status];
         note.hidden = !shown;
         setText(text, shown?.text ?? '');
         setText(button, shown?.button ?? '');
+        // What is still being read cannot be written here yet.
+        button.hidden = restoring !== null;
       },
     ),
     watchAll(

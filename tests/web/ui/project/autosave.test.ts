@@ -1,7 +1,9 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
-import type { StoredProject } from '../../../../web/ui/project/schema';
+import type { TabMeans } from '../../../../web/ui/project/editing-right';
+import type { FoundProject } from '../../../../web/ui/project/records';
+import { storedProject, type StoredProject } from '../../../../web/ui/project/schema';
 import { Project } from '../../../../web/ui/project/project';
 import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
@@ -12,6 +14,15 @@ import { leader, still } from '../../support/made-state';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));
 const readers: FileReaders = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
+interface Browser {
+  /** What an earlier visit has stored. */
+  readonly found: FoundProject | null;
+  readonly tabs: TabMeans;
+  readonly readers: FileReaders;
+}
+
+/** A browser without an earlier visit and other tabs. */
+const ALONE: Browser = { found: null, tabs: { locks: undefined, channel: undefined }, readers };
 
 describe('autosave', () => {
   let store: change.Store;
@@ -35,7 +46,7 @@ describe('autosave', () => {
   const warnings = () => notes(store.getState()).filter(({ isWarning }) => isWarning);
 
   /** Opens the page in a browser with room for so many takes, -1 for nothing at all. */
-  const visit = async (takes: number) => {
+  const visit = async (takes: number, { found, tabs, readers }: Browser = ALONE) => {
     writes = [];
     room = takes;
     failure = new DOMException('No room.', 'QuotaExceededError');
@@ -45,7 +56,7 @@ describe('autosave', () => {
     project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
       stage: () => null,
       storage: {
-        read: () => Promise.resolve(null),
+        read: () => Promise.resolve(found),
         write: ({ takes }: StoredProject) => {
           if (takes.length > room) return Promise.reject(failure);
           writes.push(takes.map(({ name }) => name));
@@ -54,7 +65,7 @@ describe('autosave', () => {
         removeOwn: () => Promise.resolve(),
         clear: () => Promise.resolve(),
       },
-      tabs: { locks: undefined, channel: undefined },
+      tabs,
       persistence: {
         persisted: () => Promise.resolve(false),
         persist: () => {
@@ -65,7 +76,7 @@ describe('autosave', () => {
     });
     asked = 0;
     writing = Promise.resolve();
-    await project.restore();
+    void project.restore();
     await pass(1000);
     writes = [];
   };
@@ -148,6 +159,19 @@ describe('autosave', () => {
     await pass(1000);
     expect(writes).toEqual([[null]]);
     expect(store.getState().autosave).toBe('stored');
+  });
+
+  it('says that another tab has the work before it is read here', async () => {
+    made('a');
+    project.dispose();
+    const taken = { request: (...[, , held]: Parameters<LockManager['request']>) => held(null) };
+    await visit(9, {
+      found: storedProject(store.getState()),
+      tabs: { locks: taken as TabMeans['locks'], channel: undefined },
+      readers: { ...readers, manifest: () => new Promise(() => undefined) },
+    });
+    expect(store.getState().restoring).not.toBeNull();
+    expect(store.getState().autosave).toBe('elsewhere');
   });
 
   it('only adds a note when there never was any room', async () => {
