@@ -9,6 +9,7 @@ import type { VideoSource, VideoOptions } from './video/source';
 import type { VideoPlan } from './video/plan';
 
 export type { About, Dance, MotionFormat } from './dance';
+export { atFrameRate, FRAME_RATES, type FrameRate } from './rate';
 export { estimateBytes } from './sizes';
 export { captioned } from './video/caption';
 export { VIDEO_SIZES, videoPixels, type VideoSize } from './video/size';

@@ -1,9 +1,16 @@
 import { unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
-import { estimateBytes, type MotionFormat, motionExtension, writeMotion } from '../../../web/export/client';
+import {
+  atFrameRate,
+  estimateBytes,
+  FRAME_RATES,
+  type MotionFormat,
+  motionExtension,
+  writeMotion,
+} from '../../../web/export/client';
 import { writeNpz } from '../../../web/export/npz';
 import { leaderBvh } from '../support/leader-bvh';
-import { SMPL22 } from '../../../web/motion/skeleton/skeleton';
+import { JOINT_COUNT, PARENTS, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { madeDance } from '../support/made-dance';
 
 const bytes = async (file: Promise<Blob>): Promise<Uint8Array> =>
@@ -58,3 +65,38 @@ test.each<[MotionFormat, number]>([
     expect(Math.abs(estimateBytes(format, dance) / size - 1)).toBeLessThanOrEqual(within);
   }
 });
+
+test.each(FRAME_RATES)(
+  '%d frames a second: as long, at the same places, with bones of the same length',
+  (rate) => {
+    const dance = madeDance(91, 'leader', 'reactor');
+    const written = atFrameRate({ ...dance, about: { ...dance.about, shift: 15 } }, rate);
+    expect(written.about.shift).toBeCloseTo(rate / 2, 6);
+    written.dancers.forEach(({ motion }, i) => {
+      const before = dance.dancers[i]!.motion;
+      expect(motion).toMatchObject({ fps: rate, frames: 3 * rate + 1 });
+      // Whole seconds are frames at every rate.
+      for (let second = 0; second <= 3; second++)
+        for (let k = 0; k < JOINT_COUNT * 3; k++) {
+          const value = motion.positions[second * rate * JOINT_COUNT * 3 + k];
+          expect(value).toBeCloseTo(before.positions[second * 30 * JOINT_COUNT * 3 + k]!, 5);
+        }
+      for (let frame = 0; frame < motion.frames; frame++) {
+        const at = (joint: number) => (frame * JOINT_COUNT + joint) * 3;
+        for (let joint = 1; joint < JOINT_COUNT; joint++) {
+          const bone = (of: Float32Array, a: number, b: number): number =>
+            Math.hypot(of[a]! - of[b]!, of[a + 1]! - of[b + 1]!, of[a + 2]! - of[b + 2]!);
+          const length = Math.hypot(...motion.offsets.subarray(joint * 3, joint * 3 + 3));
+          expect(bone(motion.positions, at(joint), at(PARENTS[joint]!))).toBeCloseTo(length, 5);
+        }
+      }
+      // Halfway between two frames no joint is farther from their middle than it moves in that time.
+      if (rate === 60)
+        for (let k = 0; k < JOINT_COUNT * 3; k++) {
+          const [a, b] = [before.positions[k]!, before.positions[JOINT_COUNT * 3 + k]!];
+          const middle = motion.positions[JOINT_COUNT * 3 + k]!;
+          expect(Math.abs(middle - (a + b) / 2)).toBeLessThanOrEqual(Math.abs(b - a) / 2 + 1e-3);
+        }
+    });
+  },
+);

@@ -1,14 +1,14 @@
-import type { Dance } from '../../export/client';
+import { atFrameRate, type Dance } from '../../export/client';
 import { otherRole } from '../store/roles';
 import type { FileNameParts } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
-import type { AppState, DancerSelection } from '../store/state';
+import type { AppState } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 
 /** What the file names of the reaction on the stage are made from; null without a reaction. */
 export function fileNameParts(state: AppState): FileNameParts | null {
-  const { reaction, footLock } = state;
-  return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state) };
+  const { reaction, footLock, download } = state;
+  return reaction && { inputs: reaction.inputs, footLock, take: titleOnStage(state), rate: download.rate };
 }
 
 /** `Take 3`, or what it was named; null for a reaction whose take was deleted. */
@@ -17,16 +17,17 @@ function titleOnStage(state: AppState): string | null {
   return take && takeTitle(take);
 }
 
-/** The motions to be written: both dancers on the stage or one of them; null without a reaction. */
-export function danceOf(state: AppState, who: DancerSelection): Dance | null {
-  const { reaction, manifest, footLock } = state;
+/** The motions to be written: both dancers on the stage or one of them, as chosen; null without a reaction. */
+export function chosenDance(state: AppState): Dance | null {
+  const { reaction, manifest, footLock, download } = state;
+  const { who, rate } = download;
   const motion = reactorMotion(state);
   if (!reaction || !motion) return null;
   const { song, leader, shift, settings } = reaction.inputs;
   const made = { role: settings.role, motion };
   const loaded = { role: otherRole(settings.role), motion: leader.motion };
   const dancers: Dance['dancers'] = made.role === 'reactor' ? [loaded, made] : [made, loaded];
-  return {
+  const dance: Dance = {
     dancers: who === 'both' ? dancers : dancers.filter(({ role }) => role === who),
     about: {
       song: song?.name ?? null,
@@ -38,4 +39,5 @@ export function danceOf(state: AppState, who: DancerSelection): Dance | null {
       footLock,
     },
   };
+  return atFrameRate(dance, rate);
 }

@@ -1,5 +1,5 @@
-import { estimateBytes, type MotionFormat } from '../../export/client';
-import { danceOf, fileNameParts } from './dance';
+import { estimateBytes, FRAME_RATES, type FrameRate, type MotionFormat } from '../../export/client';
+import { chosenDance, fileNameParts } from './dance';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { motionFileName } from './file-name';
@@ -14,14 +14,14 @@ const TWO_FILES = 'Two skeletons with rest pose in a zip, for Blender, Maya, Mot
 const FORMATS: readonly (readonly [MotionFormat, string, string])[] = [
   ['bvh', 'BVH', 'Skeleton with rest pose, for Blender, Maya, MotionBuilder'],
   ['glb', 'GLB', 'Skinned mannequin with the animation, for 3D tools and web pages'],
-  ['npz', 'NPZ', '22 joints in metres, 30 fps, for Python'],
+  ['npz', 'NPZ', '22 joints in metres, for Python'],
   ['json', 'JSON', 'Joints and all settings, as text'],
 ];
 
 /** What must be set by hand when a tool reads a format, because the file cannot say it. */
-const IMPORT_HINTS: Partial<Record<MotionFormat, string>> = {
-  bvh: 'In centimetres: in Blender import it with scale 0.01 and “Update Scene FPS”',
-  glb: 'In Blender set the scene to 30 frames a second before importing it',
+const IMPORT_HINTS: Partial<Record<MotionFormat, (rate: FrameRate) => string>> = {
+  bvh: () => 'In centimetres: in Blender import it with scale 0.01 and “Update Scene FPS”',
+  glb: (rate) => `For a scene of ${rate} frames a second in Blender, whose own is 24`,
 };
 
 /** Part of the download menu: whose motion, in which format, under which name. */
@@ -44,6 +44,13 @@ export function createDownloadMotion(store: Store, services: Services): Download
       apply(store, downloadChosen({ who: value }));
     },
   );
+  const rates = radioGroup(
+    'Frames a second',
+    FRAME_RATES.map((rate) => [rate, String(rate)] as const),
+    (rate) => {
+      apply(store, downloadChosen({ rate }));
+    },
+  );
   const fileName = createFileNameLine();
   /** The format under pointer or focus; its file name is shown instead of that of the format saved last. */
   let previewed: MotionFormat | null = null;
@@ -61,7 +68,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
   /** Sizes take time to estimate, so they are only shown while the menu is open. */
   const showSizes = (state: AppState): void => {
     if (state.openPanel !== 'download') return;
-    const dance = danceOf(state, state.download.who);
+    const dance = chosenDance(state);
     for (const { format, showSize } of rows) {
       const size = dance ? byteSize(estimateBytes(format, dance)) : '';
       showSize(state.writing === format ? 'Writing' : size);
@@ -70,6 +77,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
   return {
     parts: [
       el('div', { class: 'row' }, el('h2', { text: 'Motion of' }), who.element),
+      el('div', { class: 'row' }, el('span', { class: 'soft', text: 'Frames a second' }), rates.element),
       ...rows.map(({ button }) => button),
       fileName.root,
     ],
@@ -83,6 +91,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
         (state) => [state.reaction, state.footLock, state.download, state.writing, state.saved],
         (state) => {
           who.show(state.download.who);
+          rates.show(state.download.rate);
           for (const row of rows) row.show(state);
           fileName.show(state, previewed);
           showSizes(state);
@@ -122,7 +131,7 @@ function createFormatRow(
     'button',
     {
       class: 'menu-item',
-      attributes: { type: 'button', title: IMPORT_HINTS[format] },
+      attributes: { type: 'button' },
       on: {
         click: save,
         pointerenter: previewIs(true),
@@ -140,6 +149,7 @@ function createFormatRow(
     button,
     show: ({ download, reaction, writing }) => {
       setText(purposeText, format === 'bvh' && download.who === 'both' ? TWO_FILES : purpose);
+      button.title = IMPORT_HINTS[format]?.(download.rate) ?? '';
       button.disabled = reaction === null;
       button.classList.toggle('last', format === download.format);
       button.setAttribute('aria-busy', String(writing === format));

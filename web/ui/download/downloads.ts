@@ -8,7 +8,7 @@ import {
   writeMotion,
   writeVideo,
 } from '../../export/client';
-import { danceOf, fileNameParts } from './dance';
+import { chosenDance, fileNameParts } from './dance';
 import {
   downloadChosen,
   videoProgressChanged,
@@ -85,7 +85,7 @@ async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): P
   const state = store.getState();
   const { who } = state.download;
   const named = fileNameParts(state);
-  const dance = danceOf(state, who);
+  const dance = chosenDance(state);
   if (!named || !dance || state.writing) return;
   apply(store, downloadChosen({ format }));
   apply(store, writingChanged(format));

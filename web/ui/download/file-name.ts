@@ -1,4 +1,5 @@
-import { motionExtension, type MotionFormat } from '../../export/client';
+import { type FrameRate, motionExtension, type MotionFormat } from '../../export/client';
+import { FPS } from '../../motion/skeleton/clip';
 import { otherRole } from '../store/roles';
 import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
@@ -11,19 +12,24 @@ export interface FileNameParts {
   readonly footLock: boolean;
   /** Name of the take or its number in words, if the reaction is one. */
   readonly take?: string | null;
+  /** Frames a second of a motion. */
+  readonly rate?: FrameRate;
 }
 
 /**
  * `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_reactor.bvh`, after what the reaction was made from. The file of
  * the loaded dancer alone is named after the inputs only. Where body parts differ, `c` and `f` are their means; `m`, the
- * guidance of the music, is there only with a song, and `v`, the variety, only where it changes the seed.
+ * guidance of the music, is there only with a song, `v`, the variety, only where it changes the seed, and the frame rate
+ * where it is not the page's.
  */
 export function motionFileName(named: FileNameParts, who: DancerSelection, format: MotionFormat): string {
   const parts =
     who === otherRole(named.inputs.settings.role)
       ? inputParts(named.inputs)
       : [...inputParts(named.inputs), ...settingsParts(named)];
-  return `${[...parts, who].join('_')}${motionExtension(format, who === 'both' ? 2 : 1)}`;
+  const { rate = FPS } = named;
+  const last = rate === FPS ? [who] : [who, `${rate}fps`];
+  return `${[...parts, ...last].join('_')}${motionExtension(format, who === 'both' ? 2 : 1)}`;
 }
 
 /** `song_leader_take_s1204_c1.20-f0.60-m3.00_footlock_1080p.webm`. */

@@ -2,7 +2,7 @@
 import type { View } from '../../common/framing';
 import type { VisibleOverlays } from '../../common/visible-overlays';
 import type { BeatsPerBar } from '../../audio/client';
-import type { MotionFormat, VideoSize } from '../../export/client';
+import type { FrameRate, MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
@@ -147,6 +147,8 @@ export type DancerSelection = 'reactor' | 'leader' | 'both';
 export interface DownloadChoice {
   readonly who: DancerSelection;
   readonly format: MotionFormat;
+  /** Frames a second of a motion. */
+  readonly rate: FrameRate;
   readonly size: VideoSize;
   /** Written into the first seconds of a video, and below all of it; empty for none. */
   readonly title: string;

@@ -1,4 +1,5 @@
 import { NO_OVERLAYS } from '../../common/visible-overlays';
+import { FPS } from '../../motion/skeleton/clip';
 import type { AppState, Theme } from './state';
 import { NO_HISTORY, withUndo } from './history/history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
@@ -53,7 +54,15 @@ export function initialState(theme: Theme): AppState {
     quality: null,
     reference: null,
     job: null,
-    download: { who: 'reactor', format: 'bvh', size: '1080p', title: '', credit: '', beside: false },
+    download: {
+      who: 'reactor',
+      format: 'bvh',
+      rate: FPS,
+      size: '1080p',
+      title: '',
+      credit: '',
+      beside: false,
+    },
     writing: null,
     videoProgress: null,
     saved: null,

@@ -1,7 +1,7 @@
 import { el } from './dom';
 
 /** A row of buttons of which one is chosen; arrow keys move the choice. */
-interface RadioGroup<T extends string> {
+interface RadioGroup<T extends string | number> {
   readonly element: HTMLElement;
   /** Shows which one is chosen. */
   readonly show: (value: T) => void;
@@ -10,7 +10,7 @@ interface RadioGroup<T extends string> {
 const MOVES: Readonly<Record<string, 1 | -1>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
 /** @param choose called with the visitor's choice; the group changes only by `show` */
-export function radioGroup<T extends string>(
+export function radioGroup<T extends string | number>(
   label: string,
   options: readonly (readonly [T, string])[],
   choose: (value: T) => void,

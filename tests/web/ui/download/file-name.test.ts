@@ -26,6 +26,15 @@ test('a file name holds song, leader, take, seed, guidance, foot lock and role',
   );
 });
 
+test('a file name holds the frame rate where it is not that of the page', () => {
+  expect(motionFileName({ inputs, footLock: false, rate: 30 }, 'leader', 'glb')).toMatch(
+    /-0412_leader\.glb$/,
+  );
+  expect(motionFileName({ inputs, footLock: false, rate: 24 }, 'leader', 'glb')).toMatch(
+    /_leader_24fps\.glb$/,
+  );
+});
+
 test('a leader alone is named after song and leader', () => {
   expect(motionFileName({ inputs, footLock: true, take: 'Softer hands' }, 'leader', 'json')).toBe(
     'descarga_leader-0412_leader.json',
