@@ -136,16 +136,17 @@ const FIRST_VISIT_SHIFT_PX = { low: 135, high: 200 };
 /** Height of the cameras and of the stage's tools, along the edges of the picture. */
 const CONTROLS_PX = 44;
 
-/** Keeps the dancers clear of the first-visit block or of the stage's controls; returns a function that stops it. */
+/** Keeps the dancers clear of the first-visit block, a leader's video and the stage's controls; returns a function that stops it. */
 export function leaveRoomForControls(stage: Stage, store: Store): () => void {
   const leave = (): void => {
-    const { firstVisit } = store.getState();
-    const left = firstVisit && WIDE.matches ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0;
+    const { firstVisit, covered } = store.getState();
+    const beside = WIDE.matches ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0;
+    const left = firstVisit ? beside : covered / 2;
     stage.leaveRoom({ left, edges: firstVisit ? 0 : CONTROLS_PX });
   };
   for (const query of [WIDE, LOW]) query.addEventListener('change', leave);
   return combineDisposers(
-    watch(store, (state) => state.firstVisit, leave),
+    watchAll(store, (state) => [state.firstVisit, state.covered], leave),
     () => {
       for (const query of [WIDE, LOW]) query.removeEventListener('change', leave);
     },

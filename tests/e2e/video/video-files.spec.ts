@@ -105,6 +105,9 @@ test('of several people the largest is followed, and another one who is clicked'
       return sum / count / canvas.width;
     });
   await expect.poll(skeletonAt).toBeLessThan(0.5);
+  // The dancers stand beside the video.
+  const right = await panel.evaluate(({ offsetLeft, offsetWidth }: HTMLElement) => offsetLeft + offsetWidth);
+  await app.until(({ covered }, width) => covered === width, right);
   await panel.getByRole('button', { name: 'Follow another person' }).click();
   const people = panel.getByRole('button', { name: /Follow person \d from the largest/ });
   await expect(people).toHaveCount(2);
@@ -121,4 +124,6 @@ test('of several people the largest is followed, and another one who is clicked'
   await expect(panel.getByRole('progressbar')).toBeVisible();
   await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
   await expect.poll(skeletonAt).toBeGreaterThan(0.5);
+  await panel.getByRole('button', { name: 'Close' }).click();
+  await app.until(({ covered }) => covered === 0);
 });

@@ -286,6 +286,8 @@ export interface AppState {
   readonly playback: Playback;
   /** What has been read of a leader's video while the rest is being read. */
   readonly partRead: PartRead | null;
+  /** How much of the stage the video covers, from the left, CSS pixels. */
+  readonly covered: number;
   /** The part of the dance that the lanes show, seconds; null shows all of it. */
   readonly zoom: Span | null;
 }

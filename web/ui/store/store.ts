@@ -73,6 +73,7 @@ export function initialState(theme: Theme): AppState {
     toast: null,
     playback: { playing: false, time: 0, speed: 1, loop: false, region: null },
     partRead: null,
+    covered: 0,
     zoom: null,
   };
 }

@@ -12,6 +12,7 @@ import { AppError } from '../../common/error';
 import { FPS } from '../../motion/skeleton/clip';
 import { problemShown } from '../store/actions/notices';
 import { shiftSet } from '../store/actions/timeline';
+import { stageCovered } from '../store/actions/view';
 import { firstVisitEnded } from '../store/actions/files';
 import { fileProblem, isAbort } from '../store/problems';
 import type { LeaderSource } from '../store/reaction';
@@ -61,8 +62,9 @@ export class VideoLeader {
 
   /** @param songOfVideo whether the page's song played while the video was recorded */
   async open(file: File, songOfVideo: boolean): Promise<void> {
+    const { store } = this;
     const before = this.#putAside();
-    apply(this.store, firstVisitEnded());
+    apply(store, firstVisitEnded());
     const ended = new AbortController();
     const session: Session = {
       file,
@@ -84,6 +86,9 @@ export class VideoLeader {
         pick: (point) => void this.#read(session, point),
         change: (options) => void this.#solve(session, { ...session.options, ...options }),
         useSound: () => void this.#useSound(session),
+        resized: () => {
+          apply(store, stageCovered(this.#session?.panel.right ?? 0));
+        },
       }),
     };
     this.#session = session;

@@ -15,6 +15,8 @@ export interface PanelActions {
   readonly pick: (point: Point) => void;
   readonly change: (options: Partial<WorldOptions>) => void;
   readonly useSound: () => void;
+  /** The panel has another size, or is hidden or gone. */
+  readonly resized: () => void;
 }
 
 /** The video beside the stage: its picture, progress while it is read, then advice and corrections. */
@@ -65,6 +67,7 @@ export class VideoPanel {
       this.#controls.root,
     );
     host.append(this.#root);
+    new ResizeObserver(actions.resized).observe(this.#root);
     this.showReading();
   }
 
@@ -115,6 +118,11 @@ export class VideoPanel {
   /** So many seconds of the dance are on the stage already. */
   showPart(seconds: number): void {
     this.#part = seconds;
+  }
+
+  /** How far it reaches from the left of the stage, CSS pixels; 0 while it is hidden. */
+  get right(): number {
+    return this.#root.offsetLeft + this.#root.offsetWidth;
   }
 
   /** Another video is shown in its place. */

@@ -39,9 +39,10 @@ export class OrbitCamera {
     this.controls.zoomToCursor = true;
   }
 
-  /** Width / height of the picture. */
+  /** Width / height of the part of the picture around the couple. */
   get aspect(): number {
-    return this.camera.aspect;
+    const { width, height } = this.size;
+    return (width - 2 * this.covered.left) / height;
   }
 
   get shot(): Shot {

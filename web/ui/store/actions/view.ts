@@ -25,6 +25,11 @@ export function cameraSet(camera: View): Change {
   return () => ({ camera });
 }
 
+/** A panel covers so many CSS pixels of the stage, from the left. */
+export function stageCovered(covered: number): Change {
+  return () => ({ covered });
+}
+
 export function updateSet(update: boolean): Change {
   return () => ({ update });
 }
