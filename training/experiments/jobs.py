@@ -18,6 +18,7 @@ from training.experiments.scale import Scale
 from training.experiments.tables import Row
 
 COST = "cost.json"
+"""Written when a training has ended; checkpoints are there long before."""
 STAGE1_FILES = ("hfsq.json", "hfsq.safetensors")
 
 
@@ -37,11 +38,10 @@ class Data:
 
 @dataclass(frozen=True)
 class Job:
-    """One training: a command, the folder that it writes to, and the file that is there when it is done."""
+    """One training: a command and the folder that it writes to."""
 
     command: tuple[str, ...]
     folder: Path
-    done: str
     stage1: Path | None = None
     """Folder of the stage-1 checkpoint that is copied in first."""
 
@@ -61,21 +61,21 @@ def _folder(root: Path, kind: str, *parts: object) -> Path:
 
 
 def _job(
-    program: str, kind: str, done: str, changes: Mapping[str, str], data: list[str], root: Path, *more: object
+    program: str, kind: str, changes: Mapping[str, str], data: list[str], root: Path, *more: object
 ) -> Job:
     folder = _folder(root, kind, program, dict(changes), data, *more)
     line = command(program, changes)
     # The data's options first, so that a subcommand stays last.
-    return Job((*line[:3], *data, "--out", str(folder), *line[3:]), folder, done)
+    return Job((*line[:3], *data, "--out", str(folder), *line[3:]), folder)
 
 
 def stage1_job(row: Row, seed: int, scale: Scale, data: Data, root: Path) -> Job:
     """Stage 1 of a row. Baselines in joint space have one that learns nothing."""
     options = data.options(music=False)
     if row.baseline in ("edge", "intergen", "tcdiff"):
-        return _job("training.evaluation.no_latent_baseline", "joints", "hfsq.json", {}, options, root)
+        return _job("training.evaluation.no_latent_baseline", "joints", {}, options, root)
     changes = {**scale.stage1(), "seed": str(seed), "threads": "1", **row.stage1}
-    return _job("training.train_hfsq", "stage1", "hfsq.json", changes, options, root)
+    return _job("training.train_hfsq", "stage1", changes, options, root)
 
 
 def stage2_job(row: Row, seed: int, scale: Scale, data: Data, root: Path) -> Job:
@@ -85,13 +85,11 @@ def stage2_job(row: Row, seed: int, scale: Scale, data: Data, root: Path) -> Job
     common = {"seed": str(seed), "threads": "1"}
     if row.baseline:
         changes = {**scale.baseline(), **common, "method": row.baseline, **row.stage2}
-        job = _job("training.baselines", row.baseline, "baseline.json", changes, options, root, stage1.folder)
+        job = _job("training.baselines", row.baseline, changes, options, root, stage1.folder)
     else:
         changes = {**scale.stage2(), **common, **row.stage2}
-        job = _job(
-            "training.train_denoiser", "stage2", "denoiser.json", changes, options, root, stage1.folder
-        )
-    return Job(job.command, job.folder, job.done, stage1.folder)
+        job = _job("training.train_denoiser", "stage2", changes, options, root, stage1.folder)
+    return Job(job.command, job.folder, stage1.folder)
 
 
 def run_all(jobs: Iterable[Job], processes: int, log: Callable[[str], None]) -> None:
@@ -100,7 +98,7 @@ def run_all(jobs: Iterable[Job], processes: int, log: Callable[[str], None]) -> 
     Raises RuntimeError with the end of its log where one fails; what others have finished stays.
     """
     unique = list({job.folder: job for job in jobs}.values())
-    waiting = [job for job in unique if not (job.folder / job.done).exists()]
+    waiting = [job for job in unique if not (job.folder / COST).exists()]
     log(f"{len(unique)} trainings, {len(unique) - len(waiting)} of them done")
     with ThreadPoolExecutor(processes) as pool:
         for job in pool.map(_run, waiting):
@@ -114,7 +112,8 @@ def _run(job: Job) -> Job:
         for name in STAGE1_FILES:
             shutil.copy(job.stage1 / name, job.folder / name)
     line = list(job.command)
-    if any((job.folder / stage / "state.ckpt").exists() for stage in ("hfsq", "denoiser", "baseline")):
+    resumed = any((job.folder / stage / "state.ckpt").exists() for stage in ("hfsq", "denoiser", "baseline"))
+    if resumed:
         line.insert(3, "--resume")
     path = job.folder / "log.txt"
     with path.open("w") as output:
@@ -124,6 +123,8 @@ def _run(job: Job) -> Job:
     if process.returncode:
         end = "\n".join(path.read_text().splitlines()[-12:])
         raise RuntimeError(f"{' '.join(line)}\nfailed, see {path}:\n{end}")
-    cost = {"cpu_minutes": round((usage.ru_utime + usage.ru_stime) / 60, 3), "command": line[1:]}
+    # Of a training that was cut off the time of its first part is not known.
+    minutes = None if resumed else round((usage.ru_utime + usage.ru_stime) / 60, 3)
+    cost = {"cpu_minutes": minutes, "command": line[1:]}
     write_json(job.folder / COST, cost)
     return job

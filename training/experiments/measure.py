@@ -82,8 +82,9 @@ def _measure(job: MeasureJob) -> MeasureJob:
     numbers = measured(held_out, motions)
     numbers["mean"]["seconds"] = float(np.mean(seconds))
     costs = [folder / COST for folder in job.folders if (folder / COST).exists()]
-    if costs:
-        minutes = [json.loads(path.read_text())["cpu_minutes"] for path in costs]
+    times = [json.loads(path.read_text())["cpu_minutes"] for path in costs]
+    minutes = [one for one in times if one is not None]
+    if minutes:
         numbers["mean"]["cpu_minutes"] = float(np.mean(minutes))
     numbers["mean"]["parameters"] = parameters(job.folders[0], job.row) / 1000
     write_json(job.result, numbers)

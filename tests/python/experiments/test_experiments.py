@@ -94,8 +94,8 @@ def test_tables_share_trainings_and_seeds_do_not() -> None:
 
 def counting(folder: Path) -> Job:
     """A job that adds a line to a file of its folder."""
-    code = f"p = {str(folder)!r}; open(p + '/count', 'a').write('x'); open(p + '/done', 'w').close()"
-    return Job((sys.executable, "-c", code, ""), folder, "done")
+    code = f"p = {str(folder)!r}; open(p + '/count', 'a').write('x')"
+    return Job((sys.executable, "-c", code, ""), folder)
 
 
 def test_what_is_done_is_not_repeated(tmp_path: Path) -> None:
@@ -107,8 +107,20 @@ def test_what_is_done_is_not_repeated(tmp_path: Path) -> None:
         assert json.loads((tmp_path / name / "cost.json").read_text())["cpu_minutes"] >= 0
 
 
+def test_a_training_that_was_cut_off_goes_on(tmp_path: Path) -> None:
+    """Its checkpoint is there, as after every evaluation."""
+    code = f"import sys; open({str(tmp_path / 'options')!r}, 'w').write(' '.join(sys.argv))"
+    job = Job((sys.executable, "-c", code, ""), tmp_path / "a")
+    (job.folder / "denoiser").mkdir(parents=True)
+    for name in ("denoiser.json", "denoiser/state.ckpt"):
+        (job.folder / name).touch()
+    run_all([job], 1, lambda _: None)
+    assert "--resume" in (tmp_path / "options").read_text()
+    assert json.loads((job.folder / "cost.json").read_text())["cpu_minutes"] is None
+
+
 def test_a_training_that_fails_shows_the_end_of_its_log(tmp_path: Path) -> None:
-    job = Job((sys.executable, "-c", "raise SystemExit('no such dance')", ""), tmp_path / "a", "done")
+    job = Job((sys.executable, "-c", "raise SystemExit('no such dance')", ""), tmp_path / "a")
     with pytest.raises(RuntimeError, match="no such dance"):
         run_all([job], 1, lambda _: None)
 
