@@ -116,13 +116,7 @@ export class FileLoader implements Files {
         await this.openSong(file, file.name, null);
         return;
       case 'leader':
-        apply(this.store, firstVisitEnded());
-        await this.openLeader({
-          name: file.name,
-          label: null,
-          files: await Promise.all([file, ...companions].map(bytesOf)),
-          options: {},
-        });
+        await this.openLeaderFiles([file, ...companions]);
         return;
       case 'video':
         await this.openVideo(file);
@@ -131,6 +125,13 @@ export class FileLoader implements Files {
       case 'unknown':
         apply(this.store, problemShown(unknownFileProblem(file.name)));
     }
+  }
+
+  /** The first visit ends when the reading begins, so that nothing found of an earlier one cannot begin it again. */
+  private async openLeaderFiles(parts: readonly File[]): Promise<void> {
+    const files = await Promise.all(parts.map(bytesOf));
+    apply(this.store, firstVisitEnded());
+    await this.openLeader({ name: files[0]!.name, label: null, files, options: {} });
   }
 
   private runSong(

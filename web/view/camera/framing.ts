@@ -23,6 +23,8 @@ const TARGET_HEIGHT = 0.84;
 const EYE_HEIGHT = 1.3;
 /** Distance from which a couple of ordinary height fills 73 % of the picture. */
 const BASE_DISTANCE = 5.05;
+/** From farther away the lit part of the floor is too small to stand on, metres. */
+export const MAX_DISTANCE = 10;
 /** Room beside the outermost and above the highest joint: half a hand, a skull, and air, metres. */
 const MARGIN = 0.22;
 const HEADROOM = 0.22;
@@ -66,10 +68,10 @@ export function measureCouple(
   return { x, z, radius, height, tallDistance, sideHeading };
 }
 
-/** Distance at which a couple fills the picture as it should, from any side. */
+/** Distance at which a couple fills the picture as it should, from any side, or the greatest that the camera takes. */
 export function fitDistance({ radius, tallDistance }: Couple, aspect: number): number {
   const perspective = Math.hypot(1, 1 / (TANGENT * aspect));
-  return Math.max(BASE_DISTANCE, tallDistance, (radius + MARGIN) * perspective);
+  return Math.min(MAX_DISTANCE, Math.max(BASE_DISTANCE, tallDistance, (radius + MARGIN) * perspective));
 }
 
 /**

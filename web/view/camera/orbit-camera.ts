@@ -1,7 +1,7 @@
 import { PerspectiveCamera, Spherical, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Shot } from '../../common/framing';
-import { FIELD_OF_VIEW } from './framing';
+import { FIELD_OF_VIEW, MAX_DISTANCE } from './framing';
 
 const POLE = Math.PI / 2;
 const UP = new Vector3(0, 1, 0);
@@ -32,8 +32,7 @@ export class OrbitCamera {
     this.controls = new OrbitControls(this.camera, surface);
     this.controls.dampingFactor = 0.12;
     this.controls.minDistance = 1.2;
-    // From farther away the lit part of the floor is too small to stand on.
-    this.controls.maxDistance = 10;
+    this.controls.maxDistance = MAX_DISTANCE;
     this.controls.maxPolarAngle = POLE + 0.06;
     this.controls.zoomSpeed = 0.8;
     this.controls.zoomToCursor = true;
