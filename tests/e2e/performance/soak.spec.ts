@@ -20,14 +20,14 @@ const REST =
   MINUTES > 0 ? { generations: 200, loads: 60, parts: 4 } : { generations: 10, loads: 14, parts: 1 };
 
 /**
- * Most that may be added after the warm-up, megabytes; what is held may grow until lists and undo are full, objects
- * until all that is called often is compiled. The browser's process fills its caches in the first five minutes.
+ * Most that may be added after the warm-up, megabytes; what is held and the rows of takes may grow until lists and undo
+ * are full, objects until all that is called often is compiled. The browser's process fills its caches in the first five minutes.
  */
 const MORE: Memory = {
   heap: MINUTES > 0 ? 2 : 1,
   held: MINUTES > 0 ? 3 : 10,
   buffers: 1,
-  elements: 1,
+  elements: MINUTES > 0 ? 1 : 2,
   workers: 2,
   process: 30,
   browser: MINUTES > 0 ? 40 : 30,
