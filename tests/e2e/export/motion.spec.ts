@@ -61,6 +61,15 @@ test('leader, reactor or both are saved in four formats with their metadata', as
     expect(names).toEqual(['leader.npy', 'reactor.npy', 'fps.npy', 'joints.npy', 'metadata.npy']);
   });
 
+  await test.step('with another frame rate, which the name says', async () => {
+    await menu.getByRole('radio', { name: '24', exact: true }).click();
+    const download = await save('JSON');
+    expect(download.suggestedFilename()).toBe(`${PREFIX}_both_24fps.json`);
+    expect(JSON.parse(await readFile(await download.path(), 'utf8'))).toMatchObject({ fps: 24, frames: 48 });
+    await menu.getByRole('radio', { name: '30', exact: true }).click();
+    await save('NPZ');
+  });
+
   await test.step('the last format has the focus when the menu opens again', async () => {
     await page.keyboard.press('Escape');
     await expect(menu).toBeHidden();

@@ -21,7 +21,8 @@ const REST =
 
 /**
  * Most that may be added after the warm-up, megabytes; what is held and the rows of takes may grow until lists and undo
- * are full, objects until all that is called often is compiled. The browser's process fills its caches in the first five minutes.
+ * are full, objects until all that is called often is compiled. The browser's process fills its caches in the first
+ * five minutes.
  */
 const MORE: Memory = {
   heap: MINUTES > 0 ? 2 : 1,

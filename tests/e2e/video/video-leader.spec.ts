@@ -56,6 +56,13 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
   const lane = page.getByRole('img', { name: /The video dance.webm; confidence over 4\.\d s of dance/ });
   await expect(lane).toBeVisible();
+  // The camera has the couple in the middle of what the panel leaves free.
+  const free = await panel.evaluate(
+    ({ offsetLeft, offsetWidth, offsetParent: stage }: HTMLElement) =>
+      (stage!.clientWidth - offsetLeft - offsetWidth) / stage!.clientHeight,
+  );
+  const aspect = (): Promise<number> => page.evaluate('window.reactdance.stage.framing().aspect');
+  await expect.poll(aspect).toBeCloseTo(free, 1);
   const reactor = await app.reactor();
   expect(reactor.length / 66).toBeGreaterThan(135);
   expect(reactor.every(Number.isFinite)).toBe(true);

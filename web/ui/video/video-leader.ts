@@ -115,7 +115,8 @@ export class VideoLeader {
         else panel.showReport(report);
       };
       const observations = await reader.read(file, pick, session.options, signal, onReport);
-      Object.assign(session, { observations, thumbnails });
+      session.observations = observations;
+      session.thumbnails = thumbnails;
       await this.#solve(session, session.options);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
