@@ -126,9 +126,8 @@ def evaluate(
     dances: list[OutOfDistributionDance] = []
     if out_of_distribution:
         log("out-of-distribution leaders")
-        solve = next(iter((solvers or {}).values()), None)
         numbers["out_of_distribution"], dances = measure_out_of_distribution(
-            generate, out_of_distribution, held_out, settings, solve
+            generate, out_of_distribution, held_out, settings, drawn
         )
     seed = settings.seeds[0]
     coarse = {i.duet.name: [generate(i.duet.leader, i.music, seed, guidance=(0.0, -1.0))] for i in held_out}

@@ -12,12 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
+from training.config import FPS
 from training.data.bvh.reader import read_bvh
 from training.data.duet import Solo
 from training.data.npz import read_solo
 from training.evaluation.metrics.distance import root_distance
-from training.evaluation.metrics.penetration import penetration
+from training.evaluation.metrics.penetration import DEEP, depth, penetration
 from training.evaluation.metrics.speed import joint_speed
 from training.evaluation.protocol import HeldOutDuet, ReactorGenerator, Settings, Solver, fit_length
 from training.motion.floor import lower_toe
@@ -27,6 +29,23 @@ from training.motion.floor import lower_toe
 MIN_TOE_HEIGHT, MAX_TOE_HEIGHT = -0.03, 0.15
 MAX_DISTANCE = 3.0  # metres between the roots
 MAX_SPEED_RATIO, MAX_SPEED_EXTRA = 2.0, 0.3  # times the leader's mean speed, plus m/s
+
+# What looks wrong in single frames of a drawn reactor.
+MAX_FAULTS = 0.05  # of the frames of a dance may have one of these
+GLIDE_RATIO = 1.5  # times the leader's greatest speed within GLIDE_REACH seconds to each side, of the root
+GLIDE_REACH = 0.5
+GLIDE_SPEED = 1.5  # m/s, a root may always have it
+ROUNDING = 1e-3  # of the speed of a root that is held to just that limit in single precision
+MAX_ACCELERATION = 100.0  # m/s^2, of any joint
+TIPTOE_HEIGHT = 0.08  # metres, of the lower toe, while the bodies overlap
+FAULTS = {
+    "gliding_share": f"gliding: the root faster than {GLIDE_RATIO:g} times the leader's greatest speed within "
+    f"{GLIDE_REACH:g} s, and than {GLIDE_SPEED:g} m/s",
+    "snapping_share": f"snapping: a joint accelerates by more than {MAX_ACCELERATION:g} m/s²",
+    "floating_share": f"floating: lower toe above {MAX_TOE_HEIGHT:g} m",
+    "tiptoe_share": f"on tiptoe inside the leader: lower toe above {TIPTOE_HEIGHT:g} m while bodies overlap",
+}
+"""Measures of `measure_faults` and what they mean."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +101,27 @@ def measure_partner(leader: np.ndarray, reactor: np.ndarray) -> dict[str, Any]:
     return {**row, "checks": checks, "passed": all(checks.values())}
 
 
+def measure_faults(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
+    """Shares of the frames in which something looks wrong about a reactor as it is drawn beside a leader, both
+    (T, 22, 3) metres on the floor y = 0; FAULTS says what each means.
+    """
+    root, leading = (
+        np.linalg.norm(np.diff(motion[:, 0, [0, 2]], axis=0), axis=1) * FPS for motion in (reactor, leader)
+    )
+    allowed = np.maximum(
+        GLIDE_SPEED, GLIDE_RATIO * maximum_filter1d(leading, 2 * round(GLIDE_REACH * FPS) + 1, mode="nearest")
+    )
+    acceleration = np.linalg.norm(np.diff(reactor, n=2, axis=0), axis=2).max(axis=1) * FPS**2
+    toe = lower_toe(reactor)
+    overlapping = depth(leader, reactor) > DEEP
+    return {
+        "gliding_share": float((root > allowed * (1 + ROUNDING)).mean()),
+        "snapping_share": float((acceleration > MAX_ACCELERATION).mean()),
+        "floating_share": float((toe > MAX_TOE_HEIGHT).mean()),
+        "tiptoe_share": float(((toe > TIPTOE_HEIGHT) & overlapping).mean()),
+    }
+
+
 def measure_out_of_distribution(
     generate: ReactorGenerator,
     leaders: Sequence[Solo],
@@ -90,6 +130,7 @@ def measure_out_of_distribution(
     solve: Solver | None = None,
 ) -> tuple[dict[str, Any], list[OutOfDistributionDance]]:
     """`measure_partner` for every leader, with the first seed and the held-out duets' songs in turn; and the dances.
+    For a reactor that a solver has drawn also `measure_faults`.
 
     The numbers have the groups `seen` and `unseen` (whether the leader's name begins with one of
     `settings.seen_leaders`), each with its `count`, how many `passed` and its `leaders` by name. solve: the
@@ -105,6 +146,7 @@ def measure_out_of_distribution(
         if solve:
             (reactor,) = solve([reactor], leader.motion)
             row["overlap_share_solved"] = penetration(leader.motion, reactor)["ipr_capsules"]
+            row |= measure_faults(leader.motion, reactor)
         group = "seen" if leader.name.startswith(settings.seen_leaders) else "unseen"
         rows[group][leader.name] = row
         dances.append(OutOfDistributionDance(leader.name, leader.motion, reactor))

@@ -101,6 +101,8 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
         "### Not seen in training:",
         " of 2 pass",
         "### Seen in training:",
+        "of all 3 leaders",
+        "| snapping: ",
     ):
         assert part in text
     drawn = draw(held_out[:1], result, tmp_path, ["generated"])

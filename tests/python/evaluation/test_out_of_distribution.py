@@ -12,6 +12,8 @@ from tests.python.support.made_bvh import MadeDancer, write_bvh
 from training.data.duet import Solo
 from training.data.made import made_dancer
 from training.evaluation.out_of_distribution import (
+    FAULTS,
+    measure_faults,
     measure_out_of_distribution,
     measure_partner,
     read_leaders,
@@ -88,6 +90,56 @@ def test_the_reactor_may_not_be_much_faster_than_the_leader():
     assert failed(slow, still + 3.1 * (slow - still)) == {"speed"}
 
 
+def faults(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
+    """The faults that were found and their shares."""
+    shares = measure_faults(leader, reactor)
+    assert list(shares) == list(FAULTS)
+    return {name: share for name, share in shares.items() if share}
+
+
+@pytest.fixture
+def still() -> np.ndarray:
+    return np.repeat(put_on_floor(made_dancer(1, 1)), 121, axis=0).astype(np.float64)
+
+
+def test_a_partner_who_stands_has_no_faults(still: np.ndarray):
+    assert faults(still, near(still)) == {}
+
+
+def test_a_root_glides_that_is_much_faster_than_the_leader(still: np.ndarray):
+    def moving(speed: float, frames: slice) -> np.ndarray:
+        """A body that is carried at this speed, m/s, in some of the frames."""
+        steps = np.zeros(121)
+        steps[frames] = speed / 30
+        return still + np.cumsum(steps)[:, None, None] * np.array([1.0, 0.0, 0.0])
+
+    always = slice(None)
+    assert "gliding_share" not in faults(still, near(moving(1.45, always)))
+    assert faults(still, near(moving(1.6, always)))["gliding_share"] == 1
+    # Beside a leader at 2 m/s it may have 3, and for half a second before and after.
+    leader = moving(2.0, slice(60, 61))
+    assert "gliding_share" not in faults(leader, near(moving(2.9, slice(46, 75))))
+    assert faults(leader, near(moving(3.1, slice(46, 75))))["gliding_share"] == pytest.approx(29 / 120)
+    assert faults(leader, near(moving(2.9, slice(30, 31))))["gliding_share"] == pytest.approx(1 / 120)
+
+
+def test_a_joint_snaps_that_accelerates_by_more_than_a_body_can(still: np.ndarray):
+    for metres, share in ((0.05, 0.0), (0.12, 3 / 119)):  # 45 and 108 m/s^2, and twice that at the top
+        reactor = near(still)
+        reactor[60, JOINTS.index("left_wrist"), 0] += metres
+        assert faults(still, reactor).get("snapping_share", 0.0) == pytest.approx(share), metres
+
+
+def test_a_partner_floats_or_stands_on_tiptoe_inside_the_leader(still: np.ndarray):
+    def lifted(metres: float, away: float) -> np.ndarray:
+        return still + np.array([0.0, metres, away])
+
+    assert faults(still, lifted(0.1, away=0.8)) == {}
+    assert faults(still, lifted(0.13, away=0.8)) == {"floating_share": 1}
+    assert faults(still, lifted(0.03, away=0.1)) == {}
+    assert faults(still, lifted(0.07, away=0.1)) == {"tiptoe_share": 1}
+
+
 def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_path: Path):
     held_out = [
         HeldOutDuet(made_duet(60, 1, "a"), np.full((60, 54), 1.0)),
@@ -129,6 +181,7 @@ def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_pa
     row = groups["unseen"]["leaders"]["martial_0"]
     assert row["overlap_share"] == 1.0
     assert row["overlap_share_solved"] == 0.0
+    assert set(FAULTS) <= set(row)
     assert np.array_equal(dances[0].reactor, leaders[0].motion + np.array([3, 0, 0], np.float32))
     without_music, _ = measure_out_of_distribution(
         lambda leader, music, seed: near(leader) if music is None else leader,  # pyright: ignore[reportArgumentType]

@@ -7,7 +7,9 @@ from typing import Any
 
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.out_of_distribution import (
+    FAULTS,
     MAX_DISTANCE,
+    MAX_FAULTS,
     MAX_SPEED_EXTRA,
     MAX_SPEED_RATIO,
     MAX_TOE_HEIGHT,
@@ -238,7 +240,24 @@ def _out_of_distribution(numbers: Numbers) -> Sections:
         sections.append(f"### {heading}: {rows['passed']} of {rows['count']} pass")
         if rows["count"]:
             sections.append(_leader_table(rows["leaders"]))
+    leaders = [row for group in numbers["out_of_distribution"].values() for row in group["leaders"].values()]
+    if all(key in row for key in FAULTS for row in leaders):
+        sections += [
+            "### Faults as drawn",
+            f"Shares of the frames of all {len(leaders)} leaders; a dance should have each in at most "
+            f"{MAX_FAULTS:.0%}.",
+            _fault_table(leaders),
+        ]
     return sections
+
+
+def _fault_table(leaders: list[Numbers]) -> str:
+    table = []
+    for key, meaning in FAULTS.items():
+        shares = [row[key] for row in leaders]
+        within = sum(share <= MAX_FAULTS for share in shares)
+        table.append([meaning, f"{sum(shares) / len(shares):.1%}", f"{max(shares):.1%}", str(within)])
+    return markdown_table(["", "mean", "worst", "leaders within"], table)
 
 
 def _leader_table(leaders: Numbers) -> str:
