@@ -120,7 +120,7 @@ def launch(options: LoopOptions) -> Fabric:
 
 
 def fast_precision() -> Precision:
-    """bf16 on a GPU and on processors with matrix tiles; without tiles its products are slower than single ones."""
+    """bf16 on a GPU and on processors with matrix tiles; without tiles it pays on some processors alone."""
     tiles = torch.cpu._is_amx_tile_supported()
     return "bf16-mixed" if torch.accelerator.is_available() or tiles else "32-true"
 

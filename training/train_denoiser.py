@@ -44,7 +44,7 @@ from training.hfsq.autoencoder import Autoencoder
 from training.loop import Run, WindowOptions, launch, read_duets_to_train
 from training.motion.skeleton import body_height
 
-UNFAMILIAR_RATIO = 1.2
+UNFAMILIAR_RATIO = 1.15
 """How much farther from the mean of training than any leader of training an unfamiliar leader is."""
 
 
