@@ -4,7 +4,8 @@
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
  * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` avoids collisions with the `leader`
- * beside it; manifest.json is the model's, which has the capsules of the bodies.
+ * beside it, keeps to a speed of the root and is brought down to the floor; manifest.json is the model's, which has the
+ * capsules of the bodies.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -22,6 +23,10 @@ const { readNpz } = await loadWeb('model/load/npz.ts');
 const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/collision-avoidance')} */
 const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
+/** @type {typeof import('../web/motion/contact/root-speed')} */
+const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
+/** @type {typeof import('../web/motion/contact/bring-down')} */
+const { bringDown } = await loadWeb('motion/contact/bring-down.ts');
 /** @type {typeof import('../web/motion/bvh/write')} */
 const { writeBvh } = await loadWeb('motion/bvh/write.ts');
 
@@ -36,11 +41,16 @@ function clip(name) {
 }
 
 const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
+
+/** @type {(motion: import('../web/motion/skeleton/clip').SolvedMotion, leader: ReturnType<typeof clip>) => typeof motion} */
+const besideLeader = (motion, leader) =>
+  bringDown(limitRootSpeed(avoidCollisions(motion, leader, quality.penetration), leader));
+
 await mkdir(folder, { recursive: true });
 for (const name of arrays.keys()) {
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const motion = beside ? avoidCollisions(solved, clip('leader'), quality.penetration) : solved;
+  const motion = beside ? besideLeader(solved, clip('leader')) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }
