@@ -40,12 +40,8 @@ function read(file) {
 
 /** @type {typeof import('../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
-/** @type {typeof import('../web/motion/contact/collision-avoidance')} */
-const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
-/** @type {typeof import('../web/motion/contact/root-speed')} */
-const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
-/** @type {typeof import('../web/motion/contact/bring-down')} */
-const { bringDown } = await loadWeb('motion/contact/bring-down.ts');
+/** @type {typeof import('../web/motion/contact/beside-partner')} */
+const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const leader = values.beside === undefined ? null : read(values.beside);
@@ -58,7 +54,7 @@ for (const file of positionals) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
       process.exit(2);
     }
-    motion = bringDown(limitRootSpeed(avoidCollisions(motion, leader, body), leader));
+    motion = besidePartner(motion, leader, body);
   }
   if (values['foot-lock']) motion = lockFeet(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));

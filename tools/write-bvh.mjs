@@ -21,12 +21,8 @@ if (!source || !manifest || !folder) {
 const { readNpz } = await loadWeb('model/load/npz.ts');
 /** @type {typeof import('../web/motion/fit/ik')} */
 const { solve } = await loadWeb('motion/fit/ik.ts');
-/** @type {typeof import('../web/motion/contact/collision-avoidance')} */
-const { avoidCollisions } = await loadWeb('motion/contact/collision-avoidance.ts');
-/** @type {typeof import('../web/motion/contact/root-speed')} */
-const { limitRootSpeed } = await loadWeb('motion/contact/root-speed.ts');
-/** @type {typeof import('../web/motion/contact/bring-down')} */
-const { bringDown } = await loadWeb('motion/contact/bring-down.ts');
+/** @type {typeof import('../web/motion/contact/beside-partner')} */
+const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
 /** @type {typeof import('../web/motion/bvh/write')} */
 const { writeBvh } = await loadWeb('motion/bvh/write.ts');
 
@@ -41,16 +37,11 @@ function clip(name) {
 }
 
 const { quality } = JSON.parse(await readFile(manifest, 'utf8'));
-
-/** @type {(motion: import('../web/motion/skeleton/clip').SolvedMotion, leader: ReturnType<typeof clip>) => typeof motion} */
-const besideLeader = (motion, leader) =>
-  bringDown(limitRootSpeed(avoidCollisions(motion, leader, quality.penetration), leader));
-
 await mkdir(folder, { recursive: true });
 for (const name of arrays.keys()) {
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const motion = beside ? besideLeader(solved, clip('leader')) : solved;
+  const motion = beside ? besidePartner(solved, clip('leader'), quality.penetration) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

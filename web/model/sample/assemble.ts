@@ -1,10 +1,9 @@
 /** From blended latents to the solved dancer: a whole dance, or a part of it as it is in the whole. */
 import { yieldToEvents } from '../../common/yield-to-events';
-import { bringDown } from '../../motion/contact/bring-down';
-import { avoidCollisions, sampleStep } from '../../motion/contact/collision-avoidance';
+import { besidePartner } from '../../motion/contact/beside-partner';
+import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
 import { lockFeet } from '../../motion/contact/foot-lock';
-import { limitRootSpeed } from '../../motion/contact/root-speed';
 import { solve } from '../../motion/fit/ik';
 import { restOffsets, trunkRotations } from '../../motion/fit/rest-pose';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
@@ -131,8 +130,7 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    const apart = avoidCollisions(solved, leader, quality.penetration);
-    return bringDown(limitRootSpeed(apart, leader));
+    return besidePartner(solved, leader, quality.penetration);
   }
 }
 
