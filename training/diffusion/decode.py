@@ -8,7 +8,7 @@ from training.config import DiffusionConfig, FrameConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.foot_contact_correction import correct_foot_contact
 from training.motion.leader_frame import smoothed_heading
-from training.motion.rigid_body import bone_lengths, rigid_body
+from training.motion.rigid_body import bone_lengths, rigid_body, steady_bones
 from training.motion.streams import from_streams
 
 # Latent frames on each side of a part of a clip that its decoded joints depend on: the iterations of the foot-contact
@@ -35,5 +35,5 @@ def decode(
     raw = hfsq.denormalise(latents) * gains.T.repeat_interleave(hfsq.stream_latent, dim=1)
     upper, lower, placement = (stream[0] for stream in hfsq.decode(raw[None]))
     joints = from_streams(upper, lower, placement, leader, smoothed_heading(leader, frame))
-    motion = rigid_body(joints[None], bones)[0]
+    motion = rigid_body(steady_bones(joints[None], bones), bones)[0]
     return correct_foot_contact(motion, config.foot_contact), bone_lengths(joints)

@@ -1,15 +1,19 @@
-"""Gives decoded joints bones of constant length and keeps the lower toe at its height above the floor."""
+"""Gives decoded joints bones of constant length that do not flip, and keeps the lower toe at its height above the floor."""
 
 from __future__ import annotations
 
 import torch
+import torch.nn.functional as F
 from torch import Tensor
 
 from training.motion.skeleton import PARENTS, TOES
 from training.motion.smoothing import gaussian_mean
 
 LOWEST_TOE = 0.02  # metres above the floor; a planted toe rests at about 0.03 (see floor.py)
-SIGMA_FRAMES = 2  # of the Gaussian that smooths how far the body is raised
+SIGMA_FRAMES = 2  # of the Gaussians that smooth how far the body is raised, and uncertain directions
+CERTAIN = 0.8  # share of its length from which a bone's direction is taken as decoded
+CERTAINTY_POWER = 4  # how fast the weight of a decoded direction falls below that
+DIRECTION_PASSES = 3
 
 
 def _bones_above() -> Tensor:
@@ -37,11 +41,26 @@ def bone_lengths(motion: Tensor) -> Tensor:
     return _bones(motion).square().sum(-1).clamp_min(1e-10).sqrt()
 
 
-def constant_bones(motion: Tensor, lengths: Tensor) -> Tensor:
-    """The same directions on bones of these lengths (22,) metres, or (N, 1, 22). motion: (N, T, 22, 3) metres.
+def steady_bones(motion: Tensor, lengths: Tensor) -> Tensor:
+    """The same bones, but the shorter one is than it should be, the more its direction is that of the frames around it.
+    motion: (N, T, 22, 3) metres; lengths: (22,) metres that the bones should have.
 
-    Where a decoder is unsure of a direction it shortens the bone.
+    Where a decoder is unsure of a direction it shortens the bone. An arm that could be up or down has no length when it
+    changes from one to the other, and at constant length it would flip within a frame. Here it turns there instead.
     """
+    own = bone_lengths(motion)
+    certainty = (own / (CERTAIN * lengths + 1e-6)).clamp(max=1) ** CERTAINTY_POWER
+    certainty = certainty.movedim(1, -1)[..., None, :]
+    decoded = (_bones(motion) / own[..., None]).movedim(1, -1)  # (N, 22, 3, T)
+    directions = decoded
+    for _ in range(DIRECTION_PASSES):
+        around = gaussian_mean(directions.flatten(0, 2), SIGMA_FRAMES, 3 * SIGMA_FRAMES).reshape(decoded.shape)
+        directions = F.normalize(certainty * decoded + (1 - certainty) * around, dim=2)
+    return motion[..., :1, :] + _BONES_ABOVE.to(motion) @ (directions.movedim(-1, 1) * own[..., None])
+
+
+def constant_bones(motion: Tensor, lengths: Tensor) -> Tensor:
+    """The same directions on bones of these lengths (22,) metres, or (N, 1, 22). motion: (N, T, 22, 3) metres."""
     bones = _bones(motion) * (lengths / bone_lengths(motion))[..., None]
     return motion[..., :1, :] + _BONES_ABOVE.to(motion) @ bones
 

@@ -10,7 +10,7 @@ from tests.python.support.duets import made_duet
 from training.config import FrameConfig
 from training.motion.heading import into_frame, out_of_frame
 from training.motion.leader_frame import arctangent, cosine_sine, smoothed_heading
-from training.motion.rigid_body import bone_lengths, constant_bones, rigid_body
+from training.motion.rigid_body import bone_lengths, constant_bones, rigid_body, steady_bones
 from training.motion.skeleton import PARENTS, TOES
 from training.motion.streams import (
     LEADER_FEATURES,
@@ -132,6 +132,35 @@ def test_bones_keep_their_length_and_direction() -> None:
     assert torch.allclose(cosine, torch.ones_like(cosine), atol=1e-4)
     assert torch.equal(made[:, 0], stretched[:, 0])
     assert torch.allclose(constant_bones(made, bone_lengths(made).mean(-2)), made, atol=1e-5)
+
+
+def test_a_bone_that_shrinks_and_grows_again_the_other_way_turns_there() -> None:
+    """An arm that is decoded half up and half down would flip within a frame at constant length."""
+    _, reactor = pair(60)
+    still = reactor[:1].expand(60, -1, -1).clone()
+    elbow, wrist = 19, 21
+    lengths = bone_lengths(still).mean(-2)
+    up = torch.tensor([0.2, 1.0, 0.1]) / torch.tensor([0.2, 1.0, 0.1]).norm()
+    share = (1 - 2 * torch.arange(60.0) / 59).mul(4).clamp(-1, 1)
+    arm = share[:, None] * up + (1 - share.abs())[:, None] * torch.tensor([0.0, 0.0, 0.02])
+    hand = still[:, wrist] - still[:, elbow]
+    decoded = still.clone()
+    decoded[:, elbow] = still[:, PARENTS[elbow]] + arm * lengths[elbow]
+    decoded[:, wrist] = decoded[:, elbow] + hand
+
+    def degrees_a_frame(motion: torch.Tensor) -> torch.Tensor:
+        bone = motion[:, elbow] - motion[:, PARENTS[elbow]]
+        return torch.cosine_similarity(bone[1:], bone[:-1]).clamp(-1, 1).acos().rad2deg()
+
+    assert degrees_a_frame(constant_bones(decoded, lengths)).max() > 90
+    steady = steady_bones(decoded[None], lengths)[0]
+    turning = degrees_a_frame(steady)
+    assert turning.max() < 45
+    assert turning[:15].max() < 0.1, "long bones stay as they are"
+    others = [joint for joint in range(22) if joint not in (elbow, wrist)]
+    assert torch.allclose(steady[:, others], decoded[:, others], atol=1e-5)
+    assert torch.allclose(steady[:, wrist] - steady[:, elbow], hand, atol=1e-5), "the forearm keeps its direction"
+    assert torch.allclose(bone_lengths(steady), bone_lengths(decoded), atol=1e-5)
 
 
 def test_the_lower_toe_keeps_its_height_when_legs_are_lengthened() -> None:

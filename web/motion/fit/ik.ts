@@ -15,8 +15,9 @@ import {
   writeQuat,
 } from '../math/quat';
 import { rotateRow, rowDistance } from '../math/rows';
-import { restOffsets, trunkRotations } from './rest-pose';
+import { restOffsets } from './rest-pose';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
+import { steadyTrunk, trunkRotations } from './trunk';
 import { smoothHinges } from './twist';
 import { add, cross, direction, readVec, scale, sub, type Vec3, writeVec } from '../math/vec3';
 
@@ -145,7 +146,7 @@ export function solve(clip: MotionClip, known?: Float32Array): SolvedMotion {
   const trunk = trunkRotations(observed);
   const offsets = known ?? restOffsets(observed, trunk);
   const bones = bonesOf(offsets);
-  const poses = fitPoses(observed, bones, trunk);
+  const poses = fitPoses(observed, bones, steadyTrunk(trunk, observed, offsets, fps));
   const hinges = LIMBS.map((limb) => hingesOf(limb, poses, bones));
 
   const root = new Float32Array(frames * 3);

@@ -1,13 +1,9 @@
+import { readQuat, slerp, writeQuat } from '../math/quat';
 import { fitRotation, type RigidPart, rigidPart } from '../math/rigid';
 import { addScaled, directionTo, rotateRow } from '../math/rows';
 import { direction, length, readVec, writeVec, Y_AXIS } from '../math/vec3';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
-
-/** World rotations of the trunk's two rigid parts, frames x 4. */
-export interface TrunkRotations {
-  readonly pelvis: Float64Array;
-  readonly chest: Float64Array;
-}
+import type { SteadyTrunk, TrunkRotations } from './trunk';
 
 /** A motion on the skeleton of constant bone lengths. */
 export interface Poses extends TrunkRotations {
@@ -61,8 +57,8 @@ interface Frame {
   /** 22 x 3: where the joints are seen, and where they are placed, metres. */
   readonly observed: Float64Array;
   readonly joints: Float64Array;
-  /** Rotations of the trunk, one row each: to start from, and as fitted. */
-  readonly start: TrunkRotations;
+  /** Rotations of the trunk, one row each: to start from with one number of certainty, and as fitted. */
+  readonly start: SteadyTrunk;
   readonly pelvis: Float64Array;
   readonly chest: Float64Array;
   /** 22 x 3: directions of bones whose ends are seen at one place, those of the rest pose turned with the trunk. */
@@ -102,13 +98,17 @@ function fitLimb(frame: Frame, middle: number, end: number): void {
   follow(frame, end);
 }
 
-/** Turns a rigid part of the trunk onto the observed joints and places its joints. */
+/** Turns a rigid part of the trunk onto the observed joints, as far as they show its rotation, and places its joints. */
 function fitPart(frame: Frame, { part, origin, joints: members }: TrunkPart): void {
   const { observed, joints, bones, parts, vectors } = frame;
   const rotation = frame[part];
   for (let i = 0; i < members.length; i++) addScaled(vectors, i, observed, members[i]!, joints, origin, -1);
   rotation.set(frame.start[part]);
   fitRotation(rotation, parts[part], vectors);
+  const certainty = frame.start.certainty[part][0]!;
+  if (certainty < 1) {
+    writeQuat(rotation, 0, slerp(readQuat(frame.start[part], 0), readQuat(rotation, 0), certainty));
+  }
   for (const joint of members) {
     rotateRow(joints, joint, rotation, 0, bones.offsets, joint);
     addScaled(joints, joint, joints, origin, joints, joint, 1);
@@ -147,7 +147,7 @@ function moveRoot({ observed, joints, vectors }: Frame): void {
  * @param observed frames x 22 x 3, metres
  * @param start rotations of the trunk to start from
  */
-export function fitPoses(observed: Float64Array, bones: Bones, start: TrunkRotations): Poses {
+export function fitPoses(observed: Float64Array, bones: Bones, start: SteadyTrunk): Poses {
   const poses = { joints: observed.slice(), pelvis: start.pelvis.slice(), chest: start.chest.slice() };
   const rigid = ({ joints }: TrunkPart): RigidPart =>
     rigidPart(joints.map((joint) => readVec(bones.offsets, joint)));
@@ -164,7 +164,11 @@ export function fitPoses(observed: Float64Array, bones: Bones, start: TrunkRotat
       chest: row(poses.chest, t, 4),
       fallbacks,
       bones,
-      start: { pelvis: row(start.pelvis, t, 4), chest: row(start.chest, t, 4) },
+      start: {
+        pelvis: row(start.pelvis, t, 4),
+        chest: row(start.chest, t, 4),
+        certainty: { pelvis: row(start.certainty.pelvis, t, 1), chest: row(start.certainty.chest, t, 1) },
+      },
       parts,
       vectors,
     };

@@ -1,36 +1,15 @@
-import { conjugate, readQuat, rotate, writeQuat } from '../math/quat';
-import { bodyFrame } from '../math/rigid';
+import { conjugate, readQuat, rotate } from '../math/quat';
 import { rowDistance } from '../math/rows';
 import { median, percentile } from '../math/statistics';
-import { direction, length, lerp, readVec, scale, sub, type Vec3, writeVec, Y_AXIS } from '../math/vec3';
+import { direction, length, readVec, scale, sub, type Vec3, writeVec, Y_AXIS } from '../math/vec3';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../skeleton/skeleton';
-import type { TrunkRotations } from './pose-fit';
+import type { TrunkRotations } from './trunk';
 
 const framesOf = (observed: Float64Array): number => observed.length / (3 * JOINT_COUNT);
 
 /** Reads one joint of one frame. */
 function jointAt(observed: Float64Array, frame: number, joint: number): Vec3 {
   return readVec(observed, frame * JOINT_COUNT + joint);
-}
-
-/**
- * Rotations of the trunk as the joints show them: of the pelvis with x from hip to hip and y from the hips to the spine,
- * of the chest with x from collar to collar and y from the upper spine to the neck.
- *
- * @param observed frames x 22 x 3, metres
- */
-export function trunkRotations(observed: Float64Array): TrunkRotations {
-  const frames = framesOf(observed);
-  const pelvis = new Float64Array(4 * frames);
-  const chest = new Float64Array(4 * frames);
-  for (let frame = 0; frame < frames; frame++) {
-    const at = (joint: number): Vec3 => jointAt(observed, frame, joint);
-    const [left, right] = [at(J.left_hip), at(J.right_hip)];
-    writeQuat(pelvis, frame, bodyFrame(sub(left, right), sub(at(J.spine1), lerp(left, right, 0.5))));
-    const across = sub(at(J.left_collar), at(J.right_collar));
-    writeQuat(chest, frame, bodyFrame(across, sub(at(J.neck), at(J.spine3))));
-  }
-  return { pelvis, chest };
 }
 
 /** Length of every joint's bone to its parent: median over time, the same left and right. */

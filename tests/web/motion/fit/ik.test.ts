@@ -2,7 +2,7 @@ import { Object3D, Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import type { MotionClip, SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
-import { aboutAxis, quatDot, readQuat, rotate, writeQuat } from '../../../../web/motion/math/quat';
+import { aboutAxis, multiply, quatDot, readQuat, rotate, writeQuat } from '../../../../web/motion/math/quat';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
 import { distance, readVec, sub } from '../../../../web/motion/math/vec3';
@@ -20,6 +20,19 @@ function fastestTurn(motion: SolvedMotion, joint: number): number {
     fastest = Math.max(fastest, 2 * Math.acos(Math.min(1, Math.abs(quatDot(a, b)))));
   }
   return (fastest * 180) / Math.PI;
+}
+
+/** The rotations of a motion with those of one joint as in the world. */
+function worldRotations({ rotations, frames }: SolvedMotion, joint: number): Float32Array {
+  const world = rotations.slice();
+  for (let frame = 0; frame < frames; frame++) {
+    const row = frame * JOINT_COUNT;
+    let turn = readQuat(rotations, row + joint);
+    for (let above = PARENTS[joint]!; above >= 0; above = PARENTS[above]!)
+      turn = multiply(readQuat(rotations, row + above), turn);
+    writeQuat(world, row + joint, turn);
+  }
+  return world;
 }
 
 function meanDistance(a: Float32Array, b: Float32Array): number {
@@ -199,6 +212,35 @@ describe('rotations over time', () => {
       expect(2 * Math.atan2(y, w)).toBeCloseTo(Math.PI / 12, 4);
       expect(Math.hypot(x, z)).toBeLessThan(1e-4);
     }
+  });
+
+  test('a chest whose collars change sides turns there, and hips as well', () => {
+    const made = madeDancer({ frames: 90, seed: 4 });
+    const positions = made.positions.slice();
+    const sides = [
+      [J.left_collar, J.right_collar],
+      [J.left_hip, J.right_hip],
+    ] as const;
+    for (let frame = 0; frame < made.frames; frame++) {
+      // From 1 to -1 within half a second; all other joints stay.
+      const share = Math.max(-1, Math.min(1, (45 - frame) / 7.5));
+      for (const [left, right] of sides)
+        for (let axis = 0; axis < 3; axis++) {
+          const [l, r] = [left, right].map((joint) => 3 * (frame * JOINT_COUNT + joint) + axis) as [
+            number,
+            number,
+          ];
+          const [middle, half] = [(positions[l]! + positions[r]!) / 2, (positions[l]! - positions[r]!) / 2];
+          [positions[l], positions[r]] = [middle + share * half, middle - share * half];
+        }
+    }
+    const turned = solve({ ...made, positions }, made.offsets);
+    expect(fastestTurn(turned, J.pelvis)).toBeLessThan(45);
+    const chest = worldRotations(turned, J.spine3);
+    expect(fastestTurn({ ...turned, rotations: chest }, J.spine3)).toBeLessThan(45);
+    const before = solve(made, made.offsets);
+    const early = 30 * JOINT_COUNT * 3;
+    expect(turned.positions.subarray(0, early)).toEqual(before.positions.subarray(0, early));
   });
 
   test('knees and elbows bend about their hinges', () => {
