@@ -4,7 +4,7 @@ import { maxLegLength, twoBoneIk } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, length, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
+import { add, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
 
 /** Joint indices of a leg. */
 interface LegJoints {
@@ -48,6 +48,18 @@ function bonesAt(
   };
 }
 
+/** Where the ankle is from the hip, frames x 3 metres, and how far from it the leg reaches, metres. */
+function legReach(motion: SolvedMotion, joints: LegJoints): Record<'ankles' | 'reach', Float64Array> {
+  const ankles = new Float64Array(3 * motion.frames);
+  const reach = new Float64Array(motion.frames);
+  for (let t = 0; t < motion.frames; t++) {
+    const { thigh, shin } = bonesAt(motion.positions, joints, t);
+    writeVec(ankles, t, add(thigh, shin));
+    reach[t] = maxLegLength(thigh, shin);
+  }
+  return { ankles, reach };
+}
+
 /**
  * The shift that keeps a foot in place while it is in contact, along both axes of the floor, one number a frame, metres.
  * Each pass raises the weight of a shift of zero where the pass before asked for too much.
@@ -71,15 +83,19 @@ function shiftOf(
       ),
     }));
   const [along, across] = [tracks(0), tracks(2)];
+  const { ankles, reach } = legReach(motion, joints);
   const zeroWeights = new Float64Array(frames).fill(1);
   const held = (some: readonly Track[]): Float64Array => leastSquaresShift(some, zeroWeights, weight);
   let [x, z] = [held(along), held(across)];
   for (let pass = 1; pass < PASSES; pass++) {
     for (let t = 0; t < frames; t++) {
-      const { thigh, shin } = bonesAt(positions, joints, t);
-      const excess = Math.max(1, Math.sqrt(x[t]! * x[t]! + z[t]! * z[t]!) / MAX_SHIFT);
-      const ankle = add(add(thigh, shin), [x[t]!, 0, z[t]!]);
-      const shortfall = Math.max(0, length(ankle) - maxLegLength(thigh, shin));
+      const dx = x[t]!;
+      const dz = z[t]!;
+      const excess = Math.max(1, Math.sqrt(dx * dx + dz * dz) / MAX_SHIFT);
+      const ax = ankles[3 * t]! + dx;
+      const ay = ankles[3 * t + 1]!;
+      const az = ankles[3 * t + 2]! + dz;
+      const shortfall = Math.max(0, Math.sqrt(ax * ax + ay * ay + az * az) - reach[t]!);
       zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
     }
     [x, z] = [held(along), held(across)];

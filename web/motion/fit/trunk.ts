@@ -80,8 +80,7 @@ function certaintyOf(
   offsets: Float32Array,
 ): Float64Array {
   const [left, right] = SIDES[part];
-  const rest = new Float64Array(offsets);
-  const atRest = rowDistance(rest, left, rest, right);
+  const atRest = rowDistance(offsets, left, offsets, right);
   return Float64Array.from({ length: observed.length / (3 * JOINT_COUNT) }, (_, frame) => {
     const row = frame * JOINT_COUNT;
     const distance = rowDistance(observed, row + left, observed, row + right);

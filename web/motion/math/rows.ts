@@ -89,7 +89,7 @@ export function conjugateRow(out: Rows, o: number, q: Rows, i: number): void {
 }
 
 /** Distance of two points. */
-export function rowDistance(a: Rows, i: number, b: Rows, j: number): number {
+export function rowDistance(a: Rows | Float32Array, i: number, b: Rows | Float32Array, j: number): number {
   const x = a[3 * i]! - b[3 * j]!;
   const y = a[3 * i + 1]! - b[3 * j + 1]!;
   const z = a[3 * i + 2]! - b[3 * j + 2]!;

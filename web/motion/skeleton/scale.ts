@@ -1,7 +1,7 @@
 import type { MotionClip } from './clip';
 import { J, JOINT_COUNT } from './skeleton';
+import { rowDistance } from '../math/rows';
 import { median } from '../math/statistics';
-import { distance, readVec } from '../math/vec3';
 
 const SPINE = [J.pelvis, J.spine1, J.spine2, J.spine3, J.neck, J.head];
 const LEGS = [
@@ -15,18 +15,18 @@ const LEGS = [
  * height of the head above the floor. The same measure as `body_height` of the training side.
  */
 export function bodyHeight(clip: MotionClip): number {
-  const heights = new Float64Array(clip.frames);
-  for (let frame = 0; frame < clip.frames; frame++) {
-    const chain = (joints: readonly number[]): number => {
-      let sum = 0;
-      for (let i = 1; i < joints.length; i++) {
-        const a = readVec(clip.positions, frame * JOINT_COUNT + joints[i - 1]!);
-        sum += distance(a, readVec(clip.positions, frame * JOINT_COUNT + joints[i]!));
-      }
-      return sum;
-    };
-    const legs = LEGS.reduce((sum, leg) => sum + chain(leg), 0) / LEGS.length;
-    heights[frame] = legs + chain(SPINE);
+  const { positions, frames } = clip;
+  const chain = (joints: readonly number[], frame: number): number => {
+    const row = frame * JOINT_COUNT;
+    let sum = 0;
+    for (let i = 1; i < joints.length; i++)
+      sum += rowDistance(positions, row + joints[i - 1]!, positions, row + joints[i]!);
+    return sum;
+  };
+  const heights = new Float64Array(frames);
+  for (let frame = 0; frame < frames; frame++) {
+    const legs = LEGS.reduce((sum, leg) => sum + chain(leg, frame), 0) / LEGS.length;
+    heights[frame] = legs + chain(SPINE, frame);
   }
   return median(heights);
 }
