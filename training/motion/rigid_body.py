@@ -1,9 +1,8 @@
-"""Gives decoded joints bones of constant length that do not flip, and keeps the lower toe at its height above the floor."""
+"""Gives decoded joints bones of constant length that do not flip, and keeps the lower toe at its height."""
 
 from __future__ import annotations
 
 import torch
-import torch.nn.functional as F
 from torch import Tensor
 
 from training.motion.skeleton import PARENTS, TOES
@@ -54,8 +53,12 @@ def steady_bones(motion: Tensor, lengths: Tensor) -> Tensor:
     decoded = (_bones(motion) / own[..., None]).movedim(1, -1)  # (N, 22, 3, T)
     directions = decoded
     for _ in range(DIRECTION_PASSES):
-        around = gaussian_mean(directions.flatten(0, 2), SIGMA_FRAMES, 3 * SIGMA_FRAMES).reshape(decoded.shape)
-        directions = F.normalize(certainty * decoded + (1 - certainty) * around, dim=2)
+        around = gaussian_mean(directions.flatten(0, 2), SIGMA_FRAMES, 3 * SIGMA_FRAMES).reshape(
+            decoded.shape
+        )
+        mixed = certainty * decoded + (1 - certainty) * around
+        # Not `normalize`, which becomes an operator whose shape is computed on the graphics card and is read too early.
+        directions = mixed / mixed.square().sum(2, keepdim=True).clamp_min(1e-10).sqrt()
     return motion[..., :1, :] + _BONES_ABOVE.to(motion) @ (directions.movedim(-1, 1) * own[..., None])
 
 

@@ -154,9 +154,17 @@ export function meanSpeed(positions: readonly number[], fps = 30): number {
 }
 
 /** Largest distance between the joints of two motions or poses, metres. */
-export function maxDistance(a: readonly number[], b: readonly number[]): number {
-  let most = 0;
-  for (let i = 0; i < a.length; i += 3)
-    most = Math.max(most, Math.hypot(...[0, 1, 2].map((axis) => (a[i + axis] ?? 0) - (b[i + axis] ?? 0))));
-  return most;
+export const maxDistance = (a: readonly number[], b: readonly number[]): number =>
+  Math.max(...distances(a, b));
+
+/** Mean distance between the joints of two motions or poses, metres. */
+export function meanDistance(a: readonly number[], b: readonly number[]): number {
+  const all = distances(a, b);
+  return all.reduce((sum, each) => sum + each, 0) / all.length;
+}
+
+function distances(a: readonly number[], b: readonly number[]): number[] {
+  return Array.from({ length: Math.floor(a.length / 3) }, (_, i) =>
+    Math.hypot(...[0, 1, 2].map((axis) => (a[3 * i + axis] ?? 0) - (b[3 * i + axis] ?? 0))),
+  );
 }
