@@ -159,7 +159,9 @@ def test_a_bone_that_shrinks_and_grows_again_the_other_way_turns_there() -> None
     assert turning[:15].max() < 0.1, "long bones stay as they are"
     others = [joint for joint in range(22) if joint not in (elbow, wrist)]
     assert torch.allclose(steady[:, others], decoded[:, others], atol=1e-5)
-    assert torch.allclose(steady[:, wrist] - steady[:, elbow], hand, atol=1e-5), "the forearm keeps its direction"
+    assert torch.allclose(steady[:, wrist] - steady[:, elbow], hand, atol=1e-5), (
+        "the forearm keeps its direction"
+    )
     assert torch.allclose(bone_lengths(steady), bone_lengths(decoded), atol=1e-5)
 
 
