@@ -170,8 +170,7 @@ export function solve(clip: MotionClip, known?: Float32Array): SolvedMotion {
     }
   }
   const positions = forwardKinematics(offsets, root, rotations);
-  const placed = new Float64Array(positions);
   let error = 0;
-  for (let i = 0; i < frames * JOINT_COUNT; i++) error += rowDistance(placed, i, observed, i);
+  for (let i = 0; i < frames * JOINT_COUNT; i++) error += rowDistance(positions, i, observed, i);
   return { fps, frames, offsets, root, rotations, positions, fitError: error / (frames * JOINT_COUNT) };
 }

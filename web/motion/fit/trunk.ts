@@ -10,9 +10,10 @@ export interface TrunkRotations {
   readonly chest: Float64Array;
 }
 
-/** A rotation of each part to start a fit from, and frame by frame how far the joints show another one, 0 to 1. */
+/** A rotation of each part to start a fit from. */
 export interface SteadyTrunk extends TrunkRotations {
-  readonly certainty: TrunkRotations;
+  /** How far the joints show a part's rotation themselves, 0 to 1, one number a frame. */
+  readonly certainty: Readonly<Record<keyof TrunkRotations, Float64Array>>;
 }
 
 /** The joints at both sides of a part, which show where it faces. */
@@ -116,7 +117,10 @@ function withoutSignChanges(rotations: Float64Array): Float64Array {
   return alike;
 }
 
-/** Sum of the quaternions around a frame, weighted by their distance in time; the ends are repeated. */
+/**
+ * Sum of the quaternions around a frame, weighted by their distance in time; the ends are repeated. Not `gaussianFilter`
+ * of a whole clip, since few frames are uncertain.
+ */
 function weightedSum(rotations: Float64Array, t: number, weights: readonly number[]): Quat {
   const last = rotations.length / 4 - 1;
   const sum: [number, number, number, number] = [0, 0, 0, 0];
