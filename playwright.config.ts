@@ -9,8 +9,8 @@ export default defineConfig({
   testDir: 'tests/e2e',
   outputDir: 'test-results',
   forbidOnly: process.env['CI'] !== undefined,
-  // Drawing and computing are both done by the processor, which has two cores at the least.
-  workers: 1,
+  // Much of a test is waiting, so two of them share two cores well.
+  workers: 2,
   // Shared machines stall now and then. What passes only the second time is listed as flaky.
   retries: 1,
   timeout: 180_000,

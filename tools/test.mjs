@@ -39,7 +39,10 @@ await runMain(async () => {
     runOrThrow('vitest', ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${report}`]),
   );
   await testStep('pytest', readPytest, (report) =>
-    runOrThrow(python, ['-m', 'pytest', `--junitxml=${report}`]),
+    // Two processes of one thread each use two cores better than one process of two threads.
+    runOrThrow(python, ['-m', 'pytest', '-n', '2', '--dist', 'worksteal', `--junitxml=${report}`], {
+      OMP_NUM_THREADS: '1',
+    }),
   );
   await step('build', () => runOrThrow('vite', ['build', '--logLevel', 'warn']));
   await testStep('browser tests', readPlaywright, (report) =>
