@@ -15,7 +15,7 @@ const HEADER_TIMEOUT_MS = 5000;
 
 /** A song as the browser decodes it. */
 export interface DecodedSong {
-  /** Samples of each channel, all of one length. */
+  /** Samples of each channel, all of one length; whoever decoded the song may give them away. */
   readonly channels: Float32Array<ArrayBuffer>[];
   /** Hz */
   readonly sampleRate: number;
@@ -57,8 +57,9 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
     );
   }
   checkDuration(buffer.duration);
+  // The buffer's own memory, not a copy: ten minutes are 230 MB, and copying them takes over 0.1 s of the page.
   const channels = Array.from({ length: buffer.numberOfChannels }, (_, index) =>
-    buffer.getChannelData(index).slice(),
+    buffer.getChannelData(index),
   );
   return { channels, sampleRate: buffer.sampleRate, duration: buffer.duration };
 }
