@@ -1,4 +1,5 @@
 import type { Framing } from '../../common/framing';
+import { yieldToPage } from '../../common/yield-to-events';
 import { fullProblem } from '../store/problems';
 import type { Take } from '../store/reaction';
 import type { AppState, AutosaveStatus } from '../store/state';
@@ -117,24 +118,29 @@ export class Autosave {
   }
 
   private readonly writeWhenHidden = (): void => {
-    if (document.visibilityState === 'hidden') this.write();
+    if (document.visibilityState === 'hidden') this.write(true);
   };
 
-  /** Writes the state as it is now, or as it is once the write that is under way has ended. */
-  private write(): void {
+  /**
+   * Writes the state as it is now, or as it is once the write that is under way has ended.
+   * @param leaving the page may end with this task
+   */
+  private write(leaving = false): void {
     if (!this.mayWrite) return;
     const state = this.store.getState();
     this.seen = storedParts(state);
     if (!this.right.held) {
       if (hasVisitorContent(state)) this.wait();
     } else if (this.busy) this.changed = true;
-    else void this.save();
+    else void this.save(leaving);
   }
 
-  private async save(): Promise<void> {
+  private async save(leaving: boolean): Promise<void> {
     clearTimeout(this.timer);
     this.busy = true;
     do {
+      // In a task of its own: to store a long dance takes as long as to show it.
+      if (!leaving) await yieldToPage();
       this.changed = false;
       await this.saveNow(this.store.getState());
     } while (this.changed && this.right.held);
