@@ -6,14 +6,15 @@ import type { VideoStage } from './ui/download/downloads';
 import { coarseMotion, earlierMotion, otherCoarseMotion } from './ui/store/reactor-motion';
 import type { AppState } from './ui/store/state';
 import { type Store, watch, watchAll, type Watched } from './ui/store/store';
+import { isReading } from './ui/store/selectors';
 import { showOther } from './ui/takes/other-dancer';
 import { createOffscreenStage } from './view/offscreen-stage';
 import type { PictureSize, Stage } from './view/stage';
 
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
-/** Time after a generation in which the page still shows and measures the result, milliseconds. */
-const BUSY_AFTER_MS = 1000;
+/** Time after that in which the page still measures the result and the earlier dance fades, milliseconds. */
+const BUSY_AFTER_MS = 2500;
 
 /**
  * The state as the stage on the page shows it: while a video is read, its dancer is alone on the stage as far as they are
@@ -112,13 +113,13 @@ function bindDancers(stage: Stage, store: Watched): () => void {
   );
 }
 
-/** Tells the stage that the page is busy while a reaction is generated, and shortly afterwards. */
+/** Tells the stage that the page is busy while files are read or a reaction is generated, and shortly afterwards. */
 function bindBusy(stage: Stage, store: Watched): () => void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   return combineDisposers(
     watch(
       store,
-      (state) => state.job !== null,
+      (state) => state.job !== null || isReading(state).includes(true),
       (busy) => {
         clearTimeout(timer);
         if (busy) stage.setBusy(true);

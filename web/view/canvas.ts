@@ -135,9 +135,9 @@ export class Canvas {
     return this.presenter.presented;
   }
 
-  /** Says whether the page has much else to do; true when a frame has to be drawn at once, see `FramePresenter`. */
-  setBusy(busy: boolean): boolean {
-    return this.presenter.setBusy(busy);
+  /** Says whether the page has much else to do, see `FramePresenter`. */
+  setBusy(busy: boolean): void {
+    this.presenter.setBusy(busy);
   }
 
   dispose(): void {

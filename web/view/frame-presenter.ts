@@ -10,9 +10,9 @@ export interface FramePresenter {
   readonly presented: boolean;
   /**
    * Says whether the page has much else to do. It then stays responsive while a frame is drawn, which comes a little
-   * later. True when the next frame has to be drawn at once, because what is on the page may be empty.
+   * later.
    */
-  setBusy(busy: boolean): boolean;
+  setBusy(busy: boolean): void;
   dispose(): void;
 }
 
@@ -34,7 +34,7 @@ export const createDirectPresenter = ({ domElement }: WebGLRenderer): FramePrese
   element: domElement,
   frameDone: () => undefined,
   presented: true,
-  setBusy: () => false,
+  setBusy: () => undefined,
   dispose: () => undefined,
 });
 
@@ -45,7 +45,8 @@ const POLL_MS = 4;
  * Presents the canvas itself or, while the page is busy, 2D copies of its frames, each made when the frame is finished.
  * With a software renderer the browser fetches a frame from a canvas in the middle of a task of the page, which is
  * blocked until the frame is drawn: beside other work that may take long. A copy costs a quarter of the frame rate, so
- * it is not made all the time.
+ * it is not made all the time. The last copy stays until the next frame after that: a picture that stands still needs
+ * no drawing and blocks nothing.
  *
  * @param renderer one that preserves its drawing buffer
  * @param onPresented called when a copy is on the page
@@ -95,22 +96,18 @@ export function createCopyPresenter(renderer: WebGLRenderer, onPresented: () => 
   return {
     element,
     frameDone() {
-      if (busyPage) copyWhenFinished();
+      if (busyPage) return copyWhenFinished();
+      cancel();
+      copy.replaceWith(canvas);
     },
     get presented() {
       return fence === null;
     },
     setBusy(busy) {
-      if (busy === busyPage) return false;
+      if (busy === busyPage) return;
       busyPage = busy;
-      if (busy) {
-        // Copies the frame that is there: the next one must not be drawn on a canvas that is on the page.
-        copyWhenFinished();
-        return false;
-      }
-      cancel();
-      copy.replaceWith(canvas);
-      return true;
+      // Copies the frame that is there: the next one must not be drawn on a canvas that is on the page.
+      if (busy && canvas.isConnected) copyWhenFinished();
     },
     dispose: cancel,
   };

@@ -178,7 +178,7 @@ export class Stage {
    * is drawn, at about a quarter fewer frames a second.
    */
   setBusy(busy: boolean): void {
-    if (this.view.canvas.setBusy(busy)) this.loop.flush();
+    this.view.canvas.setBusy(busy);
   }
 
   /**
