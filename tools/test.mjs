@@ -31,6 +31,18 @@ async function testStep(name, read, work) {
   }
 }
 
+/**
+ * @param {string} name
+ * @param {string[]} choice which tests, and how many at a time
+ */
+async function browserTests(name, choice) {
+  await testStep(name, readPlaywright, (report) =>
+    runOrThrow('playwright', ['test', ...choice, '--reporter=list,json'], {
+      PLAYWRIGHT_JSON_OUTPUT_NAME: report,
+    }),
+  );
+}
+
 await runMain(async () => {
   await installPackages();
   await step('browser', installBrowser);
@@ -45,9 +57,8 @@ await runMain(async () => {
     }),
   );
   await step('build', () => runOrThrow('vite', ['build', '--logLevel', 'warn']));
-  await testStep('browser tests', readPlaywright, (report) =>
-    runOrThrow('playwright', ['test', '--reporter=list,json'], { PLAYWRIGHT_JSON_OUTPUT_NAME: report }),
-  );
+  await browserTests('browser tests', ['--grep-invert', '@alone']);
+  await browserTests('browser tests that measure time', ['--grep', '@alone', '--workers', '1']);
 });
 
 console.log(`\n${summary(reports, process.exitCode === undefined)}`);

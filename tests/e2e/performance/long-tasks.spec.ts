@@ -45,7 +45,8 @@ async function dancing(page: Page): Promise<App> {
   return app;
 }
 
-test('the main thread has no long task while a reaction is made and the dance plays', async ({
+// Beside another test its pictures would wait for the processor: `npm test` runs what is marked so alone.
+test('the main thread has no long task while a reaction is made and the dance plays @alone', async ({
   page,
   browser,
 }) => {
