@@ -45,7 +45,7 @@ async function dancing(page: Page): Promise<App> {
   return app;
 }
 
-// Beside another test its pictures would wait for the processor: `npm test` runs what is marked so alone.
+// Beside another test its pictures would wait for the processor.
 test('the main thread has no long task while a reaction is made and the dance plays @alone', async ({
   page,
   browser,

@@ -210,7 +210,7 @@ async function frameTime(page: Page): Promise<number> {
   return times.toSorted((a, b) => a - b)[Math.floor(batches / 2)]!;
 }
 
-test('all overlays on two takes stay within the budget of draw calls and triangles, and nothing is drawn at rest', async ({
+test('all overlays on two takes stay within the budget of draw calls, triangles and time, and nothing is drawn at rest @alone', async ({
   page,
 }) => {
   await page.setViewportSize({ width: 400, height: 600 });
