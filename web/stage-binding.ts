@@ -13,7 +13,7 @@ import type { PictureSize, Stage } from './view/stage';
 
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 
-/** Time after that in which the page still measures the result and the earlier dance fades, milliseconds. */
+/** Time after a generation in which the page still measures the result and the earlier dance fades, milliseconds. */
 const BUSY_AFTER_MS = 2500;
 
 /**

@@ -15,7 +15,7 @@ const HEADER_TIMEOUT_MS = 5000;
 
 /** A song as the browser decodes it. */
 export interface DecodedSong {
-  /** Samples of each channel, all of one length; whoever decoded the song may give them away. */
+  /** Samples of each channel, all of one length; the caller may transfer them to a worker. */
   readonly channels: Float32Array<ArrayBuffer>[];
   /** Hz */
   readonly sampleRate: number;

@@ -114,6 +114,22 @@ describe('autosave', () => {
     expect(persistenceText(store.getState())).toMatch(/promised to keep it/);
   });
 
+  it('writes at once when the page is hidden, since it may end there', async () => {
+    const page = Object.assign(new EventTarget(), { visibilityState: 'visible' });
+    vi.stubGlobal('document', page);
+    try {
+      await visit(9);
+      made('a');
+      await pass(0);
+      writes = [];
+      page.visibilityState = 'hidden';
+      page.dispatchEvent(new Event('visibilitychange'));
+      expect(writes).toEqual([[null]]);
+    } finally {
+      vi.unstubAllGlobals();
+    }
+  });
+
   it('writes the newest change after the one that is being written, and not each playhead', async () => {
     made('a');
     await pass(0);
