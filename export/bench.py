@@ -1,4 +1,6 @@
-"""The Python half of `npm run bench`: the same work under onnxruntime native and PyTorch eager.
+"""The Python half of `npm run bench`: the same work under onnxruntime native and PyTorch eager, and eager on CUDA.
+
+CUDA is left out where there is none.
 
     python -m export.bench --checkpoint training/checkpoints/salsa --model web/public/models/salsa --out runs/bench
 
@@ -70,19 +72,23 @@ class Stopwatch:
     def __call__(self, stage: str, work: Callable[[], T]) -> T:
         start = perf_counter()
         result = work()
+        if torch.get_default_device().type == "cuda":
+            torch.cuda.synchronize()
         self.repeats.setdefault(stage, []).append(perf_counter() - start)
         return result
 
 
 @torch.no_grad()
 def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Options) -> Seconds:
-    """Seconds of condition, steps of the conditional branch, of all three branches, and decode."""
-    watch, sampling = Stopwatch(), model.sampling
-    padded = torch.from_numpy(pad_to_stride(leader))
+    """Seconds of condition, steps of the conditional branch, of all three branches, and decode, on torch's default
+    device.
+    """
+    watch, sampling, device = Stopwatch(), model.sampling, torch.get_default_device()
+    padded = torch.from_numpy(pad_to_stride(leader)).to(device)
     features, valid = music_of_length(music, len(padded))
     steps, role = ddim_steps(sampling.alpha_bar, options.steps, sampling.last_time), torch.zeros(1)
     gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
-    initial = initial_noise(sampling, SEED, len(padded) // STRIDE)
+    initial = initial_noise(sampling, SEED, len(padded) // STRIDE).to(device)
     silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)
     for _ in range(1 + options.repeats):
         memory = watch("condition", lambda: model.condition(padded, features, valid, role))
@@ -102,11 +108,19 @@ def main(options: Options) -> None:
     watch = Stopwatch()
     for _ in range(2):  # the first call compiles
         music = watch("features", lambda: features(song, recipe))
-    native = run(open_model(options.model, options.threads), leader, music, options)
-    eager = run(load_model(options.checkpoint), leader, music, options)
+    seconds = {
+        "onnxruntime native": run(open_model(options.model, options.threads), leader, music, options),
+        "PyTorch eager": run(load_model(options.checkpoint), leader, music, options),
+    }
+    if torch.cuda.is_available():
+        model = load_model(options.checkpoint)
+        model.hfsq.to("cuda")
+        model.denoiser.to("cuda")
+        with torch.device("cuda"):
+            seconds["PyTorch eager, CUDA"] = run(model, leader, music, options)
     rows = [
-        {"backend": name, "threads": options.threads, "seconds": {**watch.seconds, **seconds}}
-        for name, seconds in (("onnxruntime native", native), ("PyTorch eager", eager))
+        {"backend": name, "threads": options.threads, "seconds": {**watch.seconds, **stages}}
+        for name, stages in seconds.items()
     ]
     (options.out / "python.json").write_text(json.dumps(rows))
 

@@ -4,6 +4,8 @@
  * docs/lengths.svg.
  *
  *     npm run bench -- --frames 2066 --steps 3 --threads 1,2 --repeats 5 --minutes 1,2.5,5,10 --only app
+ *
+ * With `--gpu` the browser uses the graphics card, for the stage and for rows of WebGPU, and docs/lengths.svg stays.
  */
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
@@ -11,11 +13,10 @@ import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs, promisify } from 'node:util';
-import { chromium } from '@playwright/test';
-import { findBrowser } from '../browser.mjs';
 import { installPythonPackages } from '../install.mjs';
 import { runOrThrow, python, root, runMain } from '../run.mjs';
 import { appTables, measureApp } from './app/measure.mjs';
+import { launchBrowser, measureBackends } from './browser.mjs';
 import { servePage } from './built-page.mjs';
 import { STAGES, table, withRatios } from './table.mjs';
 
@@ -31,6 +32,7 @@ const { values: options } = parseArgs({
     checkpoint: { type: 'string', default: 'training/checkpoints/salsa' },
     minutes: { type: 'string', default: '1,2.5,5,10' },
     only: { type: 'string' },
+    gpu: { type: 'boolean', default: false },
     out: { type: 'string', default: 'bench.json' },
   },
 });
@@ -51,33 +53,19 @@ async function measurePython(folder, threads) {
 }
 
 /**
- * The app's own modules in a real browser, one fresh page for each number of threads.
+ * The app's own modules in a real browser, one fresh page for each number of threads, and one for WebGPU.
  *
  * @param {string} folder where the scene is
  * @param {number[]} threadCounts
  * @returns {Promise<Row[]>}
  */
 async function measureBrowser(folder, threadCounts) {
-  const executablePath = await findBrowser();
-  if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
+  const browser = await launchBrowser({ backend: options.gpu ? 'webgpu' : 'wasm', gpu: options.gpu });
   const pageFolder = fileURLToPath(new URL('page', import.meta.url));
   const model = path.resolve(root, options.model);
   const page = await servePage(pageFolder, { '/scene/': folder, '/model/': model });
-  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
   try {
-    const rows = [];
-    for (const threads of threadCounts) {
-      const tab = await browser.newPage();
-      await tab.goto(page.url);
-      const call = `measure(${threads}, ${Number(options.steps)}, ${Number(options.repeats)})`;
-      const measured = /** @type {import('./page/main').Measured} */ (await tab.evaluate(call));
-      if (measured.backend !== 'wasm' || measured.threads !== threads) {
-        throw new Error(`Asked for wasm with ${threads} threads, got ${JSON.stringify(measured)}`);
-      }
-      rows.push({ ...measured, backend: 'browser wasm' });
-      await tab.close();
-    }
-    return rows;
+    return await measureBackends(browser, page.url, { ...options, threadCounts });
   } finally {
     await browser.close();
     await page.close();
@@ -104,7 +92,11 @@ await runMain(async () => {
     const frames = Number(options.frames);
     const rows = wanted('stages') ? await measureStages(folder) : [];
     const app = wanted('app')
-      ? await measureApp(folder, { frames, minutes: options.minutes.split(',').map(Number) })
+      ? await measureApp(folder, {
+          frames,
+          minutes: options.minutes.split(',').map(Number),
+          gpu: options.gpu,
+        })
       : null;
     const [processor] = os.cpus();
     const { stdout: commit } = await promisify(execFile)('git', ['rev-parse', '--short', 'HEAD'], {

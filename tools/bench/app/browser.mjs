@@ -1,27 +1,36 @@
 /** The built app in a browser, with a count of the bytes that its server sends. */
 import { readFileSync } from 'node:fs';
-import { chromium } from '@playwright/test';
-import { findBrowser } from '../../browser.mjs';
 import { root } from '../../run.mjs';
 import { createSite, listen } from '../../serve.mjs';
 import path from 'node:path';
+import { launchBrowser } from '../browser.mjs';
 
 /** @typedef {Awaited<ReturnType<typeof openApp>>} OpenApp */
 
-/** Serves dist/ and starts a browser on an empty profile. */
-export async function openApp() {
-  const executablePath = await findBrowser();
-  if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
+/**
+ * Serves dist/ and starts a browser on an empty profile.
+ *
+ * @param {import('../browser.mjs').Where} where
+ */
+export async function openApp({ backend, gpu }) {
+  const browser = await launchBrowser({ backend, gpu });
   const server = createSite({ root: path.join(root, 'dist') });
   /** @type {Set<import('node:net').Socket>} */
   const sockets = new Set();
   server.on('connection', (socket) => sockets.add(socket));
   const url = await listen(server, { port: 0 });
-  const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
   const session = await browser.newBrowserCDPSession();
+  const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   return {
-    address: `${url}?backend=wasm`,
-    page: await browser.newPage({ viewport: { width: 1280, height: 720 } }),
+    page,
+    /** Opens the page and waits until the model is ready, where it was asked to be. */
+    start: async () => {
+      // Where nothing is asked for, the page takes WebGPU if there is a card, and no software adapter.
+      await page.goto(backend === 'wasm' ? `${url}?backend=wasm` : url);
+      await until(page, SETTLED);
+      const where = /** @type {string} */ (await page.evaluate('reactdance.store.getState().model.backend'));
+      if (where !== backend) throw new Error(`Asked for ${backend}, the page computes on ${where}.`);
+    },
     /** Sent so far, headers included. */
     bytes: () => [...sockets].reduce((sum, { bytesWritten }) => sum + bytesWritten, 0),
     /** Resident memory of the processes that draw pages, MB (Linux). */

@@ -1,5 +1,5 @@
 import path from 'node:path';
-import { choose, openApp, SETTLED, until } from './browser.mjs';
+import { choose, openApp, until } from './browser.mjs';
 import { writeLeader, writeSong } from './files.mjs';
 
 const SAMPLE_MS = 200;
@@ -19,18 +19,18 @@ const SAMPLE_MS = 200;
  *
  * @param {string} folder for the files
  * @param {number} minutes
+ * @param {import('../browser.mjs').Where} where
  * @returns {Promise<Length>}
  */
-export async function measureLength(folder, minutes) {
+export async function measureLength(folder, minutes, where) {
   const name = `minutes-${minutes}`;
   const [song, leader] = [path.join(folder, `${name}.wav`), path.join(folder, `${name}.bvh`)];
   await writeSong(song, minutes * 60);
   await writeLeader(leader, Math.round(minutes * 60 * 30));
-  const app = await openApp();
+  const app = await openApp(where);
   try {
     const { page } = app;
-    await page.goto(app.address);
-    await until(page, SETTLED);
+    await app.start();
     await page.evaluate(() => {
       Reflect.set(globalThis, 'longestTask', 0);
       new PerformanceObserver((list) => {

@@ -11,29 +11,42 @@ import { measureSlider } from './slider.mjs';
 
 /**
  * @param {string} folder for files that are not kept
- * @param {{ frames: number, minutes: number[] }} options frames of the dance whose fader is moved; lengths to compare
+ * @param {{ frames: number, minutes: number[], gpu: boolean }} options frames of the dance whose fader is moved; lengths
+ *   to compare; whether the browser has a graphics card, on which the model is then measured too
  */
-export async function measureApp(folder, { frames, minutes }) {
+export async function measureApp(folder, { frames, minutes, gpu }) {
   await runOrThrow('vite', ['build', '--logLevel', 'warn']);
-  const coldStart = await measureColdStart();
-  const slider = await measureSlider(folder, frames);
+  /** @type {import('../browser.mjs').Where['backend'][]} */
+  const backends = gpu ? ['wasm', 'webgpu'] : ['wasm'];
+  const waits = [];
+  for (const backend of backends) {
+    const where = { backend, gpu };
+    waits.push({
+      backend,
+      coldStart: await measureColdStart(where),
+      slider: await measureSlider(folder, frames, where),
+    });
+  }
   const lengths = [];
-  for (const each of minutes) lengths.push(await measureLength(folder, each));
-  await writeFile(path.join(root, 'docs/lengths.svg'), plotLengths(lengths));
-  return { coldStart, slider, lengths };
+  for (const each of minutes)
+    lengths.push(await measureLength(folder, each, { backend: gpu ? 'webgpu' : 'wasm', gpu }));
+  if (!gpu) await writeFile(path.join(root, 'docs/lengths.svg'), plotLengths(lengths));
+  return { waits, lengths };
 }
 
 /** @param {AppFigures} figures @returns {string} tables in Markdown */
-export function appTables({ coldStart, slider, lengths }) {
+export function appTables({ waits, lengths }) {
+  /** @param {(each: AppFigures['waits'][number]) => string} valueOf */
+  const row = (valueOf) => waits.map(valueOf).join(' | ');
   return [
-    '| the page on the processor | |',
-    '|---|---:|',
-    `| cold start until the model is ready | ${coldStart.ready.toFixed(1)} s |`,
-    `| cold start until the first generated dance | ${coldStart.generated.toFixed(1)} s |`,
-    `| sent by the server until then | ${coldStart.megabytes.toFixed(1)} MB |`,
-    `| a moved fader until new frames are drawn, while it plays | ${slider.first.toFixed(0)} ms |`,
-    `| until the whole new dance is drawn | ${slider.whole.toFixed(0)} ms |`,
-    `| one picture meanwhile | ${slider.picture.toFixed(0)} ms |`,
+    `| | ${row(({ backend }) => (backend === 'webgpu' ? 'WebGPU' : 'processor'))} |`,
+    `|---|${row(() => '---:').replaceAll(' ', '')}|`,
+    `| cold start until the model is ready | ${row(({ coldStart }) => `${coldStart.ready.toFixed(1)} s`)} |`,
+    `| cold start until the first generated dance | ${row(({ coldStart }) => `${coldStart.generated.toFixed(1)} s`)} |`,
+    `| sent by the server until then | ${row(({ coldStart }) => `${coldStart.megabytes.toFixed(1)} MB`)} |`,
+    `| a moved fader until new frames are drawn, while it plays | ${row(({ slider }) => `${slider.first.toFixed(0)} ms`)} |`,
+    `| until the whole new dance is drawn | ${row(({ slider }) => `${slider.whole.toFixed(0)} ms`)} |`,
+    `| one picture meanwhile | ${row(({ slider }) => `${slider.picture.toFixed(0)} ms`)} |`,
     '',
     '| minutes | song read, s | leader read, s | dance made, s | most memory, MB | longest task, ms |',
     '|---:|---:|---:|---:|---:|---:|',

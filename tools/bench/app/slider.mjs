@@ -10,17 +10,17 @@ const MOVES = 20;
  *
  * @param {string} folder for the files
  * @param {number} frames of the dance
+ * @param {import('../browser.mjs').Where} where
  * @returns {Promise<{ first: number, whole: number, picture: number }>} medians of 20 moves
  */
-export async function measureSlider(folder, frames) {
+export async function measureSlider(folder, frames, where) {
   const [song, leader] = [path.join(folder, 'slider.wav'), path.join(folder, 'slider.bvh')];
   await writeSong(song, frames / 30);
   await writeLeader(leader, frames);
-  const app = await openApp();
+  const app = await openApp(where);
   try {
     const { page } = app;
-    await page.goto(app.address);
-    await until(page, SETTLED);
+    await app.start();
     await choose(page, 'song', song);
     await until(page, `${SETTLED} && s.song.name === 'slider.wav'`);
     await choose(page, 'leader', leader);

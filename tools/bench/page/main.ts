@@ -6,6 +6,7 @@ import {
   type Generator,
   type GenerateRequest,
   type Manifest,
+  type Preference,
   secondsNow,
 } from '../../../web/model/client';
 import { readNpz } from '../../../web/model/load/npz';
@@ -25,6 +26,8 @@ export type Seconds = Record<
 export interface Measured {
   readonly backend: string;
   readonly threads: number;
+  /** Why it computes there. */
+  readonly reason: string;
   /** Fetching, opening and warming up the graphs. */
   readonly load: number;
   readonly first: Seconds;
@@ -63,13 +66,18 @@ async function followed(
   return { preview, renewed: since(), decode: seconds.decode, solve: seconds.solve };
 }
 
-export async function measure(threads: number, steps: number, repeats: number): Promise<Measured> {
+export async function measure(
+  preference: Preference,
+  threads: number,
+  steps: number,
+  repeats: number,
+): Promise<Measured> {
   const scene = readNpz(new Uint8Array(await (await fetch('scene/scene.npz')).arrayBuffer()));
   const array = (name: string): Float32Array => Float32Array.from(scene.get(name)?.data ?? []);
   const leader = array('leader');
   const frames = leader.length / 66;
   const [generator, load] = await timed(() =>
-    createGenerator({ manifestUrl: 'model/manifest.json', backend: 'wasm', threads }),
+    createGenerator({ manifestUrl: 'model/manifest.json', backend: preference, threads }),
   );
   const { manifest, backend } = generator;
   const recipe = readRecipe(manifest.audio);
@@ -99,7 +107,7 @@ export async function measure(threads: number, steps: number, repeats: number): 
   const seconds = { ...first };
   for (const stage of Object.keys(first) as (keyof Seconds)[])
     seconds[stage] = median(rest.map((run) => run[stage]));
-  return { backend: backend.name, threads: backend.threads, load, first, seconds };
+  return { backend: backend.name, threads: backend.threads, reason: backend.reason, load, first, seconds };
 }
 
 Object.assign(globalThis, { measure });
