@@ -12,6 +12,7 @@ import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
 import { sameBody, withFrames } from './with-frames';
 import type { Inputs, Reaction } from '../store/reaction';
+import { firstVisitEnded } from '../store/actions/files';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
@@ -121,6 +122,8 @@ export class Generation {
     this.#running = running;
     const { signal } = controller;
     try {
+      // Whoever asks for another dance to the same files wants to see it, not what the page is for.
+      if (sameFiles(this.#store.getState().reaction, inputs)) apply(this.#store, firstVisitEnded());
       apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0 }));
       const result = await this.#request(running, signal);
       if (signal.aborted) return;
@@ -201,4 +204,8 @@ function showPreview(store: Store, { motion, locked, from }: ModelPreview): void
       locked: withFrames(shown.locked, locked, from),
     }),
   );
+}
+
+function sameFiles(reaction: Reaction | null, { leader, song }: Inputs): boolean {
+  return reaction?.inputs.leader === leader && reaction.inputs.song === song;
 }

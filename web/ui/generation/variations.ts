@@ -15,6 +15,7 @@ import {
   variationsResumed,
   variationsStopped,
 } from '../store/actions/variations';
+import { firstVisitEnded } from '../store/actions/files';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, readyInputs } from '../store/selectors';
@@ -49,6 +50,7 @@ export class VariationMaker {
     if (!inputs) return;
     const { variations } = this.#store.getState();
     const goesOn = variations && !allVariationsMade(variations);
+    apply(this.#store, firstVisitEnded());
     apply(this.#store, goesOn ? variationsResumed() : variationsStarted(inputs));
     void this.#run();
   };

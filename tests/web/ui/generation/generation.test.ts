@@ -49,6 +49,22 @@ describe('generation', () => {
     expect(store.getState().job).toBeNull();
   });
 
+  it('ends the first visit when another dance to the same files is asked for', async () => {
+    await begin();
+    model.calls[0]?.answer(result());
+    await settled();
+    // As when the demo's song is there a moment before its reaction.
+    change.apply(store, change.songLoaded(song(2)));
+    await settled();
+    expect(model.calls).toHaveLength(2);
+    expect(store.getState().firstVisit).toBe(true);
+    model.calls[1]?.answer(result());
+    await settled();
+    change.apply(store, change.seedSet(8));
+    await settled();
+    expect(store.getState().firstVisit).toBe(false);
+  });
+
   it('waits for a song that is being read and then uses it', async () => {
     change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0 }));
     await begin();

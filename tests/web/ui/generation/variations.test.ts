@@ -49,7 +49,9 @@ describe('three variations', () => {
 
   it('are chosen from the seeds that follow the present one, then made one after the other', async () => {
     await answer(0);
+    expect(store.getState().firstVisit).toBe(true);
     await make();
+    expect(store.getState().firstVisit).toBe(false);
     expect(model.seedCalls[0]?.request).toMatchObject({ seeds: [7, 8, 9, 10, 11, 12], count: 3 });
     model.seedCalls[0]?.options.onProgress?.(0.5);
     const [half] = list().map(({ fraction }) => fraction);
