@@ -8,10 +8,17 @@ test.beforeEach(async ({ page }) => {
   await page.goto('/');
 });
 
-test('a whole sampling agrees with Python, on WebGPU and nothing else', async ({ page }) => {
+test('a whole sampling agrees with Python, on WebGPU and nothing else, without a word in the console', async ({
+  page,
+}) => {
+  const said: string[] = [];
+  page.on('console', (message) => {
+    if (!message.text().startsWith('Failed to load resource')) said.push(message.text());
+  });
   const { error, submissions } = await page.evaluate(() => model.golden('tiny/', 'webgpu'));
   expect(error).toBeLessThan(1e-4);
   expect(submissions).toBeGreaterThan(0);
+  expect(said).toEqual([]);
 });
 
 test('numbers that differ from the reference move the work to the processor, with the reason', async ({

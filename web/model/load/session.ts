@@ -47,6 +47,8 @@ async function open(
     // Exactly one: with two, onnxruntime would fall back to the second without a notice.
     executionProviders: [provider],
     graphOptimizationLevel: 'all',
+    // Errors only: shape arithmetic stays on the processor, of which a graph on WebGPU would warn.
+    logSeverityLevel: 3,
     // Latents stay on the graphics card from step to step; reading them in between would wait for it each time.
     ...(provider === 'webgpu' && name === 'step' && { preferredOutputLocation: 'gpu-buffer' as const }),
   });
