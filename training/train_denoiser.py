@@ -5,9 +5,7 @@ python -m training.train_denoiser --data my-duets --val duo_3 --test duo_5 --out
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 import torch
@@ -15,61 +13,34 @@ from torch import Tensor, nn
 
 from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
 from training.command_line import run_program
-from training.config import (
-    STRIDE,
-    DenoiserConfig,
-    DenoiserLossConfig,
-    DiffusionConfig,
-    FrameConfig,
-)
-from training.data.duet import Duet
-from training.data.music_pairing import MusicBank, build_music_bank, variants
-from training.data.npz import read_solo
-from training.data.splits import Split
-from training.denoiser.clips import (
-    Clip,
-    augmented_clips,
-    feature_values,
-    solo_pair_clips,
-)
+from training.config import DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.denoiser.clips import Clip, feature_values
 from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import decoded_windows, motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
-from training.diffusion.react import Request, at_height, react
+from training.diffusion.react import at_height
 from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
-from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import Run, WindowOptions, launch, read_duets_to_train
+from training.loop import Run, launch, read_duets_to_train
 from training.motion.skeleton import body_height
+from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
 
 UNFAMILIAR_RATIO = 1.15
 """How much farther from the mean of training than any leader of training an unfamiliar leader is."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Options(WindowOptions):
-    """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq); solo: dances
-    of which pairs are made (see training/data/solo_pairs.py).
-    """
+class Options(ClipOptions):
+    """out: with stage 1's checkpoint in it; init: of a denoiser for the same latents (see train_hfsq)."""
 
-    songs: Path | None = None
-    """Folder of songs to pair with duets that have none; without it the synthesiser plays alone."""
-    solo_copies: int = 1
-    """Pairs of every solo dance and of its mirror image."""
-    pieces: int = 2
-    """Songs per duet and tempo."""
     denoiser: DenoiserConfig = field(default_factory=DenoiserConfig)
     diffusion: DiffusionConfig = field(default_factory=DiffusionConfig)
     loss: DenoiserLossConfig = field(default_factory=DenoiserLossConfig)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.solo is None and self.solo_copies != 1:
-            raise ValueError("--solo-copies is of the dances of --solo, which was not given")
-        if self.songs is None and self.pieces != Options.pieces:
-            raise ValueError("--pieces is the number of songs from --songs, which was not given")
         if len(self.loss.layers) != len(self.denoiser.depths):
             raise ValueError(
                 f"{len(self.denoiser.depths)} residual layers (--denoiser.depths) need as many --loss.layers, "
@@ -92,15 +63,16 @@ def main(options: Options) -> None:
     hfsq, frame = load_hfsq(options.out)
     duets = read_duets_to_train(options)
     bank = music_of(options, duets)
-    clips = duet_clips(options, duets, bank, hfsq, frame)
+    condition = options.denoiser.condition
+    clips = duet_clips(options, condition, duets, bank, hfsq, frame)
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = initial_denoiser(options, hfsq, clips)
-    clips += solo_clips(options, hfsq, frame)
+    clips += solo_clips(options, condition, hfsq, frame)
     torch.manual_seed(options.seed + 1 + fabric.global_rank)
     windows = Windows(
         clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,
-        options.denoiser.condition, options.seed * 1000 + fabric.global_rank,
+        condition, options.seed * 1000 + fabric.global_rank,
     )  # fmt: skip
     optimizer = torch.optim.AdamW(
         denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
@@ -128,28 +100,6 @@ def main(options: Options) -> None:
     if fabric.is_global_zero:
         finish()
     fabric.barrier()
-
-
-def music_of(options: Options, duets: Split) -> MusicBank:
-    """Music features for every duet at every tempo: its own song, songs that fit, synthesised pieces."""
-    wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
-    return build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
-
-
-def duet_clips(
-    options: Options, duets: Split, bank: MusicBank, hfsq: Autoencoder, frame: FrameConfig
-) -> list[Clip]:
-    """The training duets, augmented and encoded."""
-    condition = options.denoiser.condition
-    return augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, condition, options.seed)
-
-
-def solo_clips(options: Options, hfsq: Autoencoder, frame: FrameConfig) -> list[Clip]:
-    """Pairs made from solo dances, encoded; none without an archive of solos."""
-    if options.solo is None:
-        return []
-    solos, condition = read_solo(options.solo, options.solo_prefixes), options.denoiser.condition
-    return solo_pair_clips(solos, options.solo_copies, hfsq, frame, condition, options.seed)
 
 
 def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> Denoiser:
@@ -223,18 +173,6 @@ class Stage2(nn.Module):
             total = total + torch.stack(list(terms.values())).sum()
             parts |= {name: value.detach() for name, value in terms.items()}
         return total, parts
-
-
-def validate(model: Model, bank: MusicBank, duets: Sequence[Duet], seeds: int = 2) -> dict[str, float]:
-    """Mean quick report over the validation duets and seeds, default steps and guidance."""
-    rows = []
-    for duet in duets:
-        frames = len(duet) // STRIDE * STRIDE
-        music = next(iter(bank[duet.name].values()))
-        for seed in range(seeds):
-            made = react(model, Request(duet.leader[:frames], music[:frames], seed))
-            rows.append(quick_report(duet.leader[:frames], duet.reactor[:frames], made))
-    return {f"val/{k}": value for k, value in mean_report(rows).items()}
 
 
 if __name__ == "__main__":

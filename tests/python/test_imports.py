@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = {"training.train_hfsq", "training.train_denoiser", "training.generate"}
+PROGRAMS = {"training.train_hfsq", "training.train_denoiser", "training.distill", "training.generate"}
 # What each folder of training/ may import beside itself, `training.config` and `training.command_line`.
 ALLOWED = {
     "motion": set(),

@@ -138,7 +138,7 @@ def test_pairs_made_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp
         return solo_pair_clips(solos, copies, *rest)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(train_denoiser, "solo_pair_clips", watch)
+        patch.setattr("training.stage2.solo_pair_clips", watch)
         train_denoiser.main(
             stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
         )

@@ -1,0 +1,157 @@
+"""Distillation: what the student is asked and should answer, and the program for a few steps on made duets."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from export.tiny import tiny_model
+from tests.python.support.duets import made_duet
+from tests.python.support.small_training import stage1, stage2, write_duets
+from training import distill, train_denoiser, train_hfsq
+from training.checkpoint import load_model
+from training.config import STRIDE
+from training.denoiser.clips import Augmentation, make_clip
+from training.denoiser.windows import Batch, Windows
+from training.diffusion.model import Model
+from training.diffusion.sampler import sample_branches
+from training.diffusion.schedule import ddim_steps
+from training.distill import Distillation, Options, student_diffusion
+
+
+@pytest.fixture(scope="module")
+def tiny() -> Model:
+    return tiny_model()
+
+
+@pytest.fixture(scope="module")
+def batch(tiny: Model) -> Batch:
+    """Whole windows and short ones."""
+    config = replace(tiny.denoiser.config.condition, leader_shift=0, blurred=0.0, drop_music=0.0)
+    song = np.random.default_rng(0).normal(size=(300, 54)).astype(np.float32)
+    clip = make_clip(made_duet(300, 3), [song], 0.0, tiny.hfsq, tiny.frame, blur=6.0)
+    block, margin = tiny.denoiser.config.block, tiny.denoiser.condition.receptive_field
+    return Windows([clip], block, margin, STRIDE, config, seed=0).batch(4, short=0.5, song_ends=0.5)
+
+
+def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None:
+    stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion, tiny.diffusion)
+    memory, keep = stage._branches(batch)
+    n = len(batch.latents)
+    noise = torch.randn(batch.latents.shape, generator=torch.Generator().manual_seed(1))
+    with torch.no_grad():
+        made = stage._sample_teacher(noise.repeat(3, 1, 1, 1), memory, batch.valid.repeat(3, 1), keep)
+    whole = [i for i in range(n) if batch.valid[i].min() > 0]
+    assert whole, "a window of a whole block is a dance of one block"
+    steps = ddim_steps(tiny.sampling.alpha_bar, tiny.diffusion.steps, tiny.diffusion.last_time)
+    for i in whole:
+        branches = sample_branches(tiny, memory[i], memory[n + i], noise[i], steps, torch.zeros(()))
+        names = ("conditional", "silent", "unconditional")
+        for at, name in zip((i, n + i, 2 * n + i), names, strict=True):
+            # Both are clamped before they are decoded.
+            wanted = torch.minimum(
+                torch.maximum(getattr(branches, name), tiny.denoiser.lowest), tiny.denoiser.highest
+            )
+            torch.testing.assert_close(made[at], wanted, rtol=0, atol=1e-5)
+
+
+def test_a_student_that_samples_as_the_teacher_does_has_no_loss_and_another_has(
+    tiny: Model, batch: Batch
+) -> None:
+    # Without extrapolation the teacher itself is such a student, if nothing is dropped out.
+    plain = student_diffusion(tiny.diffusion, tiny.diffusion.steps, tiny.diffusion.last_time)
+    student = copy.deepcopy(tiny.denoiser).train()
+    assert student.config.dropout > 0
+    loss, parts = Distillation(student, tiny.denoiser, plain, plain)(batch)
+    assert set(parts) == {"latents", "speed", "music", "conditions", "earlier"}
+    for name in ("latents", "speed", "music", "conditions"):
+        assert float(parts[name]) < 1e-9, name
+    assert float(loss) == pytest.approx(float(parts["earlier"]))
+    fewer = student_diffusion(tiny.diffusion, 2, 0.5)
+    _, parts = Distillation(student, tiny.denoiser, plain, fewer)(batch)
+    assert all(float(value) > 1e-6 for value in parts.values()), parts
+
+
+def test_frames_that_no_dance_fills_do_not_count(tiny: Model, batch: Batch) -> None:
+    fewer = student_diffusion(tiny.diffusion, 2, 0.5)
+    stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion, fewer)
+    mean = distill.WeightedSquares(batch.valid, 2)
+    error = torch.ones_like(batch.latents)
+    error[batch.valid == 0] = 1e6
+    # Of both layers, the finer at half weight: a mean.
+    assert float(mean(error)) == pytest.approx(1.0)
+    assert float(mean(error.diff(dim=1))) == 0.0
+    loss, _ = stage(batch)
+    assert loss.isfinite()
+
+
+def test_the_loss_falls_and_the_condition_stays(tiny: Model, batch: Batch) -> None:
+    student = copy.deepcopy(tiny.denoiser).requires_grad_(True)
+    student.condition.requires_grad_(False)
+    before = {key: value.clone() for key, value in student.condition.state_dict().items()}
+    stage = Distillation(student, tiny.denoiser, tiny.diffusion, student_diffusion(tiny.diffusion, 2, 0.5))
+    optimizer = torch.optim.AdamW([p for p in student.parameters() if p.requires_grad], lr=1e-3)
+    losses = []
+    for _ in range(40):
+        torch.manual_seed(5)  # the same noise, so that the losses compare
+        loss, _ = stage(batch)
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+        losses.append(float(loss))
+    assert losses[-1] < 0.7 * losses[0]
+    for key, value in student.condition.state_dict().items():
+        assert torch.equal(value, before[key]), key
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Duets and a checkpoint of both stages."""
+    folder = tmp_path_factory.mktemp("teacher")
+    data = write_duets(folder)
+    train_hfsq.main(stage1(data, folder))
+    train_denoiser.main(stage2(data, folder))
+    return data, folder
+
+
+def options(data: Path, teacher: Path, out: Path, **changes: object) -> Options:
+    base = Options(
+        data=data, out=out, teacher=teacher, val=("made_1",), test=("made_2",), steps=2, batch=4, synths=1,
+        passes=1, log_every=1, evaluate_every=2, augmentation=Augmentation(tempos=(1.0,), copies=1),
+        precision="32-true",
+    )  # fmt: skip
+    return replace(base, **changes)
+
+
+def test_the_program_leaves_a_checkpoint_that_samples_in_fewer_passes_and_goes_on(
+    trained: tuple[Path, Path], tmp_path: Path
+) -> None:
+    data, teacher = trained
+    distill.main(options(data, teacher, tmp_path))
+    distill.main(options(data, teacher, tmp_path, steps=4, resume=True))
+    steps = [
+        line for line in (tmp_path / "distill" / "log.jsonl").read_text().splitlines() if "latents" in line
+    ]
+    assert len(steps) == 4
+    student, taught = load_model(tmp_path), load_model(teacher)
+    assert (student.sampling.steps, student.sampling.last_time) == (1, 0.5)
+    assert (student.diffusion.max_steps, set(student.sampling.extrapolation)) == (1, {0.0})
+    assert student.sampling.reference_height == taught.sampling.reference_height
+    for key, value in taught.denoiser.condition.state_dict().items():
+        torch.testing.assert_close(student.denoiser.condition.state_dict()[key], value, rtol=0, atol=0)
+    assert any(
+        not torch.equal(value, taught.denoiser.state_dict()[key])
+        for key, value in student.denoiser.state_dict().items()
+    )
+
+
+def test_options_that_would_be_ignored_or_overwrite_the_teacher_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="leave --init out"):
+        options(tmp_path, tmp_path, tmp_path / "out", init=tmp_path)
+    with pytest.raises(ValueError, match="would be overwritten"):
+        options(tmp_path, tmp_path, tmp_path)

@@ -1,0 +1,213 @@
+"""Distils stage 2 into a student that samples in fewer passes: it learns what the teacher's whole sampling gives, from
+the same noise (Luhman and Luhman 2021, Knowledge distillation in iterative generative models).
+
+python -m training.distill --teacher runs/mine --data my-duets --val duo_3 --test duo_5 --out runs/student
+
+The student is the teacher's network and begins with its weights; the condition encoder stays as it is. Every batch is
+sampled by the teacher anew, so that none is learnt by heart.
+"""
+
+from __future__ import annotations
+
+import copy
+import shutil
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import torch
+from torch import Tensor, nn
+
+from training.checkpoint import load_model, save_denoiser
+from training.command_line import run_program
+from training.config import DiffusionConfig
+from training.denoiser.denoiser import Denoiser
+from training.denoiser.windows import Batch, Windows
+from training.diffusion.guidance import clamp_to_range
+from training.diffusion.model import Model
+from training.diffusion.sampler import advance
+from training.diffusion.schedule import Step, alphas_cumprod, ddim_steps
+from training.loop import Run, launch, read_duets_to_train
+from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
+
+LAYER_WEIGHTS = (1.0, 0.5)
+"""Of the squared errors of the coarse layer, and of every finer one."""
+EARLIER_PASSES = 0.5
+"""Weight of the predictions before the last one, which already aim at the result."""
+MUSIC_WEIGHT = 8.0
+"""Of the error in what the song changes, which the weight of the music multiplies (see `blend`)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options(ClipOptions):
+    """out: the student's checkpoint, with the teacher's stage 1 and card."""
+
+    teacher: Path
+    """Checkpoint of the denoiser whose sampling is learnt, with its stage 1."""
+    passes: int = 2
+    """Steps that the student samples in."""
+    last_time: float = 0.5
+    """Time of the student's last pass, a share of the training timesteps."""
+    learning_rate: float = 3e-4
+    weight_decay: float = 0.0
+    batch: int = 8
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.init is not None:
+            raise ValueError("a student begins with the weights of --teacher, leave --init out")
+        if self.out.resolve() == self.teacher.resolve():
+            raise ValueError("--out is the folder of --teacher, whose denoiser would be overwritten")
+
+
+def main(options: Options) -> None:
+    fabric = launch(options)
+    fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
+    teacher = load_model(options.teacher)
+    diffusion = student_diffusion(teacher.diffusion, options.passes, options.last_time)
+    duets = read_duets_to_train(options)
+    bank = music_of(options, duets)
+    network = teacher.denoiser
+    condition = network.config.condition
+    clips = duet_clips(options, condition, duets, bank, teacher.hfsq, teacher.frame)
+    clips += solo_clips(options, condition, teacher.hfsq, teacher.frame)
+    windows = Windows(
+        clips, network.config.block, network.condition.receptive_field, options.stride, condition,
+        options.seed * 1000 + fabric.global_rank,
+    )  # fmt: skip
+    student = copy.deepcopy(network).requires_grad_(True)
+    student.condition.requires_grad_(False)
+    optimizer = torch.optim.AdamW(
+        [parameter for parameter in student.parameters() if parameter.requires_grad],
+        lr=options.learning_rate,
+        weight_decay=options.weight_decay,
+    )
+    stage = Distillation(student, network, teacher.diffusion, diffusion)
+    run = Run(fabric, stage, student, optimizer, options, options.out / "distill", warmup=50)
+
+    def finish() -> None:
+        """Measure and save the averaged student."""
+        with run.averaged() as averaged:
+            model = Model(teacher.hfsq, teacher.frame, averaged, diffusion, teacher.reference_height)
+            report = validate(model, bank, duets.val)
+            run.logger.write(run.schedule, report)
+            run.logger.draw()
+            provenance = run.provenance("training.distill", leave_out=())
+            save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report})
+            for name in ("hfsq.json", "hfsq.safetensors", "card.json"):
+                shutil.copy(options.teacher / name, options.out / name)
+
+    run.train(lambda: windows.batch(options.batch), finish)
+    if fabric.is_global_zero:
+        finish()
+    fabric.barrier()
+
+
+def student_diffusion(teacher: DiffusionConfig, passes: int, last_time: float) -> DiffusionConfig:
+    """How a student of a teacher's sampling is sampled: nothing is extrapolated, what that gave has been learnt, and
+    in no more passes, whose times it has not seen.
+    """
+    none = tuple(0.0 for _ in teacher.extrapolation)
+    return replace(teacher, steps=passes, max_steps=passes, last_time=last_time, extrapolation=none)
+
+
+class Distillation(nn.Module):
+    """The student's errors against what the teacher samples, for the three branches that guidance blends."""
+
+    extrapolation: Tensor
+
+    def __init__(
+        self,
+        student: Denoiser,
+        teacher: Denoiser,
+        teachers: DiffusionConfig,
+        students: DiffusionConfig,
+    ) -> None:
+        """teachers and students: how each is sampled."""
+        super().__init__()
+        self.student = student
+        self.teacher = copy.deepcopy(teacher).requires_grad_(False)
+        self.teacher_steps, self.student_steps = (
+            ddim_steps(alphas_cumprod(diffusion), diffusion.steps, diffusion.last_time)
+            for diffusion in (teachers, students)
+        )
+        self.register_buffer("extrapolation", torch.tensor(teachers.extrapolation), persistent=False)
+
+    def forward(self, batch: Batch) -> tuple[Tensor, dict[str, Tensor]]:
+        # Dropout would be another network than the one that is sampled.
+        self.student.eval()
+        self.teacher.eval()
+        n = len(batch.latents)
+        memory, keep = self._branches(batch)
+        valid = batch.valid.repeat(3, 1)
+        noise = torch.randn_like(batch.latents).repeat(3, 1, 1, 1)
+        with torch.no_grad():
+            wanted = self._sample_teacher(noise, memory, valid, keep)
+        x, errors = noise, []
+        for step in self.student_steps:
+            x0 = predict(self.student, x, memory, valid, keep, step)
+            errors.append(x0 - wanted)
+            x = (step.a * x + step.b * x0).detach()
+        error = errors[-1]
+        with_song, silent, unconditional = error.split(n)
+        mean = WeightedSquares(valid, error.shape[2])
+        parts = {
+            "latents": mean(error),
+            "speed": mean(error.diff(dim=1)),
+            "music": MUSIC_WEIGHT * mean(with_song - silent),
+            "conditions": mean(silent - unconditional),
+        }
+        if len(errors) > 1:
+            parts["earlier"] = EARLIER_PASSES * torch.stack([mean(each) for each in errors[:-1]]).sum()
+        return torch.stack(list(parts.values())).sum(), {k: v.detach() for k, v in parts.items()}
+
+    @torch.no_grad()
+    def _branches(self, batch: Batch) -> tuple[Tensor, Tensor]:
+        """Memory (3 N, block, 2 D) and keep (3 N,) with leader and song, with the leader alone, and with neither."""
+        block = batch.valid.shape[1]
+
+        def memory(music: Tensor, music_valid: Tensor) -> Tensor:
+            whole = self.teacher.condition(batch.features, music, music_valid, batch.role, batch.inside)
+            margin = (whole.shape[1] - block) // 2
+            return whole[:, margin : margin + block]
+
+        with_song = memory(batch.music, batch.music_valid)
+        silent = memory(torch.zeros_like(batch.music), torch.zeros_like(batch.music_valid))
+        ones = torch.ones(len(batch.role), device=batch.role.device)
+        return torch.cat([with_song, silent, silent]), torch.cat([ones, ones, ones * 0])
+
+    def _sample_teacher(self, noise: Tensor, memory: Tensor, valid: Tensor, keep: Tensor) -> Tensor:
+        """Latents (N, block, R, C) as `sample` gives them for single blocks, clamped as they are decoded."""
+        x, before = noise, noise
+        for k, step in enumerate(self.teacher_steps):
+            x0 = predict(self.teacher, x, memory, valid, keep, step)
+            last = 0 < k == len(self.teacher_steps) - 1
+            c = self.extrapolation if last else torch.zeros_like(self.extrapolation)
+            x, before = advance(x, x0, before, step.a, step.b, c), x0
+        return clamp_to_range(self.teacher, x)
+
+
+def predict(network: Denoiser, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, step: Step) -> Tensor:
+    """x0 (N, block, R, C), clamped, of x with leader and song kept (N,) or not."""
+    every = keep[:, None].expand(-1, network.layers)
+    time = torch.full((len(x),), step.time, device=x.device)
+    return clamp_to_range(network, network(x, time, memory, valid, every, every).float())
+
+
+class WeightedSquares:
+    """Mean squares of (N, L, R, C) over valid latent frames, the finer layers weighted less."""
+
+    def __init__(self, valid: Tensor, layers: int) -> None:
+        """valid: (M, block), the first N rows of which count for N latents."""
+        coarse, fine = LAYER_WEIGHTS
+        by_layer = torch.tensor([coarse, *[fine] * (layers - 1)], device=valid.device)
+        self.weights = valid[:, :, None, None] * by_layer[:, None]
+
+    def __call__(self, error: Tensor) -> Tensor:
+        # A difference over time counts where both frames are valid.
+        weights = self.weights[: len(error)]
+        weights = weights if error.shape[1] == weights.shape[1] else weights[:, 1:] * weights[:, :-1].sign()
+        return (error.square() * weights).sum() / (weights.sum().clamp(min=1) * error.shape[-1])
+
+
+if __name__ == "__main__":
+    run_program(main, Options)
