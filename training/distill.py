@@ -24,7 +24,7 @@ from training.denoiser.denoiser import Denoiser
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.guidance import clamp_to_range
 from training.diffusion.model import Model
-from training.diffusion.sampler import advance
+from training.diffusion.sampler import extrapolated_ddim
 from training.diffusion.schedule import Step, alphas_cumprod, ddim_steps
 from training.loop import Run, launch, read_duets_to_train
 from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
@@ -122,10 +122,10 @@ class Distillation(nn.Module):
         teachers: DiffusionConfig,
         students: DiffusionConfig,
     ) -> None:
-        """teachers and students: how each is sampled."""
+        """teacher: frozen; teachers and students: how each is sampled."""
         super().__init__()
         self.student = student
-        self.teacher = copy.deepcopy(teacher).requires_grad_(False)
+        self.teacher = teacher
         self.teacher_steps, self.student_steps = (
             ddim_steps(alphas_cumprod(diffusion), diffusion.steps, diffusion.last_time)
             for diffusion in (teachers, students)
@@ -177,13 +177,15 @@ class Distillation(nn.Module):
 
     def _sample_teacher(self, noise: Tensor, memory: Tensor, valid: Tensor, keep: Tensor) -> Tensor:
         """Latents (N, block, R, C) as `sample` gives them for single blocks, clamped as they are decoded."""
-        x, before = noise, noise
-        for k, step in enumerate(self.teacher_steps):
-            x0 = predict(self.teacher, x, memory, valid, keep, step)
-            last = 0 < k == len(self.teacher_steps) - 1
-            c = self.extrapolation if last else torch.zeros_like(self.extrapolation)
-            x, before = advance(x, x0, before, step.a, step.b, c), x0
-        return clamp_to_range(self.teacher, x)
+        return clamp_to_range(
+            self.teacher,
+            extrapolated_ddim(
+                lambda x, step: predict(self.teacher, x, memory, valid, keep, step),
+                noise,
+                self.teacher_steps,
+                self.extrapolation,
+            ),
+        )
 
 
 def predict(network: Denoiser, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, step: Step) -> Tensor:

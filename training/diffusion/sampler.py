@@ -37,11 +37,21 @@ def sample(
     blocks = overlapping(frames, size) if sampling.stitching else partition(frames, size)
     memory_blocks = gather(memory, blocks, size)
     valid = gather(torch.ones(frames), blocks, size)
-    extrapolation = torch.tensor(sampling.extrapolation)
+
+    def predict_all(x: Tensor, step: Step) -> Tensor:
+        time = torch.tensor([step.time], dtype=torch.float32)
+        return scatter(predict(gather(x, blocks, size), memory_blocks, valid, time), blocks, frames)
+
+    return extrapolated_ddim(predict_all, initial, steps, torch.tensor(sampling.extrapolation))
+
+
+def extrapolated_ddim(
+    predict: Callable[[Tensor, Step], Tensor], initial: Tensor, steps: Sequence[Step], extrapolation: Tensor
+) -> Tensor:
+    """What all steps make of noise (..., R, C); the last prediction is extrapolated by (S,), see `advance`."""
     x, before = initial, initial
     for k, step in enumerate(steps):
-        time = torch.tensor([step.time], dtype=torch.float32)
-        x0 = scatter(predict(gather(x, blocks, size), memory_blocks, valid, time), blocks, frames)
+        x0 = predict(x, step)
         last = 0 < k == len(steps) - 1
         c = extrapolation if last else torch.zeros_like(extrapolation)
         x, before = advance(x, x0, before, step.a, step.b, c), x0
