@@ -44,7 +44,6 @@ class Options:
     model: Path
     out: Path
     frames: int = 2066
-    steps: int = 3
     threads: int = 2
     repeats: int = 5
 
@@ -86,7 +85,7 @@ def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Op
     watch, sampling, device = Stopwatch(), model.sampling, torch.get_default_device()
     padded = torch.from_numpy(pad_to_stride(leader)).to(device)
     features, valid = music_of_length(music, len(padded))
-    steps, role = ddim_steps(sampling.alpha_bar, options.steps, sampling.last_time), torch.zeros(1)
+    steps, role = ddim_steps(sampling.alpha_bar, sampling.steps, sampling.last_time), torch.zeros(1)
     gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
     initial = initial_noise(sampling, SEED, len(padded) // STRIDE).to(device)
     silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)

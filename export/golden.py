@@ -22,7 +22,6 @@ class Scene:
     """What is sampled: a made leader and made music, so that the tensors are the project's own."""
 
     frames: int
-    steps: int
     seed: int = 7
     silent_from: int | None = None  # motion frame after which there is no song
 
@@ -59,7 +58,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         model.condition(leader, tensors["music"], heard, role) for heard in (valid, torch.zeros_like(valid))
     )
     initial = initial_noise(sampling, scene.seed, len(memory))
-    steps = ddim_steps(sampling.alpha_bar, scene.steps, sampling.last_time)
+    steps = ddim_steps(sampling.alpha_bar, sampling.steps, sampling.last_time)
     branches = sample_branches(model, memory, silent, initial, steps, sample_mean(model, memory, steps))
     latents = blend(
         branches,
@@ -72,7 +71,6 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)
     return given | {
         "seed": np.array([scene.seed], dtype=np.float32),
-        "steps": np.array([scene.steps], dtype=np.float32),
         "memory": memory.numpy(),
         "silent": silent.numpy(),
         "unfamiliarity": model.unfamiliarity(leader).numpy(),

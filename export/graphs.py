@@ -9,7 +9,6 @@ from __future__ import annotations
 from torch import Tensor, nn
 
 from training.diffusion.model import Model
-from training.diffusion.sampler import advance
 
 
 class Condition(nn.Module):
@@ -28,10 +27,8 @@ class Condition(nn.Module):
 
 
 class Step(nn.Module):
-    """One sampling step over B blocks: `ReactionModel.predict`, then `advance` with a (1), b (1) and extrapolation (S).
-
-    Returns the next noisy latents and the prediction x0, (B, block, R, C), which a graphics card keeps for the next
-    step.
+    """One DDIM step over B blocks (Song et al. 2021, Eq. 12): the next noisy latents a x + b x0, (B, block, R, C), of
+    x and of x0 from `ReactionModel.predict`; a (1) and b (1) as in `Step` of training/diffusion/schedule.py.
     """
 
     def __init__(self, model: Model) -> None:
@@ -42,17 +39,14 @@ class Step(nn.Module):
     def forward(
         self,
         x: Tensor,
-        before: Tensor,
         memory: Tensor,
         valid: Tensor,
         keep: Tensor,
         time: Tensor,
         a: Tensor,
         b: Tensor,
-        extrapolation: Tensor,
-    ) -> tuple[Tensor, Tensor]:
-        x0 = self.model.predict(x, memory, valid, keep, time)
-        return advance(x, x0, before, a, b, extrapolation), x0
+    ) -> Tensor:
+        return a * x + b * self.model.predict(x, memory, valid, keep, time)
 
 
 class Decode(nn.Module):

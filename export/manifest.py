@@ -16,7 +16,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 4
+FORMAT, VERSION = "reactdance-model", 5
 LAYER_NAMES = ("coarse", "fine")
 
 
@@ -109,8 +109,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "prediction": "x0",
             "clamp": "quantiser range",
             "last_time": diffusion.last_time,
-            "extrapolation": list(diffusion.extrapolation),
-            "steps": {"default": diffusion.steps, "min": 1, "max": diffusion.max_steps},
+            "steps": diffusion.steps,
         },
         "guidance": {
             "convention": {

@@ -57,16 +57,14 @@ def graphs(model: Model) -> list[Graph]:
             Step(model),
             {
                 "x": state,
-                "before": state,
                 "memory": ("blocks", block, memory),
                 "valid": ("blocks", block),
                 "keep": (1,),
                 "time": (1,),
                 "a": (1,),
                 "b": (1,),
-                "extrapolation": (len(STREAMS),),
             },
-            {"next": state, "x0": state},
+            {"next": state},
             int8=True,
         ),
         Graph(

@@ -34,9 +34,9 @@ class Exported:
             channels=latent["channels"],
             alpha_bar=np.array(diffusion["alphas_cumprod"]),
             last_time=diffusion["last_time"],
-            extrapolation=tuple(diffusion["extrapolation"]),
+            extrapolation=(0.0,) * len(latent["streams"]),
             stitching=False,
-            steps=diffusion["steps"]["default"],
+            steps=diffusion["steps"],
             guidance=(guidance["coarse"]["default"], guidance["fine"]["default"]),
             music_guidance=guidance["music"]["default"],
             variety=guidance["variety"]["default"],
@@ -52,10 +52,8 @@ class Exported:
         return self._condition(leader, silence, silence[:, 0], torch.zeros(1))[1]
 
     def predict(self, x: Tensor, memory: Tensor, valid: Tensor, keep: Tensor, time: Tensor) -> Tensor:
-        one, zero = torch.ones(1), torch.zeros(1)
-        none = torch.zeros(len(self.manifest["latent"]["streams"]))
-        step = {"a": zero, "b": one, "extrapolation": none}
-        return self._run("step", x=x, before=x, memory=memory, valid=valid, keep=keep, time=time, **step)[1]
+        step = {"a": torch.zeros(1), "b": torch.ones(1)}  # to the prediction itself
+        return self._run("step", x=x, memory=memory, valid=valid, keep=keep, time=time, **step)[0]
 
     def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
         reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)

@@ -20,7 +20,7 @@ from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
 
 # Two full blocks and a half: 600 frames.
-SCENE = Scene(frames=600, steps=4, silent_from=420)
+SCENE = Scene(frames=600, silent_from=420)
 CARD = Card(
     id="tiny",
     name="Tiny random model",
@@ -59,7 +59,6 @@ def tiny_model(seed: int = 0) -> Model:
     diffusion = DiffusionConfig(
         steps=4,
         last_time=0.25,
-        extrapolation=(0.5, 0.25, 0.0),
         music_guidance=1.0,
         foot_contact=0.5,
     )

@@ -33,12 +33,17 @@ class Options:
 def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     """Graphs, golden tensors and manifest of the model with rounded convolutions into `folder`.
 
-    Raises ValueError for a model that is sampled with stitching, which the page does not have.
+    Raises ValueError for a model that is sampled with stitching or extrapolation, which the page does not have.
     """
     if model.diffusion.stitching:
         raise ValueError(
             "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without "
             "overlap (docs/paper.md says why)"
+        )
+    if any(model.diffusion.extrapolation):
+        raise ValueError(
+            "a model with diffusion.extrapolation cannot be exported: the page does not extrapolate predictions; "
+            "export its student (training.distill)"
         )
     folder.mkdir(parents=True, exist_ok=True)
     model = round_convolutions(model)
@@ -51,7 +56,7 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
 def main(options: Options) -> None:
     model = load_model(options.checkpoint)
     card = Card(**read_card(options.checkpoint))
-    write_model(model, card, options.out, Scene(frames=480, steps=4, silent_from=400))
+    write_model(model, card, options.out, Scene(frames=480, silent_from=400))
     results = verify(model, options.out, BLOCKS).values()
     worst = {name: max(row[name] for row in results) for name in ("reactor", "int8", "rounding")}
     size = sum(path.stat().st_size for path in options.out.glob("*.onnx")) / 1e6

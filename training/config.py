@@ -136,15 +136,10 @@ class DiffusionConfig:
     train_steps: int = 1000
     schedule: Literal["cosine"] = "cosine"
     steps: int = 10
-    max_steps: int = 50
     last_time: float = 0.1  # share of train_steps at which the last step predicts
-    extrapolation: tuple[float, float, float] = (
-        0.0,
-        0.0,
-        0.0,
-    )  # of each stream's last two predictions, see `sample`
-    # Windows overlap by half and cross-fade; in Python alone, such a model is not exported.
-    stitching: bool = False
+    # In Python alone: a model with one of these two is not exported.
+    extrapolation: tuple[float, float, float] = (0.0, 0.0, 0.0)  # of each stream, see `extrapolated_ddim`
+    stitching: bool = False  # windows overlap by half and cross-fade
     guidance: tuple[float, float] = (0.0, 0.0)  # default of coarse and fine, Eq. 9's s
     music_guidance: float = 0.0  # default guidance weight m of the music, see `blend`
     variety: float = 1.0  # default distance v from the mean of several seeds, see `blend`
@@ -152,7 +147,7 @@ class DiffusionConfig:
     foot_contact: float = 0.0  # m/s, strength of the foot-contact correction of the root
 
     def __post_init__(self) -> None:
-        check_limits(self, max_steps=(1, self.train_steps), mean_seeds=(1, 64), foot_contact=(0, math.inf))
+        check_limits(self, steps=(1, self.train_steps), mean_seeds=(1, 64), foot_contact=(0, math.inf))
         check_limits(self, extrapolation=(-10, 10))
 
 

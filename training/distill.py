@@ -17,7 +17,7 @@ from pathlib import Path
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import load_model, save_denoiser
+from training.checkpoint import load_model, read_config, save_denoiser
 from training.command_line import run_program
 from training.config import DiffusionConfig
 from training.denoiser.denoiser import Denoiser
@@ -33,7 +33,7 @@ LAYER_WEIGHTS = (1.0, 0.5)
 """Of the squared errors of the coarse layer, and of every finer one."""
 EARLIER_PASSES = 0.5
 """Weight of the predictions before the last one, which already aim at the result."""
-MUSIC_WEIGHT = 8.0
+MUSIC_WEIGHT = 12.0
 """Of the error in what the song changes, which the weight of the music multiplies (see `blend`)."""
 
 
@@ -82,6 +82,7 @@ def main(options: Options) -> None:
         weight_decay=options.weight_decay,
     )
     stage = Distillation(student, network, teacher.diffusion, diffusion)
+    before = read_config(options.teacher, "denoiser")["provenance"]
     run = Run(fabric, stage, student, optimizer, options, options.out / "distill", warmup=50)
 
     def finish() -> None:
@@ -92,9 +93,13 @@ def main(options: Options) -> None:
             run.logger.write(run.schedule, report)
             run.logger.draw()
             provenance = run.provenance("training.distill", leave_out=())
-            save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report})
-            for name in ("hfsq.json", "hfsq.safetensors", "card.json"):
+            save_denoiser(
+                options.out, averaged, diffusion, provenance | {"validation": report, "before": before}
+            )
+            for name in ("hfsq.json", "hfsq.safetensors"):
                 shutil.copy(options.teacher / name, options.out / name)
+            if not (options.out / "card.json").exists():  # it may have been filled in before a --resume
+                shutil.copy(options.teacher / "card.json", options.out)
 
     run.train(lambda: windows.batch(options.batch), finish)
     if fabric.is_global_zero:
@@ -103,11 +108,9 @@ def main(options: Options) -> None:
 
 
 def student_diffusion(teacher: DiffusionConfig, passes: int, last_time: float) -> DiffusionConfig:
-    """How a student of a teacher's sampling is sampled: nothing is extrapolated, what that gave has been learnt, and
-    in no more passes, whose times it has not seen.
-    """
+    """How a student of a teacher's sampling is sampled: nothing is extrapolated, what that gave has been learnt."""
     none = tuple(0.0 for _ in teacher.extrapolation)
-    return replace(teacher, steps=passes, max_steps=passes, last_time=last_time, extrapolation=none)
+    return replace(teacher, steps=passes, last_time=last_time, extrapolation=none)
 
 
 class Distillation(nn.Module):

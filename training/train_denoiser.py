@@ -50,9 +50,6 @@ class Options(ClipOptions):
             raise ValueError(
                 f"a batch of {self.batch} windows has no {self.loss.windows} to decode (--loss.windows)"
             )
-        steps, most = self.diffusion.steps, self.diffusion.max_steps
-        if steps > most:
-            raise ValueError(f"--diffusion.steps {steps} is more than --diffusion.max-steps {most}")
         # Sampling would refuse these only after the training.
         ddim_steps(alphas_cumprod(self.diffusion), self.diffusion.steps, self.diffusion.last_time)
 

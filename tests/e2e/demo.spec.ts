@@ -52,7 +52,7 @@ test('a ready-made reaction plays before the model is loaded, and is not generat
 }) => {
   const column = { coarse: 0.5, fine: 0.25 };
   const guidance = { upper: column, lower: column, placement: column };
-  const settings = { guidance, music: 1.5, variety: 1, steps: 3, seed: 77, role: 'reactor' };
+  const settings = { guidance, music: 1.5, variety: 1, seed: 77, role: 'reactor' };
   await serveDemo(page, settings);
   let release: () => void = () => undefined;
   const held = new Promise<void>((resolve) => (release = resolve));

@@ -153,7 +153,7 @@ test.describe('the model', () => {
     // The real model: its steps take seconds, so that the crash comes in the middle of them on any machine.
     await app.openWithoutPicture(SHIPPED);
     await app.settled();
-    await app.chooseLeader(bvh({ frames: 1200, name: 'unlucky.bvh' }));
+    await app.chooseLeader(bvh({ frames: 2400, name: 'unlucky.bvh' }));
     await app.until(({ job }) => job?.stage === 'step');
     const worker = page.workers().find((one) => /worker/.test(one.url()) && !/leader-worker/.test(one.url()));
     await worker?.evaluate('setTimeout(() => { throw new Error("out of luck"); })');

@@ -123,3 +123,14 @@ def test_a_model_with_stitching_trains_and_samples_and_export_says_why_it_is_ref
     with pytest.raises(ValueError, match=r"stitching cannot be exported: the page samples blocks side by"):
         write_model(model, tiny.CARD, tmp_path / "model", tiny.SCENE)
     assert not (tmp_path / "model").exists()
+
+
+def test_a_model_whose_predictions_are_extrapolated_dances_and_export_says_why_it_is_refused(
+    tmp_path: Path,
+) -> None:
+    plain = tiny.tiny_model()
+    model = replace(plain, diffusion=replace(plain.diffusion, extrapolation=(0.5, 0.0, 0.0)))
+    assert_dances(model)
+    with pytest.raises(ValueError, match=r"extrapolation cannot be exported: .*export its student"):
+        write_model(model, tiny.CARD, tmp_path / "model", tiny.SCENE)
+    assert not (tmp_path / "model").exists()

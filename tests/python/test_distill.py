@@ -14,7 +14,7 @@ from export.tiny import tiny_model
 from tests.python.support.duets import made_duet
 from tests.python.support.small_training import stage1, stage2, write_duets
 from training import distill, train_denoiser, train_hfsq
-from training.checkpoint import load_model
+from training.checkpoint import load_model, read_config
 from training.config import STRIDE
 from training.denoiser.clips import Augmentation, make_clip
 from training.denoiser.windows import Batch, Windows
@@ -40,7 +40,8 @@ def batch(tiny: Model) -> Batch:
 
 
 def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None:
-    stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion, tiny.diffusion)
+    teacher = replace(tiny, diffusion=replace(tiny.diffusion, extrapolation=(0.5, 0.25, 0.0)))
+    stage = Distillation(teacher.denoiser, teacher.denoiser, teacher.diffusion, teacher.diffusion)
     memory, keep = stage._branches(batch)
     n = len(batch.latents)
     noise = torch.randn(batch.latents.shape, generator=torch.Generator().manual_seed(1))
@@ -50,7 +51,7 @@ def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None
     assert whole, "a window of a whole block is a dance of one block"
     steps = ddim_steps(tiny.sampling.alpha_bar, tiny.diffusion.steps, tiny.diffusion.last_time)
     for i in whole:
-        branches = sample_branches(tiny, memory[i], memory[n + i], noise[i], steps, torch.zeros(()))
+        branches = sample_branches(teacher, memory[i], memory[n + i], noise[i], steps, torch.zeros(()))
         names = ("conditional", "silent", "unconditional")
         for at, name in zip((i, n + i, 2 * n + i), names, strict=True):
             # Both are clamped before they are decoded.
@@ -63,7 +64,7 @@ def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None
 def test_a_student_that_samples_as_the_teacher_does_has_no_loss_and_another_has(
     tiny: Model, batch: Batch
 ) -> None:
-    # Without extrapolation the teacher itself is such a student, if nothing is dropped out.
+    # Nothing is extrapolated here: the teacher itself is such a student, if nothing is dropped out.
     plain = student_diffusion(tiny.diffusion, tiny.diffusion.steps, tiny.diffusion.last_time)
     student = copy.deepcopy(tiny.denoiser).train()
     assert student.config.dropout > 0
@@ -139,8 +140,10 @@ def test_the_program_leaves_a_checkpoint_that_samples_in_fewer_passes_and_goes_o
     ]
     assert len(steps) == 4
     student, taught = load_model(tmp_path), load_model(teacher)
+    provenance = read_config(tmp_path, "denoiser")["provenance"]
+    assert provenance["before"] == read_config(teacher, "denoiser")["provenance"]
     assert (student.sampling.steps, student.sampling.last_time) == (1, 0.5)
-    assert (student.diffusion.max_steps, set(student.sampling.extrapolation)) == (1, {0.0})
+    assert set(student.sampling.extrapolation) == {0.0}
     assert student.sampling.reference_height == taught.sampling.reference_height
     for key, value in taught.denoiser.condition.state_dict().items():
         torch.testing.assert_close(student.denoiser.condition.state_dict()[key], value, rtol=0, atol=0)

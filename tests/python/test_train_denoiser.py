@@ -199,10 +199,6 @@ def test_motion_counts_by_its_share_of_signal(hfsq: Autoencoder, batch: Batch) -
         ({"batch": 4}, "a batch of 4 windows has no 8 to decode"),
         ({"solo_copies": 2}, "--solo-copies is of the dances of --solo"),
         ({"solo_prefixes": ("indian",)}, "--solo-prefixes chooses among the dances of --solo"),
-        (
-            {"diffusion": DiffusionConfig(steps=60)},
-            "--diffusion.steps 60 is more than --diffusion.max-steps 50",
-        ),
         ({"diffusion": DiffusionConfig(last_time=1.5)}, "the last time has to be between"),
         ({"val": ()}, "name one or more with --val"),
         ({"pieces": 5}, "--pieces is the number of songs from --songs"),
@@ -223,7 +219,7 @@ def test_options_that_are_wrong_or_would_be_ignored_are_refused(changes: dict, s
 @pytest.mark.parametrize(
     ("config", "changes", "sentence"),
     [
-        (DiffusionConfig, {"max_steps": 2000}, "--max-steps 2000 is not between 1 and 1000"),
+        (DiffusionConfig, {"steps": 2000}, "--steps 2000 is not between 1 and 1000"),
         (
             DiffusionConfig,
             {"extrapolation": (0.0, 99.0, 0.0)},

@@ -24,7 +24,6 @@ const take = (id: string): Take => {
     guidance: uniformGuidance(1, 1),
     music: 1,
     variety: 1,
-    steps: 5,
     seed: 1,
     role: 'reactor' as Role,
     height: null,

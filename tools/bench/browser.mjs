@@ -55,11 +55,11 @@ async function drawsByCard(browser) {
  *
  * @param {import('@playwright/test').Browser} browser
  * @param {string} url of the page
- * @param {{ threadCounts: number[], gpu: boolean, steps: string, repeats: string }} options
+ * @param {{ threadCounts: number[], gpu: boolean, repeats: string }} options
  * @returns {Promise<import('./table.mjs').Row[]>}
  * @throws {Error} if the page computed elsewhere than it was asked to
  */
-export async function measureBackends(browser, url, { threadCounts, gpu, steps, repeats }) {
+export async function measureBackends(browser, url, { threadCounts, gpu, repeats }) {
   const asked = threadCounts.map((threads) => ({ preference: 'wasm', backend: 'wasm', threads }));
   // 'auto' takes no software adapter.
   if (gpu) asked.push({ preference: 'auto', backend: 'webgpu', threads: 1 });
@@ -67,7 +67,7 @@ export async function measureBackends(browser, url, { threadCounts, gpu, steps, 
   for (const { preference, backend, threads } of asked) {
     const tab = await browser.newPage();
     await tab.goto(url);
-    const call = `measure('${preference}', ${threads}, ${Number(steps)}, ${Number(repeats)})`;
+    const call = `measure('${preference}', ${threads}, ${Number(repeats)})`;
     const measured = /** @type {import('./page/main').Measured} */ (await tab.evaluate(call));
     if (measured.backend !== backend || measured.threads !== threads) {
       throw new Error(

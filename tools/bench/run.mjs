@@ -3,7 +3,7 @@
  * PyTorch eager in the same run, and what a visitor waits for in the built app. Prints tables, writes bench.json and
  * docs/lengths.svg.
  *
- *     npm run bench -- --frames 2066 --steps 3 --threads 1,2 --repeats 5 --minutes 1,2.5,5,10 --only app
+ *     npm run bench -- --frames 2066 --threads 1,2 --repeats 5 --minutes 1,2.5,5,10 --only app
  *
  * With `--gpu` the browser uses the graphics card, for the stage and for rows of WebGPU, and docs/lengths.svg stays.
  */
@@ -25,7 +25,6 @@ import { STAGES, table, withRatios } from './table.mjs';
 const { values: options } = parseArgs({
   options: {
     frames: { type: 'string', default: '2066' },
-    steps: { type: 'string', default: '3' },
     threads: { type: 'string', default: '1,2' },
     repeats: { type: 'string', default: '5' },
     model: { type: 'string', default: 'web/public/models/salsa' },
@@ -45,8 +44,8 @@ const { values: options } = parseArgs({
  * @returns {Promise<Row[]>}
  */
 async function measurePython(folder, threads) {
-  const { model, checkpoint, frames, steps, repeats } = options;
-  const settings = { model, checkpoint, frames, steps, repeats, threads: String(threads), out: folder };
+  const { model, checkpoint, frames, repeats } = options;
+  const settings = { model, checkpoint, frames, repeats, threads: String(threads), out: folder };
   const flags = Object.entries(settings).flatMap(([name, value]) => [`--${name}`, value]);
   await runOrThrow(python, ['-m', 'export.bench', ...flags]);
   return /** @type {Row[]} */ (JSON.parse(await readFile(path.join(folder, 'python.json'), 'utf8')));
@@ -70,6 +69,16 @@ async function measureBrowser(folder, threadCounts) {
     await browser.close();
     await page.close();
   }
+}
+
+/**
+ * How many steps a sampling of the model has.
+ *
+ * @returns {Promise<number>}
+ */
+async function samplingSteps() {
+  const manifest = await readFile(path.resolve(root, options.model, 'manifest.json'), 'utf8');
+  return JSON.parse(manifest).diffusion.steps;
 }
 
 /**
@@ -113,7 +122,7 @@ await runMain(async () => {
       commit: commit.trim(),
       model: options.model,
       frames,
-      steps: Number(options.steps),
+      steps: await samplingSteps(),
       stages: STAGES,
       rows,
       app,

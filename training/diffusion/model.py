@@ -29,7 +29,7 @@ class Sampling:
     channels: int  # C, of one layer
     alpha_bar: np.ndarray  # (train_steps,), the noise schedule
     last_time: float  # of the last step, a share of the training timesteps
-    extrapolation: tuple[float, ...]  # (S,) of the last two predictions, see `sample`
+    extrapolation: tuple[float, ...]  # (S,) of the last prediction, see `extrapolated_ddim`
     stitching: bool  # blocks overlap by half and cross-fade
     steps: int
     guidance: tuple[float, float]  # Eq. 9's s of the coarse and the fine layer

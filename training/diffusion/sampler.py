@@ -29,9 +29,7 @@ def sample(
 ) -> Tensor:
     """Clean normalised latents (L, R, C) for memory (L, M) from standard normal noise (L, R, C).
 
-    All blocks of a step are computed in parallel. The last prediction is extrapolated from the one before it,
-    see `advance`: few steps stop short of where many would arrive, with too little energy and too little difference
-    between seeds.
+    All blocks of a step are computed in parallel.
     """
     frames, size = len(memory), sampling.block
     blocks = overlapping(frames, size) if sampling.stitching else partition(frames, size)
@@ -48,25 +46,20 @@ def sample(
 def extrapolated_ddim(
     predict: Callable[[Tensor, Step], Tensor], initial: Tensor, steps: Sequence[Step], extrapolation: Tensor
 ) -> Tensor:
-    """What all steps make of noise (..., R, C); the last prediction is extrapolated by (S,), see `advance`."""
+    """What DDIM (Song et al. 2021, Eq. 12) makes of noise (..., R, C).
+
+    The last prediction x0 becomes x0 + c (x0 - the one before it), c (S,) of each stream in `extrapolation`, as in a
+    multistep solver (Lu et al. 2022, DPM-Solver++). Few steps of a model that is not distilled stop short of where
+    many would arrive, with too little energy and too little difference between seeds.
+    """
+    c = per_channel(extrapolation, initial.shape[-1])
     x, before = initial, initial
     for k, step in enumerate(steps):
         x0 = predict(x, step)
-        last = 0 < k == len(steps) - 1
-        c = extrapolation if last else torch.zeros_like(extrapolation)
-        x, before = advance(x, x0, before, step.a, step.b, c), x0
+        if 0 < k == len(steps) - 1:
+            x0 = x0 + c * (x0 - before)
+        x, before = step.a * x + step.b * x0, x0
     return x
-
-
-def advance(
-    x: Tensor, x0: Tensor, before: Tensor, a: float | Tensor, b: float | Tensor, extrapolation: Tensor
-) -> Tensor:
-    """The next noisy latents (..., R, C), a x + b (x0 + c (x0 - before)), of x, its prediction x0 and the one before.
-
-    a and b: of a DDIM step, see `Step`. extrapolation: c (S,) of each stream. With c = 0 this is DDIM (Song et al.
-    2021, Eq. 12), else a multistep solver's way (Lu et al. 2022, DPM-Solver++).
-    """
-    return a * x + b * (x0 + per_channel(extrapolation, x.shape[-1]) * (x0 - before))
 
 
 def sample_branch(

@@ -8,7 +8,7 @@ export interface About {
   readonly leader: string;
   readonly take: string | null;
   readonly model: { readonly id: string; readonly name: string } | null;
-  /** Guidance, steps, seed and role, as the page has them. */
+  /** Guidance, seed and role, as the page has them. */
   readonly settings: object;
   /** Start of the song after the start of the dance, frames. */
   readonly shift: number;

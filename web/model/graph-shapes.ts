@@ -32,16 +32,14 @@ export function tensorsOf({
     step: {
       inputs: {
         x: state,
-        before: state,
         memory: [null, block, memory],
         valid: [null, block],
         keep: [1],
         time: [1],
         a: [1],
         b: [1],
-        extrapolation: [streams],
       },
-      outputs: { next: state, x0: state },
+      outputs: { next: state },
     },
     decode: {
       inputs: {

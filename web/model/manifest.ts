@@ -75,7 +75,7 @@ const names = v.pipe(
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(4),
+  version: v.literal(5),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -126,9 +126,8 @@ const schema = v.object({
     sampler: v.literal('ddim'),
     /** Time of the last step, a share of train_steps. */
     last_time: v.pipe(v.number(), v.gtValue(0), v.maxValue(1)),
-    /** By stream: how far the last prediction is extrapolated from the one before it. */
-    extrapolation: v.array(v.pipe(v.number(), v.minValue(-10), v.maxValue(10))),
-    steps: v.object({ default: count, min: count, max: count }),
+    /** How many steps a sampling has. */
+    steps: count,
   }),
   guidance: v.object({
     /** How each weight acts, for a reader; blend.ts does it. */
@@ -220,7 +219,7 @@ function check(manifest: Manifest): void {
       `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
     );
   }
-  const { alphas_cumprod: alphas, extrapolation } = diffusion;
+  const { alphas_cumprod: alphas } = diffusion;
   if (!alphas.every((alpha, t) => alpha > 0 && alpha < (alphas[t - 1] ?? 1))) {
     throw invalid(
       'The model\'s manifest has a "diffusion.alphas_cumprod" that does not fall from step to step.',
@@ -229,15 +228,10 @@ function check(manifest: Manifest): void {
   if (Math.round(diffusion.last_time * diffusion.train_steps) < 1) {
     throw invalid('The model\'s manifest has a "diffusion.last_time" before the first train step.');
   }
-  if (extrapolation.length !== latent.streams.length) {
+  if (diffusion.steps > diffusion.train_steps) {
     throw invalid(
-      `The model's manifest has ${extrapolation.length} values in "diffusion.extrapolation" ` +
-        `for ${latent.streams.length} streams.`,
+      `The model's manifest has ${diffusion.steps} steps in "diffusion.steps" for ${diffusion.train_steps} train steps.`,
     );
-  }
-  const { min, max, default: preset } = diffusion.steps;
-  if (!(min <= preset && preset <= max && max <= diffusion.train_steps)) {
-    throw invalid('The model\'s manifest has a "diffusion.steps" that is not in order: min, default, max.');
   }
   for (const [name, { min, max, step, default: preset }] of Object.entries(ranges)) {
     if (!(min < max && min <= preset && preset <= max))

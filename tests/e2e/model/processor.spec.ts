@@ -2,6 +2,7 @@
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Page } from '@playwright/test';
+import type { Manifest } from '../../../web/model/client';
 import type { ExplainedError } from '../support/model-page/main';
 import { expect, shipped, test, tinyFolder } from '../support/model-site';
 
@@ -14,6 +15,15 @@ test.beforeEach(async ({ page }) => {
 
 const open = (page: Page, threads?: number) =>
   page.evaluate((options) => model.open(options), { ...TINY, threads });
+
+/** Gives the model 50 steps instead of its own: its work takes long enough to be stopped in the middle. */
+async function openSlow(page: Page): Promise<void> {
+  await page.route('**/tiny/manifest.json', async (route) => {
+    const manifest = (await (await route.fetch()).json()) as Manifest;
+    await route.fulfill({ json: { ...manifest, diffusion: { ...manifest.diffusion, steps: 50 } } });
+  });
+  await open(page);
+}
 
 async function refusal(page: Page): Promise<ExplainedError> {
   const opened = await open(page);
@@ -56,7 +66,7 @@ test('a cross-origin isolated page computes on several threads in its worker', a
   // The model's worker, and onnxruntime's for every further thread.
   expect(page.workers()).toHaveLength(threads);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const { stages, positions } = await page.evaluate(() => model.generate({ frames: 250, steps: 2 }));
+  const { stages, positions } = await page.evaluate(() => model.generate(250));
   expect([...new Set(stages)]).toEqual(['condition', 'step']);
   expect(positions).toHaveLength(250 * 66);
   expect(positions?.every(Number.isFinite)).toBe(true);
@@ -89,20 +99,20 @@ test('the processor is chosen where there is only a software adapter, with the r
 });
 
 test('cancelling stops between steps, and the next call works', async ({ page }) => {
-  await open(page);
+  await openSlow(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const cancelled = await page.evaluate(() => model.generate({ frames: 600, steps: 50 }, 9));
+  const cancelled = await page.evaluate(() => model.generate(600, 9));
   expect(cancelled.error?.name).toBe('AbortError');
   // The running step and one more may still be reported; without cancelling there would be twenty.
   expect(await page.evaluate(() => model.progressInASecond())).toBeLessThanOrEqual(2);
-  const next = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));
+  const next = await page.evaluate(() => model.generate(120));
   expect(next.error).toBeUndefined();
 });
 
 test('a crash of the worker is reported, and the next call starts a new worker', async ({ page }) => {
-  await open(page);
+  await openSlow(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const running = page.evaluate(() => model.generate({ frames: 120, steps: 50 }));
+  const running = page.evaluate(() => model.generate(120));
   await page.waitForFunction(() => model.done > 1);
   const worker = page.workers().find((candidate) => candidate.url().includes('/worker-'));
   await worker?.evaluate(() => {
@@ -113,13 +123,13 @@ test('a crash of the worker is reported, and the next call starts a new worker',
   const { error } = await running;
   expect(error).toMatchObject({ name: 'AppError', code: 'worker-crashed' });
   expect(error?.message).toContain('the roof fell in');
-  const next = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));
+  const next = await page.evaluate(() => model.generate(120));
   expect(next.positions).toHaveLength(120 * 66);
   // The same numbers as from a worker that never crashed.
   await page.reload();
   await open(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const undisturbed = await page.evaluate(() => model.generate({ frames: 120, steps: 1 }));
+  const undisturbed = await page.evaluate(() => model.generate(120));
   expect(next.positions).toEqual(undisturbed.positions);
 });
 
@@ -153,7 +163,7 @@ test('a full disk is reported, and the model works', async ({ page, context, mod
     message: expect.stringContaining('QuotaExceededError'),
   });
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const { positions } = await page.evaluate(() => model.generate({ frames: 40, steps: 1 }));
+  const { positions } = await page.evaluate(() => model.generate(40));
   expect(positions).toHaveLength(40 * 66);
 });
 

@@ -10,7 +10,6 @@ export const demoSettings = {
   },
   music: 1.5,
   variety: 1,
-  steps: 3,
   seed: 77,
   role: 'reactor',
 };

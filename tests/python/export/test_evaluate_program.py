@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import torch
 
 from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
 from export.golden import Scene
@@ -86,7 +88,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     assert stored["runtime"] == "onnxruntime"
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] > 0
     weights = {"coarse": 0.0, "fine": 0.0, "music": 1.0, "variety": 1.0}
-    how = {"steps": 4, "last_time": 0.25, "extrapolation": [0.5, 0.25, 0.0]}
+    how = {"steps": 4, "last_time": 0.25, "extrapolation": [0.0, 0.0, 0.0]}
     assert stored["sampling"] == how | weights
     assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
     # Guidance at every step, of the checkpoint: each cell is another dance.
@@ -120,6 +122,20 @@ def test_the_shipped_model_is_that_of_the_held_out_recipe():
     assert shipped.hfsq.config == held_out.hfsq.config
 
 
+@pytest.mark.parametrize("name", ["salsa", "salsa-held-out"])
+def test_a_student_has_stage_1_and_condition_of_its_teacher_and_fewer_steps(name: str):
+    student, teacher = (load_model(CHECKPOINTS / f"{name}{suffix}") for suffix in ("", "-teacher"))
+    assert student.sampling.steps < teacher.sampling.steps
+    defaults = {"steps": 1, "last_time": 0.5, "extrapolation": (0.0, 0.0, 0.0)}
+    assert replace(student.diffusion, **defaults) == replace(teacher.diffusion, **defaults)
+    for of_student, of_teacher in (
+        (student.hfsq, teacher.hfsq),
+        (student.denoiser.condition, teacher.denoiser.condition),
+    ):
+        known = of_teacher.state_dict()
+        assert all(torch.equal(value, known[key]) for key, value in of_student.state_dict().items())
+
+
 def test_the_shipped_numbers_are_those_of_the_held_out_checkpoint(tmp_path: Path):
     """metrics.json beside the manifest: one dance of it generated and measured again."""
     checkpoint = CHECKPOINTS / "salsa-held-out"
@@ -127,9 +143,7 @@ def test_the_shipped_numbers_are_those_of_the_held_out_checkpoint(tmp_path: Path
     assert stored["model"] == json.loads((checkpoint / "card.json").read_text())["id"]
     assert all(result["passed"] for result in stored["bars"])
     data = real_file("cmu_salsa/duets.npz")
-    write_model(
-        load_model(checkpoint), Card(**read_card(checkpoint)), tmp_path, Scene(240, 1, silent_from=200)
-    )
+    write_model(load_model(checkpoint), Card(**read_card(checkpoint)), tmp_path, Scene(240, silent_from=200))
     model = open_model(tmp_path, threads=1)
     val, test = (tuple(stored["split"][part]) for part in ("val", "test"))
     options = Options(data=data, out=Path(), model=tmp_path, val=val, test=test)

@@ -17,8 +17,7 @@ test('a damaged manifest is refused in a sentence or says what can be sampled', 
       expect(latent.channels % latent.streams.length).toBe(0);
       for (const { min, max, step } of [guidance.coarse, guidance.fine, guidance.music, guidance.variety])
         expect((max - min) / step).toBeGreaterThanOrEqual(0);
-      for (const step of ddim(diffusion, diffusion.steps.default))
-        expect(Object.values(step).every(Number.isFinite)).toBe(true);
+      for (const step of ddim(diffusion)) expect(Object.values(step).every(Number.isFinite)).toBe(true);
     },
   );
   expect(refused).toBeGreaterThan(0);
@@ -27,17 +26,7 @@ test('a damaged manifest is refused in a sentence or says what can be sampled', 
 test('a damaged golden sampling is refused in a sentence or whole and finite', { timeout: 600_000 }, () => {
   const path = new URL('../../fixtures/tiny-model/golden.npz', import.meta.url);
   const read = unzipSync(readFileSync(path));
-  const names = [
-    'leader',
-    'music',
-    'music_valid',
-    'role',
-    'coarse',
-    'fine',
-    'music_guidance',
-    'seed',
-    'steps',
-  ];
+  const names = ['leader', 'music', 'music_valid', 'role', 'coarse', 'fine', 'music_guidance', 'seed'];
   const files = Object.fromEntries(
     [...names, 'bones', 'reactor'].map((name) => [`${name}.npy`, short(read[`${name}.npy`]!)]),
   );
@@ -56,7 +45,7 @@ test('a damaged golden sampling is refused in a sentence or whole and finite', {
       expect(golden.leader).toHaveLength(golden.reactor.length);
       for (const values of [golden.leader, golden.music, golden.bones, golden.guidance, golden.reactor])
         expect(values.every((value) => Number.isFinite(value))).toBe(true);
-      expect(golden.steps).toBeGreaterThan(0);
+      expect(Number.isInteger(golden.seed) && golden.seed >= 0).toBe(true);
     },
   );
   expect(refused).toBeGreaterThan(0);

@@ -39,7 +39,7 @@ describe('parseManifest', () => {
     ['memory_width', (json) => void (json.latent.memory_width = 64), '"memory" of the graph "condition"'],
     ['block', (json) => void (json.latent.block = 60), '"x" of the graph "step"'],
     ['features', (json) => void (json.audio.features = 54), '"music" of the graph "condition"'],
-    ['streams', (json) => void json.latent.streams.pop(), '"extrapolation" of the graph "step"'],
+    ['streams', (json) => void json.latent.streams.pop(), '"gains" of the graph "decode"'],
   ])('compares %s with what the graphs take', (_, change, words) => {
     expect(failure(change).message).toContain(`declares ${words} as `);
   });
@@ -58,7 +58,9 @@ describe('parseManifest', () => {
     ['other parents', (json) => void (json.skeleton.parents[3] = 1), 'model-unsupported'],
     ['a short schedule', (json) => void json.diffusion.alphas_cumprod.pop(), 'manifest-invalid'],
     ['channels that do not fit', (json) => void (json.latent.channels = 4), 'manifest-invalid'],
-    ['default steps out of range', (json) => void (json.diffusion.steps.default = 60), 'manifest-invalid'],
+    ['no steps', (json) => void (json.diffusion.steps = 0), 'manifest-invalid'],
+    ['half a step', (json) => void (json.diffusion.steps = 1.5), 'manifest-invalid'],
+    ['more steps than train steps', (json) => void (json.diffusion.steps = 1001), 'manifest-invalid'],
     ['weights out of range', (json) => void (json.guidance.variety.default = 3), 'manifest-invalid'],
     ['no seeds for the mean', (json) => void (json.guidance.variety.seeds = 0), 'manifest-invalid'],
     [

@@ -11,7 +11,7 @@ export function madeDance(frames: number, ...roles: ('leader' | 'reactor')[]): D
       leader: 'leader_0412.bvh',
       take: 'Softer hands',
       model: { id: 'salsa', name: 'Salsa' },
-      settings: { guidance: { coarse: 1.2, fine: 0.6 }, steps: 5, seed: 1204 },
+      settings: { guidance: { coarse: 1.2, fine: 0.6 }, seed: 1204 },
       shift: 0,
       footLock: true,
     },

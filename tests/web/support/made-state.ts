@@ -18,7 +18,6 @@ export const madeSettings: Settings = {
   guidance: uniformGuidance(0, 0),
   music: 2,
   variety: 1,
-  steps: 10,
   seed: 1,
   role: 'reactor',
   height: null,

@@ -14,7 +14,7 @@ const graph = (path: string, inputs: Shapes, outputs: Shapes) => ({
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 4,
+    version: 5,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -49,8 +49,7 @@ export function smallJson() {
       clamp: 'quantiser range',
       sampler: 'ddim',
       last_time: 0.25,
-      extrapolation: [0.5, 0.25, 0],
-      steps: { default: 10, min: 1, max: 50 },
+      steps: 10,
     },
     guidance: {
       convention: {} as Record<string, string>,
@@ -107,16 +106,14 @@ export function smallJson() {
         'step.onnx',
         {
           x: ['blocks', 6, 2, 3],
-          before: ['blocks', 6, 2, 3],
           memory: ['blocks', 6, 2],
           valid: ['blocks', 6],
           keep: [1],
           time: [1],
           a: [1],
           b: [1],
-          extrapolation: [3],
         },
-        { next: ['blocks', 6, 2, 3], x0: ['blocks', 6, 2, 3] },
+        { next: ['blocks', 6, 2, 3] },
       ),
       decode: graph(
         'decode.onnx',

@@ -66,12 +66,7 @@ async function followed(
   return { preview, renewed: since(), decode: seconds.decode, solve: seconds.solve };
 }
 
-export async function measure(
-  preference: Preference,
-  threads: number,
-  steps: number,
-  repeats: number,
-): Promise<Measured> {
+export async function measure(preference: Preference, threads: number, repeats: number): Promise<Measured> {
   const scene = readNpz(new Uint8Array(await (await fetch('scene/scene.npz')).arrayBuffer()));
   const array = (name: string): Float32Array => Float32Array.from(scene.get(name)?.data ?? []);
   const leader = array('leader');
@@ -92,7 +87,6 @@ export async function measure(
       leader: { fps: manifest.fps, frames, positions },
       music,
       ...weights,
-      steps,
       seed: 1,
     };
     const { seconds: sampled } = await generator.generate(request);

@@ -17,16 +17,15 @@ export interface Golden {
   readonly guidance: Float32Array;
   readonly musicGuidance: number;
   readonly seed: number;
-  readonly steps: number;
   /** 22 bone lengths, metres. */
   readonly bones: Float32Array;
   /** T x 22 x 3 metres. */
   readonly reactor: Float32Array;
 }
 
-/** Largest number of motion frames and of steps of a golden sampling; what is exported has 600 and up to 50. */
+/** Largest number of motion frames of a golden sampling; what is exported has 600. */
 const MAX_FRAMES = 10_000;
-const MAX_STEPS = 1000;
+const MAX_SEED = 2 ** 32 - 1;
 
 /**
  * Reads the golden sampling from the archive beside a manifest.
@@ -51,13 +50,10 @@ export function readGolden(bytes: Uint8Array): Golden {
     return Float32Array.from(found.data);
   };
   const number = (name: string): number => shaped(name, 1)[0]!;
-  const count = (name: string, min: number, max: number): number => {
-    const value = number(name);
-    if (!Number.isInteger(value) || value < min || value > max)
-      throw invalid(`has a "${name}" of ${value}, not a whole number from ${min} to ${max}`);
-    return value;
-  };
   const coarse = shaped('coarse', null);
+  const seed = number('seed');
+  if (!Number.isInteger(seed) || seed < 0 || seed > MAX_SEED)
+    throw invalid(`has a "seed" of ${seed}, not a whole number from 0 to ${MAX_SEED}`);
   return {
     leader: shaped('leader', frames, JOINT_COUNT, 3),
     music: shaped('music', frames, null),
@@ -65,8 +61,7 @@ export function readGolden(bytes: Uint8Array): Golden {
     role: number('role'),
     guidance: interleaved(coarse, shaped('fine', coarse.length)),
     musicGuidance: number('music_guidance'),
-    seed: count('seed', 0, 2 ** 32 - 1),
-    steps: count('steps', 1, MAX_STEPS),
+    seed,
     bones: shaped('bones', JOINT_COUNT),
     reactor: shaped('reactor', frames, JOINT_COUNT, 3),
   };
@@ -96,7 +91,7 @@ export async function goldenError(
 ): Promise<number> {
   const { latent } = manifest;
   const wanted = { silent: true, unconditional: true, mean: false };
-  const branches = await new BranchSampler(manifest, session).branches(golden, golden, wanted);
+  const branches = await new BranchSampler(manifest, session).branches(golden, golden.seed, wanted);
   // Not by decodeClip, which refuses numbers that are not finite.
   const { reactor } = await session.decode({
     latents: blend(branches, { ...golden, variety: 1 }, latent),

@@ -87,9 +87,9 @@ async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> 
   const leader = new Float32Array(frames * joints * 3);
   const music = new Float32Array(frames * audio.features);
   const condition = { leader, music, musicValid: new Float32Array(frames), role: 0 };
-  const one = { seed: 0, steps: 1 };
   const alone = { silent: false, unconditional: false, mean: false };
-  const { conditional: latents } = await new BranchSampler(manifest, session).branches(condition, one, alone);
+  const once: Manifest = { ...manifest, diffusion: { ...manifest.diffusion, steps: 1 } };
+  const { conditional: latents } = await new BranchSampler(once, session).branches(condition, 0, alone);
   const gains = unitGains(latent);
   const bones = new Float32Array(joints).fill(1);
   await decodeClip(session, manifest, { latents, leader, gains, bones });

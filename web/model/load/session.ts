@@ -192,26 +192,23 @@ export async function openSession(
       }));
       return { memory: output(results, 'memory'), unfamiliarity: output(results, 'unfamiliarity') };
     },
-    step: async ({ blocks, x, before, memory, valid, keep, time, a, b, extrapolation }: StepInput) => {
-      const state = (latents: Float32Array | HeldLatents): ort.Tensor =>
-        latents instanceof HeldTensor
-          ? latents.tensor
-          : tensor(latents as Float32Array, [blocks, latent.block, layers, latent.channels]);
+    step: async ({ blocks, x, memory, valid, keep, time, a, b }: StepInput) => {
+      const state =
+        x instanceof HeldTensor
+          ? x.tensor
+          : tensor(x as Float32Array, [blocks, latent.block, layers, latent.channels]);
       const results = await inTurn(() =>
         step.run({
-          x: state(x),
-          before: state(before),
+          x: state,
           memory: tensor(memory, [blocks, latent.block, latent.memory_width]),
           valid: tensor(valid, [blocks, latent.block]),
           keep: tensor([keep], [1]),
           time: tensor([time], [1]),
           a: tensor([a], [1]),
           b: tensor([b], [1]),
-          extrapolation: tensor(extrapolation, [streams]),
         }),
       );
-      const held = (name: string): HeldTensor => new HeldTensor(output(results, name), inTurn);
-      return { next: held('next'), x0: held('x0') };
+      return new HeldTensor(output(results, 'next'), inTurn);
     },
     decode: async ({ latents, leader, gains, bones }: DecodeInput) => {
       const results = await runNext(decode, () => ({

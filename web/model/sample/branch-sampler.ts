@@ -20,10 +20,10 @@ type Branch = Exclude<keyof Branches, 'mean'>;
 interface Known {
   readonly input: ConditionInput;
   readonly conditions: Map<'song' | 'silence', Condition>;
-  /** Groups by seed and steps. */
+  /** Groups by seed. */
   readonly latents: BranchCache<Branch>;
-  /** Mean coarse layers of several seeds, by steps. */
-  readonly means: Map<number, Float32Array>;
+  /** Mean coarse layer of several seeds, once it was needed. */
+  mean: Float32Array | null;
 }
 
 export interface BranchOptions {
@@ -53,7 +53,7 @@ export class BranchSampler {
    */
   async branches(
     input: ConditionInput,
-    { seed, steps }: { readonly seed: number; readonly steps: number },
+    seed: number,
     wanted: NeededBranches,
     { signal, onCondition, onStep }: BranchOptions = {},
   ): Promise<SampledBranches> {
@@ -62,18 +62,18 @@ export class BranchSampler {
     const list: Branch[] = ['conditional'];
     if (wanted.silent && song) list.push('silent');
     if (wanted.unconditional) list.push('unconditional');
-    const key = `${seed} ${steps}`;
+    const key = String(seed);
     // A copy: other seeds may be sampled meanwhile, and push this one out of the cache.
     const latents = new Map(known.latents.group(key));
     const missing = list.filter((branch) => !latents.has(branch));
     const { seeds } = this.manifest.guidance.variety;
-    const meanMissing = wanted.mean && !known.means.has(steps);
+    const meanMissing = wanted.mean && !known.mean;
     const runs = missing.length + (meanMissing ? seeds : 0);
     let run = 0;
     const sampleNext = async (branch: Branch, of: number): Promise<Float32Array> => {
       const { memory } = await this.#condition(known, branch !== 'silent' && song, signal, onCondition);
       const before = run++;
-      return this.#sample(memory, branch, of, steps, signal, (done, total) =>
+      return this.#sample(memory, branch, of, signal, (done, total) =>
         onStep?.(before * total + done, runs * total),
       );
     };
@@ -86,7 +86,7 @@ export class BranchSampler {
       const coarse: Float32Array[] = [];
       for (let of = 0; of < seeds; of++)
         coarse.push(coarseLayer(await sampleNext('conditional', of), this.manifest.latent));
-      known.means.set(steps, mean(coarse));
+      known.mean = mean(coarse);
     }
     const { unfamiliarity } = await this.#condition(known, song, signal, onCondition);
     return {
@@ -94,13 +94,13 @@ export class BranchSampler {
       conditional: latents.get('conditional')!,
       silent: list.includes('silent') ? latents.get('silent')! : null,
       unconditional: list.includes('unconditional') ? latents.get('unconditional')! : null,
-      mean: wanted.mean ? known.means.get(steps)! : null,
+      mean: wanted.mean ? known.mean : null,
     };
   }
 
   #knownFor(input: ConditionInput): Known {
     if (!this.#known || !sameInput(this.#known.input, input))
-      this.#known = { input, conditions: new Map(), latents: new BranchCache(), means: new Map() };
+      this.#known = { input, conditions: new Map(), latents: new BranchCache(), mean: null };
     return this.#known;
   }
 
@@ -127,7 +127,6 @@ export class BranchSampler {
     memory: Float32Array,
     branch: Branch,
     seed: number,
-    steps: number,
     signal: AbortSignal | undefined,
     onProgress: (done: number, total: number) => void,
   ): Promise<Float32Array> {
@@ -135,8 +134,7 @@ export class BranchSampler {
     const latents = memory.length / latent.memory_width;
     return sample({
       latent,
-      extrapolation: diffusion.extrapolation,
-      schedule: ddim(diffusion, steps),
+      schedule: ddim(diffusion),
       memory,
       keep: branch === 'unconditional' ? 0 : 1,
       noise: noise(seed, latents, latent.layers.length * latent.channels),

@@ -34,8 +34,6 @@ export interface StepInput {
   readonly blocks: number;
   /** blocks x block x layers x channels, noisy latents. */
   readonly x: Float32Array | HeldLatents;
-  /** As many: the prediction of the step before, any where `extrapolation` is 0. */
-  readonly before: Float32Array | HeldLatents;
   /** blocks x block x memory width, of the condition graph. */
   readonly memory: Float32Array;
   /** blocks x block, 1 inside the clip and 0 in padding. */
@@ -44,21 +42,13 @@ export interface StepInput {
   readonly keep: number;
   /** Timestep divided by the number of train steps. */
   readonly time: number;
-  /** The next latents are a x + b (x0 + c (x0 - before)), with x0 predicted and c of each stream in `extrapolation`. */
+  /** The next latents are a x + b x0, with x0 predicted. */
   readonly a: number;
   readonly b: number;
-  readonly extrapolation: readonly number[];
 }
 
-export interface StepOutput {
-  /** Noisy latents of the next step, clean ones after the last. */
-  readonly next: HeldLatents;
-  /** Predicted clean latents. */
-  readonly x0: HeldLatents;
-}
-
-/** One sampling step over blocks. */
-export type StepRunner = (input: StepInput) => Promise<StepOutput>;
+/** One sampling step over blocks: noisy latents of the next step, clean ones after the last. */
+export type StepRunner = (input: StepInput) => Promise<HeldLatents>;
 
 /** Inputs of the decode graph. */
 export interface DecodeInput {

@@ -43,7 +43,6 @@ export const HEIGHTS = { min: 0.5, max: 2.5 };
 
 /** How it is danced. */
 export interface DanceSettings extends Weights, Size {
-  readonly steps: number;
   /** Its lowest 32 bits count. */
   readonly seed: number;
 }
@@ -55,7 +54,6 @@ export interface GenerateRequest extends Source, DanceSettings {}
 export function sameButHeight(a: GenerateRequest, b: GenerateRequest): boolean {
   return (
     sameSource(a, b) &&
-    a.steps === b.steps &&
     a.seed === b.seed &&
     a.musicGuidance === b.musicGuidance &&
     a.variety === b.variety &&
@@ -122,15 +120,9 @@ export function checkSource({ leader, music }: Source, { skeleton, fps, audio }:
 
 /** @throws {AppError} as `checkSource` */
 export function checkSettings(
-  { guidance, musicGuidance, variety, steps, seed, height }: DanceSettings,
-  { diffusion, latent }: Manifest,
+  { guidance, musicGuidance, variety, seed, height }: DanceSettings,
+  { latent }: Manifest,
 ): void {
-  if (!Number.isInteger(steps) || steps < diffusion.steps.min || steps > diffusion.steps.max) {
-    refuse(
-      `${steps} is not a number of steps between ${diffusion.steps.min} and ${diffusion.steps.max}.`,
-      'Choose another number of steps.',
-    );
-  }
   if (guidance.length !== latent.streams.length * latent.layers.length || !guidance.every(Number.isFinite)) {
     refuse(
       `The guidance is not ${latent.streams.length} x ${latent.layers.length} numbers.`,

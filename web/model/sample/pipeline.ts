@@ -127,7 +127,7 @@ export class Pipeline {
     checkSettings(request, this.manifest);
     const input = this.#inputOf(request);
     const wanted = neededBranches(request, latent);
-    const branches = await this.#branches.branches(input.condition, request, wanted, {
+    const branches = await this.#branches.branches(input.condition, request.seed, wanted, {
       signal,
       onCondition: stageProgress(onProgress, 'condition'),
       onStep: stageProgress(onProgress, 'step'),

@@ -1,13 +1,11 @@
 import { yieldToEvents } from '../../common/yield-to-events';
 import type { Manifest } from '../manifest';
 import { type Block, gather, partition, scatter, validity } from './blocks';
-import type { StepOutput, StepRunner } from './graphs';
+import type { HeldLatents, StepRunner } from './graphs';
 import type { ScheduleStep } from './schedule';
 
 export interface Sampling {
   readonly latent: Manifest['latent'];
-  /** How far the last prediction of each stream is extrapolated from the one before it. */
-  readonly extrapolation: readonly number[];
   readonly schedule: readonly ScheduleStep[];
   /** latents x memory width. */
   readonly memory: Float32Array;
@@ -25,8 +23,7 @@ export interface Sampling {
 
 /**
  * Samples the latents of a whole clip by DDIM, block by block (block-wise local conditioning, paper 3.4): no block needs
- * another, so some of them go through all steps before the others do. The last prediction is extrapolated from the one
- * before it, as multistep solvers do (Lu et al. 2022, DPM-Solver++); `sample` in Python says why.
+ * another, so some of them go through all steps before the others do.
  * @returns latents x layers x channels, normalised
  * @throws the signal's reason, between two graph runs
  */
@@ -48,7 +45,7 @@ export async function sample(sampling: Sampling): Promise<Float32Array> {
 
 /** @returns blocks x block x layers x channels */
 async function sampleBlocks(
-  { latent, extrapolation, schedule, memory, keep, noise, runStep, signal }: Sampling,
+  { latent, schedule, memory, keep, noise, runStep, signal }: Sampling,
   blocks: readonly Block[],
   onStep: (done: number) => void,
 ): Promise<Float32Array> {
@@ -59,30 +56,17 @@ async function sampleBlocks(
     keep,
   };
   const start = gather(noise, latent.layers.length * latent.channels, blocks, latent.block);
-  const none = extrapolation.map(() => 0);
-  let held: StepOutput | null = null;
+  let held: HeldLatents | null = null;
   try {
     for (const [k, step] of schedule.entries()) {
       await yieldToEvents(signal);
-      const last = k > 0 && k === schedule.length - 1;
-      const output = await runStep({
-        ...conditions,
-        ...step,
-        x: held?.next ?? start,
-        before: held?.x0 ?? start,
-        extrapolation: last ? extrapolation : none,
-      });
-      free(held);
-      held = output;
+      const next = await runStep({ ...conditions, ...step, x: held ?? start });
+      held?.free();
+      held = next;
       onStep(k + 1);
     }
-    return held ? await held.next.read() : start;
+    return held ? await held.read() : start;
   } finally {
-    free(held);
+    held?.free();
   }
-}
-
-function free(held: StepOutput | null): void {
-  held?.next.free();
-  held?.x0.free();
 }

@@ -9,11 +9,15 @@ export interface ScheduleStep {
 }
 
 /**
- * DDIM (Song et al. 2021, Eq. 12 with sigma 0): `steps` steps, evenly spaced from the last train step to the manifest's
- * last time; none is skipped, and the last one lands on the clean latents.
+ * DDIM (Song et al. 2021, Eq. 12 with sigma 0): the manifest's steps, evenly spaced from the last train step to its last
+ * time; none is skipped, and the last one lands on the clean latents.
  */
-export function ddim(diffusion: Manifest['diffusion'], steps: number): ScheduleStep[] {
-  const { train_steps: trainSteps, alphas_cumprod: alphas, last_time: lastTime } = diffusion;
+export function ddim({
+  train_steps: trainSteps,
+  alphas_cumprod: alphas,
+  last_time: lastTime,
+  steps,
+}: Manifest['diffusion']): ScheduleStep[] {
   const way = trainSteps - Math.round(lastTime * trainSteps);
   const timestep = (k: number): number => trainSteps - 1 - Math.floor((way * k) / Math.max(steps - 1, 1));
   const alpha = (k: number): number => (k < steps ? (alphas[timestep(k)] ?? NaN) : 1);

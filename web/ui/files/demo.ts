@@ -28,7 +28,6 @@ const schema = v.object({
         guidance: v.record(v.string(), v.record(v.string(), v.number())),
         music: v.number(),
         variety: v.number(),
-        steps: v.number(),
         seed: v.number(),
         role: v.picklist(['leader', 'reactor']),
       }),

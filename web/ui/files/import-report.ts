@@ -180,10 +180,10 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
 }
 
 function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
-  const { seed, steps, role } = inputs.settings;
+  const { seed, role } = inputs.settings;
   return [
     group(role, roleName(role)),
-    ...fact('From', `seed ${seed}, ${steps} steps`),
+    ...fact('From', `seed ${seed}`),
     ...fact('Guidance', guidanceText(inputs.settings)),
     ...fact('Height', heightText(motion, inputs.settings)),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),

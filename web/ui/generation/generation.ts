@@ -174,7 +174,6 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
     guidance: guidanceMatrix(settings, manifest.latent),
     musicGuidance: settings.music,
     variety: settings.variety,
-    steps: settings.steps,
     seed: settings.seed,
     role: settings.role,
     height: settings.height ?? undefined,

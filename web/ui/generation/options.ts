@@ -1,14 +1,15 @@
 import { mountVariationCards } from './variation-cards';
 import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
-import { iconButton, textButton } from '../widgets/button';
+import { textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
+import { icon } from '../widgets/icons';
 import { mountHeightBox } from './height-box';
 import { mountSeedBox } from './seed-box';
 import { isReading, upToDate } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
-import { rolesSwapped, seedRandomized, stepsSet, randomSeed } from '../store/actions/settings';
+import { rolesSwapped, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** One or several controls and how they follow the state. */
@@ -17,9 +18,8 @@ interface Controls {
   readonly show: (state: AppState) => void;
 }
 
-/** The section of reactions: seed, variations to pick from, generate, number of steps, height and swapped roles. */
+/** The section of reactions: seed, variations to pick from, generate, height and swapped roles. */
 export const mountOptions: Mount = (root, store, services) => {
-  const steps = createStepControl(store);
   const swap = createSwapButton(store);
   const generate = createGenerateButton(store, services);
   const variations = createVariationsButton(store, services);
@@ -36,7 +36,7 @@ export const mountOptions: Mount = (root, store, services) => {
   root.append(section);
   const seed = mountSeedBox(head, store, services);
   const cards = mountVariationCards(section, store, services);
-  const row = el('div', { class: 'option-row' }, ...steps.elements);
+  const row = el('div', { class: 'option-row' });
   const height = mountHeightBox(row, store, services);
   row.append(...swap.elements);
   section.append(el('div', { class: 'make' }, ...generate.elements, ...variations.elements), row);
@@ -48,7 +48,6 @@ export const mountOptions: Mount = (root, store, services) => {
       store,
       (state) => [
         state.settings,
-        state.manifest,
         state.leader,
         state.song,
         state.reaction,
@@ -58,7 +57,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.job !== null,
       ],
       (state) => {
-        for (const control of [steps, swap, generate, variations]) control.show(state);
+        for (const control of [swap, generate, variations]) control.show(state);
       },
     ),
     () => {
@@ -67,42 +66,11 @@ export const mountOptions: Mount = (root, store, services) => {
   );
 };
 
-/** The number of diffusion steps with a button for fewer and one for more. */
-function createStepControl(store: Store): Controls {
-  const count = el('output', { attributes: { 'aria-label': 'Steps' } });
-  const changeBy = (by: number) => (): void => {
-    apply(store, stepsSet((store.getState().settings?.steps ?? 0) + by));
-  };
-  const fewer = iconButton(
-    'icon',
-    'minus',
-    { label: 'Fewer steps', title: 'Fewer steps: quicker, rougher' },
-    changeBy(-1),
-  );
-  const more = iconButton(
-    'icon',
-    'plus',
-    { label: 'More steps', title: 'More steps: slower, smoother' },
-    changeBy(1),
-  );
-  const label = el('span', { class: 'label', text: 'Steps' });
-  return {
-    elements: [el('span', { class: 'number' }, label, fewer, count, more)],
-    show: ({ settings, manifest }) => {
-      fewer.disabled = more.disabled = !settings;
-      if (!settings || !manifest) return;
-      const { min, max } = manifest.diffusion.steps;
-      fewer.disabled = settings.steps <= min;
-      more.disabled = settings.steps >= max;
-      setText(count, String(settings.steps));
-    },
-  };
-}
-
 function createSwapButton(store: Store): Controls {
-  const swap = iconButton('btn tint swap', 'swap', { label: 'Swap roles' }, () => {
+  const swap = textButton('btn tint swap', 'Swap roles', () => {
     apply(store, rolesSwapped());
   });
+  swap.prepend(icon('swap'));
   return {
     elements: [swap],
     show: (state) => {

@@ -55,9 +55,7 @@ function conform(example: unknown, value: unknown): unknown {
 }
 
 /** The nearest settings that the model takes. */
-function fitted(settings: Settings, { guidance, diffusion }: Manifest): Settings {
-  const whole = (value: number, min: number, max: number): number =>
-    Math.min(max, Math.max(min, Math.round(value)));
+function fitted(settings: Settings, { guidance }: Manifest): Settings {
   return {
     guidance: Object.fromEntries(
       Object.entries(settings.guidance).map(([stream, row]) => [
@@ -69,8 +67,7 @@ function fitted(settings: Settings, { guidance, diffusion }: Manifest): Settings
     ),
     music: clampedTo(settings.music, guidance.music),
     variety: clampedTo(settings.variety, guidance.variety),
-    steps: whole(settings.steps, diffusion.steps.min, diffusion.steps.max),
-    seed: whole(settings.seed, 0, 0xffffffff),
+    seed: Math.min(0xffffffff, Math.max(0, Math.round(settings.seed))),
     role: settings.role === 'leader' ? 'leader' : 'reactor',
     height: settings.height === null ? null : clampedTo(settings.height, HEIGHTS),
   };

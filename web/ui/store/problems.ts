@@ -122,7 +122,7 @@ export function generationProblem(error: unknown): Problem {
     versionProblem(error) ?? {
       code: explained ? error.code : 'generation-failed',
       title: explained ? error.message : 'The reactor could not be made.',
-      hint: explained ? error.hint : 'Try again; fewer steps or a shorter leader need less memory.',
+      hint: explained ? error.hint : 'Try again; a shorter leader needs less memory.',
       remedy: 'generate',
       refused: null,
     }

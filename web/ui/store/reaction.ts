@@ -43,7 +43,6 @@ export interface Settings {
   readonly music: number;
   /** How far the coarse layer of the seed is from the mean of several seeds; 1 leaves it as it was sampled. */
   readonly variety: number;
-  readonly steps: number;
   /** 0 to 2^32 - 1. */
   readonly seed: number;
   /** The role that the model generates; the loaded dancer has the other one. */

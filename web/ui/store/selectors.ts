@@ -24,7 +24,6 @@ export function readyInputs(state: AppState): Inputs | null {
 export function sameSettings(a: Settings, b: Settings): boolean {
   return (
     a.seed === b.seed &&
-    a.steps === b.steps &&
     a.role === b.role &&
     a.music === b.music &&
     a.variety === b.variety &&
@@ -67,7 +66,7 @@ export function isSampling(state: AppState): boolean {
 }
 
 /** The stage of a job as a text for the visitor. */
-export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 'settings'>): string {
+export function jobText(job: Job, { model, manifest }: Pick<AppState, 'model' | 'manifest'>): string {
   switch (job.stage) {
     case 'waiting':
       if (model.phase === 'ready') return 'shaping the dance';
@@ -77,11 +76,11 @@ export function jobText(job: Job, { model, settings }: Pick<AppState, 'model' | 
     case 'condition':
       return 'reading song and leader';
     case 'step':
-      return stepText(job, settings?.steps ?? job.total);
+      return stepText(job, manifest?.diffusion.steps ?? job.total);
   }
 }
 
-/** A step may run in several pieces; only the steps of the settings are counted. */
+/** A step may run in several pieces; only the model's steps are counted. */
 function stepText({ done, total }: Job, steps: number): string {
   return `step ${Math.min(steps, Math.floor((done / Math.max(1, total)) * steps) + 1)} of ${steps}`;
 }

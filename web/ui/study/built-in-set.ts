@@ -60,7 +60,7 @@ export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
     });
     const generated = async (coarse: 'min' | 'default' | 'max'): Promise<SolvedMotion> => {
       const [{ file }, generator, music] = await Promise.all([leader(), parts.generator(), analysed()]);
-      const { guidance, diffusion, latent } = generator.manifest;
+      const { guidance, latent } = generator.manifest;
       const layers = latent.streams.flatMap(() =>
         latent.layers.map((layer) => (layer === 'coarse' ? guidance.coarse[coarse] : guidance.fine.default)),
       );
@@ -70,7 +70,6 @@ export async function builtInSet(parts: BuiltInParts): Promise<StudySet> {
         guidance: Float32Array.from(layers),
         musicGuidance: guidance.music.default,
         variety: guidance.variety.default,
-        steps: diffusion.steps.default,
         seed: FIRST_SEED + index,
       });
       return locked;

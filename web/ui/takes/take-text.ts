@@ -8,7 +8,7 @@ const MAX_NAME_LENGTH = 16;
 
 /**
  * What a take was made from, in a line: files and settings that differ from those on the page and the model's
- * defaults, seed and guidance always: `as leader, song 1.7 s later, 6 steps, seed 1204, 2 coarse, 1.5 fine`.
+ * defaults, seed and guidance always: `as leader, song 1.7 s later, seed 1204, 2 coarse, 1.5 fine`.
  */
 export function takeText({ reaction: { inputs } }: Take, { leader, song, manifest }: AppState): string {
   const { settings } = inputs;
@@ -17,7 +17,6 @@ export function takeText({ reaction: { inputs } }: Take, { leader, song, manifes
     ...(inputs.song === song ? [] : [inputs.song ? brief(inputs.song.name) : 'no song']),
     ...(settings.role === 'leader' ? ['as leader'] : []),
     ...shiftText(inputs),
-    ...(settings.steps === manifest?.diffusion.steps.default ? [] : [stepText(settings.steps)]),
     `seed ${settings.seed}`,
     ...(['coarse', 'fine'] as const).map((layer) => {
       const { value, mixed } = columnOf(settings.guidance, layer);
@@ -31,14 +30,13 @@ export function takeText({ reaction: { inputs } }: Take, { leader, song, manifes
   ].join(', ');
 }
 
-/** All that a take was made from: `As reactor to Demo leader, with Patio Clave, 5 steps, 1.20 coarse, ..., seed 1204`. */
+/** All that a take was made from: `As reactor to Demo leader, with Patio Clave, 1.20 coarse, ..., seed 1204`. */
 export function fullTakeText({ reaction: { inputs } }: Take): string {
   const { leader, song, settings } = inputs;
   return [
     `As ${settings.role} to ${leader.name}`,
     song ? `with ${song.name}` : 'without a song',
     ...shiftText(inputs),
-    stepText(settings.steps),
     guidanceText(settings),
     ...heightText(settings),
     `seed ${settings.seed}`,
@@ -54,8 +52,6 @@ function shiftText({ shift, leader }: Inputs): string[] {
 function heightText({ height }: Settings): string[] {
   return height === null ? [] : [`${centimetres(height)} cm tall`];
 }
-
-const stepText = (steps: number): string => `${steps} ${steps === 1 ? 'step' : 'steps'}`;
 
 /** `2`, `1.5`, `0.05`: no trailing zeros. */
 const plain = (value: number): string => String(Math.round(value * 100) / 100);

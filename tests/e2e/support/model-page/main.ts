@@ -21,11 +21,6 @@ export interface ExplainedError {
   readonly hint: string | undefined;
 }
 
-export interface Asked {
-  readonly frames: number;
-  readonly steps: number;
-}
-
 export interface Answer {
   readonly stages: readonly string[];
   readonly positions?: readonly number[];
@@ -121,7 +116,7 @@ export const page = {
   },
 
   /** A request made of the first frames of the golden leader and its song. */
-  request({ frames, steps }: Asked): GenerateRequest {
+  request(frames: number): GenerateRequest {
     const array = (name: string): Float32Array => Float32Array.from(golden?.get(name)?.data ?? []);
     const columns = (golden?.get('music')?.shape[1] ?? 0) * frames;
     return {
@@ -130,18 +125,17 @@ export const page = {
       guidance: Float32Array.from([...array('coarse')].flatMap((weight, i) => [weight, array('fine')[i]!])),
       musicGuidance: array('music_guidance')[0] ?? NaN,
       variety: 1,
-      steps,
       seed: 1,
     };
   },
 
   /** Generate; `abortAt` cancels after that many block computations. */
-  async generate(asked: Asked, abortAt = Infinity): Promise<Answer> {
+  async generate(frames: number, abortAt = Infinity): Promise<Answer> {
     if (generator === undefined) throw new Error('open comes first');
     const controller = new AbortController();
     const stages: string[] = [];
     try {
-      const { motion } = await generator.generate(page.request(asked), {
+      const { motion } = await generator.generate(page.request(frames), {
         signal: controller.signal,
         onProgress: ({ stage, done }) => {
           stages.push(stage);

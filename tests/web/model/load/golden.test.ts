@@ -34,8 +34,7 @@ function sampling(changes: Partial<Sampling> = {}): Sampling {
   const { manifest, golden, session } = model;
   return {
     latent: manifest.latent,
-    extrapolation: manifest.diffusion.extrapolation,
-    schedule: ddim(manifest.diffusion, golden.steps),
+    schedule: ddim(manifest.diffusion),
     memory: array('memory'),
     keep: 1,
     noise: noise(golden.seed, latents, width),
@@ -77,7 +76,7 @@ describe('the tiny model on wasm', () => {
   it('samples the same branches and mean as PyTorch, and blends them alike', async () => {
     const { manifest, session, golden } = model;
     const size = latents * width;
-    const branches = await new BranchSampler(manifest, session).branches(golden, golden, {
+    const branches = await new BranchSampler(manifest, session).branches(golden, golden.seed, {
       silent: true,
       unconditional: true,
       mean: true,
@@ -108,9 +107,9 @@ describe('the tiny model on wasm', () => {
     const frames = golden.musicValid.length;
     const heard = golden.musicValid.filter((valid) => valid !== 0).length;
     const { features } = manifest.audio;
-    const { guidance, musicGuidance, steps, seed } = golden;
+    const { guidance, musicGuidance, seed } = golden;
     const asked = {
-      ...{ guidance, musicGuidance, steps, seed },
+      ...{ guidance, musicGuidance, seed },
       leader: { fps: manifest.fps, frames, positions: golden.leader },
       music: { features: golden.music.subarray(0, heard * features), frames: heard },
       variety: 1,

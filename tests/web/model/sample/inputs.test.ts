@@ -17,7 +17,6 @@ function request(frames: number, song: { frames: number; start?: number } | null
     guidance: new Float32Array(small.latent.streams.length * small.latent.layers.length),
     musicGuidance: 0,
     variety: 1,
-    steps: small.diffusion.steps.min,
     seed: 1,
   };
 }

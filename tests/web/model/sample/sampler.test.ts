@@ -14,11 +14,11 @@ const tiny = parseManifest(
   ) as unknown,
 );
 
-/** A sampling in Python in which x0 = x / 2 + time; noise and latents are latents x 2 layers x channels. */
-interface Extrapolated {
+/** A sampling in Python in which x0 = x / 2 + time; noise and latents are latents x layers x channels. */
+interface Sampled {
   readonly steps: number;
   readonly last_time: number;
-  readonly extrapolation: readonly number[];
+  readonly layers: number;
   readonly channels: number;
   readonly noise: readonly number[];
   readonly latents: readonly number[];
@@ -33,22 +33,12 @@ function held(values: Float32Array): HeldLatents {
   return { read: () => Promise.resolve(values), free: () => void (unfreed -= 1) };
 }
 
-/** Stands in for the graph: its formula around a prediction of `channels` in each layer. */
-function stepping(
-  predict: (x: Float32Array, input: StepInput) => Float32Array,
-  channels = latent.channels,
-): StepRunner {
-  const read = (latents: Float32Array | HeldLatents): Promise<Float32Array> =>
-    latents instanceof Float32Array ? Promise.resolve(latents) : latents.read();
+/** Stands in for the graph: its formula around a prediction. */
+function stepping(predict: (x: Float32Array, input: StepInput) => Float32Array): StepRunner {
   return async (input) => {
-    const [x, before] = [await read(input.x), await read(input.before)];
+    const x = input.x instanceof Float32Array ? input.x : await input.x.read();
     const x0 = predict(x, input);
-    const perStream = channels / input.extrapolation.length;
-    const next = x.map((value, i) => {
-      const c = input.extrapolation[Math.floor((i % channels) / perStream)]!;
-      return input.a * value + input.b * (x0[i]! + c * (x0[i]! - before[i]!));
-    });
-    return { next: held(next), x0: held(x0) };
+    return held(x.map((value, i) => input.a * value + input.b * x0[i]!));
   };
 }
 
@@ -65,8 +55,7 @@ const mixing = stepping((x, { valid, memory, time }) =>
 function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
   return {
     latent,
-    extrapolation: small.diffusion.extrapolation,
-    schedule: ddim(small.diffusion, 4),
+    schedule: ddim({ ...small.diffusion, steps: 4 }),
     memory: Float32Array.from({ length: latents * latent.memory_width }, (_, i) => Math.sin(i)),
     keep: 1,
     noise: noise(9, latents, width),
@@ -79,20 +68,15 @@ function sampling(latents: number, changes: Partial<Sampling> = {}): Sampling {
 /** The same arithmetic frame by frame, without blocks being packed. */
 function reference(latents: number): Float32Array {
   let x = noise(9, latents, width);
-  let before = x;
-  const { memory, schedule, extrapolation } = sampling(latents);
-  schedule.forEach(({ time, a, b }, k) => {
+  const { memory, schedule } = sampling(latents);
+  for (const { time, a, b } of schedule) {
     const x0 = x.map((value, i) => {
       const frame = Math.floor(i / width);
       const left = frame % latent.block === 0 ? 0 : (x[i - width] ?? 0);
       return 0.5 * value + 0.3 * left + (memory[frame * latent.memory_width] ?? 0) + time;
     });
-    // One channel a stream in this manifest.
-    const share = (i: number): number =>
-      k === schedule.length - 1 ? extrapolation[i % latent.channels]! : 0;
-    x = x.map((value, i) => a * value + b * (x0[i]! + share(i) * (x0[i]! - before[i]!)));
-    before = x0;
-  });
+    x = x.map((value, i) => a * value + b * x0[i]!);
+  }
   return x;
 }
 
@@ -105,27 +89,33 @@ describe('sample', () => {
     }
   });
 
-  it('extrapolates the last prediction of each stream as Python does', async () => {
+  it('gives the latents that Python does', async () => {
     const golden = JSON.parse(
       readFileSync(new URL('../../../fixtures/sampling.json', import.meta.url), 'utf8'),
-    ) as { extrapolated: Extrapolated };
-    const { steps, last_time, extrapolation, channels, noise, latents } = golden.extrapolated;
-    const length = noise.length / (2 * channels);
+    ) as { sampled: Sampled };
+    const { steps, last_time, layers, channels, noise, latents } = golden.sampled;
+    const length = noise.length / (layers * channels);
     const result = await sample({
       ...sampling(length),
-      latent: { ...latent, channels, block: 60 },
-      schedule: ddim({ ...tiny.diffusion, last_time }, steps),
-      extrapolation,
+      latent: {
+        ...latent,
+        layers: Array.from({ length: layers }, (_, i) => `layer ${i}`),
+        channels,
+        block: 60,
+      },
+      schedule: ddim({ ...tiny.diffusion, last_time, steps }),
       noise: Float32Array.from(noise),
-      runStep: stepping((x, { time }) => x.map((value) => value / 2 + time), channels),
+      runStep: stepping((x, { time }) => x.map((value) => value / 2 + time)),
     });
+    expect(result).toHaveLength(latents.length);
     latents.forEach((value, i) => expect(result[i]).toBeCloseTo(value, 5));
   });
 
   it('takes the only prediction of a single step as it is', async () => {
-    const schedule = ddim(small.diffusion, 1);
-    const plain = await sample(sampling(10, { schedule, extrapolation: [0, 0, 0] }));
-    expect(await sample(sampling(10, { schedule }))).toEqual(plain);
+    const schedule = ddim({ ...small.diffusion, steps: 1 });
+    const runStep = stepping((x, { time }) => x.map((value) => value / 2 + time));
+    const expected = noise(9, 10, width).map((value) => value / 2 + schedule[0]!.time);
+    expect(await sample(sampling(10, { schedule, runStep }))).toEqual(expected);
   });
 
   it('does not depend on how many blocks go through the graph at once', async () => {

@@ -12,7 +12,7 @@ describe('ddim', () => {
 
   it('goes in even steps from the last train step to the last time, and from there to the clean latents', () => {
     for (const steps of [1, 2, 3, 7, 10, 50]) {
-      const schedule = ddim(diffusion, steps);
+      const schedule = ddim({ ...diffusion, steps });
       expect(schedule).toHaveLength(steps);
       expect(schedule[0]?.time).toBe(0.999);
       expect(schedule.at(-1)).toMatchObject({ a: 0, b: 1 });
@@ -20,15 +20,17 @@ describe('ddim', () => {
       expect(times).toEqual([...times].sort((a, b) => b - a));
       expect(new Set(times).size).toBe(steps);
     }
-    expect(ddim(diffusion, 3).map(({ time }) => Math.round(time * 1000))).toEqual([999, 624, 249]);
-    expect(ddim(diffusion, 6).map(({ time }) => Math.round(time * 1000))).toEqual([
+    expect(ddim({ ...diffusion, steps: 3 }).map(({ time }) => Math.round(time * 1000))).toEqual([
+      999, 624, 249,
+    ]);
+    expect(ddim({ ...diffusion, steps: 6 }).map(({ time }) => Math.round(time * 1000))).toEqual([
       999, 849, 699, 549, 399, 249,
     ]);
   });
 
   it('keeps a noised sample on its path: x_t = sqrt(ab) x0 + sqrt(1 - ab) e goes to the same e at the next step', () => {
     const [x0, e] = [0.7, -1.3];
-    const schedule = ddim(diffusion, 10);
+    const schedule = ddim({ ...diffusion, steps: 10 });
     const alpha = (k: number): number =>
       k < 10 ? (diffusion.alphas_cumprod[Math.round((schedule[k]?.time ?? NaN) * 1000)] ?? NaN) : 1;
     schedule.forEach(({ a, b }, k) => {
@@ -45,7 +47,7 @@ describe('ddim', () => {
     };
     expect(schedules.length).toBeGreaterThan(5);
     for (const { steps, last_time, plan } of schedules) {
-      ddim({ ...manifest.diffusion, last_time }, steps).forEach(({ time, a, b }, k) => {
+      ddim({ ...manifest.diffusion, last_time, steps }).forEach(({ time, a, b }, k) => {
         [time, a, b].forEach((value, i) => expect(value).toBeCloseTo(plan[k]?.[i] ?? NaN, 7));
       });
     }

@@ -6,7 +6,6 @@ const settings = {
   guidance: uniformGuidance(1.2, 0.6),
   music: 3,
   variety: 1,
-  steps: 10,
   seed: 1204,
   role: 'reactor' as const,
   height: null,

@@ -29,7 +29,7 @@ describe('loading the model', () => {
     const { store, link, attempts } = loading();
     const [attempt] = attempts;
     attempt?.tell({ kind: 'manifest', manifest: small });
-    expect(store.getState().settings?.steps).toBe(10);
+    expect(store.getState().settings?.music).toBe(2);
     expect(await link.manifest()).toBe(small);
     const parts = [
       { name: 'runtime', loaded: 4, total: 4, cached: 4 },

@@ -49,7 +49,6 @@ describe('the dance before a change', () => {
       change.varietySet(1.5),
       change.presetChosen({ ...store.getState().settings!, music: 0 }),
       change.seedSet(8),
-      change.stepsSet(4),
     ]) {
       const before = store.getState().reaction;
       apply(setting);

@@ -42,7 +42,7 @@ describe('generation', () => {
   it('begins by itself once a leader is there, without a song', async () => {
     await begin();
     expect(model.calls).toHaveLength(1);
-    expect(model.calls[0]?.request).toMatchObject({ music: null, steps: 10, seed: 7 });
+    expect(model.calls[0]?.request).toMatchObject({ music: null, seed: 7 });
     model.calls[0]?.answer(result());
     await settled();
     expect(store.getState().reaction).toMatchObject({ seconds: 3, label: null });

@@ -5,7 +5,7 @@ import { undone } from '../../../../web/ui/store/history/history';
 import * as change from '../../support/actions';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
-import { leader } from '../../support/made-state';
+import { leader, song } from '../../support/made-state';
 
 describe('three variations', () => {
   let store: change.Store;
@@ -84,7 +84,7 @@ describe('three variations', () => {
     change.apply(store, change.varietySet(1.8));
     await answer(1);
     variations.cancel();
-    change.apply(store, change.stepsSet(5));
+    change.apply(store, change.songLoaded(song(2)));
     await pass();
     await answer(2);
     await make();
@@ -124,10 +124,12 @@ describe('three variations', () => {
     await choose(8, 10, 11);
     await answer(1);
     variations.pick(8);
-    change.apply(store, change.stepsSet(5));
+    const { leader: first, settings } = store.getState();
+    change.apply(store, change.leaderLoaded(leader(60, 'other.bvh')));
     await pass();
     await answer(3);
-    change.apply(store, change.settingsSet({ ...store.getState().settings!, steps: 10, variety: 1 }));
+    change.apply(store, change.leaderLoaded(first!));
+    change.apply(store, change.settingsSet({ ...settings!, variety: 1 }));
     await pass();
     await answer(4);
     await make();

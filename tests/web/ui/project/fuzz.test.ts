@@ -50,8 +50,7 @@ async function meaningful({ project, losses }: ReturnType<typeof checked>): Prom
   const content = restorer.content(store.getState());
   store.setState(content);
   for (const { reaction, name, number } of content.takes ?? []) {
-    const { steps, seed, music, variety, guidance } = reaction.inputs.settings;
-    expect(Number.isInteger(steps) && steps >= 1 && steps <= 50).toBe(true);
+    const { seed, music, variety, guidance } = reaction.inputs.settings;
     expect(Number.isInteger(seed) && seed >= 0 && seed < 2 ** 32).toBe(true);
     for (const value of [music, variety, ...Object.values(guidance).flatMap((row) => Object.values(row))])
       expect(Math.abs(value)).toBeLessThanOrEqual(4);

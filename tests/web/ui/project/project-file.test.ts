@@ -282,7 +282,6 @@ describe('a part that cannot be read any more', () => {
       guidance: { ...uniformGuidance(0, 0), upper: { coarse: 0, fine: 0.6 } },
       music: 2,
       variety: 1,
-      steps: 10,
       seed: 5,
       role: 'reactor',
       height: null,
@@ -307,6 +306,13 @@ const json = async (alter: (manifest: Record<string, unknown>) => void): Promise
 type Entries = Record<string, unknown>[];
 const entry = (list: string, at: number, change: object) =>
   json((manifest) => void Object.assign((manifest[list] as Entries)[at]!, change));
+
+/** A project whose takes and page have this value for one of the settings. */
+const withSetting = (name: string, value: unknown): Promise<Uint8Array> =>
+  json(({ takes, page }: Record<string, unknown>) => {
+    for (const { inputs } of [...(takes as Entries), page] as { inputs: { settings: Entries[0] } }[])
+      inputs.settings[name] = value;
+  });
 
 describe('what does not fit', () => {
   it.each<[string, () => Promise<Uint8Array>, readonly number[], RegExp]>([
@@ -362,17 +368,16 @@ describe('what does not fit', () => {
     ]);
   });
 
-  it.each([1e9, -5, 2.5])(
-    '%d steps become the nearest number that the model takes, which is said',
-    async (steps) => {
-      const bytes = await json(({ takes, page }: Record<string, unknown>) => {
-        for (const { inputs } of [...(takes as Entries), page] as { inputs: { settings: Entries[0] } }[])
-          inputs.settings['steps'] = steps;
-      });
-      const { content, losses } = await contentOf(readProject(bytes).project, empty().getState());
-      const nearest = Math.min(50, Math.max(1, Math.round(steps)));
-      expect(content.settings?.steps).toBe(nearest);
-      expect(content.takes?.map(({ reaction }) => reaction.inputs.settings.steps)).toEqual([
+  it.each([1e12, -5, 2.5])(
+    'is the seed %d, which becomes the nearest that the model takes, and that is said',
+    async (seed) => {
+      const { content, losses } = await contentOf(
+        readProject(await withSetting('seed', seed)).project,
+        empty().getState(),
+      );
+      const nearest = Math.min(0xffffffff, Math.max(0, Math.round(seed)));
+      expect(content.settings?.seed).toBe(nearest);
+      expect(content.takes?.map(({ reaction }) => reaction.inputs.settings.seed)).toEqual([
         nearest,
         nearest,
         nearest,
@@ -380,6 +385,16 @@ describe('what does not fit', () => {
       expect(losses).toEqual([expect.stringContaining('settings of 3 takes are outside')]);
     },
   );
+
+  it('is a number of steps, as it was a setting once, and nothing is said', async () => {
+    const before = await contentOf(readProject(await whole).project, empty().getState());
+    const after = await contentOf(readProject(await withSetting('steps', 10)).project, empty().getState());
+    expect(after.content.settings).toEqual(before.content.settings);
+    const settings = ({ content }: typeof before) =>
+      content.takes?.map(({ reaction }) => reaction.inputs.settings);
+    expect(settings(after)).toEqual(settings(before));
+    expect(after.losses).toEqual([]);
+  });
 
   it('is a motion of another length than its leader', async () => {
     const { content, losses } = await contentOf(readProject(await whole).project, empty().getState(), {

@@ -11,7 +11,6 @@ const settings: Settings = {
   guidance: uniformGuidance(1.2, 0.6),
   music: 2,
   variety: 1,
-  steps: 10,
   seed: 1204,
   role: 'reactor',
   height: null,
@@ -54,7 +53,6 @@ describe('the inputs of the next reaction', () => {
     expect(select.upToDate(state({ leader: one, reaction, song: song(3) }))).toBe(false);
     for (const changed of [
       { ...settings, seed: 1 },
-      { ...settings, steps: 4 },
       { ...settings, music: 0 },
       { ...settings, variety: 0 },
       { ...settings, guidance: uniformGuidance(1.2, 0.65) },
@@ -141,7 +139,7 @@ describe('notes', () => {
     const loading = { phase: 'loading', label: 'Model', received: 1e6, total: 2e6 } as const;
     const ready = { phase: 'ready', backend: 'wasm', reason: '', threads: 1 } as const;
     const job = { done: 2, total: 10, fraction: 0.3 };
-    const from = { model: loading, settings };
+    const from = { model: loading, manifest: small };
     expect(select.jobText({ ...job, stage: 'waiting' }, from)).toBe('waiting for the model, 1.0 of 2.0 MB');
     expect(select.jobText({ ...job, stage: 'waiting' }, { ...from, model: ready })).toBe('shaping the dance');
     expect(select.jobText({ ...job, stage: 'step' }, from)).toBe('step 3 of 10');

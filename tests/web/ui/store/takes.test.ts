@@ -509,7 +509,7 @@ describe('undo and redo', () => {
     const settings = { ...(page.state.settings as Settings) };
     page.do(change.settingsSet(settings));
     expect(page.state.history.future).toHaveLength(1);
-    page.do(change.stepsSet(4));
+    page.do(change.seedSet(settings.seed + 1));
     expect(page.state.history.future).toHaveLength(0);
   });
 

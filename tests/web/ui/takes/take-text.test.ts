@@ -11,7 +11,6 @@ const settings = {
   guidance: uniformGuidance(2, 1.5),
   music,
   variety: small.guidance.variety.default,
-  steps: small.diffusion.steps.default,
   seed: 1204,
   role: 'reactor' as const,
   height: null,
@@ -34,7 +33,6 @@ test('the line of a take leaves out what is as on the page and as the model’s 
 
 test.each<[string, Partial<Inputs>]>([
   [`as leader, ${guided}`, { settings: { ...settings, role: 'leader' } }],
-  [`1 step, ${guided}`, { settings: { ...settings, steps: 1 } }],
   [`song 1.7 s later, ${guided}`, { shift: 51 }],
   [`song 0.5 s earlier, ${guided}`, { shift: -15 }],
   [`no song, ${guided}`, { song: null }],
@@ -50,7 +48,7 @@ test.each<[string, Partial<Inputs>]>([
 
 test('the tooltip of a take names all inputs', () => {
   expect(fullTakeText(take({ shift: 51 }))).toBe(
-    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.7 s later, ${settings.steps} steps, ` +
+    `As reactor to leader_0412.bvh, with Descarga.mp3, song 1.7 s later, ` +
       `2.00 coarse, 1.50 fine, ${music.toFixed(2)} music, 1.00 variety, seed 1204`,
   );
 });

@@ -14,7 +14,6 @@ export function manifestLoaded(manifest: Manifest, seed: number): Change {
       guidance: defaultGuidance(manifest),
       music: manifest.guidance.music.default,
       variety: manifest.guidance.variety.default,
-      steps: manifest.diffusion.steps.default,
       seed,
       role: 'reactor',
       height: null,

@@ -135,14 +135,6 @@ export function heightSet(height: number | null): Change {
   };
 }
 
-export function stepsSet(steps: number): Change {
-  return ({ settings, manifest }) => {
-    if (!settings || !manifest || !Number.isFinite(steps)) return {};
-    const { min, max } = manifest.diffusion.steps;
-    return { settings: { ...settings, steps: Math.min(max, Math.max(min, Math.round(steps))) } };
-  };
-}
-
 export function seedSet(seed: number): Change {
   return ({ settings }) => {
     if (!settings || !Number.isFinite(seed)) return {};
