@@ -18,7 +18,7 @@ def test_it_times_every_stage_and_leaves_the_scene(tmp_path: Path) -> None:
     save_denoiser(tmp_path / "checkpoint", model.denoiser, model.diffusion, {})
     write_first_card(tmp_path / "checkpoint", model.reference_height, 1.2)
     out = tmp_path / "out"
-    main(Options(tmp_path / "checkpoint", TINY, out, frames=122, steps=2, threads=1, repeats=1))
+    main(Options(tmp_path / "checkpoint", TINY, out, frames=122, threads=1, repeats=1))
     scene = np.load(out / "scene.npz")
     assert scene["leader"].shape == (122, 22, 3)
     assert scene["song"].shape == (122 * 512,)
