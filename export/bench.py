@@ -28,7 +28,6 @@ from training.data.made import made_dancer
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import music_of_length, pad_to_stride
 from training.diffusion.sampler import initial_noise, sample_branch, sample_branches
-from training.diffusion.schedule import ddim_steps
 from training.motion.skeleton import JOINTS
 from training.music.features import features
 from training.music.recipe import AudioRecipe
@@ -85,7 +84,7 @@ def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Op
     watch, sampling, device = Stopwatch(), model.sampling, torch.get_default_device()
     padded = torch.from_numpy(pad_to_stride(leader)).to(device)
     features, valid = music_of_length(music, len(padded))
-    steps, role = ddim_steps(sampling.alpha_bar, sampling.steps, sampling.last_time), torch.zeros(1)
+    steps, role = sampling.ddim(), torch.zeros(1)
     gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
     initial = initial_noise(sampling, SEED, len(padded) // STRIDE).to(device)
     silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)

@@ -3,9 +3,9 @@
     python -m export.demo --model web/public/models/salsa --data ../shared/data/cmu_salsa/duets.npz --duet salsa_02
     node tools/write-bvh.mjs runs/demo/motions.npz web/public/models/salsa/manifest.json web/public/demo
 
-The duet's reactor is the input for which the leader is generated; no motion of the duet is written. The leader that
-ships is of the weights that were the student's teacher, on which controls were measured too; only its reaction was
-made anew.
+The duet's reactor is the input for which the leader is generated; no motion of the duet is written. The leader in
+web/public/demo was made by the student's teacher and stays, since the controls are measured beside it; the reaction to
+it is the student's.
 """
 
 from __future__ import annotations

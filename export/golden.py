@@ -13,7 +13,6 @@ from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.react import measure_bones
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
-from training.diffusion.schedule import ddim_steps
 from training.music.recipe import MUSIC_FEATURES
 
 
@@ -58,7 +57,7 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         model.condition(leader, tensors["music"], heard, role) for heard in (valid, torch.zeros_like(valid))
     )
     initial = initial_noise(sampling, scene.seed, len(memory))
-    steps = ddim_steps(sampling.alpha_bar, sampling.steps, sampling.last_time)
+    steps = sampling.ddim()
     branches = sample_branches(model, memory, silent, initial, steps, sample_mean(model, memory, steps))
     latents = blend(
         branches,

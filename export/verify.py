@@ -23,7 +23,6 @@ from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.react import measure_bones
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
-from training.diffusion.schedule import ddim_steps
 
 TOLERANCE = 1e-4
 """Of single precision: the largest difference of memory and latents, and metres of joints."""
@@ -53,7 +52,7 @@ def differences(truth: dict[str, np.ndarray], exported: Exported, scene: Scene) 
     given = {name: torch.from_numpy(value) for name, value in truth.items()}
     memory = exported.condition(*(given[name] for name in ("leader", "music", "music_valid", "role")))
     sampling = exported.sampling
-    steps = ddim_steps(sampling.alpha_bar, sampling.steps, sampling.last_time)
+    steps = sampling.ddim()
     branches = sample_branches(
         exported,
         given["memory"],

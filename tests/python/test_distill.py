@@ -20,7 +20,6 @@ from training.denoiser.clips import Augmentation, make_clip
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.model import Model
 from training.diffusion.sampler import sample_branches
-from training.diffusion.schedule import ddim_steps
 from training.distill import Distillation, Options, student_diffusion
 
 
@@ -49,7 +48,7 @@ def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None
         made = stage._sample_teacher(noise.repeat(3, 1, 1, 1), memory, batch.valid.repeat(3, 1), keep)
     whole = [i for i in range(n) if batch.valid[i].min() > 0]
     assert whole, "a window of a whole block is a dance of one block"
-    steps = ddim_steps(tiny.sampling.alpha_bar, tiny.diffusion.steps, tiny.diffusion.last_time)
+    steps = tiny.sampling.ddim()
     for i in whole:
         branches = sample_branches(teacher, memory[i], memory[n + i], noise[i], steps, torch.zeros(()))
         names = ("conditional", "silent", "unconditional")

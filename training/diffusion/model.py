@@ -14,7 +14,7 @@ from training.config import DiffusionConfig, FrameConfig
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.decode import decode
 from training.diffusion.guidance import clamp_to_range
-from training.diffusion.schedule import alphas_cumprod
+from training.diffusion.schedule import Step, alphas_cumprod, ddim_steps
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
 from training.motion.streams import leader_features
@@ -37,6 +37,10 @@ class Sampling:
     variety: float  # v of `blend`
     mean_seeds: int  # seeds 0, 1, ... whose mean variety is measured from
     reference_height: float  # metres, `body_height` of the leaders that the model knows
+
+    def ddim(self, steps: int | None = None) -> list[Step]:
+        """The model's own steps, or as many as are asked for, see `ddim_steps`."""
+        return ddim_steps(self.alpha_bar, self.steps if steps is None else steps, self.last_time)
 
 
 class ReactionModel(Protocol):

@@ -17,7 +17,6 @@ from training.diffusion.sampler import (
     sample_guided_at_every_step,
     sample_mean,
 )
-from training.diffusion.schedule import ddim_steps
 from training.motion.skeleton import JOINTS, body_height
 from training.music.recipe import MUSIC_FEATURES
 
@@ -57,9 +56,7 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
     )
     coarse, fine = sampling.guidance if request.guidance is None else request.guidance
     weight = sampling.music_guidance if request.music_guidance is None else request.music_guidance
-    steps = ddim_steps(
-        sampling.alpha_bar, sampling.steps if request.steps is None else request.steps, sampling.last_time
-    )
+    steps = sampling.ddim(request.steps)
     initial = initial_noise(sampling, request.seed, len(memory))
     variety = sampling.variety if request.variety is None else request.variety
     if request.at_every_step:

@@ -8,6 +8,7 @@ import {
   type CoarseRequest,
   type GenerateRequest,
   HEIGHTS,
+  SEEDS,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -87,7 +88,7 @@ export interface Generator {
   dispose(): void;
 }
 
-export { HEIGHTS, secondsNow };
+export { HEIGHTS, SEEDS, secondsNow };
 
 /** A worker with a loaded model. */
 interface LoadedWorker extends Loaded {

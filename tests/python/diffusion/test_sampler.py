@@ -21,7 +21,7 @@ from training.diffusion.sampler import (
     sample_guided_at_every_step,
     sample_mean,
 )
-from training.diffusion.schedule import Step, ddim_steps
+from training.diffusion.schedule import Step
 
 SEED = 5
 LENGTH = 150  # latent frames: two full blocks and a half
@@ -33,7 +33,7 @@ def model() -> Model:
 
 
 def steps_of(sampling: Sampling, count: int = 4) -> list[Step]:
-    return ddim_steps(sampling.alpha_bar, count, sampling.last_time)
+    return sampling.ddim(count)
 
 
 def memories(model: Model, start: int = 0, length: int = LENGTH) -> tuple[Tensor, Tensor]:

@@ -3,6 +3,7 @@ import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { Manifest } from '../manifest';
 import { blend, layerGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
+import { SEEDS } from '../sample/inputs';
 import { readNpz } from './npz';
 import type { NpzArray } from '../../common/npz';
 import type { ModelSession } from './session';
@@ -25,7 +26,6 @@ export interface Golden {
 
 /** Largest number of motion frames of a golden sampling; what is exported has 600. */
 const MAX_FRAMES = 10_000;
-const MAX_SEED = 2 ** 32 - 1;
 
 /**
  * Reads the golden sampling from the archive beside a manifest.
@@ -52,8 +52,8 @@ export function readGolden(bytes: Uint8Array): Golden {
   const number = (name: string): number => shaped(name, 1)[0]!;
   const coarse = shaped('coarse', null);
   const seed = number('seed');
-  if (!Number.isInteger(seed) || seed < 0 || seed > MAX_SEED)
-    throw invalid(`has a "seed" of ${seed}, not a whole number from 0 to ${MAX_SEED}`);
+  if (!Number.isInteger(seed) || seed < SEEDS.min || seed > SEEDS.max)
+    throw invalid(`has a "seed" of ${seed}, not a whole number from ${SEEDS.min} to ${SEEDS.max}`);
   return {
     leader: shaped('leader', frames, JOINT_COUNT, 3),
     music: shaped('music', frames, null),

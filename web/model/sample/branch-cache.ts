@@ -4,27 +4,27 @@
  */
 const MAX_BYTES = 64 * 2 ** 20;
 
-/** Sampled latents by name, in groups that are dropped as a whole: the group used longest ago goes first. */
+/** Sampled latents by seed and name. Those of a seed are a group: the group used longest ago is dropped first, whole. */
 export class BranchCache<Name extends string> {
-  readonly #groups = new Map<string, Map<Name, Float32Array>>();
+  readonly #groups = new Map<number, Map<Name, Float32Array>>();
 
   /** @param maxBytes the group used last is kept even if it is larger than this by itself */
   constructor(readonly maxBytes = MAX_BYTES) {}
 
   /** The arrays of a group, which becomes the one used last; empty where there is none. */
-  group(key: string): ReadonlyMap<Name, Float32Array> {
-    const group = this.#groups.get(key) ?? new Map<Name, Float32Array>();
-    this.#groups.delete(key);
-    this.#groups.set(key, group);
+  group(seed: number): ReadonlyMap<Name, Float32Array> {
+    const group = this.#groups.get(seed) ?? new Map<Name, Float32Array>();
+    this.#groups.delete(seed);
+    this.#groups.set(seed, group);
     return group;
   }
 
   /** Adds to a group, which becomes the one used last, and drops others while there is too much. */
-  add(key: string, name: Name, values: Float32Array): void {
-    this.group(key);
-    this.#groups.get(key)!.set(name, values);
+  add(seed: number, name: Name, values: Float32Array): void {
+    this.group(seed);
+    this.#groups.get(seed)!.set(name, values);
     for (const oldest of this.#groups.keys()) {
-      if (oldest === key || this.bytes <= this.maxBytes) return;
+      if (oldest === seed || this.bytes <= this.maxBytes) return;
       this.#groups.delete(oldest);
     }
   }

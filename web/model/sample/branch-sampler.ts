@@ -20,7 +20,6 @@ type Branch = Exclude<keyof Branches, 'mean'>;
 interface Known {
   readonly input: ConditionInput;
   readonly conditions: Map<'song' | 'silence', Condition>;
-  /** Groups by seed. */
   readonly latents: BranchCache<Branch>;
   /** Mean coarse layer of several seeds, once it was needed. */
   mean: Float32Array | null;
@@ -62,9 +61,8 @@ export class BranchSampler {
     const list: Branch[] = ['conditional'];
     if (wanted.silent && song) list.push('silent');
     if (wanted.unconditional) list.push('unconditional');
-    const key = String(seed);
     // A copy: other seeds may be sampled meanwhile, and push this one out of the cache.
-    const latents = new Map(known.latents.group(key));
+    const latents = new Map(known.latents.group(seed));
     const missing = list.filter((branch) => !latents.has(branch));
     const { seeds } = this.manifest.guidance.variety;
     const meanMissing = wanted.mean && !known.mean;
@@ -80,7 +78,7 @@ export class BranchSampler {
     for (const branch of missing) {
       const sampled = await sampleNext(branch, seed);
       latents.set(branch, sampled);
-      known.latents.add(key, branch, sampled);
+      known.latents.add(seed, branch, sampled);
     }
     if (meanMissing) {
       const coarse: Float32Array[] = [];

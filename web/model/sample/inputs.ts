@@ -41,6 +41,9 @@ export interface Size {
 /** Least and greatest height that can be asked for, metres. */
 export const HEIGHTS = { min: 0.5, max: 2.5 };
 
+/** Least and greatest seed. */
+export const SEEDS = { min: 0, max: 2 ** 32 - 1 };
+
 /** How it is danced. */
 export interface DanceSettings extends Weights, Size {
   /** Its lowest 32 bits count. */

@@ -1,3 +1,4 @@
+import { SEEDS } from '../../model/client';
 import { iconButton } from '../widgets/button';
 import { el, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
@@ -10,8 +11,7 @@ export const mountSeedBox: Mount = (root, store) => {
   const input = el('input', {
     attributes: {
       type: 'number',
-      min: 0,
-      max: 0xffffffff,
+      ...SEEDS,
       step: 1,
       'aria-label': 'Seed',
       inputmode: 'numeric',

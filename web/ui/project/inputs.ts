@@ -1,5 +1,5 @@
 import { FPS } from '../../motion/skeleton/clip';
-import { HEIGHTS, type Manifest } from '../../model/client';
+import { HEIGHTS, type Manifest, SEEDS } from '../../model/client';
 import { clampedTo, rangeOf } from '../store/guidance-matrix';
 import type { Inputs, LoadedLeader, LoadedSong, Settings } from '../store/reaction';
 import { sameSettings } from '../store/selectors';
@@ -67,7 +67,7 @@ function fitted(settings: Settings, { guidance }: Manifest): Settings {
     ),
     music: clampedTo(settings.music, guidance.music),
     variety: clampedTo(settings.variety, guidance.variety),
-    seed: Math.min(0xffffffff, Math.max(0, Math.round(settings.seed))),
+    seed: clampedTo(Math.round(settings.seed), SEEDS),
     role: settings.role === 'leader' ? 'leader' : 'reactor',
     height: settings.height === null ? null : clampedTo(settings.height, HEIGHTS),
   };

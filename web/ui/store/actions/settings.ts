@@ -1,10 +1,11 @@
 /** The settings of a generation. */
-import { HEIGHTS, type Manifest } from '../../../model/client';
+import { HEIGHTS, type Manifest, SEEDS } from '../../../model/client';
 import { otherRole } from '../roles';
 import {
   columnOf,
   defaultGuidance,
   guidanceAt,
+  clampedTo,
   clampedToStep,
   rangeOf,
   withCell,
@@ -129,8 +130,7 @@ export function rolesSwapped(): Change {
 export function heightSet(height: number | null): Change {
   return ({ settings }) => {
     if (!settings || Number.isNaN(height)) return {};
-    const { min, max } = HEIGHTS;
-    const clamped = height === null ? null : Math.min(max, Math.max(min, height));
+    const clamped = height === null ? null : clampedTo(height, HEIGHTS);
     return clamped === settings.height ? {} : { settings: { ...settings, height: clamped } };
   };
 }
@@ -138,7 +138,7 @@ export function heightSet(height: number | null): Change {
 export function seedSet(seed: number): Change {
   return ({ settings }) => {
     if (!settings || !Number.isFinite(seed)) return {};
-    return { settings: { ...settings, seed: Math.min(0xffffffff, Math.max(0, Math.round(seed))) } };
+    return { settings: { ...settings, seed: clampedTo(Math.round(seed), SEEDS) } };
   };
 }
 
