@@ -1,5 +1,5 @@
-"""Distils stage 2 into a student that samples in fewer passes: it learns what the teacher's whole sampling gives, from
-the same noise (Luhman and Luhman 2021, Knowledge distillation in iterative generative models).
+"""Distils stage 2 into a student that samples in one pass: it learns what the teacher's whole sampling gives, from the
+same noise (Luhman and Luhman 2021, Knowledge distillation in iterative generative models).
 
 python -m training.distill --teacher runs/mine --data my-duets --val duo_3 --test duo_5 --out runs/student
 
@@ -31,8 +31,6 @@ from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, valid
 
 LAYER_WEIGHTS = (1.0, 0.5)
 """Of the squared errors of the coarse layer, and of every finer one."""
-EARLIER_PASSES = 0.5
-"""Weight of the predictions before the last one, which already aim at the result."""
 MUSIC_WEIGHT = 12.0
 """Of the error in what the song changes, which the weight of the music multiplies (see `blend`)."""
 
@@ -43,10 +41,9 @@ class Options(ClipOptions):
 
     teacher: Path
     """Checkpoint of the denoiser whose sampling is learnt, with its stage 1."""
-    passes: int = 2
-    """Steps that the student samples in."""
-    last_time: float = 0.5
-    """Time of the student's last pass, a share of the training timesteps."""
+    music_guidance: float | None = None
+    """Default weight of the music for the student, which learns what the song changes a little too weak; the teacher's
+    when left out."""
     learning_rate: float = 3e-4
     weight_decay: float = 0.0
     batch: int = 8
@@ -63,7 +60,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     teacher = load_model(options.teacher)
-    diffusion = student_diffusion(teacher.diffusion, options.passes, options.last_time)
+    diffusion = student_diffusion(teacher.diffusion, options.music_guidance)
     duets = read_duets_to_train(options)
     bank = music_of(options, duets)
     network = teacher.denoiser
@@ -81,7 +78,7 @@ def main(options: Options) -> None:
         lr=options.learning_rate,
         weight_decay=options.weight_decay,
     )
-    stage = Distillation(student, network, teacher.diffusion, diffusion)
+    stage = Distillation(student, network, teacher.diffusion)
     before = read_config(options.teacher, "denoiser")["provenance"]
     run = Run(fabric, stage, student, optimizer, options, options.out / "distill", warmup=50)
 
@@ -107,10 +104,13 @@ def main(options: Options) -> None:
     fabric.barrier()
 
 
-def student_diffusion(teacher: DiffusionConfig, passes: int, last_time: float) -> DiffusionConfig:
-    """How a student of a teacher's sampling is sampled: nothing is extrapolated, what that gave has been learnt."""
+def student_diffusion(teacher: DiffusionConfig, music_guidance: float | None) -> DiffusionConfig:
+    """How a student of a teacher's sampling is sampled: in one step, and nothing is extrapolated, since what that gave
+    has been learnt.
+    """
+    weight = teacher.music_guidance if music_guidance is None else music_guidance
     none = tuple(0.0 for _ in teacher.extrapolation)
-    return replace(teacher, steps=passes, last_time=last_time, extrapolation=none)
+    return replace(teacher, steps=1, extrapolation=none, music_guidance=weight)
 
 
 class Distillation(nn.Module):
@@ -118,22 +118,13 @@ class Distillation(nn.Module):
 
     extrapolation: Tensor
 
-    def __init__(
-        self,
-        student: Denoiser,
-        teacher: Denoiser,
-        teachers: DiffusionConfig,
-        students: DiffusionConfig,
-    ) -> None:
-        """teacher: frozen; teachers and students: how each is sampled."""
+    def __init__(self, student: Denoiser, teacher: Denoiser, diffusion: DiffusionConfig) -> None:
+        """teacher: frozen; diffusion: how it is sampled."""
         super().__init__()
         self.student = student
         self.teacher = teacher
-        self.teacher_steps, self.student_steps = (
-            ddim_steps(alphas_cumprod(diffusion), diffusion.steps, diffusion.last_time)
-            for diffusion in (teachers, students)
-        )
-        self.register_buffer("extrapolation", torch.tensor(teachers.extrapolation), persistent=False)
+        self.steps = ddim_steps(alphas_cumprod(diffusion), diffusion.steps, diffusion.last_time)
+        self.register_buffer("extrapolation", torch.tensor(diffusion.extrapolation), persistent=False)
 
     def forward(self, batch: Batch) -> tuple[Tensor, dict[str, Tensor]]:
         # Dropout would be another network than the one that is sampled.
@@ -145,12 +136,8 @@ class Distillation(nn.Module):
         noise = torch.randn_like(batch.latents).repeat(3, 1, 1, 1)
         with torch.no_grad():
             wanted = self._sample_teacher(noise, memory, valid, keep)
-        x, errors = noise, []
-        for step in self.student_steps:
-            x0 = predict(self.student, x, memory, valid, keep, step)
-            errors.append(x0 - wanted)
-            x = (step.a * x + step.b * x0).detach()
-        error = errors[-1]
+        # The student's one step begins where the teacher's first one does.
+        error = predict(self.student, noise, memory, valid, keep, self.steps[0]) - wanted
         with_song, silent, unconditional = error.split(n)
         mean = WeightedSquares(valid, error.shape[2])
         parts = {
@@ -159,8 +146,6 @@ class Distillation(nn.Module):
             "music": MUSIC_WEIGHT * mean(with_song - silent),
             "conditions": mean(silent - unconditional),
         }
-        if len(errors) > 1:
-            parts["earlier"] = EARLIER_PASSES * torch.stack([mean(each) for each in errors[:-1]]).sum()
         return torch.stack(list(parts.values())).sum(), {k: v.detach() for k, v in parts.items()}
 
     @torch.no_grad()
@@ -185,7 +170,7 @@ class Distillation(nn.Module):
             extrapolated_ddim(
                 lambda x, step: predict(self.teacher, x, memory, valid, keep, step),
                 noise,
-                self.teacher_steps,
+                self.steps,
                 self.extrapolation,
             ),
         )

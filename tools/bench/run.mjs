@@ -128,7 +128,7 @@ await runMain(async () => {
       app,
     };
     await writeFile(path.resolve(root, options.out), `${JSON.stringify(report, null, 2)}\n`);
-    console.log(`\n${report.frames} frames, ${report.steps} steps, seconds (${report.machine.processor}):`);
+    console.log(`\n${frames} frames, steps: ${report.steps}, seconds (${report.machine.processor}):`);
     if (rows.length > 0) console.log(`\n${table(rows)}`);
     if (app) console.log(`\n${appTables(app)}`);
     console.log(`\nWritten to ${options.out}.`);

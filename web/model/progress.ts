@@ -7,9 +7,6 @@ export type Stage = 'condition' | 'step';
 
 export interface Progress {
   readonly stage: Stage;
-  /** Pieces of this stage that are done, of `total`. */
-  readonly done: number;
-  readonly total: number;
   /** Of the whole sampling, 0 to 1. */
   readonly fraction: number;
 }
@@ -26,5 +23,5 @@ const FRACTIONS: Record<Stage, readonly [from: number, to: number]> = {
 /** Turns the progress of one stage into progress of the whole. */
 export function stageProgress(onProgress: ProgressListener, stage: Stage): StageListener {
   const [from, to] = FRACTIONS[stage];
-  return (done, total) => onProgress?.({ stage, done, total, fraction: from + ((to - from) * done) / total });
+  return (done, total) => onProgress?.({ stage, fraction: from + ((to - from) * done) / total });
 }

@@ -101,7 +101,7 @@ test('the processor is chosen where there is only a software adapter, with the r
 test('cancelling stops between steps, and the next call works', async ({ page }) => {
   await openSlow(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
-  const cancelled = await page.evaluate(() => model.generate(600, 9));
+  const cancelled = await page.evaluate(() => model.generate(600, 2));
   expect(cancelled.error?.name).toBe('AbortError');
   // The running step and one more may still be reported; without cancelling there would be twenty.
   expect(await page.evaluate(() => model.progressInASecond())).toBeLessThanOrEqual(2);
@@ -113,7 +113,7 @@ test('a crash of the worker is reported, and the next call starts a new worker',
   await openSlow(page);
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const running = page.evaluate(() => model.generate(120));
-  await page.waitForFunction(() => model.done > 1);
+  await page.waitForFunction(() => model.steps > 1);
   const worker = page.workers().find((candidate) => candidate.url().includes('/worker-'));
   await worker?.evaluate(() => {
     setTimeout(() => {

@@ -85,7 +85,7 @@ test('the worker computes on WebGPU, and a device that is lost in the middle of 
   await page.evaluate(() => model.readGolden('tiny/golden.npz'));
   const frames = 600;
   const generating = page.evaluate((asked) => model.generate(asked), frames);
-  await expect.poll(() => page.evaluate(() => model.done)).toBeGreaterThan(0);
+  await expect.poll(() => page.evaluate(() => model.steps)).toBeGreaterThan(0);
   const [worker] = page.workers();
   await worker?.evaluate('device.destroy()');
   const { positions, error } = await generating;

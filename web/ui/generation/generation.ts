@@ -124,7 +124,7 @@ export class Generation {
     try {
       // Whoever asks for another dance to the same files wants to see it, not what the page is for.
       if (sameFiles(this.#store.getState().reaction, inputs)) apply(this.#store, firstVisitEnded());
-      apply(this.#store, jobChanged({ stage: 'waiting', done: 0, total: 1, fraction: 0 }));
+      apply(this.#store, jobChanged({ stage: 'waiting', fraction: 0 }));
       const result = await this.#request(running, signal);
       if (signal.aborted) return;
       this.#running = null;

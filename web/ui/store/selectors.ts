@@ -66,7 +66,7 @@ export function isSampling(state: AppState): boolean {
 }
 
 /** The stage of a job as a text for the visitor. */
-export function jobText(job: Job, { model, manifest }: Pick<AppState, 'model' | 'manifest'>): string {
+export function jobText(job: Job, { model }: Pick<AppState, 'model'>): string {
   switch (job.stage) {
     case 'waiting':
       if (model.phase === 'ready') return 'shaping the dance';
@@ -76,13 +76,8 @@ export function jobText(job: Job, { model, manifest }: Pick<AppState, 'model' | 
     case 'condition':
       return 'reading song and leader';
     case 'step':
-      return stepText(job, manifest?.diffusion.steps ?? job.total);
+      return 'sampling the dance';
   }
-}
-
-/** A step may run in several pieces; only the model's steps are counted. */
-function stepText({ done, total }: Job, steps: number): string {
-  return `step ${Math.min(steps, Math.floor((done / Math.max(1, total)) * steps) + 1)} of ${steps}`;
 }
 
 /** A sentence on how the lengths of song and leader differ; null when they match within half a second. */

@@ -78,8 +78,6 @@ export type ModelState =
 
 export interface Job {
   readonly stage: 'waiting' | 'condition' | 'step';
-  readonly done: number;
-  readonly total: number;
   /** 0 to 1 over the whole sampling; 0 where only weights have changed, which needs none. */
   readonly fraction: number;
 }

@@ -55,8 +55,8 @@ let golden: ReturnType<typeof readNpz> | undefined;
 
 export const page = {
   statuses: [] as (Status | ReloadFailure)[],
-  /** Block computations of the generation under way. */
-  done: 0,
+  /** Steps that the generation under way has reported. */
+  steps: 0,
 
   /** How often the worker sends progress within a second: that it stops is seen from nothing coming for a time. */
   async progressInASecond(): Promise<number> {
@@ -129,18 +129,20 @@ export const page = {
     };
   },
 
-  /** Generate; `abortAt` cancels after that many block computations. */
+  /** Generate; `abortAt` cancels after that many reported steps. */
   async generate(frames: number, abortAt = Infinity): Promise<Answer> {
     if (generator === undefined) throw new Error('open comes first');
     const controller = new AbortController();
     const stages: string[] = [];
+    page.steps = 0;
     try {
       const { motion } = await generator.generate(page.request(frames), {
         signal: controller.signal,
-        onProgress: ({ stage, done }) => {
+        onProgress: ({ stage }) => {
           stages.push(stage);
-          page.done = stage === 'step' ? done : 0;
-          if (stage === 'step' && done >= abortAt) controller.abort();
+          if (stage !== 'step') return;
+          page.steps += 1;
+          if (page.steps >= abortAt) controller.abort();
         },
       });
       return { stages, positions: Array.from(motion.positions) };

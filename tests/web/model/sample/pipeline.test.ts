@@ -350,8 +350,8 @@ describe('Pipeline', () => {
     const long = new Pipeline(withSteps(model.manifest, 10), observed, () => 0);
     const result = long.generate(request(120), {
       signal: controller.signal,
-      onProgress: ({ stage, done }) => {
-        if (stage === 'step' && done === 3) setTimeout(() => controller.abort());
+      onProgress: ({ stage }) => {
+        if (stage === 'step' && stepRuns === 3) setTimeout(() => controller.abort());
       },
     });
     await expect(result).rejects.toThrow(/abort/i);

@@ -25,7 +25,7 @@ describe('the dance before a change', () => {
     apply(change.reactionAdded(reaction));
     return reaction;
   };
-  const job = change.jobChanged({ stage: 'step', done: 0, total: 1, fraction: 0.9 });
+  const job = change.jobChanged({ stage: 'step', fraction: 0.9 });
   const previewed = (): void => apply(job, change.previewShown({ motion: still(90), locked: still(90) }));
   const shown = () => earlierMotion({ ...store.getState(), footLock: false });
   const after = (seconds: number): void => void vi.advanceTimersByTime(seconds * 1000);

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { blocksOf, doneShare } from '../../../../web/ui/timeline/block-row';
 import type { Job } from '../../../../web/ui/store/state';
 
-const job = (fraction: number): Job => ({ stage: 'step', done: 1, total: 4, fraction });
+const job = (fraction: number): Job => ({ stage: 'step', fraction });
 
 describe('blocks', () => {
   const blocks = blocksOf(600, 240);
