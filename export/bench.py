@@ -28,7 +28,6 @@ from training.data.made import made_dancer
 from training.diffusion.model import ReactionModel
 from training.diffusion.react import music_of_length, pad_to_stride
 from training.diffusion.sampler import initial_noise, sample_branch, sample_branches
-from training.motion.skeleton import JOINTS
 from training.music.features import features
 from training.music.recipe import AudioRecipe
 
@@ -85,14 +84,14 @@ def run(model: ReactionModel, leader: np.ndarray, music: np.ndarray, options: Op
     padded = torch.from_numpy(pad_to_stride(leader)).to(device)
     features, valid = music_of_length(music, len(padded))
     steps, role = sampling.ddim(), torch.zeros(1)
-    gains, bones = torch.ones(len(STREAMS), sampling.layers), torch.ones(len(JOINTS))
+    gains = torch.ones(len(STREAMS), sampling.layers)
     initial = initial_noise(sampling, SEED, len(padded) // STRIDE).to(device)
     silent = model.condition(padded, torch.zeros_like(features), torch.zeros_like(valid), role)
     for _ in range(1 + options.repeats):
         memory = watch("condition", lambda: model.condition(padded, features, valid, role))
         latents = watch("steps", lambda m=memory: sample_branch(model, m, 1.0, initial, steps))
         watch("branches", lambda m=memory: sample_branches(model, m, silent, initial, steps, torch.zeros(())))
-        watch("decode", lambda x=latents: model.decode(x, padded, gains, bones))
+        watch("decode", lambda x=latents: model.decode(x, padded, gains, role))
     return watch.seconds
 
 

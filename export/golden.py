@@ -11,7 +11,6 @@ import torch
 from training.data.made import made_dancer
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
-from training.diffusion.react import measure_bones
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 from training.music.recipe import MUSIC_FEATURES
 
@@ -46,8 +45,8 @@ def inputs(scene: Scene) -> dict[str, np.ndarray]:
 def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
     """Inputs and everything PyTorch makes of them: memory with and without the song, the
     leader's unfamiliarity (L,), initial noise, the branches'
-    latents and their mean (4, L, R, C), the blended latents (L, R, C), bone lengths (22,), the joints (T, 22, 3),
-    and those of the coarse layer alone.
+    latents and their mean (4, L, R, C), the blended latents (L, R, C), the joints (T, 22, 3), and those of the
+    coarse layer alone.
     """
     given = inputs(scene)
     tensors = {name: torch.from_numpy(value) for name, value in given.items()}
@@ -66,7 +65,6 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
         variety=1.0,  # the page repeats this sampling as it loads: without the seeds of the mean
     )
     gains = layer_gains(tensors["fine"], sampling.layers)
-    bones = measure_bones(model, branches.conditional, leader)
     coarse_alone = layer_gains(torch.full_like(tensors["fine"], -1), sampling.layers)
     return given | {
         "seed": np.array([scene.seed], dtype=np.float32),
@@ -78,9 +76,8 @@ def reference(model: Model, scene: Scene) -> dict[str, np.ndarray]:
             [branches.conditional, branches.silent, branches.unconditional, branches.mean]
         ).numpy(),
         "latents": latents.numpy(),
-        "reactor": model.decode(latents, leader, gains, bones)[0].numpy(),
-        "coarse_alone": model.decode(latents, leader, coarse_alone, bones)[0].numpy(),
-        "bones": bones.numpy(),
+        "reactor": model.decode(latents, leader, gains, role).numpy(),
+        "coarse_alone": model.decode(latents, leader, coarse_alone, role).numpy(),
     }
 
 

@@ -50,8 +50,8 @@ class Step(nn.Module):
 
 
 class Decode(nn.Module):
-    """latents (L, R, C) normalised, leader (4 L, 22, 3), gains (S, R) and bones (22) metres to reactor (4 L, 22, 3)
-    metres and lengths (4 L, 22), see `ReactionModel.decode`.
+    """latents (L, R, C) normalised, leader (4 L, 22, 3), gains (S, R) and role (1) to reactor (4 L, 22, 3) metres, see
+    `ReactionModel.decode`.
     """
 
     def __init__(self, model: Model) -> None:
@@ -59,5 +59,5 @@ class Decode(nn.Module):
         self.model = model
         self.hfsq = model.hfsq  # registers its parameters
 
-    def forward(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
-        return self.model.decode(latents, leader, gains, bones)
+    def forward(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
+        return self.model.decode(latents, leader, gains, role)

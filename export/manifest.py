@@ -16,8 +16,9 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 5
+FORMAT, VERSION = "reactdance-model", 6
 LAYER_NAMES = ("coarse", "fine")
+ROLES = ("reactor", "leader")
 
 
 @dataclass(frozen=True)
@@ -87,6 +88,10 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
             "lower": list(LOWER),
             "feet": list(FEET),
             "reference_height": round(card.reference_height, 4),
+            "bodies": {
+                role: [[round(value, 5) for value in offset] for offset in body.tolist()]
+                for role, body in zip(ROLES, model.denoiser.bodies, strict=True)
+            },
             **({} if card.reactor_height is None else {"reactor_height": round(card.reactor_height, 4)}),
             "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },

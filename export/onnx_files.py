@@ -74,9 +74,9 @@ def graphs(model: Model) -> list[Graph]:
                 "latents": ("latents", layers, channels),
                 "leader": motion,
                 "gains": (len(STREAMS), layers),
-                "bones": (len(JOINTS),),
+                "role": (1,),
             },
-            {"reactor": motion, "lengths": ("frames", len(JOINTS))},
+            {"reactor": motion},
         ),
     ]
 

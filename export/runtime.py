@@ -55,9 +55,8 @@ class Exported:
         step = {"a": torch.zeros(1), "b": torch.ones(1)}  # to the prediction itself
         return self._run("step", x=x, memory=memory, valid=valid, keep=keep, time=time, **step)[0]
 
-    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
-        reactor, lengths = self._run("decode", latents=latents, leader=leader, gains=gains, bones=bones)
-        return reactor, lengths
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
+        return self._run("decode", latents=latents, leader=leader, gains=gains, role=role)[0]
 
     def _condition(self, leader: Tensor, music: Tensor, music_valid: Tensor, role: Tensor) -> list[Tensor]:
         return self._run("condition", leader=leader, music=music, music_valid=music_valid, role=role)

@@ -15,9 +15,11 @@ from export.manifest import Card
 from export.write import write_model
 from training.command_line import run_program
 from training.config import ConditionConfig, DenoiserConfig, DiffusionConfig, FrameConfig, HfsqConfig
+from training.data.made import made_dancer
 from training.denoiser.denoiser import Denoiser
 from training.diffusion.model import Model
 from training.hfsq.autoencoder import Autoencoder
+from training.motion.rest_pose import rest_offsets
 
 # Two full blocks and a half: 600 frames.
 SCENE = Scene(frames=600, silent_from=420)
@@ -56,6 +58,8 @@ def tiny_model(seed: int = 0) -> Model:
         stream.mean.fill_(place)
         stream.std.fill_(0.2)
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
+    body = torch.from_numpy(rest_offsets(made_dancer(60, seed=1)))
+    denoiser.bodies.copy_(torch.stack([body, 1.1 * body]))
     diffusion = DiffusionConfig(
         steps=4,
         last_time=0.25,

@@ -21,7 +21,6 @@ from training.checkpoint import load_model
 from training.command_line import run_program
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
-from training.diffusion.react import measure_bones
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
 
 TOLERANCE = 1e-4
@@ -67,9 +66,8 @@ def differences(truth: dict[str, np.ndarray], exported: Exported, scene: Scene) 
         float(given["music_guidance"]),
         variety=1.0,
     )
-    bones = measure_bones(exported, branches.conditional, given["leader"])
     gains = layer_gains(given["fine"], sampling.layers)
-    reactor, _ = exported.decode(latents, given["leader"], gains, bones)
+    reactor = exported.decode(latents, given["leader"], gains, given["role"])
 
     def worst(a: Tensor, b: np.ndarray) -> float:
         return float(np.abs(a.numpy() - b).max())

@@ -19,6 +19,7 @@ from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.losses import decoded_windows, motion_loss, noise_weights, simple_loss
 from training.denoiser.windows import Batch, Windows
+from training.diffusion.body import set_bodies
 from training.diffusion.model import Model
 from training.diffusion.react import at_height
 from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
@@ -84,6 +85,7 @@ def main(options: Options) -> None:
         """Measure and save the averaged denoiser."""
         with run.averaged() as averaged:
             model = Model(hfsq.cpu(), frame, averaged, options.diffusion, height)
+            set_bodies(model, [d.leader for d in duets.train], [d.reactor for d in duets.train])
             report = validate(model, bank, duets.val)
             run.logger.write(run.schedule, report)
             run.logger.draw()

@@ -18,6 +18,7 @@ from training.denoiser.transformer import (
     phase,
     sinusoidal,
 )
+from training.motion.skeleton import JOINTS
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,8 @@ class Denoiser(nn.Module):
 
     Coarse never sees fine: transformer r reads the noisy latents of layers up to r and
     the hidden states of the one below.
-    `lowest` and `highest` (R, C) are the ends of the quantiser's range, which sampling keeps to.
+    `lowest` and `highest` (R, C) are the ends of the quantiser's range, which sampling keeps to. `bodies` (2, 22, 3)
+    are the rest offsets, metres, of the dancers of role 0, the reactor, and 1, the leader; see `set_bodies`.
     """
 
     positions: Tensor
@@ -106,6 +108,7 @@ class Denoiser(nn.Module):
     alibi: Tensor
     lowest: Tensor
     highest: Tensor
+    bodies: Tensor
 
     def __init__(self, latent_width: int, layers: int, config: DenoiserConfig) -> None:
         super().__init__()
@@ -126,6 +129,7 @@ class Denoiser(nn.Module):
         )
         self.register_buffer("lowest", torch.full((layers, latent_width), -torch.inf))
         self.register_buffer("highest", torch.full((layers, latent_width), torch.inf))
+        self.register_buffer("bodies", torch.zeros(2, len(JOINTS), 3))
         alibi = alibi_bias(config.block, config.alibi_slopes)
         mask = causal_bias(config.block) if config.mask == "causal" else torch.zeros(())
         self.register_buffer("positions", position_table(config), persistent=False)

@@ -40,5 +40,5 @@ class CachedModel:
             self._predictions[key] = self.model.predict(*inputs)
         return self._predictions[key]
 
-    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
-        return self.model.decode(latents, leader, gains, bones)
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
+        return self.model.decode(latents, leader, gains, role)

@@ -65,9 +65,9 @@ class ReactionModel(Protocol):
         """
         ...
 
-    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
-        """Joints (T, 22, 3) metres of normalised latents (L, R, C), and the bone lengths (T, 22) before they were
-        made constant, metres. gains (S, R) multiplies each stream's layers; bones (22,) metres are the lengths to give.
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
+        """Joints (T, 22, 3) metres of normalised latents (L, R, C). gains (S, R) multiplies each stream's layers;
+        role (1,): whose body dances.
         """
         ...
 
@@ -114,6 +114,9 @@ class Model:
         every = (valid[:, :1] * 0 + keep).expand(-1, self.denoiser.layers)
         return clamp_to_range(self.denoiser, self.denoiser(x, time, memory, valid, every, every))
 
-    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, bones: Tensor) -> tuple[Tensor, Tensor]:
+    def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
+        # Not `norm`, whose exported form is another operator on either backend.
+        reactors, leaders = self.denoiser.bodies.square().sum(-1).sqrt()
+        bones = reactors + role * (leaders - reactors)
         clamped = clamp_to_range(self.denoiser, latents)
         return decode(self.hfsq, self.frame, self.diffusion, clamped, leader, gains, bones)

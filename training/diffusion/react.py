@@ -17,7 +17,7 @@ from training.diffusion.sampler import (
     sample_guided_at_every_step,
     sample_mean,
 )
-from training.motion.skeleton import JOINTS, body_height
+from training.motion.skeleton import body_height
 from training.music.recipe import MUSIC_FEATURES
 
 
@@ -64,30 +64,20 @@ def react(model: ReactionModel, request: Request) -> np.ndarray:
             raise ValueError("guidance at every step needs a checkpoint, not an exported model")
         guidance = torch.tensor([[coarse, fine]] * len(STREAMS))
         latents = sample_guided_at_every_step(model, memory, silent, initial, steps, guidance, weight)
-        measured, fine = latents, 0.0
+        fine = 0.0
     else:
-        measured = sample_branch(model, memory, 1.0, initial, steps)
+        conditional = sample_branch(model, memory, 1.0, initial, steps)
         # A branch without weight need not be sampled.
         branches = Branches(
-            conditional=measured,
-            silent=sample_branch(model, silent, 1.0, initial, steps) if weight else measured,
-            unconditional=sample_branch(model, silent, 0.0, initial, steps) if coarse else measured,
-            mean=sample_mean(model, memory, steps) if variety != 1 else measured,
+            conditional=conditional,
+            silent=sample_branch(model, silent, 1.0, initial, steps) if weight else conditional,
+            unconditional=sample_branch(model, silent, 0.0, initial, steps) if coarse else conditional,
+            mean=sample_mean(model, memory, steps) if variety != 1 else conditional,
         )
         latents = blend(branches, torch.full((1,), coarse), weight, variety)
     gains = layer_gains(torch.full((len(STREAMS),), fine), sampling.layers)
-    bones = measure_bones(model, measured, leader)
-    reactor, _ = model.decode(latents, leader, gains, bones)
+    reactor = model.decode(latents, leader, gains, role)
     return reactor[: len(request.leader)].numpy() / scale_to(request.leader, height)
-
-
-def measure_bones(model: ReactionModel, latents: Tensor, leader: Tensor) -> Tensor:
-    """(22,) metres: mean bone lengths of latents (L, R, C); of the conditional branch, so that no control changes the
-    body.
-    """
-    gains = torch.ones(len(STREAMS), model.sampling.layers)
-    _, lengths = model.decode(latents, leader, gains, torch.ones(len(JOINTS)))
-    return lengths.mean(0)
 
 
 def scale_to(motion: np.ndarray, height: float) -> np.float32:

@@ -46,9 +46,9 @@ export function tensorsOf({
         latents: [null, layers, channels],
         leader: [null, joints, 3],
         gains: [streams, layers],
-        bones: [joints],
+        role: [1],
       },
-      outputs: { reactor: [null, joints, 3], lengths: [null, joints] },
+      outputs: { reactor: [null, joints, 3] },
     },
   };
 }

@@ -41,6 +41,15 @@ const positive = v.pipe(v.number(), v.minValue(0), v.maxValue(1e5));
 
 /** Metres of a part of a body, metres a second of a foot, and frames around a moment. */
 const bodyPart = v.pipe(v.number(), v.minValue(0), v.maxValue(1));
+/** Rest offsets of a body, the root first. */
+const body = v.pipe(
+  v.array(v.pipe(v.array(v.pipe(v.number(), v.minValue(-1), v.maxValue(1))), v.length(3))),
+  v.length(SMPL22.length),
+  v.check(
+    (offsets) => offsets.slice(1).every((offset) => Math.hypot(...offset) > 0),
+    'Expected bones of some length',
+  ),
+);
 const speed = v.pipe(v.number(), v.minValue(0), v.maxValue(10));
 const around = v.pipe(v.number(), v.gtValue(0), v.maxValue(300));
 
@@ -75,7 +84,7 @@ const names = v.pipe(
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(5),
+  version: v.literal(6),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -90,6 +99,8 @@ const schema = v.object({
     feet: v.array(joint),
     /** Metres; the body height (motion/skeleton/scale.ts) that every leader is scaled to. */
     reference_height: height,
+    /** Rest offsets from the parent joint in a T-pose, metres at that height, of the dancer whom each role generates. */
+    bodies: v.object({ reactor: body, leader: body }),
     /** Metres; body height of the reactors of the training beside leaders of that height. Left out, it is as decoded. */
     reactor_height: v.optional(height),
     /** See FLOOR in motion/retarget/axes-and-units.ts. */

@@ -41,7 +41,6 @@ test('numbers that differ from the reference move the work to the processor, wit
       npy('role', [1], () => 0),
       npy('coarse', [3], () => 0),
       npy('fine', [3], () => 0),
-      npy('bones', [22], () => 0.1),
       npy('music_guidance', [1], () => 0),
       npy('seed', [1], () => 0),
       npy('reactor', [8, 22, 3], () => 0),

@@ -1,4 +1,4 @@
-"""From latents to joints: the clamp, the gains of the layers and the lengths of the bones."""
+"""From latents to joints: the clamp, the gains of the layers and the bodies of the roles."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from torch import Tensor
 from export.tiny import tiny_model
 from training.config import STREAMS, STRIDE
 from training.data.made import made_dancer
-from training.diffusion.decode import decode
+from training.diffusion.decode import decode, decoded_joints
 from training.diffusion.model import Model
 from training.motion.rigid_body import bone_lengths
 from training.motion.skeleton import JOINTS
@@ -33,6 +33,7 @@ def latents_of(model: Model, scale: float = 0.1) -> Tensor:
 
 
 BONES = torch.linspace(0.1, 0.4, len(JOINTS))
+REACTOR, LEADER = torch.zeros(1), torch.ones(1)
 EVERY = torch.ones(len(STREAMS), 2)
 
 
@@ -44,9 +45,10 @@ def test_latents_are_clamped_to_the_range_of_the_quantiser_before_they_are_decod
     lowest, highest = model.denoiser.lowest, model.denoiser.highest
     inside = beyond.clamp(lowest, highest)
     assert not torch.allclose(beyond, inside)
-    made, _ = model.decode(beyond, leader, EVERY, BONES)
-    assert torch.equal(made, model.decode(inside, leader, EVERY, BONES)[0])
-    unclamped, _ = decode(model.hfsq, model.frame, model.diffusion, beyond, leader, EVERY, BONES)
+    made = model.decode(beyond, leader, EVERY, REACTOR)
+    assert torch.equal(made, model.decode(inside, leader, EVERY, REACTOR))
+    bones = model.denoiser.bodies[0].norm(dim=-1)
+    unclamped = decode(model.hfsq, model.frame, model.diffusion, beyond, leader, EVERY, bones)
     assert not torch.allclose(made, unclamped, atol=1e-2)
 
 
@@ -62,22 +64,19 @@ def test_a_gain_multiplies_the_dequantised_layer_of_its_stream(
     raw = model.hfsq.denormalise(latents)
     raw.unflatten(-1, (len(STREAMS), -1))[:, 1, stream] *= gain
     args = (model.hfsq, model.frame, model.diffusion)
-    expected, _ = decode(*args, model.hfsq.normalise(raw), leader, EVERY, BONES)
-    made, _ = decode(*args, latents, leader, gains, BONES)
+    expected = decode(*args, model.hfsq.normalise(raw), leader, EVERY, BONES)
+    made = decode(*args, latents, leader, gains, BONES)
     assert (made - expected).abs().max() < 2e-5
-    assert (made - decode(*args, latents, leader, EVERY, BONES)[0]).abs().max() > 1e-3
+    assert (made - decode(*args, latents, leader, EVERY, BONES)).abs().max() > 1e-3
 
 
 @torch.no_grad()
-def test_bones_have_the_lengths_they_are_given_and_those_before_are_reported(
-    model: Model, leader: Tensor
-) -> None:
+def test_each_role_dances_on_bones_of_its_own_body(model: Model, leader: Tensor) -> None:
     latents = latents_of(model)
-    made, before = model.decode(latents, leader, EVERY, BONES)
-    lengths = bone_lengths(made[None])[0]
-    assert torch.allclose(lengths[:, 1:], BONES[1:].expand(len(made), -1), atol=1e-4)
-    assert before.shape == lengths.shape
-    assert before[:, 1:].std(0).min() > 1e-4, "the decoder's own bones change"
-    other, again = model.decode(latents, leader, EVERY, 2 * BONES)
-    assert torch.equal(before, again)
-    assert not torch.allclose(made, other, atol=1e-2)
+    lengths: list[Tensor] = []
+    for role, body in zip((REACTOR, LEADER), model.denoiser.bodies, strict=True):
+        lengths.append(bone_lengths(model.decode(latents, leader, EVERY, role)[None])[0])
+        assert torch.allclose(lengths[-1], body.norm(dim=-1).expand_as(lengths[-1]), atol=1e-4)
+    assert (lengths[1] / lengths[0]).mean() > 1.05
+    joints = decoded_joints(model.hfsq, model.frame, latents, leader, EVERY)
+    assert bone_lengths(joints[None])[0, :, 1:].std(0).min() > 1e-4, "as decoded, bones change their lengths"

@@ -55,6 +55,12 @@ describe('parseManifest', () => {
     ['another noise', (json) => void (json.noise.algorithm = 'mt19937'), 'manifest-invalid'],
     ['other joints', (json) => void (json.skeleton.joints[3] = 'tail'), 'model-unsupported'],
     ['another floor', (json) => void (json.skeleton.floor.toe_rest = 0.05), 'model-unsupported'],
+    [
+      'a body without an arm',
+      (json) => void (json.skeleton.bodies.leader[18] = [0, 0, 0]),
+      'manifest-invalid',
+    ],
+    ['a body of too few joints', (json) => void json.skeleton.bodies.reactor.pop(), 'manifest-invalid'],
     ['other parents', (json) => void (json.skeleton.parents[3] = 1), 'model-unsupported'],
     ['a short schedule', (json) => void json.diffusion.alphas_cumprod.pop(), 'manifest-invalid'],
     ['channels that do not fit', (json) => void (json.latent.channels = 4), 'manifest-invalid'],

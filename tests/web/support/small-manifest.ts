@@ -10,11 +10,14 @@ const graph = (path: string, inputs: Shapes, outputs: Shapes) => ({
   files: { wasm: file(path), webgpu: file(path) },
 });
 
+/** Bones of 0.1 m that point upwards. */
+const smallBody = (): number[][] => SMPL22.map((_, joint) => [0, joint === 0 ? 0 : 0.1, 0]);
+
 /** A manifest with small round numbers, as parsed JSON: blocks of 6 latent frames, 3 channels, memory width 2. */
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 5,
+    version: 6,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -28,6 +31,7 @@ export function smallJson() {
       lower: [1],
       feet: [7],
       reference_height: 1.5,
+      bodies: { reactor: smallBody(), leader: smallBody() },
       floor: { ...FLOOR } as { toe_rest: number; percentile: number },
     },
     fps: 30,
@@ -117,8 +121,8 @@ export function smallJson() {
       ),
       decode: graph(
         'decode.onnx',
-        { latents: ['latents', 2, 3], leader: ['frames', 22, 3], gains: [3, 2], bones: [22] },
-        { reactor: ['frames', 22, 3], lengths: ['frames', 22] },
+        { latents: ['latents', 2, 3], leader: ['frames', 22, 3], gains: [3, 2], role: [1] },
+        { reactor: ['frames', 22, 3] },
       ),
     },
   };

@@ -13,7 +13,7 @@ import { readNpz } from '../../../web/model/load/npz';
 import { unitGains } from '../../../web/model/sample/blend';
 
 /**
- * Stages of a new dance without guidance: features, steps (condition and body included), decode and solve; `branches`
+ * Stages of a new dance without guidance: features, steps (condition included), decode and solve; `branches`
  * are the steps of all three branches. Then a weight is changed: seconds until the part in view is there, and until the
  * whole dance is.
  */

@@ -18,8 +18,6 @@ export interface Golden {
   readonly guidance: Float32Array;
   readonly musicGuidance: number;
   readonly seed: number;
-  /** 22 bone lengths, metres. */
-  readonly bones: Float32Array;
   /** T x 22 x 3 metres. */
   readonly reactor: Float32Array;
 }
@@ -62,7 +60,6 @@ export function readGolden(bytes: Uint8Array): Golden {
     guidance: interleaved(coarse, shaped('fine', coarse.length)),
     musicGuidance: number('music_guidance'),
     seed,
-    bones: shaped('bones', JOINT_COUNT),
     reactor: shaped('reactor', frames, JOINT_COUNT, 3),
   };
 }
@@ -93,11 +90,11 @@ export async function goldenError(
   const wanted = { silent: true, unconditional: true, mean: false };
   const branches = await new BranchSampler(manifest, session).branches(golden, golden.seed, wanted);
   // Not by decodeClip, which refuses numbers that are not finite.
-  const { reactor } = await session.decode({
+  const reactor = await session.decode({
     latents: blend(branches, { ...golden, variety: 1 }, latent),
     leader: golden.leader,
     gains: layerGains(golden.guidance, latent),
-    bones: golden.bones,
+    role: golden.role,
   });
   let worst = 0;
   for (let i = 0; i < golden.reactor.length; i += 3) {

@@ -83,16 +83,14 @@ async function checkGolden(
 async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> {
   const { latent, audio, skeleton } = manifest;
   const frames = latent.block * latent.stride;
-  const joints = skeleton.joints.length;
-  const leader = new Float32Array(frames * joints * 3);
+  const leader = new Float32Array(frames * skeleton.joints.length * 3);
   const music = new Float32Array(frames * audio.features);
   const condition = { leader, music, musicValid: new Float32Array(frames), role: 0 };
   const alone = { silent: false, unconditional: false, mean: false };
   const once: Manifest = { ...manifest, diffusion: { ...manifest.diffusion, steps: 1 } };
   const { conditional: latents } = await new BranchSampler(once, session).branches(condition, 0, alone);
   const gains = unitGains(latent);
-  const bones = new Float32Array(joints).fill(1);
-  await decodeClip(session, manifest, { latents, leader, gains, bones });
+  await decodeClip(session, manifest, { latents, leader, gains, role: 0 });
 }
 
 /**

@@ -210,14 +210,14 @@ export async function openSession(
       );
       return new HeldTensor(output(results, 'next'), inTurn);
     },
-    decode: async ({ latents, leader, gains, bones }: DecodeInput) => {
+    decode: async ({ latents, leader, gains, role }: DecodeInput) => {
       const results = await runNext(decode, () => ({
         latents: tensor(latents, [latents.length / (layers * latent.channels), layers, latent.channels]),
         leader: tensor(leader, [leader.length / (joints * 3), joints, 3]),
         gains: tensor(gains, [streams, layers]),
-        bones: tensor(bones, [joints]),
+        role: tensor([role], [1]),
       }));
-      return { reactor: output(results, 'reactor'), lengths: output(results, 'lengths') };
+      return output(results, 'reactor');
     },
     release: () => enqueue(release),
   };

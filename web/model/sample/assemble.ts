@@ -5,38 +5,20 @@ import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
 import { lockFeet } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
-import { restOffsets } from '../../motion/fit/rest-pose';
-import { trunkRotations } from '../../motion/fit/trunk';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
 import { bodyFactor } from './body-factor';
-import { decodeClip, type DecodeOptions, meanLengths } from './decoder';
+import { decodeClip, type DecodeOptions } from './decoder';
 import type { ModelInput, Size, Source } from './inputs';
 import type { GeneratedMotion } from './results';
 
-/**
- * What no weight of guidance changes: the body, measured on the dance without any. A part of a dance can only be as it
- * is in the whole if nothing in it is measured on the whole.
- */
-export interface Body {
-  /** 22 bone lengths, metres at the model's reference height. */
-  readonly bones: Float32Array;
-  /** 22 x 3 rest offsets, metres at the leader's size. */
-  readonly offsets: Float32Array;
-}
-
-/** What is decoded: latents and gains as in `DecodeRequest`, and the leader at their own size. */
-export interface Latents {
+/** What is decoded, latents and gains as in `DecodeInput`, the leader at their own size, and who dances at which height. */
+export interface Dance extends Size, Pick<Source, 'role'> {
   readonly latents: Float32Array;
   readonly gains: Float32Array;
   readonly input: ModelInput;
   readonly leader: MotionClip;
-}
-
-/** Latents and whose body dances them, at which height. */
-export interface Dance extends Latents, Size, Pick<Source, 'role'> {
-  readonly body: Body;
 }
 
 /** Decodes and solves dances on a session. */
@@ -48,18 +30,6 @@ export class Assembler {
     readonly manifest: Manifest,
     readonly session: ModelSession,
   ) {}
-
-  async measureBody(dance: Latents, signal?: AbortSignal): Promise<Body> {
-    const { skeleton } = this.manifest;
-    const { latents, gains, input } = dance;
-    const any = new Float32Array(skeleton.joints.length).fill(1); // lengths are measured before they are made constant
-    const request = { latents, gains, leader: input.condition.leader, bones: any };
-    const { lengths } = await decodeClip(this.session, this.manifest, request, { signal });
-    const bones = meanLengths(lengths, skeleton.joints.length);
-    const clip = await this.decode({ ...dance, body: { bones } }, { signal });
-    const observed = new Float64Array(clip.positions);
-    return { bones, offsets: restOffsets(observed, trunkRotations(observed)) };
-  }
 
   /** The whole dance. `onDecoded` is called between decoding and solving. */
   async whole(dance: Dance, signal?: AbortSignal, onDecoded?: () => void): Promise<GeneratedMotion> {
@@ -102,13 +72,10 @@ export class Assembler {
   }
 
   /** Joints at the leader's size. */
-  async decode(
-    { latents, gains, input, leader, body: { bones } }: Latents & { readonly body: Pick<Body, 'bones'> },
-    options: DecodeOptions,
-  ): Promise<MotionClip> {
+  async decode({ latents, gains, input, leader }: Dance, options: DecodeOptions): Promise<MotionClip> {
     const { skeleton, latent } = this.manifest;
-    const request = { latents, gains, leader: input.condition.leader, bones };
-    const { joints } = await decodeClip(this.session, this.manifest, request, options);
+    const request = { latents, gains, leader: input.condition.leader, role: input.condition.role };
+    const joints = await decodeClip(this.session, this.manifest, request, options);
     const { start, end } = options.range ?? { start: 0, end: Infinity };
     // The last latent frame may reach beyond the dance.
     const frames = Math.min(leader.frames, end * latent.stride) - start * latent.stride;
@@ -124,8 +91,11 @@ export class Assembler {
    * @param leader the frames of the loaded dancer that belong to the clip's
    */
   #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
-    const { offsets } = dance.body;
     const { skeleton, quality } = this.manifest;
+    const offsets = Float32Array.from(
+      skeleton.bodies[dance.role ?? 'reactor'].flat(),
+      (value) => value / dance.input.scale,
+    );
     const factor = bodyFactor(offsets, dance.leader, dance, skeleton);
     const solved = solve(
       resized(clip, factor, leader, skeleton.floor.toe_rest),

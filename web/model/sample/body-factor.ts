@@ -6,9 +6,9 @@ import type { Size, Source } from './inputs';
 
 /**
  * By what the decoded body is multiplied, so that the dancer has the height that was asked for; by default the one that
- * the couples of the training had in proportion, because decoded bodies vary with the dance by several percent.
+ * the couples of the training had in proportion, because bones are decoded shorter than they were captured.
  *
- * @param offsets of the decoded body, 22 x 3 metres at the leader's size
+ * @param offsets of the role's body, 22 x 3 metres at the leader's size
  * @param leader the loaded dancer at their own size
  */
 export function bodyFactor(

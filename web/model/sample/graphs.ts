@@ -58,16 +58,9 @@ export interface DecodeInput {
   readonly leader: Float32Array;
   /** streams x layers: a factor of each residual layer, 0 to leave it out. */
   readonly gains: Float32Array;
-  /** 22 bone lengths, metres, that the dancer gets. */
-  readonly bones: Float32Array;
+  /** As in `ConditionInput`: whose body dances. */
+  readonly role: number;
 }
 
-export interface DecodeOutput {
-  /** T x 22 x 3 metres. */
-  readonly reactor: Float32Array;
-  /** T x 22 metres: what the bones were before they were made constant. */
-  readonly lengths: Float32Array;
-}
-
-/** A part of a clip is exact but for the manifest's receptive field at its ends. */
-export type DecodeRunner = (input: DecodeInput) => Promise<DecodeOutput>;
+/** Gives T x 22 x 3 metres. A part of a clip is exact but for the manifest's receptive field at its ends. */
+export type DecodeRunner = (input: DecodeInput) => Promise<Float32Array>;

@@ -3,8 +3,8 @@ import { mostDifferent } from '../../motion/skeleton/difference';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
 import { stageProgress } from '../progress';
-import { Assembler, type Body, type Dance } from './assemble';
-import { blend, coarseAlone, layerGains, neededBranches, unitGains } from './blend';
+import { Assembler, type Dance } from './assemble';
+import { blend, coarseAlone, layerGains, neededBranches } from './blend';
 import { BranchSampler } from './branch-sampler';
 import {
   checkCoarse,
@@ -38,8 +38,6 @@ export class Pipeline {
   readonly #assembler: Assembler;
   /** The last source, as the graphs take it. */
   #prepared: { readonly source: Source; readonly input: ModelInput } | undefined;
-  /** Bodies by the conditional latents that they were measured on. */
-  readonly #bodies = new WeakMap<Float32Array, Body>();
   /** The request that was answered last, and its dance. */
   #last: { readonly request: GenerateRequest; readonly dance: SampledDance } | undefined;
 
@@ -88,10 +86,10 @@ export class Pipeline {
    */
   async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
     checkCoarse(request, this.manifest);
-    const input = prepareInput({ leader: request.leader, music: null }, this.manifest);
+    const { leader, role } = request;
+    const input = prepareInput({ leader, role, music: null }, this.manifest);
     const dance = { ...request, gains: coarseAlone(this.manifest.latent), input };
-    const body = await this.#assembler.measureBody(dance, signal);
-    const { motion } = await this.#assembler.whole({ ...dance, body }, signal);
+    const { motion } = await this.#assembler.whole(dance, signal);
     return motion;
   }
 
@@ -133,18 +131,14 @@ export class Pipeline {
       onStep: stageProgress(onProgress, 'step'),
     });
     const { leader, role, height } = request;
-    const { conditional, unfamiliarity } = branches;
-    const plain = { latents: conditional, gains: unitGains(latent), input, leader };
-    const body = this.#bodies.get(conditional) ?? (await this.#assembler.measureBody(plain, signal));
-    this.#bodies.set(conditional, body);
     return {
-      ...plain,
-      role,
-      height,
       latents: blend(branches, request, latent),
       gains: layerGains(request.guidance, latent),
-      body,
-      unfamiliarity,
+      input,
+      leader,
+      role,
+      height,
+      unfamiliarity: branches.unfamiliarity,
     };
   }
 

@@ -1,0 +1,36 @@
+"""The rest pose of a skeleton: found again in a body that moves, and the same as on the page."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from training.data.made import made_dancer
+from training.motion.rest_pose import rest_offsets
+from training.motion.skeleton import JOINTS, PARENTS
+
+ROOT = Path(__file__).parents[3]
+
+
+def test_a_body_in_its_rest_pose_that_turns_and_travels_keeps_its_offsets() -> None:
+    offsets = rest_offsets(made_dancer(60, 1))
+    pose = offsets.copy()
+    for joint in range(1, len(JOINTS)):
+        pose[joint] += pose[PARENTS[joint]]
+    turns = Rotation.from_euler("y", np.linspace(0, 5, 80)[:, None]).as_matrix()
+    moved = np.einsum("tij,kj->tki", turns, pose) + np.linspace(0, 3, 80)[:, None, None]
+    moved[..., 1] = pose[:, 1]
+    assert np.abs(rest_offsets(moved) - offsets).max() < 1e-6
+
+
+def test_offsets_are_those_that_the_page_finds(tmp_path: Path) -> None:
+    motion = made_dancer(90, 3).astype("<f4")
+    path = tmp_path / "motion.f32"
+    path.write_bytes(motion.tobytes())
+    node = ["node", str(ROOT / "tests/python/support/rest_offsets.mjs"), str(path)]
+    page = json.loads(subprocess.run(node, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
+    assert np.abs(rest_offsets(motion) - np.reshape(page, (-1, 3))).max() < 1e-6
