@@ -17,11 +17,11 @@ from training.baselines.method import BaselineConfig, Known, Method
 from training.baselines.tcdiff import TcDiff
 from training.checkpoint import load_hfsq, read_config, start_from
 from training.config import STREAMS, DiffusionConfig, FrameConfig, from_json
-from training.diffusion.decode import decode
+from training.diffusion.decode import decode, decoded_joints
 from training.diffusion.react import at_height, music_of_length, scale_to
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
-from training.motion.skeleton import JOINTS
+from training.motion.rigid_body import bone_lengths
 from training.motion.streams import leader_features
 
 METHODS: Mapping[str, type[Method]] = {
@@ -52,9 +52,9 @@ class Baseline:
         known = Known(memory, self.method.leader_tokens(features), torch.ones(memory.shape[:2]))
         latents = self.method.sample(known, torch.Generator().manual_seed(seed))
         gains = torch.ones(len(STREAMS), self.hfsq.layers)
-        given = (self.hfsq, self.frame, DiffusionConfig(), latents, sized, gains)
-        _, lengths = decode(*given, torch.ones(len(JOINTS)))
-        reactor, _ = decode(*given, lengths.mean(0))
+        joints = decoded_joints(self.hfsq, self.frame, latents, sized, gains)
+        bones = bone_lengths(joints[None])[0].mean(0)
+        reactor = decode(self.hfsq, self.frame, DiffusionConfig(), latents, sized, gains, bones)
         return reactor[: len(leader)].numpy() / scale_to(leader, self.reference_height)
 
 
