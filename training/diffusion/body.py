@@ -38,7 +38,7 @@ def measure_body(model: Model, partners: Sequence[np.ndarray], role: int) -> Ten
     lengths = bone_lengths(torch.cat(dances)[None])[0].mean(0)
     rigid = [rigid_body(steady_bones(dance[None], lengths), lengths)[0] for dance in dances]
     offsets = torch.from_numpy(rest_offsets(torch.cat(rigid).numpy()))
-    # Decoded feet and forearms are not as long on both sides, as little as the captured ones were.
+    # Left and right keep lengths of their own: captured feet and forearms differ too.
     return F.normalize(offsets, dim=-1) * lengths[:, None]
 
 

@@ -115,7 +115,6 @@ class Model:
         return clamp_to_range(self.denoiser, self.denoiser(x, time, memory, valid, every, every))
 
     def decode(self, latents: Tensor, leader: Tensor, gains: Tensor, role: Tensor) -> Tensor:
-        # Not `norm`, whose exported form is another operator on either backend.
         reactors, leaders = self.denoiser.bodies.square().sum(-1).sqrt()
         bones = reactors + role * (leaders - reactors)
         clamped = clamp_to_range(self.denoiser, latents)

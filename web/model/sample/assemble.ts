@@ -92,11 +92,12 @@ export class Assembler {
    */
   #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
     const { skeleton, quality } = this.manifest;
+    const { scale } = dance.input;
     const offsets = Float32Array.from(
       skeleton.bodies[dance.role ?? 'reactor'].flat(),
-      (value) => value / dance.input.scale,
+      (value) => value / scale,
     );
-    const factor = bodyFactor(offsets, dance.leader, dance, skeleton);
+    const factor = bodyFactor(offsets, scale, dance, skeleton);
     const solved = solve(
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),

@@ -1,4 +1,4 @@
-import type { MotionClip } from '../../motion/skeleton/clip';
+import { FPS } from '../../motion/skeleton/clip';
 import { CROWN, restPositions, SOLE, standingHeight } from '../../motion/skeleton/kinematics';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { Manifest } from '../manifest';
@@ -9,11 +9,11 @@ import type { Size, Source } from './inputs';
  * the couples of the training had in proportion, because bones are decoded shorter than they were captured.
  *
  * @param offsets of the role's body, 22 x 3 metres at the leader's size
- * @param leader the loaded dancer at their own size
+ * @param scale by what the loaded dancer was multiplied to reach the model's reference height
  */
 export function bodyFactor(
   offsets: Float32Array,
-  leader: MotionClip,
+  scale: number,
   { height, role }: Size & Pick<Source, 'role'>,
   { reference_height, reactor_height }: Manifest['skeleton'],
 ): number {
@@ -22,6 +22,6 @@ export function bodyFactor(
   if (height !== undefined) return (height - fixed) / (standingHeight(offsets) - fixed);
   if (reactor_height === undefined) return 1;
   const proportion = reactor_height / reference_height;
-  const wanted = bodyHeight(leader) * (role === 'leader' ? 1 / proportion : proportion);
-  return wanted / bodyHeight({ fps: leader.fps, frames: 1, positions: restPositions(offsets) });
+  const wanted = (reference_height / scale) * (role === 'leader' ? 1 / proportion : proportion);
+  return wanted / bodyHeight({ fps: FPS, frames: 1, positions: restPositions(offsets) });
 }

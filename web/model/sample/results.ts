@@ -20,9 +20,7 @@ export interface GenerateResult extends GeneratedMotion {
   readonly unfamiliarity: number;
   /** What it was decoded from: latents x layers x channels, normalised. */
   readonly latents: Float32Array;
-  /**
-   * Time of each stage. `steps`, which includes the condition graph, is near 0 when only weights have changed.
-   */
+  /** Time of each stage. `steps`, which includes the condition graph, is near 0 when only weights have changed. */
   readonly seconds: Readonly<Record<'steps' | 'decode' | 'solve', number>>;
 }
 
