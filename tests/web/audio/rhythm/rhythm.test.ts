@@ -121,8 +121,13 @@ it.skipIf(absence !== null)(
 
 it('takes far less time than the features', () => {
   const song = make.swung(120, 0.5, 60);
-  let features!: Float32Array;
-  const before = processorSeconds(() => (features = musicFeatures(song, recipe).features));
-  const seconds = processorSeconds(() => rhythmOf(features, recipe));
-  expect(seconds).toBeLessThan(0.2 * before);
+  // The shortest of five by turns: one run alone also counts what the compiler and the collector did meanwhile.
+  const features: number[] = [];
+  const rhythm: number[] = [];
+  for (let turn = 0; turn < 5; turn++) {
+    let columns!: Float32Array;
+    features.push(processorSeconds(() => (columns = musicFeatures(song, recipe).features)));
+    rhythm.push(processorSeconds(() => rhythmOf(columns, recipe)));
+  }
+  expect(Math.min(...rhythm)).toBeLessThan(0.2 * Math.min(...features));
 });
