@@ -84,7 +84,7 @@ async function playing(page: Page): Promise<App> {
   return app;
 }
 
-test('the dance goes with a dragged fader, what is in view first, and the drag is one take and one step of undo', async ({
+test('the dance goes with a dragged fader, what is in view first, and the drag is one take and one step of undo @alone', async ({
   page,
 }) => {
   const app = await playing(page);
