@@ -1,4 +1,4 @@
-import { gaussianFilter } from '../math/statistics';
+import { gaussianFilter, windowMaximum, windowMinimum } from '../math/statistics';
 import { lowered, type SolvedMotion } from '../skeleton/clip';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 
@@ -17,7 +17,7 @@ const SMOOTHING = 0.1;
  */
 export function bringDown(motion: SolvedMotion): SolvedMotion {
   const reach = Math.round((HOP * motion.fps) / 2);
-  const held = dilated(eroded(lowerToe(motion), reach), reach);
+  const held = windowMaximum(windowMinimum(lowerToe(motion), reach), reach);
   const excess = held.map((height) => Math.max(0, height - STANDING_HEIGHT));
   if (!excess.some(Boolean)) return motion;
   return lowered(motion, gaussianFilter(excess, SMOOTHING * motion.fps));
@@ -30,11 +30,3 @@ function lowerToe({ positions, frames }: SolvedMotion): Float64Array {
     Math.min(height(frame, J.left_foot), height(frame, J.right_foot)),
   );
 }
-
-/** The smallest value within `reach` frames. */
-const eroded = (values: Float64Array, reach: number): Float64Array =>
-  values.map((_, t) => Math.min(...values.subarray(Math.max(0, t - reach), t + reach + 1)));
-
-/** The largest value within `reach` frames. */
-const dilated = (values: Float64Array, reach: number): Float64Array =>
-  values.map((_, t) => Math.max(...values.subarray(Math.max(0, t - reach), t + reach + 1)));

@@ -1,3 +1,4 @@
+import { windowMaximum } from '../math/statistics';
 import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 
@@ -43,14 +44,9 @@ function levelPath({ positions, frames }: Pick<MotionClip, 'positions' | 'frames
 /** How far a root may move from each frame to the next, metres; frames - 1 numbers. */
 function stepLimits(partner: MotionClip): Float64Array {
   const path = levelPath(partner);
-  const steps = path.slice(1).map(([x, z], t) => Math.hypot(x - path[t]![0], z - path[t]![1]));
-  const reach = Math.round(REACH * partner.fps);
-  return Float64Array.from(steps, (_, t) =>
-    Math.max(
-      FREE_SPEED / partner.fps,
-      SPEED_RATIO * Math.max(...steps.slice(Math.max(0, t - reach), t + reach + 1)),
-    ),
-  );
+  const steps = Float64Array.from(path.slice(1), ([x, z], t) => Math.hypot(x - path[t]![0], z - path[t]![1]));
+  const greatest = windowMaximum(steps, Math.round(REACH * partner.fps));
+  return greatest.map((step) => Math.max(FREE_SPEED / partner.fps, SPEED_RATIO * step));
 }
 
 /** A path that follows another one in steps that are not longer than the limits. */

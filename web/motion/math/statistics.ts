@@ -67,3 +67,21 @@ export function gaussianFilter(values: Float64Array, deviation: number): Float64
   }
   return filtered;
 }
+
+/** The largest value within `reach` samples before and after each one. */
+export function windowMaximum(values: Float64Array, reach: number): Float64Array {
+  return values.map((value, index) => {
+    let most = value;
+    const end = Math.min(values.length, index + reach + 1);
+    for (let i = Math.max(0, index - reach); i < end; i++) most = Math.max(most, values[i]!);
+    return most;
+  });
+}
+
+/** The smallest value within `reach` samples before and after each one. */
+export function windowMinimum(values: Float64Array, reach: number): Float64Array {
+  return windowMaximum(
+    values.map((value) => -value),
+    reach,
+  ).map((value) => -value);
+}
