@@ -120,6 +120,18 @@ test('from a song and a leader to a partner that can be steered and downloaded',
   });
 });
 
+test('a leader unlike the dancers of training is named beside their partner', async ({ page }) => {
+  const app = new App(page);
+  await app.openWithoutPicture(SHIPPED);
+  await app.settled();
+  const transport = page.getByRole('group', { name: 'Transport' });
+  const sentence = 'This leader moves unlike the dancers that the model learned from.';
+  await expect(transport).not.toContainText(sentence);
+  await app.chooseLeader(bvh({ frames: 120, name: 'made.bvh' }));
+  await app.reaction('made.bvh');
+  await expect(transport).toContainText(sentence);
+});
+
 test('playing never stops while a new reaction is made', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

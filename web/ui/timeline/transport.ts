@@ -58,6 +58,12 @@ export const mountTransport: Mount = (root, store, services) => {
       (state) => {
         const empty = danceDuration(state) === 0;
         for (const button of [start, play.element, end, loop.element]) button.disabled = empty;
+      },
+    ),
+    watchAll(
+      store,
+      (state) => [state.leader, state.song, state.shift, state.reaction?.unfamiliarity, state.manifest],
+      (state) => {
         showNote(note, state);
       },
     ),
