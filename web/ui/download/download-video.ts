@@ -68,7 +68,14 @@ export function createDownloadVideo(
     dispose: combineDisposers(
       watchAll(
         store,
-        (state) => [state.videoProgress, state.reaction, state.footLock, state.download, state.saved],
+        (state) => [
+          state.videoProgress,
+          state.reaction,
+          state.takes,
+          state.footLock,
+          state.download,
+          state.saved,
+        ],
         show,
       ),
       watchAll(

@@ -53,6 +53,7 @@ export const mountImportReport: Mount = (root, store, services) => {
       store,
       (state) => [
         state.song,
+        state.shift,
         state.countings,
         state.leader,
         state.refusedLeader,

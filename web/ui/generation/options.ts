@@ -50,6 +50,7 @@ export const mountOptions: Mount = (root, store, services) => {
         state.settings,
         state.leader,
         state.song,
+        state.shift,
         state.reaction,
         state.variations,
         state.seedLocked,

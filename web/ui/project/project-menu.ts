@@ -54,7 +54,7 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     ),
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.takes],
+      (state) => [state.leader, state.song, state.takes, state.countings],
       (state) => {
         save.disabled = !state.leader && !state.song;
         clear.disabled = !hasVisitorContent(state);

@@ -54,7 +54,7 @@ export const mountTransport: Mount = (root, store, services) => {
   return combineDisposers(
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.shift, ...isReading(state)],
+      (state) => [state.leader, state.song],
       (state) => {
         const empty = danceDuration(state) === 0;
         for (const button of [start, play.element, end, loop.element]) button.disabled = empty;
@@ -62,7 +62,14 @@ export const mountTransport: Mount = (root, store, services) => {
     ),
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.shift, state.reaction?.unfamiliarity, state.manifest],
+      (state) => [
+        state.leader,
+        state.song,
+        state.shift,
+        state.reaction?.unfamiliarity,
+        state.manifest,
+        ...isReading(state),
+      ],
       (state) => {
         showNote(note, state);
       },
