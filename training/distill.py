@@ -68,9 +68,8 @@ def main(options: Options) -> None:
     clips = duet_clips(options, condition, duets, bank, teacher.hfsq, teacher.frame)
     clips += solo_clips(options, condition, teacher.hfsq, teacher.frame)
     windows = Windows(
-        clips, network.config.block, network.condition.receptive_field, options.stride, condition,
-        options.seed * 1000 + fabric.global_rank,
-    )  # fmt: skip
+        clips, network.config.block, network.condition.receptive_field, options.stride, condition
+    )
     student = copy.deepcopy(network).requires_grad_(True)
     student.condition.requires_grad_(False)
     optimizer = torch.optim.AdamW(
@@ -98,7 +97,7 @@ def main(options: Options) -> None:
             if not (options.out / "card.json").exists():  # it may have been filled in before a --resume
                 shutil.copy(options.teacher / "card.json", options.out)
 
-    run.train(lambda: windows.batch(options.batch), finish)
+    run.train(lambda random: windows.batch(options.batch, random), finish)
     if fabric.is_global_zero:
         finish()
     fabric.barrier()

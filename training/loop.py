@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Generic, Literal, TypeVar
 
+import numpy as np
 import torch
 from lightning_fabric import Fabric
 from torch import Tensor, nn
@@ -177,12 +178,22 @@ class Ema(Generic[M]):
 class Logger:
     """Numbers of a run: printed, sent to TensorBoard, kept as JSON lines and drawn as curves.png. Rank 0 only."""
 
-    def __init__(self, folder: Path, enabled: bool) -> None:
+    def __init__(self, folder: Path, enabled: bool, step: int) -> None:
+        """step: where the run begins or goes on; what the folder's log has of later steps is dropped."""
         self.folder, self.enabled = folder, enabled
         self._sums: dict[str, list[float]] = defaultdict(list)
         if enabled:
             folder.mkdir(parents=True, exist_ok=True)
-            self._board = SummaryWriter(str(folder))
+            self._board = SummaryWriter(str(folder), purge_step=step + 1)
+            kept = [row for row in self._rows() if row["step"] <= step]
+            self._log.write_text("".join(json.dumps(row) + "\n" for row in kept))
+
+    @property
+    def _log(self) -> Path:
+        return self.folder / "log.jsonl"
+
+    def _rows(self) -> list[dict[str, float]]:
+        return [json.loads(line) for line in self._log.read_text().splitlines()] if self._log.exists() else []
 
     def add(self, values: dict[str, Tensor]) -> None:
         for name, value in values.items():
@@ -195,7 +206,7 @@ class Logger:
         if not self.enabled:
             return
         row = {"step": schedule.step, "minutes": round(schedule.spent / 60, 2), **means}
-        with (self.folder / "log.jsonl").open("a") as file:
+        with self._log.open("a") as file:
             file.write(json.dumps(row) + "\n")
         for name, value in means.items():
             self._board.add_scalar(name, value, schedule.step)
@@ -214,7 +225,7 @@ class Logger:
         matplotlib.use("Agg")
         import matplotlib.pyplot as plt
 
-        rows = [json.loads(line) for line in (self.folder / "log.jsonl").read_text().splitlines()]
+        rows = self._rows()
         names = sorted({name for row in rows for name in row} - {"step", "minutes"})
         columns = 4
         height = max(1, math.ceil(len(names) / columns))
@@ -251,21 +262,34 @@ class Run(Generic[M]):
         self.ema.module.to(fabric.device)
         self.stage, self.optimizer = fabric.setup(stage, optimizer)
         self.schedule = Schedule(options.steps, options.minutes)
-        self.logger = Logger(folder, fabric.is_global_zero)
         self.state = folder / "state.ckpt"
         if options.resume:
             self.load()
+        self.logger = Logger(folder, fabric.is_global_zero, self.schedule.step)
 
-    def train(self, next_batch: Callable[[], Any], evaluate: Callable[[], None]) -> None:
-        """Steps until the schedule ends; `evaluate` on rank 0 every so many."""
+    def train(self, next_batch: Callable[[np.random.Generator], Any], evaluate: Callable[[], None]) -> None:
+        """Steps until the schedule ends; `evaluate` on rank 0 every so many.
+
+        Random numbers depend on the seed, the rank and the last saved step alone: a training that is resumed draws
+        those that it would have drawn. `next_batch` draws from the generator it is given, the stage from torch's.
+        """
+        random = self._seed()
         while self.schedule.progress < 1:
-            self._step(next_batch())
+            self._step(next_batch(random))
             if self.schedule.step % self.options.log_every == 0:
                 self.logger.write(self.schedule)
             if self.schedule.step % self.options.evaluate_every == 0:
                 self.save()
                 if self.fabric.is_global_zero:
                     evaluate()
+                random = self._seed()
+
+    def _seed(self) -> np.random.Generator:
+        """Seeds torch, and gives a generator for batches."""
+        entropy = (self.options.seed, self.fabric.global_rank, self.schedule.step)
+        for_torch, for_batches = np.random.SeedSequence(entropy).spawn(2)
+        torch.manual_seed(int(for_torch.generate_state(1, np.uint64)[0]))
+        return np.random.default_rng(for_batches)
 
     def _step(self, batch: Any) -> None:
         self.model.train()

@@ -67,11 +67,9 @@ def main(options: Options) -> None:
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = initial_denoiser(options, hfsq, clips)
     clips += solo_clips(options, condition, hfsq, frame)
-    torch.manual_seed(options.seed + 1 + fabric.global_rank)
     windows = Windows(
-        clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride,
-        condition, options.seed * 1000 + fabric.global_rank,
-    )  # fmt: skip
+        clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride, condition
+    )
     optimizer = torch.optim.AdamW(
         denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
     )
@@ -95,7 +93,7 @@ def main(options: Options) -> None:
             write_first_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
         hfsq.to(fabric.device)
 
-    run.train(lambda: windows.batch(options.batch), finish)
+    run.train(lambda random: windows.batch(options.batch, random), finish)
     if fabric.is_global_zero:
         finish()
     fabric.barrier()

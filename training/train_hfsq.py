@@ -58,7 +58,7 @@ def main(options: Options) -> None:
     fabric.seed_everything(options.seed, verbose=False)
     duets = read_duets_to_train(options)
     clips = read_clips(options, duets)
-    windows = Windows(clips, options.window, options.seed * 1000 + fabric.global_rank)
+    windows = Windows(clips, options.window)
     autoencoder = initial_autoencoder(options, clips)
     stage = Stage1(autoencoder, options.hfsq)
     trained = [p for p in stage.parameters() if p.requires_grad]
@@ -70,7 +70,7 @@ def main(options: Options) -> None:
             run.logger.write(run.schedule, evaluate(model, duets.val, options.frame))
             run.logger.draw()
 
-    run.train(lambda: windows.batch(options.batch), report)
+    run.train(lambda random: windows.batch(options.batch, random), report)
     if fabric.is_global_zero:
         finish(run, clips, duets.val, options)
     fabric.barrier()

@@ -35,7 +35,9 @@ def batch(tiny: Model) -> Batch:
     song = np.random.default_rng(0).normal(size=(300, 54)).astype(np.float32)
     clip = make_clip(made_duet(300, 3), [song], 0.0, tiny.hfsq, tiny.frame, blur=6.0)
     block, margin = tiny.denoiser.config.block, tiny.denoiser.condition.receptive_field
-    return Windows([clip], block, margin, STRIDE, config, seed=0).batch(4, short=0.5, song_ends=0.5)
+    return Windows([clip], block, margin, STRIDE, config).batch(
+        4, np.random.default_rng(0), short=0.5, song_ends=0.5
+    )
 
 
 def test_the_teacher_is_sampled_as_a_dance_is(tiny: Model, batch: Batch) -> None:

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ from training.denoiser.clips import Clip, solo_pair_clips
 from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
-from training.loop import fast_precision
+from training.loop import Run, fast_precision
 
 
 @pytest.fixture(scope="module")
@@ -89,14 +90,42 @@ def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: 
         assert fast_precision() == precision
 
 
-def test_training_resumes_where_it_stopped(data: Path, trained: Path, tmp_path: Path) -> None:
-    train_hfsq.main(stage1(data, tmp_path))
-    state = torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)
-    train_hfsq.main(stage1(data, tmp_path, steps=4, evaluate_every=4, resume=True))
-    rows = [json.loads(line)["step"] for line in (tmp_path / "hfsq" / "log.jsonl").read_text().splitlines()]
-    assert state["step"] == 2
-    assert max(rows) == 4
-    assert rows.count(1) == 1, "resumed, not begun again"
+def steps_logged(folder: Path) -> list[int]:
+    return [json.loads(line)["step"] for line in (folder / "log.jsonl").read_text().splitlines()]
+
+
+def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
+    """Weights and log are those of a training that did not stop."""
+    whole, stopped = stage1(data, tmp_path / "whole", steps=4), stage1(data, tmp_path / "stopped", steps=4)
+    train_hfsq.main(whole)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, step=3))
+        with pytest.raises(KeyboardInterrupt):
+            train_hfsq.main(stopped)
+    assert torch.load(stopped.out / "hfsq" / "state.ckpt", weights_only=False)["step"] == 2
+    assert max(steps_logged(stopped.out / "hfsq")) == 3
+    train_hfsq.main(replace(stopped, resume=True))
+    assert steps_logged(stopped.out / "hfsq") == steps_logged(whole.out / "hfsq")
+    weights, expected = (load_hfsq(options.out)[0].state_dict() for options in (stopped, whole))
+    for name, value in expected.items():
+        assert torch.equal(weights[name], value), name
+
+
+def stop_before(step_of: Callable[..., None], step: int) -> Callable[..., None]:
+    """A training step that is interrupted after `step` of them."""
+
+    def stopping(run: Run, batch: object) -> None:
+        if run.schedule.step == step:
+            raise KeyboardInterrupt
+        step_of(run, batch)
+
+    return stopping
+
+
+def test_a_training_in_the_folder_of_an_earlier_one_begins_its_own_log(data: Path, tmp_path: Path) -> None:
+    for _ in range(2):
+        train_hfsq.main(stage1(data, tmp_path))
+    assert steps_logged(tmp_path / "hfsq").count(1) == 1
 
 
 def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> None:

@@ -87,10 +87,8 @@ def main(options: Options) -> None:
     config = BaselineConfig(options.method, options.width, options.depth)
     method = make_method(config, hfsq)
     method.condition.set_statistics(*feature_values(clips))
-    torch.manual_seed(options.seed + 1 + fabric.global_rank)
     margin = method.condition.receptive_field
-    seed = options.seed * 1000 + fabric.global_rank
-    windows = Windows(clips, config.block, margin, options.stride, condition, seed)
+    windows = Windows(clips, config.block, margin, options.stride, condition)
     optimizer = torch.optim.AdamW(
         method.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
     )
@@ -104,7 +102,7 @@ def main(options: Options) -> None:
             values = {"baseline": asdict(config), "reference_height": height, "provenance": provenance}
             save_weights(options.out, "baseline", averaged, values)
 
-    run.train(lambda: windows.batch(options.batch), finish)
+    run.train(lambda random: windows.batch(options.batch, random), finish)
     if fabric.is_global_zero:
         finish()
     fabric.barrier()

@@ -46,7 +46,7 @@ class Windows:
     """
 
     def __init__(
-        self, clips: Sequence[Clip], block: int, margin: int, stride: int, config: ConditionConfig, seed: int
+        self, clips: Sequence[Clip], block: int, margin: int, stride: int, config: ConditionConfig
     ) -> None:
         """Raises ValueError where the stride, in frames, is not a multiple of a latent frame's 4."""
         check_latent_frames("stride", stride)
@@ -58,42 +58,51 @@ class Windows:
         ]
         # Few windows have a couple that comes together or parts, so they are drawn more often.
         self.ends = [(i, s) for i, clip in enumerate(clips) for s in (0, max(len(clip) - block, 0))]
-        self.random = np.random.default_rng(seed)
 
-    def batch(self, n: int, short: float = 0.15, song_ends: float = 0.05, ends: float = 0.15) -> Batch:
+    def batch(
+        self,
+        n: int,
+        random: np.random.Generator,
+        short: float = 0.15,
+        song_ends: float = 0.05,
+        ends: float = 0.15,
+    ) -> Batch:
         """short: share of windows cut short at either end; song_ends: of those in which the song stops; ends: of
         those at the beginning or the end of a dance."""
         windows = []
-        for at_end in self.random.random(n) < ends:
+        for at_end in random.random(n) < ends:
             among = self.ends if at_end else self.starts
-            windows.append(self._window(*among[int(self.random.integers(len(among)))], short, song_ends))
+            start = among[int(random.integers(len(among)))]
+            windows.append(self._window(*start, random, short, song_ends))
         return Batch(*(torch.stack(values) for values in zip(*windows, strict=True)))
 
-    def _window(self, index: int, start: int, short: float, song_ends: float) -> tuple[Tensor, ...]:
+    def _window(
+        self, index: int, start: int, random: np.random.Generator, short: float, song_ends: float
+    ) -> tuple[Tensor, ...]:
         clip, block, margin = self.clips[index], self.block, self.margin
         stop = min(start + block, len(clip))
         first, last = 0, len(clip)  # latent frames of the clip that this window has
-        if self.random.random() < short:
-            last = stop = start + int(self.random.integers(8, block + 1)) if stop - start == block else stop
-        if self.random.random() < short:
+        if random.random() < short:
+            last = stop = start + int(random.integers(8, block + 1)) if stop - start == block else stop
+        if random.random() < short:
             first = start
         low, high = start - margin, start + block + margin
         rows = torch.arange(low, high)
         inside = ((rows >= first) & (rows < last)).float()
         by_frame = inside.repeat_interleave(STRIDE)
-        shift = int(self.random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
-        shift *= int(self.random.integers(2))
-        features = clip.blurred if self.random.random() < self.config.blurred else clip.features
+        shift = int(random.integers(-self.config.leader_shift, self.config.leader_shift + 1))
+        shift *= int(random.integers(2))
+        features = clip.blurred if random.random() < self.config.blurred else clip.features
         features = slice_padded(features, STRIDE * low + shift, STRIDE * high + shift)
         if clip.music:
-            music = clip.music[int(self.random.integers(len(clip.music)))]
+            music = clip.music[int(random.integers(len(clip.music)))]
         else:
             music = clip.features.new_zeros(len(clip.features), MUSIC_FEATURES)
         music_valid = by_frame.clone()
-        if self.random.random() < self.config.drop_music or not clip.music:
+        if random.random() < self.config.drop_music or not clip.music:
             music_valid.zero_()
-        elif self.random.random() < song_ends:
-            music_valid[int(self.random.integers(len(music_valid))) :] = 0
+        elif random.random() < song_ends:
+            music_valid[int(random.integers(len(music_valid))) :] = 0
         valid = torch.zeros(block)
         valid[: stop - start] = 1
         frames = (STRIDE * start, STRIDE * (start + block))

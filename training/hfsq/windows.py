@@ -72,17 +72,16 @@ def training_clips(
 class Windows:
     """Random windows of the clips, turned by a random angle about the vertical in half of the cases."""
 
-    def __init__(self, clips: list[Clip], size: int, seed: int) -> None:
+    def __init__(self, clips: list[Clip], size: int) -> None:
         self.clips, self.size = clips, size
         starts = np.array([len(c) - size + 1 for c in clips], dtype=np.float64)
         self.shares = starts / starts.sum()
-        self.random = np.random.default_rng(seed)
 
-    def batch(self, n: int) -> tuple[Streams, Streams]:
+    def batch(self, n: int, random: np.random.Generator) -> tuple[Streams, Streams]:
         """Three tensors (n, size, c), and the same three of the slow motion."""
-        chosen = [self.clips[i] for i in self.random.choice(len(self.clips), n, p=self.shares)]
-        starts = [int(self.random.integers(0, len(clip) - self.size + 1)) for clip in chosen]
-        angle = self.random.uniform(-np.pi, np.pi, n) * (self.random.random(n) < 0.5)
+        chosen = [self.clips[i] for i in random.choice(len(self.clips), n, p=self.shares)]
+        starts = [int(random.integers(0, len(clip) - self.size + 1)) for clip in chosen]
+        angle = random.uniform(-np.pi, np.pi, n) * (random.random(n) < 0.5)
         angles = torch.from_numpy(angle).float()
 
         def cut(streams: list[Streams]) -> Streams:

@@ -54,6 +54,6 @@ def test_clips_are_silent_and_differ() -> None:
     assert [len(clip.music) for clip in clips] == [0] * 8
     assert all(clip.role == 0.0 for clip in clips)
     assert not torch.equal(clips[0].reactor[:80], clips[2].reactor[:80])  # another distance
-    batch = Windows(clips, 6, 2, 4, config, seed=0).batch(12, short=0.0)
+    batch = Windows(clips, 6, 2, 4, config).batch(12, np.random.default_rng(0), short=0.0)
     assert batch.music_valid.abs().max() == 0
     assert batch.inside.max() == 1

@@ -35,11 +35,11 @@ def clip(hfsq: Autoencoder) -> Clip:
 
 
 def windows(clip: Clip, config: ConditionConfig) -> Windows:
-    return Windows([clip], BLOCK, MARGIN, STRIDE, config, seed=0)
+    return Windows([clip], BLOCK, MARGIN, STRIDE, config)
 
 
 def test_all_parts_of_a_window_are_of_the_same_frames(clip: Clip) -> None:
-    batch = windows(clip, PLAIN).batch(20, short=0.0, song_ends=0.0)
+    batch = windows(clip, PLAIN).batch(20, np.random.default_rng(0), short=0.0, song_ends=0.0)
     for n in range(20):
         start = int(batch.music[n, STRIDE * MARGIN, 0]) if batch.inside[n, MARGIN] else 0
         frames = slice(start, start + STRIDE * BLOCK)
@@ -51,7 +51,9 @@ def test_all_parts_of_a_window_are_of_the_same_frames(clip: Clip) -> None:
 
 
 def test_leader_shift_moves_the_leader_features_alone(clip: Clip) -> None:
-    batch = windows(clip, replace(PLAIN, leader_shift=3)).batch(60, short=0.0, song_ends=0.0)
+    batch = windows(clip, replace(PLAIN, leader_shift=3)).batch(
+        60, np.random.default_rng(0), short=0.0, song_ends=0.0
+    )
     shifts = []
     for n in range(60):
         start = int(batch.music[n, STRIDE * MARGIN, 0])
@@ -65,7 +67,9 @@ def test_leader_shift_moves_the_leader_features_alone(clip: Clip) -> None:
 
 
 def test_blurred_leader_features_keep_their_mean_and_lose_acceleration(clip: Clip) -> None:
-    batch = windows(clip, replace(PLAIN, blurred=1.0)).batch(5, short=0.0, song_ends=0.0)
+    batch = windows(clip, replace(PLAIN, blurred=1.0)).batch(
+        5, np.random.default_rng(0), short=0.0, song_ends=0.0
+    )
     for n in range(5):
         start = int(batch.music[n, STRIDE * MARGIN, 0])
         assert torch.equal(batch.features[n, STRIDE * MARGIN], clip.blurred[start])
@@ -77,7 +81,9 @@ def test_blurred_leader_features_keep_their_mean_and_lose_acceleration(clip: Cli
 def test_the_share_of_windows_at_the_ends_of_clips_is_that_asked_for(clip: Clip) -> None:
     last = len(clip) - BLOCK
     for share in (0.0, 0.5):
-        batch = windows(clip, PLAIN).batch(300, short=0.0, song_ends=0.0, ends=share)
+        batch = windows(clip, PLAIN).batch(
+            300, np.random.default_rng(0), short=0.0, song_ends=0.0, ends=share
+        )
         first, final = (
             sum(torch.equal(latents, clip.latents[s : s + BLOCK]) for latents in batch.latents)
             for s in (0, last)
