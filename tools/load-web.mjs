@@ -1,4 +1,6 @@
+import path from 'node:path';
 import { runnerImport } from 'vite';
+import { root } from './run.mjs';
 
 /**
  * Loads a TypeScript module of web/ into Node, for programs that compute as the page does.
@@ -8,6 +10,6 @@ import { runnerImport } from 'vite';
  * @returns {Promise<T>}
  */
 export async function loadWeb(file) {
-  const { module } = await runnerImport(new URL(`../web/${file}`, import.meta.url).pathname);
+  const { module } = await runnerImport(path.join(root, 'web', file));
   return /** @type {T} */ (module);
 }

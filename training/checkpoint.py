@@ -63,6 +63,11 @@ def read_config(folder: Path, name: str) -> dict:
         return config
 
 
+def earlier_training(folder: Path | None, name: str) -> dict:
+    """What the provenance of a training says of the checkpoint that it begins with, of NAME.json; nothing without."""
+    return {} if folder is None else {"before": read_config(folder, name)["provenance"]}
+
+
 UNBOUNDED = ("lowest", "highest")
 """The denoiser's range of latents, infinite where nothing quantises them."""
 

@@ -17,7 +17,7 @@ from pathlib import Path
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import load_model, read_config, save_denoiser
+from training.checkpoint import earlier_training, load_model, save_denoiser
 from training.command_line import run_program
 from training.config import DiffusionConfig
 from training.denoiser.denoiser import Denoiser
@@ -78,7 +78,7 @@ def main(options: Options) -> None:
         weight_decay=options.weight_decay,
     )
     stage = Distillation(student, network, teacher.diffusion)
-    before = read_config(options.teacher, "denoiser")["provenance"]
+    before = earlier_training(options.teacher, "denoiser")
     run = Run(fabric, stage, student, optimizer, options, options.out / "distill", warmup=50)
 
     def finish() -> None:
@@ -89,9 +89,7 @@ def main(options: Options) -> None:
             run.logger.write(run.schedule, report)
             run.logger.draw()
             provenance = run.provenance("training.distill", leave_out=())
-            save_denoiser(
-                options.out, averaged, diffusion, provenance | {"validation": report, "before": before}
-            )
+            save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report} | before)
             for name in ("hfsq.json", "hfsq.safetensors"):
                 shutil.copy(options.teacher / name, options.out / name)
             if not (options.out / "card.json").exists():  # it may have been filled in before a --resume

@@ -41,8 +41,11 @@ class ClipOptions(WindowOptions):
 
 
 def music_of(options: ClipOptions, duets: Split) -> MusicBank:
-    """Music features for every duet at every tempo: its own song, songs that fit, synthesised pieces."""
-    wanted = variants(options.augmentation.tempos, options.synths, options.pieces if options.songs else 0)
+    """Music features for every duet at every tempo of training and at its own: its song, songs that fit, synthesised
+    pieces.
+    """
+    tempos = sorted({*options.augmentation.tempos, 1.0})
+    wanted = variants(tempos, options.synths, options.pieces if options.songs else 0)
     return build_music_bank(duets, options.songs, wanted, cache_dir=options.music_cache)
 
 

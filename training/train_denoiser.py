@@ -11,7 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import load_hfsq, save_denoiser, start_from, write_first_card
+from training.checkpoint import earlier_training, load_hfsq, save_denoiser, start_from, write_first_card
 from training.command_line import run_program
 from training.config import DenoiserConfig, DenoiserLossConfig, DiffusionConfig
 from training.denoiser.clips import Clip, feature_values
@@ -66,6 +66,7 @@ def main(options: Options) -> None:
 
     torch.manual_seed(options.seed)  # the same initial weights on every rank
     denoiser = initial_denoiser(options, hfsq, clips)
+    before = earlier_training(options.init, "denoiser")
     clips += solo_clips(options, condition, hfsq, frame)
     windows = Windows(
         clips, options.denoiser.block, denoiser.condition.receptive_field, options.stride, condition
@@ -88,7 +89,8 @@ def main(options: Options) -> None:
             run.logger.write(run.schedule, report)
             run.logger.draw()
             provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
-            save_denoiser(options.out, averaged, options.diffusion, provenance | {"validation": report})
+            provenance |= {"validation": report} | before
+            save_denoiser(options.out, averaged, options.diffusion, provenance)
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
             write_first_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
         hfsq.to(fabric.device)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from lion_pytorch import Lion
 from torch import Tensor, nn
 
-from training.checkpoint import load_hfsq, save_hfsq, start_from
+from training.checkpoint import earlier_training, load_hfsq, save_hfsq, start_from
 from training.command_line import run_program
 from training.config import STRIDE, FrameConfig, HfsqConfig, check_latent_frames
 from training.data.duet import Duet
@@ -60,6 +60,7 @@ def main(options: Options) -> None:
     clips = read_clips(options, duets)
     windows = Windows(clips, options.window)
     autoencoder = initial_autoencoder(options, clips)
+    before = earlier_training(options.init, "hfsq")
     stage = Stage1(autoencoder, options.hfsq)
     trained = [p for p in stage.parameters() if p.requires_grad]
     optimizer = Lion(trained, lr=options.learning_rate, weight_decay=options.weight_decay)
@@ -72,7 +73,7 @@ def main(options: Options) -> None:
 
     run.train(lambda random: windows.batch(options.batch, random), report)
     if fabric.is_global_zero:
-        finish(run, clips, duets.val, options)
+        finish(run, clips, duets.val, options, before)
     fabric.barrier()
 
 
@@ -131,8 +132,10 @@ def evaluate(model: Autoencoder, duets: tuple[Duet, ...], frame: FrameConfig) ->
     return mean_report(rows)
 
 
-def finish(run: Run[Autoencoder], clips: list[Clip], val: tuple[Duet, ...], options: Options) -> None:
-    """Measure and save the averaged autoencoder with the statistics of its latents."""
+def finish(
+    run: Run[Autoencoder], clips: list[Clip], val: tuple[Duet, ...], options: Options, before: dict
+) -> None:
+    """Measure and save the averaged autoencoder with the statistics of its latents. before: `earlier_training`."""
     with run.averaged() as model:
         if not options.keep_latents:
             set_latent_statistics(model, clips)
@@ -142,7 +145,7 @@ def finish(run: Run[Autoencoder], clips: list[Clip], val: tuple[Duet, ...], opti
         run.logger.write(run.schedule, report)
         run.logger.draw()
         provenance = run.provenance("training.train_hfsq", leave_out=("hfsq", "frame"))
-        save_hfsq(options.out, model, options.frame, provenance | {"validation": report})
+        save_hfsq(options.out, model, options.frame, provenance | {"validation": report} | before)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import torch
 from tests.python.support.duets import made_duet
 from tests.python.support.small_training import DENOISER, HFSQ, stage1, stage2, write_duets
 from training import generate, train_denoiser, train_hfsq
-from training.checkpoint import load_denoiser, load_hfsq, load_model
+from training.checkpoint import load_denoiser, load_hfsq, load_model, read_card, solos_seen
 from training.checkpoints import average
 from training.config import (
     DenoiserConfig,
@@ -30,7 +30,7 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer
-from training.denoiser.clips import Clip, solo_pair_clips
+from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
 from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
@@ -172,6 +172,10 @@ def test_pairs_made_from_solo_dances_join_stage_2(data: Path, trained: Path, tmp
             stage2(data, tmp_path, init=trained, solo=tmp_path / "solo.npz", solo_prefixes=("indian",))
         )
     assert seen == [(["indian_1"], 1)]
+    next_run = tmp_path / "next"
+    train_hfsq.main(stage1(data, next_run, init=tmp_path))
+    train_denoiser.main(stage2(data, next_run, init=tmp_path))
+    assert solos_seen(next_run) == ("indian",), "by the training that this one goes on from"
     with_solos, _ = load_denoiser(tmp_path, load_hfsq(trained)[0])
     first, _ = load_denoiser(trained, load_hfsq(trained)[0])
     # Statistics stay those of the duets; weights learn.
@@ -187,7 +191,10 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
             (tmp_path / run).mkdir(exist_ok=True)
             (tmp_path / run / name).write_bytes((trained / name).read_bytes())
     train_denoiser.main(stage2(data, tmp_path / "other", init=trained, learning_rate=0.1, seed=1))
+    (tmp_path / "mean").mkdir()
+    (tmp_path / "mean" / "card.json").write_text('{"name": "filled in"}')
     average.main(average.Options((trained, tmp_path / "other"), tmp_path / "mean"))
+    assert read_card(tmp_path / "mean") == {"name": "filled in"}
     hfsq, _ = load_hfsq(tmp_path / "mean")
     a, b, mean = (
         load_denoiser(run, hfsq)[0].state_dict() for run in (trained, tmp_path / "other", tmp_path / "mean")
@@ -204,6 +211,16 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
         file.write(b" ")
     with pytest.raises(ValueError, match="another stage 1"):
         average.main(average.Options((trained, tmp_path / "stranger"), tmp_path / "x"))
+
+
+def test_a_training_at_other_tempos_alone_is_validated_at_its_own(
+    data: Path, trained: Path, tmp_path: Path
+) -> None:
+    for name in ("hfsq.json", "hfsq.safetensors"):
+        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    train_denoiser.main(stage2(data, tmp_path, augmentation=Augmentation(tempos=(0.9,), copies=1)))
+    validation = json.loads((tmp_path / "denoiser.json").read_text())["provenance"]["validation"]
+    assert validation["val/mpjpe_mm"] > 0
 
 
 def test_the_no_latent_baseline_is_lossless_and_trains(data: Path, tmp_path: Path) -> None:

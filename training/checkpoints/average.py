@@ -2,7 +2,8 @@
 
     python -m training.checkpoints.average --checkpoints runs/a runs/b --out runs/average
 
-Stage 1 and the card are those of the first checkpoint; all must have been trained with the same stage 1.
+Stage 1 and the card are those of the first checkpoint, but for a card that --out has already; all must have been
+trained with the same stage 1.
 """
 
 from __future__ import annotations
@@ -48,9 +49,11 @@ def main(options: Options) -> None:
         "checkpoints": [config["provenance"] for config in configs],
     }
     options.out.mkdir(parents=True, exist_ok=True)
-    for name in ("hfsq.json", "hfsq.safetensors", "card.json"):
-        if (first / name).exists() and options.out.resolve() != first.resolve():
+    if options.out.resolve() != first.resolve():
+        for name in ("hfsq.json", "hfsq.safetensors"):
             shutil.copy(first / name, options.out / name)
+    if (first / "card.json").exists() and not (options.out / "card.json").exists():
+        shutil.copy(first / "card.json", options.out)
     save_denoiser(options.out, denoiser, diffusion, provenance)
 
 

@@ -41,8 +41,8 @@ def measure_controls(
     What is measured against the truth is the mean over the dances that have one. solve: the skeleton that is drawn,
     to measure that in place of the generated joints.
 
-    `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song),
-    for variety seeds_apart_mm (pose, between the seeds).
+    `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song
+    where there is one), for variety seeds_apart_mm (pose, between the seeds).
     """
 
     def make(
@@ -71,7 +71,7 @@ def measure_controls(
             for dance, usual in zip(dances, before, strict=True):
                 made = make(dance, {control: value})
                 row = mean_report([_measure(dance, *pair) for pair in zip(usual, made, strict=True)])
-                if control == "music":
+                if control == "music" and dance.other_music is not None:
                     other = make(dance, {control: value}, other_song=True)
                     pairs = [between_seeds(pair)["pose_mm"] for pair in zip(made, other, strict=True)]
                     row["songs_apart_mm"] = float(np.mean(pairs))

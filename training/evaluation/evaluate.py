@@ -160,14 +160,15 @@ def _controlled(
     held_out: Sequence[HeldOutDuet], leaders: Sequence[Solo], further: Sequence[Solo], settings: Settings
 ) -> list[ControlledDance]:
     """The held-out duets, the leaders that the settings name and further ones; the other song is that of the next
-    duet.
+    duet, none where there is one duet.
     """
     songs = [item.music for item in held_out]
 
     def dance(index: int, leader: np.ndarray, reactor: np.ndarray | None) -> ControlledDance:
+        next_song = songs[(index + 1) % len(songs)] if len(songs) > 1 else None
         music, other = (
             None if song is None else fit_length(song, len(leader))
-            for song in (songs[index % len(songs)], songs[(index + 1) % len(songs)])
+            for song in (songs[index % len(songs)], next_song)
         )
         return ControlledDance(leader, music, other, reactor)
 

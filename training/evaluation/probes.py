@@ -54,35 +54,37 @@ def measure_responses(
     """What changes when a condition does, for each change its mean over duets and seeds.
 
     `change_*` are relative changes of the motion (metrics.response); another leader and another song are those
-    of the next duet. root_error_other_leader_mm is the relative-root error with that leader in the condition,
-    decoded with the right one; other_leader_raises_root_error is its rise, 0.2 is 20 %. song_over_leader is
-    the change by another song over that by another leader. seeds_apart_* as in `between_seeds`, mm.
+    of the next duet, so that a single duet has no such numbers. root_error_other_leader_mm is the relative-root error
+    with that leader in the condition, decoded with the right one; other_leader_raises_root_error is its rise, 0.2 is
+    20 %. song_over_leader is the change by another song over that by another leader. seeds_apart_* as in
+    `between_seeds`, mm.
     """
     seeds = list(enumerate(settings.seeds[: settings.response_seeds]))
     rows: list[dict[str, float]] = []
     for index, item in enumerate(held_out):
         other = held_out[(index + 1) % len(held_out)]
         leader, frames = item.duet.leader, len(item.duet)
-        other_leader = fit_length(other.duet.leader, frames)
         for number, seed in seeds:
             base = generated[item.duet.name][number]
-            changed = generate(leader, item.music, seed, condition_leader=other_leader)
-            row = {
-                "change_other_leader": relative_change(leader, base, changed),
-                "root_error_mm": root_error(leader, item.duet.reactor, base),
-                "root_error_other_leader_mm": root_error(leader, item.duet.reactor, changed),
-            }
-            if item.music is not None and other.music is not None:
-                song = fit_length(other.music, frames)
-                row["change_other_song"] = relative_change(leader, base, generate(leader, song, seed))
+            row = {"root_error_mm": root_error(leader, item.duet.reactor, base)}
+            if other is not item:
+                other_leader = fit_length(other.duet.leader, frames)
+                changed = generate(leader, item.music, seed, condition_leader=other_leader)
+                row["change_other_leader"] = relative_change(leader, base, changed)
+                row["root_error_other_leader_mm"] = root_error(leader, item.duet.reactor, changed)
+            if item.music is not None:
+                if other is not item and other.music is not None:
+                    song = fit_length(other.music, frames)
+                    row["change_other_song"] = relative_change(leader, base, generate(leader, song, seed))
                 late = generate(leader, half_beat_later(item.music), seed)
                 row["change_half_beat"] = relative_change(leader, base, late)
                 row["change_no_song"] = relative_change(leader, base, generate(leader, None, seed))
             rows.append(row)
     result = mean_report(rows)
-    result["other_leader_raises_root_error"] = (
-        _ratio(result["root_error_other_leader_mm"], result["root_error_mm"]) - 1
-    )
+    if "change_other_leader" in result:
+        result["other_leader_raises_root_error"] = (
+            _ratio(result["root_error_other_leader_mm"], result["root_error_mm"]) - 1
+        )
     if "change_other_song" in result:
         result["song_over_leader"] = _ratio(result["change_other_song"], result["change_other_leader"])
     apart = [between_seeds(generated[i.duet.name]) for i in held_out if len(generated[i.duet.name]) > 1]

@@ -48,7 +48,7 @@ def measure_row(held_out: Sequence[HeldOutDuet], motions: Motions) -> dict[str, 
     sets = [_measure_set(held_out, motions, i) for i in range(count)]
     numbers = [a | {k: v[0] for k, v in b.items()} for a, b in zip(per_seed, sets, strict=True)]
     mean = {key: float(np.mean([n[key] for n in numbers])) for key in numbers[0]}
-    interval = {key: _interval([n[key] for n in numbers]) for key in numbers[0]}
+    interval = {key: bootstrap_interval([n[key] for n in numbers]) for key in numbers[0]}
     for key in sets[0]:  # clips, not seeds, are what FID and Div depend on most
         interval[key] = (float(np.mean([s[key][1] for s in sets])), float(np.mean([s[key][2] for s in sets])))
     return {"mean": mean, "interval": interval, "per_seed": numbers, "trials": by_duet}
@@ -85,7 +85,7 @@ def _measure_set(
     return result
 
 
-def _interval(values: Sequence[float]) -> tuple[float, float]:
+def bootstrap_interval(values: Sequence[float]) -> tuple[float, float]:
     """95 % bootstrap interval of the mean over seeds."""
     sample = np.array(values)
     if len(sample) < 2:

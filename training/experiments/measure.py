@@ -26,7 +26,7 @@ from training.diffusion.react import Request, react
 from training.evaluation.baselines import baselines
 from training.evaluation.metrics.seams import boundaries, paper_jitter
 from training.evaluation.protocol import TRUTH, HeldOutDuet, Motions
-from training.evaluation.rows import measure_row
+from training.evaluation.rows import bootstrap_interval, measure_row
 from training.experiments.jobs import COST, Data
 from training.experiments.tables import Row
 from training.hfsq.reconstruct import reconstruct
@@ -52,9 +52,18 @@ class MeasureJob:
     @property
     def result(self) -> Path:
         row = {k: v for k, v in asdict(self.row).items() if k != "name"}
-        given = [str(f) for f in self.folders], row, self.sampling_seeds, self.data.test
-        digest = hashlib.sha256(json.dumps(given, default=str).encode()).hexdigest()[:16]
-        return self.root / "measured" / f"{digest}.json"
+        weights = [
+            hashlib.sha256(file.read_bytes()).hexdigest()
+            for folder in self.folders
+            for file in sorted(folder.glob("*.safetensors"))
+        ]
+        return _measured(self.root, self.data, weights, row, self.sampling_seeds)
+
+
+def _measured(root: Path, data: Data, *given: object) -> Path:
+    """The file of what has been measured on these test duets, by all that it depends on."""
+    key = json.dumps([data.source, data.val, data.test, *given], default=str)
+    return root / "measured" / f"{hashlib.sha256(key.encode()).hexdigest()[:16]}.json"
 
 
 def measure_all(jobs: Sequence[MeasureJob], processes: int, log: Callable[[str], None]) -> list[Numbers]:
@@ -131,22 +140,22 @@ def held_out_duets(data: Data) -> list[HeldOutDuet]:
 def measured(held_out: Sequence[HeldOutDuet], motions: Motions) -> Numbers:
     """`measure_row` and the paper's jitter at block boundaries; motions: several of each duet."""
     row = measure_row(held_out, motions)
-    jitter = [
-        paper_jitter(motion, boundaries(len(motion)))
-        for item in held_out
-        for motion in motions[item.duet.name]
-        if len(boundaries(len(motion)))
-    ]
     mean, interval = dict(row["mean"]), dict(row["interval"])
-    if jitter:
-        mean["jitter"] = float(np.mean(jitter))
-        interval["jitter"] = (float(np.min(jitter)), float(np.max(jitter)))
+    made = [motions[item.duet.name] for item in held_out]
+    long = [of_duet for of_duet in made if len(boundaries(len(of_duet[0])))]
+    if long:
+        by_seed = [
+            float(np.mean([paper_jitter(motion, boundaries(len(motion))) for motion in of_seed]))
+            for of_seed in zip(*long, strict=True)
+        ]
+        mean["jitter"] = float(np.mean(by_seed))
+        interval["jitter"] = bootstrap_interval(by_seed)
     return {"mean": mean, "interval": interval}
 
 
 def reference_rows(data: Data, root: Path) -> dict[str, Numbers]:
     """The truth and what chance gives: a copied dance."""
-    path = root / "measured" / f"reference-{'-'.join(data.test)}.json"
+    path = _measured(root, data, "reference")
     if not path.exists():
         held_out = held_out_duets(data)
         train = read_split(data.source, data.val, data.test).train

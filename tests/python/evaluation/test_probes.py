@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.python.support.held_out import generate_mirrored
 from training.evaluation.metrics.beats import BEAT_COLUMN
-from training.evaluation.probes import measure_beat_following, measure_seams
+from training.evaluation.probes import measure_beat_following, measure_responses, measure_seams
 from training.evaluation.protocol import HeldOutDuet, Settings, fit_length
 
 
@@ -70,3 +71,22 @@ def test_motion_that_slows_down_on_the_beat_is_told_from_motion_that_ignores_the
 
     assert measure_beat_following(pulsing, held_out[:1], 12)["one"]["p"] < 0.01
     assert measure_beat_following(unchanging, held_out[:1], 12)["one"]["p"] > 0.5
+
+
+def test_a_single_duet_has_no_other_leader_and_no_other_song(held_out: list[HeldOutDuet]):
+    motions = {
+        i.duet.name: [generate_mirrored(i.duet.leader, i.music, seed) for seed in (0, 1)] for i in held_out
+    }
+    both, alone = (
+        measure_responses(generate_mirrored, duets, motions, Settings(seeds=(0, 1), response_seeds=2))
+        for duets in (held_out, held_out[:1])
+    )
+    others = {
+        "change_other_leader",
+        "root_error_other_leader_mm",
+        "change_other_song",
+        "other_leader_raises_root_error",
+        "song_over_leader",
+    }
+    assert set(both) - set(alone) == others
+    assert alone["change_half_beat"] > 0

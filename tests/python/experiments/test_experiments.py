@@ -7,14 +7,17 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import tyro
 
+from tests.python.support.held_out import generate_mirrored, made_held_out
 from training import train_denoiser, train_hfsq
 from training.baselines import __main__ as baselines
 from training.evaluation import no_latent_baseline
 from training.experiments.__main__ import Options
 from training.experiments.jobs import Data, Job, run_all, stage1_job, stage2_job
+from training.experiments.measure import MeasureJob, measured
 from training.experiments.scale import Scale
 from training.experiments.tables import MEASURES, TABLES, Row
 from training.experiments.write import cell, digits, verdicts, write_table
@@ -105,6 +108,32 @@ def test_what_is_done_is_not_repeated(tmp_path: Path) -> None:
     for name in ("a", "b"):
         assert (tmp_path / name / "count").read_text() == "x"
         assert json.loads((tmp_path / name / "cost.json").read_text())["cpu_minutes"] >= 0
+
+
+def test_what_was_measured_counts_for_the_same_data_and_weights_alone(tmp_path: Path) -> None:
+    job = MeasureJob(TABLES[4].rows[0], (tmp_path,), DATA, (0,), tmp_path)
+    weights = tmp_path / "denoiser.safetensors"
+    weights.write_bytes(b"1")
+    first = job.result
+    assert replace(job).result == first
+    for changed in (replace(DATA, val=("c",)), replace(DATA, source=Path("other.npz"))):
+        assert replace(job, data=changed).result != first
+    weights.write_bytes(b"2")
+    assert job.result != first
+
+
+def test_jitter_has_an_interval_over_seeds_and_none_for_one_motion() -> None:
+    held_out = made_held_out()
+    motions = {
+        i.duet.name: [generate_mirrored(i.duet.leader, i.music, seed) for seed in (0, 1)] for i in held_out
+    }
+    for duet in motions.values():
+        duet[1] = duet[1] + np.random.default_rng(1).normal(scale=0.01, size=duet[1].shape)
+    numbers = measured(held_out, motions)
+    low, high = numbers["interval"]["jitter"]
+    assert low < numbers["mean"]["jitter"] < high
+    alone = measured(held_out, {name: duet[:1] for name, duet in motions.items()})
+    assert alone["interval"]["jitter"] == (alone["mean"]["jitter"],) * 2
 
 
 def test_a_training_that_was_cut_off_goes_on(tmp_path: Path) -> None:
