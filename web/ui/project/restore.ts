@@ -105,7 +105,7 @@ export class Restorer {
     const { letter, takesMade, footLock, countings, time, region, framing } = page;
     const length = leader ? seconds(leader.motion) : 0;
     const inputs: Partial<Inputs> =
-      leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song };
+      leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song, shift: 0 };
     return {
       ...inputs,
       leader,

@@ -13,9 +13,11 @@ import { checked } from '../../../../web/ui/project/records';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
 import type { AppState } from '../../../../web/ui/store/state';
+import { regionSet, shiftSet } from '../../../../web/ui/store/actions/timeline';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
-import { redone, undone } from '../../../../web/ui/store/history/history';
+import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
+import { upToDate } from '../../../../web/ui/store/selectors';
 import { currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import {
@@ -60,12 +62,14 @@ function filled(): change.Store {
   react(2);
   change.apply(store, change.seedSet(99));
   change.apply(store, change.heightSet(1.7));
+  change.apply(store, shiftSet(7));
   react(3);
   change.apply(store, takeStarred('t1'));
   change.apply(store, takeRenamed('t2', 'Softer hands'));
   change.apply(store, letterGiven('t2', 'B'));
   change.apply(store, change.footLockSet(false));
   change.apply(store, oneSet(1.1));
+  change.apply(store, regionSet({ from: 0.5, to: 1.75 }));
   change.apply(store, change.playbackSet({ time: 1.5 }));
   return store;
 }
@@ -105,7 +109,9 @@ const summary = (state: AppState) => ({
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],
   countings: state.countings,
+  shift: state.shift,
   time: state.playback.time,
+  region: state.playback.region,
   takesMade: state.takesMade,
 });
 
@@ -211,13 +217,19 @@ describe('a project', () => {
       takes: [],
       leader: null,
       song: null,
+      shift: 0,
       reaction: null,
       firstVisit: true,
+      zoom: null,
+      playback: { time: 0, region: null },
     });
     expect(store.getState().settings?.seed).toBe(3);
     expect(hasVisitorContent(store.getState())).toBe(false);
+    // As the demo does it.
+    change.apply(store, withoutUndo(change.leaderLoaded(leader(90, 'demo.bvh'))));
     change.apply(store, undone());
     expect(summary(store.getState())).toEqual(summary(before));
+    expect(upToDate(store.getState())).toBe(true);
   });
 });
 

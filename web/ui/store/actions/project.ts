@@ -98,6 +98,7 @@ export function projectCleared(manifest: Manifest | null, seed: number): Change 
       ...(manifest && manifestLoaded(manifest, seed)(state)),
       song: null,
       leader: null,
+      shift: 0,
       reaction: null,
       takes: [],
       takesMade: 0,
@@ -108,6 +109,7 @@ export function projectCleared(manifest: Manifest | null, seed: number): Change 
       footLock: true,
       firstVisit: true,
       demo: 'loading',
-      playback: { ...state.playback, playing: false, time: 0 },
+      playback: { ...state.playback, playing: false, time: 0, region: null },
+      zoom: null,
     });
 }

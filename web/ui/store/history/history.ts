@@ -174,7 +174,11 @@ function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppSta
     reaction: answers ? after.reaction : null,
     other: there ? after.other : null,
     compare: there ? after.compare : 'off',
-    playback: { ...state.playback, time: Math.min(after.playback.time, danceDuration(after)) },
+    playback: {
+      ...state.playback,
+      time: Math.min(after.playback.time, danceDuration(after)),
+      region: after.playback.region,
+    },
   };
 }
 
