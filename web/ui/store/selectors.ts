@@ -9,6 +9,23 @@ export function danceDuration(state: Pick<AppState, 'leader' | 'song'>): number 
   return state.song?.data.duration ?? 0;
 }
 
+/**
+ * Playhead, loop and zoom after a change that may bring another leader: inside the dance, and all of another leader's is
+ * shown.
+ */
+export function timelineWithin(before: AppState, after: AppState): Pick<AppState, 'playback' | 'zoom'> {
+  const { playback, zoom, leader } = after;
+  const { time, region } = playback;
+  const whole = danceDuration(after);
+  const fits = time <= whole && (!region || region.to <= whole);
+  return {
+    playback: fits
+      ? playback
+      : { ...playback, time: Math.min(time, whole), region: region && region.to <= whole ? region : null },
+    zoom: leader === before.leader ? zoom : null,
+  };
+}
+
 /** Frames per second of the dance; while there is no leader, of what the model makes. */
 export function danceFps({ leader, manifest }: Pick<AppState, 'leader' | 'manifest'>): number {
   return leader?.file.clip.fps ?? manifest?.fps ?? 1; // without either nothing has a length

@@ -13,7 +13,7 @@ import { checked } from '../../../../web/ui/project/records';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
 import type { AppState } from '../../../../web/ui/store/state';
-import { regionSet, shiftSet } from '../../../../web/ui/store/actions/timeline';
+import { regionSet, shiftSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
 import * as change from '../../support/actions';
 import { letterGiven, takeRenamed, takeStarred } from '../../../../web/ui/store/actions/takes';
 import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
@@ -199,7 +199,9 @@ describe('a project', () => {
     const store = filled();
     const before = store.getState();
     const { content } = await contentOf(kept, before);
+    change.apply(store, zoomSet({ from: 0.5, to: 1.75 }));
     change.apply(store, projectOpened(content));
+    expect(store.getState().zoom).toBeNull();
     const opened = summary(store.getState());
     expect(store.getState().takes[0]).not.toBe(before.takes[0]);
     change.apply(store, undone());

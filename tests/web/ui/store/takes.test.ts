@@ -3,6 +3,7 @@ import type { LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/
 import type { AppState } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
+import { regionSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
 import { MAX_TAKES } from '../../../../web/ui/store/add-take';
 import * as edit from '../../../../web/ui/store/actions/takes';
 import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
@@ -309,6 +310,39 @@ describe('choosing a take', () => {
     expect(page.state.playback.time).toBe(10);
     page.do(undone());
     expect([page.state.leader?.name, page.onStage]).toEqual(['long.bvh', 'Take 2']);
+  });
+
+  it('to a shorter leader shows all of its dance and ends a loop beyond it, as does undo', () => {
+    const inLong = (): void => {
+      page.do(
+        regionSet({ from: 12, to: 15 }),
+        zoomSet({ from: 11, to: 16 }),
+        change.playbackSet({ time: 13 }),
+      );
+    };
+    page.arrive();
+    page.do(change.leaderLoaded(leader(600, 'long.bvh')));
+    page.arrive();
+    inLong();
+    page.do(edit.takeChosen(page.id('Take 1')));
+    expect(page.state).toMatchObject({ zoom: null, playback: { time: 10, region: null } });
+    page.do(undone());
+    inLong();
+    page.do(redone());
+    expect(page.state.leader).toBe(page.dancer);
+    expect(page.state).toMatchObject({ zoom: null, playback: { time: 10, region: null } });
+  });
+
+  it('of the same leader leaves loop and zoom as they are', () => {
+    page.arrive();
+    page.seed(8);
+    page.arrive();
+    page.do(regionSet({ from: 2, to: 5 }), zoomSet({ from: 1, to: 6 }));
+    const { playback, zoom } = page.state;
+    page.do(edit.takeChosen(page.id('Take 1')));
+    expect(page.state.playback).toBe(playback);
+    page.do(undone());
+    expect(page.state).toMatchObject({ zoom, playback });
   });
 });
 

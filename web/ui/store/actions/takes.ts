@@ -1,4 +1,4 @@
-import { danceDuration, upToDate } from '../selectors';
+import { timelineWithin, upToDate } from '../selectors';
 import type { Take } from '../reaction';
 import type { AppState, Compare, Letter } from '../state';
 import type { Change } from '../store';
@@ -10,13 +10,12 @@ export const MAX_TAKE_NAME_LENGTH = 60;
 /** Shows a take and restores the files and settings that it was generated from, so that nothing is generated anew. */
 function withTakeShown(state: AppState, { id, reaction }: Take): Partial<AppState> {
   const { inputs } = reaction;
-  const time = Math.min(state.playback.time, danceDuration(inputs));
   const other = otherTake(state);
   const endsComparison = other ? whyNotComparable(other.reaction, reaction) !== null : id === state.other;
   return {
     ...inputs,
     reaction,
-    ...(time !== state.playback.time && { playback: { ...state.playback, time } }),
+    ...timelineWithin(state, { ...state, ...inputs }),
     ...(endsComparison && { other: null, compare: 'off' }),
   };
 }

@@ -1,5 +1,5 @@
 import { countWithin } from './history-bytes';
-import { danceDuration, sameSettings } from '../selectors';
+import { sameSettings, timelineWithin } from '../selectors';
 import type { Inputs, Settings, Take } from '../reaction';
 import type { AppState } from '../state';
 import type { Change } from '../store';
@@ -155,6 +155,7 @@ export function redone(): Change {
 
 function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppState> {
   const after = { ...state, ...back };
+  const { time, region } = after.playback;
   let { takes } = after;
   for (const { before, after: since } of edits)
     if (before) takes = withTake(takes, edited(takes, before));
@@ -174,11 +175,7 @@ function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppSta
     reaction: answers ? after.reaction : null,
     other: there ? after.other : null,
     compare: there ? after.compare : 'off',
-    playback: {
-      ...state.playback,
-      time: Math.min(after.playback.time, danceDuration(after)),
-      region: after.playback.region,
-    },
+    ...timelineWithin(state, { ...after, playback: { ...state.playback, time, region } }),
   };
 }
 
