@@ -1,8 +1,9 @@
 import { atFrameRate, type Dance } from '../../export/client';
-import { otherRole } from '../store/roles';
+import { generatedRole, otherRole } from '../store/roles';
 import type { FileNameParts } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
-import type { AppState } from '../store/state';
+import type { Role } from '../store/reaction';
+import type { AppState, DancerSelection } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 
 /** What the file names of the reaction on the stage are made from; null without a reaction. */
@@ -17,10 +18,28 @@ function titleOnStage(state: AppState): string | null {
   return take && takeTitle(take);
 }
 
+/** The role of the generated dancer that would be written. */
+function writtenRole(state: AppState): Role {
+  return state.reaction?.inputs.settings.role ?? generatedRole(state);
+}
+
+/** The role of the dancer that is chosen to be written, or both. */
+export function chosenRole(state: AppState): Role | 'both' {
+  const { who } = state.download;
+  if (who === 'both') return who;
+  return who === 'generated' ? writtenRole(state) : otherRole(writtenRole(state));
+}
+
+/** The choice that means this role now. */
+export function selectionOf(role: Role | 'both', state: AppState): DancerSelection {
+  if (role === 'both') return role;
+  return role === writtenRole(state) ? 'generated' : 'loaded';
+}
+
 /** The motions to be written: both dancers on the stage or one of them, as chosen; null without a reaction. */
 export function chosenDance(state: AppState): Dance | null {
   const { reaction, manifest, footLock, download } = state;
-  const { who, rate } = download;
+  const who = chosenRole(state);
   const motion = reactorMotion(state);
   if (!reaction || !motion) return null;
   const { song, leader, shift, settings } = reaction.inputs;
@@ -39,5 +58,5 @@ export function chosenDance(state: AppState): Dance | null {
       footLock,
     },
   };
-  return atFrameRate(dance, rate);
+  return atFrameRate(dance, download.rate);
 }

@@ -1,5 +1,5 @@
 import { estimateBytes, FRAME_RATES, type FrameRate, type MotionFormat } from '../../export/client';
-import { chosenDance, fileNameParts } from './dance';
+import { chosenDance, chosenRole, fileNameParts, selectionOf } from './dance';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
 import { motionFileName } from './file-name';
@@ -41,7 +41,7 @@ export function createDownloadMotion(store: Store, services: Services): Download
       ['both', 'Both'],
     ],
     (value) => {
-      apply(store, downloadChosen({ who: value }));
+      apply(store, downloadChosen({ who: selectionOf(value, store.getState()) }));
     },
   );
   const rates = radioGroup(
@@ -86,17 +86,13 @@ export function createDownloadMotion(store: Store, services: Services): Download
       rows.find((row) => row.format === format)?.button.focus();
     },
     dispose: combineDisposers(
-      watchAll(
-        store,
-        (state) => [state.reaction, state.footLock, state.download, state.writing, state.saved],
-        (state) => {
-          who.show(state.download.who);
-          rates.show(state.download.rate);
-          for (const row of rows) row.show(state);
-          fileName.show(state, previewed);
-          showSizes(state);
-        },
-      ),
+      watchAll(store, shownParts, (state) => {
+        who.show(chosenRole(state));
+        rates.show(state.download.rate);
+        for (const row of rows) row.show(state);
+        fileName.show(state, previewed);
+        showSizes(state);
+      }),
       watch(
         store,
         (state) => state.openPanel,
@@ -106,6 +102,12 @@ export function createDownloadMotion(store: Store, services: Services): Download
       ),
     ),
   };
+}
+
+/** The parts of the state that are shown. */
+function shownParts(state: AppState): readonly unknown[] {
+  const { reaction, footLock, download, writing, saved } = state;
+  return [reaction, footLock, download, chosenRole(state), writing, saved];
 }
 
 /** A format: its name, what it is for and how large the file will be; a click saves it. */
@@ -173,8 +175,8 @@ function createFileNameLine(): {
     root,
     show: (state, previewed) => {
       const named = fileNameParts(state);
-      const { who, format } = state.download;
-      const name = named ? motionFileName(named, who, previewed ?? format) : '';
+      const format = previewed ?? state.download.format;
+      const name = named ? motionFileName(named, chosenRole(state), format) : '';
       const { saved } = state;
       const done = saved?.name === name;
       root.classList.toggle('saved', done);

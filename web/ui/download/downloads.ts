@@ -8,7 +8,7 @@ import {
   writeMotion,
   writeVideo,
 } from '../../export/client';
-import { chosenDance, fileNameParts } from './dance';
+import { chosenDance, chosenRole, fileNameParts } from './dance';
 import {
   downloadChosen,
   videoProgressChanged,
@@ -83,7 +83,7 @@ export function createDownloads(store: Store, tools: DownloadTools): Downloads {
 
 async function saveMotion(store: Store, format: MotionFormat, save: SaveFile): Promise<void> {
   const state = store.getState();
-  const { who } = state.download;
+  const who = chosenRole(state);
   const named = fileNameParts(state);
   const dance = chosenDance(state);
   if (!named || !dance || state.writing) return;

@@ -3,8 +3,7 @@ import { FPS } from '../../motion/skeleton/clip';
 import { otherRole } from '../store/roles';
 import { slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
-import type { Inputs } from '../store/reaction';
-import type { DancerSelection } from '../store/state';
+import type { Inputs, Role } from '../store/reaction';
 
 /** What a file name is made from. */
 export interface FileNameParts {
@@ -22,7 +21,7 @@ export interface FileNameParts {
  * guidance of the music, is there only with a song, `v`, the variety, only where it changes the seed, and the frame rate
  * where it is not the page's.
  */
-export function motionFileName(named: FileNameParts, who: DancerSelection, format: MotionFormat): string {
+export function motionFileName(named: FileNameParts, who: Role | 'both', format: MotionFormat): string {
   const parts =
     who === otherRole(named.inputs.settings.role)
       ? inputParts(named.inputs)

@@ -139,7 +139,8 @@ export interface Playback {
   readonly region: Span | null;
 }
 
-export type DancerSelection = 'reactor' | 'leader' | 'both';
+/** The dancers by where they come from, since their roles can be swapped. */
+export type DancerSelection = 'generated' | 'loaded' | 'both';
 
 /** The choices in the download menu. */
 export interface DownloadChoice {

@@ -55,7 +55,7 @@ export function initialState(theme: Theme): AppState {
     reference: null,
     job: null,
     download: {
-      who: 'reactor',
+      who: 'generated',
       format: 'bvh',
       rate: FPS,
       size: '1080p',

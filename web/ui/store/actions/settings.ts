@@ -104,18 +104,12 @@ function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided
   };
 }
 
-/**
- * Swaps the roles of the loaded and the generated dancer. The present reaction is removed from the stage, and the
- * generated dancer is the one that is downloaded.
- */
+/** Swaps the roles of the loaded and the generated dancer. The present reaction is removed from the stage. */
 export function rolesSwapped(): Change {
-  return ({ settings, download }) => {
+  return ({ settings }) => {
     if (!settings) return {};
-    const role = otherRole(settings.role);
-    const who = download.who === 'both' ? 'both' : role;
     return {
-      settings: { ...settings, role },
-      download: { ...download, who },
+      settings: { ...settings, role: otherRole(settings.role) },
       reaction: null,
       preview: null,
       // A leader and a reactor are not compared.

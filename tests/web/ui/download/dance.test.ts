@@ -1,0 +1,59 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import { chosenDance, chosenRole, selectionOf } from '../../../../web/ui/download/dance';
+import { downloadChosen } from '../../../../web/ui/store/actions/download';
+import { takeChosen } from '../../../../web/ui/store/actions/takes';
+import { undone } from '../../../../web/ui/store/history/history';
+import type { Role } from '../../../../web/ui/store/reaction';
+import { currentInputs } from '../../../../web/ui/store/take';
+import * as change from '../../support/actions';
+import { leader, still } from '../../support/made-state';
+import { small } from '../../support/small-manifest';
+
+describe('the motion that is downloaded', () => {
+  let store: change.Store;
+  const react = (id: string): void => {
+    const inputs = currentInputs(store.getState())!;
+    const reaction = { motion: still(60), latents: null, inputs, label: null, seconds: 1 };
+    change.apply(store, change.reactionAdded(reaction, { id, at: Number(id) * 1e6 }));
+  };
+  /** Roles of the dancers that are written, the generated one marked. */
+  const written = (): string[] => {
+    const state = store.getState();
+    return chosenDance(state)!.dancers.map(({ role, motion }) =>
+      motion === state.leader?.motion ? role : `generated ${role}`,
+    );
+  };
+  const choose = (role: Role | 'both'): void => {
+    change.apply(store, downloadChosen({ who: selectionOf(role, store.getState()) }));
+  };
+
+  beforeEach(() => {
+    store = change.createAppStore('dark');
+    change.apply(store, change.manifestLoaded(small, 7));
+    change.apply(store, change.leaderLoaded(leader(60)));
+    change.apply(store, change.footLockSet(false));
+    react('1');
+  });
+
+  it('is the generated one after roles were swapped, after undo and of a take in the other role', () => {
+    expect([written(), chosenRole(store.getState())]).toEqual([['generated reactor'], 'reactor']);
+    change.apply(store, change.rolesSwapped());
+    expect(chosenRole(store.getState())).toBe('leader');
+    react('2');
+    expect([written(), chosenRole(store.getState())]).toEqual([['generated leader'], 'leader']);
+    change.apply(store, undone());
+    expect([written(), chosenRole(store.getState())]).toEqual([['generated reactor'], 'reactor']);
+    change.apply(store, takeChosen('2'));
+    expect([written(), chosenRole(store.getState())]).toEqual([['generated leader'], 'leader']);
+  });
+
+  it('is the loaded one or both where that is chosen, in either role', () => {
+    choose('leader');
+    expect([written(), chosenRole(store.getState())]).toEqual([['leader'], 'leader']);
+    change.apply(store, change.rolesSwapped());
+    react('2');
+    expect([written(), chosenRole(store.getState())]).toEqual([['reactor'], 'reactor']);
+    choose('both');
+    expect(written()).toEqual(['generated leader', 'reactor']);
+  });
+});
