@@ -1,9 +1,9 @@
 import { atFrameRate, type Dance } from '../../export/client';
 import { generatedRole, otherRole } from '../store/roles';
-import type { FileNameParts } from './file-name';
+import { type FileNameParts, videoFileName } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
 import type { Role } from '../store/reaction';
-import type { AppState, DancerSelection } from '../store/state';
+import type { AppState, DancerSelection, Saved } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 
 /** What the file names of the reaction on the stage are made from; null without a reaction. */
@@ -16,6 +16,13 @@ export function fileNameParts(state: AppState): FileNameParts | null {
 function titleOnStage(state: AppState): string | null {
   const take = takeOnStage(state);
   return take && takeTitle(take);
+}
+
+/** The file that was written last, if it is the video of the reaction on the stage in the chosen size. */
+export function savedVideo(state: AppState, container: string): Saved | null {
+  const { saved, download } = state;
+  const named = fileNameParts(state);
+  return named && saved?.name === videoFileName(named, download.size, container) ? saved : null;
 }
 
 /** The role of the generated dancer that would be written. */

@@ -1,5 +1,5 @@
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
-import { fileNameParts } from './dance';
+import { fileNameParts, savedVideo } from './dance';
 import { textButton } from '../widgets/button';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { downloadChosen } from '../store/actions/download';
@@ -8,7 +8,7 @@ import { byteSize, duration } from '../store/format';
 import { radioGroup } from '../widgets/radio-group';
 import { danceDuration } from '../store/selectors';
 import type { Services } from '../store/services';
-import type { AppState, VideoProgress, Saved } from '../store/state';
+import type { AppState, VideoProgress } from '../store/state';
 import { apply, type Store, watchAll } from '../store/store';
 
 /** Part of the download menu: the video of the stage, its size and its progress. */
@@ -157,7 +157,7 @@ function createHead(services: Services): {
       const running = state.videoProgress !== null;
       save.hidden = running;
       cancel.hidden = !running;
-      share.hidden = running || !savedVideo(plan, state)?.shareable;
+      share.hidden = running || !(plan && savedVideo(state, plan.container)?.shareable);
       save.disabled = !state.reaction || !plan;
       const size = services.videoSize();
       setText(about, size ? videoText(plan, state, size) : 'A video needs the 3D picture.');
@@ -195,16 +195,11 @@ function createProgress(): {
   };
 }
 
-/** What was written last, if that is a video. */
-function savedVideo(plan: Plan, { saved }: AppState): Saved | null {
-  return plan && saved?.name.endsWith(`.${plan.container}`) ? saved : null;
-}
-
 /** Text beside the heading: what will be written, what was, or why no video can be written. */
 function videoText(plan: Plan, state: AppState, { width, height }: Pixels): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
-  const saved = savedVideo(plan, state);
+  const saved = savedVideo(state, plan.container);
   if (saved && !state.videoProgress) return `Saved, ${byteSize(saved.bytes)}`;
   const container = plan.container === 'mp4' ? 'MP4' : 'WebM';
   if (plan.way === 'record') return `${container}, takes ${duration(danceDuration(state))}`;

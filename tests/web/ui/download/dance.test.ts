@@ -1,6 +1,13 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { chosenDance, chosenRole, selectionOf } from '../../../../web/ui/download/dance';
-import { downloadChosen } from '../../../../web/ui/store/actions/download';
+import {
+  chosenDance,
+  chosenRole,
+  fileNameParts,
+  savedVideo,
+  selectionOf,
+} from '../../../../web/ui/download/dance';
+import { videoFileName } from '../../../../web/ui/download/file-name';
+import { downloadChosen, savedChanged } from '../../../../web/ui/store/actions/download';
 import { takeChosen } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { Role } from '../../../../web/ui/store/reaction';
@@ -9,7 +16,7 @@ import * as change from '../../support/actions';
 import { leader, still } from '../../support/made-state';
 import { small } from '../../support/small-manifest';
 
-describe('the motion that is downloaded', () => {
+describe('what is downloaded', () => {
   let store: change.Store;
   const react = (id: string): void => {
     const inputs = currentInputs(store.getState())!;
@@ -35,7 +42,7 @@ describe('the motion that is downloaded', () => {
     react('1');
   });
 
-  it('is the generated one after roles were swapped, after undo and of a take in the other role', () => {
+  it('is the generated dancer after roles were swapped, after undo and of a take in the other role', () => {
     expect([written(), chosenRole(store.getState())]).toEqual([['generated reactor'], 'reactor']);
     change.apply(store, change.rolesSwapped());
     expect(chosenRole(store.getState())).toBe('leader');
@@ -47,7 +54,7 @@ describe('the motion that is downloaded', () => {
     expect([written(), chosenRole(store.getState())]).toEqual([['generated leader'], 'leader']);
   });
 
-  it('is the loaded one or both where that is chosen, in either role', () => {
+  it('is the loaded dancer or both where that is chosen, in either role', () => {
     choose('leader');
     expect([written(), chosenRole(store.getState())]).toEqual([['leader'], 'leader']);
     change.apply(store, change.rolesSwapped());
@@ -55,5 +62,20 @@ describe('the motion that is downloaded', () => {
     expect([written(), chosenRole(store.getState())]).toEqual([['reactor'], 'reactor']);
     choose('both');
     expect(written()).toEqual(['generated leader', 'reactor']);
+  });
+
+  it('as a video was saved while it is on the stage as it was then', () => {
+    const name = (): string => videoFileName(fileNameParts(store.getState())!, '1080p', 'mp4');
+    const file = { name: name(), bytes: 5e6, shareable: true };
+    change.apply(store, savedChanged(file));
+    const saved = (): unknown => savedVideo(store.getState(), 'mp4');
+    expect([saved(), savedVideo(store.getState(), 'webm')]).toEqual([file, null]);
+    change.apply(store, change.seedSet(8));
+    react('2');
+    expect(saved()).toBeNull();
+    change.apply(store, takeChosen('1'));
+    expect(saved()).toBe(file);
+    change.apply(store, downloadChosen({ size: '9x16' }));
+    expect(saved()).toBeNull();
   });
 });
