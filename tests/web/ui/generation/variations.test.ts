@@ -180,4 +180,21 @@ describe('three variations', () => {
     expect(there()).toEqual([false, false, false]);
     expect(store.getState().settings?.seed).toBe(7);
   });
+
+  it('have the same variety the next time, also after one was picked', async () => {
+    const asked = (): (number | undefined)[] =>
+      model.seedCalls.map(({ request: { request } }) => request.variety);
+    await answer(0);
+    await make();
+    await choose(8, 10, 11);
+    for (const index of [1, 2, 3]) await answer(index);
+    variations.pick(10);
+    await make();
+    expect(asked()).toEqual([1.6, 1.6]);
+    await choose(13, 14, 15);
+    for (const index of [4, 5, 6]) await answer(index);
+    change.apply(store, undone());
+    await make();
+    expect(asked()).toEqual([1.6, 1.6, 1.6]);
+  });
 });

@@ -43,7 +43,11 @@ export function candidateSeeds({ firstSeed }: Variations): number[] {
 export function variationsStarted({ settings, ...files }: Inputs): Change {
   return ({ variations: before, manifest }) => {
     if (!manifest) return {};
-    const variety = clampedToStep(settings.variety + MORE_VARIETY, manifest.guidance.variety);
+    // A picked variation has set the variety that is already above the visitor's.
+    const isRaised = before?.inputs.settings.variety === settings.variety;
+    const variety = isRaised
+      ? settings.variety
+      : clampedToStep(settings.variety + MORE_VARIETY, manifest.guidance.variety);
     return {
       variations: {
         inputs: { ...files, settings: { ...settings, variety } },
