@@ -80,11 +80,10 @@ export class VariationMaker {
 
   #dropOutdated(): void {
     const state = this.#store.getState();
-    if (!state.variations) return;
     const inputs = readyInputs(state);
-    if (inputs && asksForVariations(inputs, state.variations)) return;
+    if (state.variations && inputs && asksForVariations(inputs, state.variations)) return;
     this.#abort();
-    apply(this.#store, variationsDropped());
+    if (state.variations) apply(this.#store, variationsDropped());
   }
 
   async #run(): Promise<void> {
@@ -143,11 +142,11 @@ export class VariationMaker {
     }
   }
 
-  /** A reaction to these inputs that is there already. */
+  /** A reaction of this model to these inputs that is there already. */
   #known(inputs: Inputs): Reaction | undefined {
     const { reaction: shown, takes } = this.#store.getState();
     const known = [...(shown ? [shown] : []), ...takes.map(({ reaction }) => reaction)];
-    return known.find((reaction) => sameInputs(reaction.inputs, inputs));
+    return known.find(({ latents, inputs: made }) => latents !== null && sameInputs(made, inputs));
   }
 
   async #makeOne(inputs: Inputs, signal: AbortSignal): Promise<Reaction> {

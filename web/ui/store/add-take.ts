@@ -52,9 +52,7 @@ export function withReaction(
 
   // 2. The same inputs as a take's: the model generates the same motion, so it is that take again. A drag that came
   // there leaves nothing of its own.
-  const sameInput = takes.find(
-    (take) => take.reaction.label === reaction.label && sameInputs(take.reaction.inputs, reaction.inputs),
-  );
+  const sameInput = takes.find((take) => isSameAgain(take.reaction, reaction));
   if (sameInput) {
     const kept = keep({ ...sameInput, reaction });
     const onTheWay = drag && before && before !== sameInput && isReplaceable(before, state, stamp.at);
@@ -77,6 +75,12 @@ export function withReaction(
     drag: dragged(take.id),
     toast: oldest.length > 0 ? removedText(oldest) : toast,
   };
+}
+
+/** Whether both are of the same inputs and origin: those of another model, as ready-made ones, have no latents. */
+function isSameAgain(made: Reaction, reaction: Reaction): boolean {
+  const sameOrigin = made.label === reaction.label && (made.latents === null) === (reaction.latents === null);
+  return sameOrigin && sameInputs(made.inputs, reaction.inputs);
 }
 
 /**

@@ -63,7 +63,10 @@ export interface Inputs {
 export interface Reaction {
   /** As the model generated it; what is drawn and downloaded is `reactorMotion`. */
   readonly motion: SolvedMotion;
-  /** The latents it was decoded from, which its coarse layer can be decoded from; null when it came ready-made. */
+  /**
+   * The latents it was decoded from, which its coarse layer can be decoded from; null when it came ready-made, or when
+   * another model than the present one made it.
+   */
   readonly latents: Float32Array | null;
   /** What it was generated from. */
   readonly inputs: Inputs;

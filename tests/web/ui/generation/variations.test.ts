@@ -170,6 +170,24 @@ describe('three variations', () => {
     expect(model.calls[1]?.options.signal?.aborted).toBe(true);
   });
 
+  it('are dropped when another model comes, which takes over no take of the one before', async () => {
+    await answer(0);
+    await make();
+    await choose(8, 10, 11);
+    await answer(1);
+    variations.pick(8);
+    await pass();
+    change.apply(store, change.modelOpened({ ...small, id: 'other' }, 7));
+    expect(store.getState().variations).toBeNull();
+    expect(model.calls[2]?.options.signal?.aborted).toBe(true);
+    await pass();
+    await answer(3);
+    await make();
+    await choose(8, 10, 11);
+    expect(there()).toEqual([false, false, false]);
+    expect(seeds().slice(4)).toEqual([8]);
+  });
+
   it('are three others the next time', async () => {
     await answer(0);
     await make();

@@ -41,14 +41,18 @@ class Page {
     for (const one of changes) change.apply(this.store, one);
   }
   /** The reaction to what is asked for now arrives. */
-  arrive({ label = null, after = 60_000 }: { label?: string | null; after?: number } = {}): Reaction {
+  arrive({
+    label = null,
+    after = 60_000,
+    latents = null,
+  }: { label?: string | null; after?: number; latents?: Float32Array | null } = {}): Reaction {
     const inputs = currentInputs(this.state);
     if (!inputs) throw new Error('nothing to react to');
     this.now += after;
     const frames = inputs.leader.motion.frames;
     const reaction = {
       motion: still(frames),
-      latents: null,
+      latents,
       inputs,
       label,
       seconds: label === null ? 1 : null,
@@ -106,6 +110,21 @@ describe('a new reaction', () => {
     page.arrive();
     expect(page.titles).toEqual(['Take 2', 'Take 1']);
     expect(page.onStage).toBe('Take 1');
+  });
+});
+
+describe('a reaction of another model', () => {
+  it('leaves the take that the model before made from the same inputs', () => {
+    const latents = new Float32Array(4);
+    const before = page.arrive({ latents });
+    page.do(change.modelOpened({ ...small, id: 'other' }, 3));
+    page.seed(7);
+    const other = page.arrive({ latents });
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    expect(page.state.takes.map(({ reaction }) => reaction.motion)).toEqual([other.motion, before.motion]);
+    page.do(edit.takeChosen(page.id('Take 1')));
+    page.arrive({ latents });
+    expect([page.titles, page.onStage]).toEqual([['Take 2', 'Take 1'], 'Take 2']);
   });
 });
 

@@ -32,6 +32,7 @@ export function modelOpened(manifest: Manifest, seed: number): Change {
       ...manifestLoaded(manifest, seed)(state),
       ...(!sameRecipe && { song: null, shift: 0 }),
       ...takesForOtherModel(state, sameRecipe),
+      variations: null,
       // Undo would bring back settings of the other model.
       history: NO_HISTORY,
       notices: [...state.notices, `Your model “${manifest.name}” now makes the partner.${lost}`],
