@@ -102,7 +102,7 @@ function notAVideo(options?: ErrorOptions): AppError {
   return new AppError(
     'not-a-video',
     'This file holds no video that could be read.',
-    'Choose an MP4, MOV or WebM file, as phones and webcams write them.',
+    'Convert it to MP4, or choose another MP4, MOV, WebM or MKV file.',
     options,
   );
 }

@@ -7,6 +7,8 @@ export type FileKind = 'song' | 'leader' | 'video' | 'picture' | 'unknown';
 export const HEAD_BYTES = 512;
 
 const VIDEO_NAME = /\.(mp4|m4v|mov|webm|mkv)$/i;
+/** Videos that are no songs either, also in containers that are not read, which the reader of videos then says. */
+const ONLY_VIDEO_NAME = /\.(m4v|mov|mkv|avi|wmv|mpg|mpeg|flv|3gp|mts|m2ts)$/i;
 const PROJECT_NAME = /\.reactdance(\.zip)?$/i;
 
 /** Whether a file is a project, from its name alone: other files are zip archives too. */
@@ -29,6 +31,8 @@ const SIGNATURES: readonly Signature[] = [
   {
     kind: 'video',
     head: (text, _, name, type) => isContainer(text) && (type.startsWith('video/') || VIDEO_NAME.test(name)),
+    name: ONLY_VIDEO_NAME,
+    type: 'video/',
   },
   {
     kind: 'song',

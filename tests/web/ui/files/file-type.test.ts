@@ -41,6 +41,21 @@ describe('the type of a file', () => {
     expect(fileKind(bytes('just words'), 'song', 'audio/x-unheard-of')).toBe('song');
   });
 
+  it.each([
+    ['clip.avi', 'video/x-msvideo', bytes('RIFF\u0001\u0002\u0003\u0004AVI LIST')],
+    ['clip.AVI', '', bytes('RIFF\u0001\u0002\u0003\u0004AVI LIST')],
+    ['clip.wmv', '', Uint8Array.of(0x30, 0x26, 0xb2, 0x75)],
+    ['clip.mpg', '', Uint8Array.of(0, 0, 1, 0xba)],
+    ['clip.mov', '', bytes('\u0000\u0000\u0000\u0008wide')],
+    ['clip', 'video/x-unheard-of', bytes('words')],
+  ])('is a video for %s of the type “%s”, in whatever container', (name, type, head) => {
+    expect(fileKind(head, name, type)).toBe('video');
+  });
+
+  it.each(['take.mp4', 'take.webm'])('is a song for %s where neither bytes nor type tell', (name) => {
+    expect(fileKind(bytes('just words'), name, '')).toBe('song');
+  });
+
   it('is not mp3 for a UTF-16 text', () => {
     expect(fileKind(Uint8Array.of(0xff, 0xfe, 0x48, 0), 'notes.txt', 'text/plain')).toBe('unknown');
   });
