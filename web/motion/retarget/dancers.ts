@@ -49,13 +49,20 @@ const MIN_JOINTS = 12;
  * dancer is left out.
  *
  * @param part number of the dancer among those found
+ * @param moves whether a joint is animated; bodies that stand still are left out, unless all of them do
  */
-export function pickDancer(source: MotionSource, part: number): MotionSource {
+export function pickDancer(
+  source: MotionSource,
+  part: number,
+  moves: (joint: number) => boolean = () => true,
+): MotionSource {
   const roots = source.joints.flatMap(({ parent }, joint) => (parent < 0 ? [joint] : []));
   if (roots.length < 2) return source;
-  const dancers = roots
+  const bodies = roots
     .map((root) => ({ root, joints: below(source, root) }))
     .filter(({ joints }) => joints.length >= MIN_JOINTS && hasBody(withJoints(source, joints)));
+  const moving = bodies.filter(({ joints }) => joints.some(moves));
+  const dancers = moving.length > 0 ? moving : bodies;
   const chosen = dancers[part] ?? dancers[0];
   if (chosen === undefined) return source;
   const parts = dancers.map(({ root }) => source.joints[root]!.name);

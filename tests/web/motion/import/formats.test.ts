@@ -6,10 +6,10 @@ import { readFbx } from '../../../../web/motion/import/fbx/read';
 import { readGltf } from '../../../../web/motion/import/gltf/read';
 import { aboutAxis } from '../../../../web/motion/math/quat';
 import { add, distance, scale, sub, type Vec3 } from '../../../../web/motion/math/vec3';
-import { writeGlb, writeGltf } from '../../support/motion-files/glb';
+import { changedGlb, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
 import { madeBody, MIXAMO } from '../../support/made-bvh';
 import { worldPose } from '../../../../web/motion/retarget/sample';
-import { writeFbxAscii, writeFbxBinary } from '../../support/motion-files/fbx';
+import { writeFbxAscii, writeFbxBinary, writeFbxDuet } from '../../support/motion-files/fbx';
 import { writeJson } from '../../../../web/export/json';
 import { writeNpz } from '../../../../web/export/npz';
 import { solve } from '../../../../web/motion/fit/ik';
@@ -172,6 +172,16 @@ describe('FBX', () => {
     expect((await read({ part: 1 }, ['a.fbx', bytes])).report.part).toBe(1);
   });
 
+  test('every clip is read with the dancer that it moves', async () => {
+    const other = madeMotion({ swing: 30 });
+    const bytes = writeFbxDuet([dance, other], ['leader', 'follower']);
+    for (const [part, motion] of [dance, other].entries()) {
+      const file = await read({ part }, ['a.fbx', bytes]);
+      expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
+      expect(file.report).toMatchObject({ parts: ['leader', 'follower'], part });
+    }
+  });
+
   test('a unit that makes a dwarf is doubted', async () => {
     const file = await read({ unit: 'millimetres' }, ['a.fbx', writeFbxBinary(dance)]);
     expect(file.report.warnings.join()).toContain('smaller than people are');
@@ -252,6 +262,36 @@ describe('glTF and VRM', () => {
     const still = await read({ part: 1 }, ['a.glb', bytes]);
     expect(still.report).toMatchObject({ parts: ['dance', 'still'], part: 1, remarks: [] });
     expect(worstMillimetres(still, dance)).toBeGreaterThan(50);
+  });
+
+  const other = madeMotion({ swing: 30 });
+  const duet = joinedGlb(
+    writeGlb(dance, { clips: ['leader'], armature: true }),
+    writeGlb(other, { clips: ['follower'], armature: true }),
+  );
+
+  test('every clip is read with the dancer that it moves', async () => {
+    for (const [part, motion] of [dance, other].entries()) {
+      const file = await read({ part }, ['a.glb', duet]);
+      expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
+      expect(file.report).toMatchObject({ parts: ['leader', 'follower'], part });
+    }
+  });
+
+  test('the dancers of one clip, in the order of the file', async () => {
+    const bytes = changedGlb(duet, ({ nodes, animations }) => {
+      [dance, other].forEach(({ joints }, i) => (nodes[(i + 1) * joints.length + i]!.name = `dancer ${i}`));
+      const [first, second] = animations.splice(0) as [(typeof animations)[0], (typeof animations)[0]];
+      for (const { sampler, target } of second.channels)
+        first.channels.push({ sampler: sampler + first.samplers.length, target });
+      first.samplers.push(...second.samplers);
+      animations.push(first);
+    });
+    for (const [part, motion] of [dance, other].entries()) {
+      const file = await read({ part }, ['a.glb', bytes]);
+      expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
+      expect(file.report).toMatchObject({ parts: ['dancer 0', 'dancer 1'], part });
+    }
   });
 
   test('VRMA names its bones, whatever the nodes are called', async () => {

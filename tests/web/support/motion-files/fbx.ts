@@ -29,6 +29,8 @@ interface Options {
   readonly preRotation?: boolean;
   /** Names of clips; the second one stands still. */
   readonly clips?: readonly string[];
+  /** Added to the number of every object, for files of several dancers. */
+  readonly firstId?: number;
 }
 
 const property = (name: string, type: string, ...values: Value[]): Node =>
@@ -47,7 +49,7 @@ const native = (q: Quat, up: 'y' | 'z'): Quat => (up === 'y' ? q : [q[0], -q[2],
 
 /** Nodes of a file with the made motion. */
 function nodesOf(motion: MadeMotion, options: Options): Node[] {
-  const { up = 'y', unitsPerMetre = 100, preRotation = false, clips = ['Take 001'] } = options;
+  const { up = 'y', unitsPerMetre = 100, preRotation = false, clips = ['Take 001'], firstId = 0 } = options;
   const objects: Node[] = [];
   const links: Node[] = [];
   const link = (child: number, parent: number, prop?: string): void => {
@@ -79,7 +81,7 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     const rotated = multiply(multiply(conjugate(above(joint)), [...v, 0] as unknown as Quat), above(joint));
     return [rotated[0], rotated[1], rotated[2]];
   };
-  const id = (joint: number): number => 1_000_000 + joint;
+  const id = (joint: number): number => firstId + 1_000_000 + joint;
   motion.joints.forEach(({ name, parent, offset }, joint) => {
     objects.push(
       node(
@@ -104,7 +106,7 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     );
     link(id(joint), parent < 0 ? 0 : id(parent));
   });
-  let next = 2_000_000;
+  let next = firstId + 2_000_000;
   const times = Array.from({ length: motion.frames }, (_, frame) => Math.round((frame / motion.fps) * TICKS));
   clips.forEach((clip, number) => {
     const [stack, layer] = [next++, next++];
@@ -259,10 +261,30 @@ export function writeFbxBinary(
   options: Options = {},
   packed = true,
 ): Uint8Array<ArrayBuffer> {
+  return binaryFbx(nodesOf(motion, options), packed);
+}
+
+/** Two dancers with a clip each as a binary FBX file. */
+export function writeFbxDuet(
+  dancers: readonly [MadeMotion, MadeMotion],
+  clips: readonly [string, string],
+): Uint8Array<ArrayBuffer> {
+  const [a, b] = dancers.map((motion, i) =>
+    nodesOf(motion, { clips: [clips[i]!], firstId: i * 10_000_000 }),
+  ) as [Node[], Node[]];
+  return binaryFbx(
+    a.map((top, i) =>
+      top.name === 'GlobalSettings' ? top : node(top.name, [], [...top.children, ...b[i]!.children]),
+    ),
+    true,
+  );
+}
+
+function binaryFbx(nodes: readonly Node[], packed: boolean): Uint8Array<ArrayBuffer> {
   const out = new Bytes();
   out.push(...new TextEncoder().encode('Kaydara FBX Binary  \0'), 0x1a, 0);
   out.uint32(7400);
-  for (const top of nodesOf(motion, options)) writeNode(out, top, packed);
+  for (const top of nodes) writeNode(out, top, packed);
   out.push(...new Array<number>(13).fill(0));
   return out.result();
 }

@@ -163,6 +163,10 @@ const utf8 = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode
 /** The motion as a GLB file. */
 export function writeGlb(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
   const { json, bytes } = contentOf(motion, options);
+  return packed(json, bytes);
+}
+
+function packed(json: object, bytes: Uint8Array): Uint8Array<ArrayBuffer> {
   const plain = JSON.stringify(json);
   const text = utf8(plain.padEnd(Math.ceil(plain.length / 4) * 4));
   const out = new Uint8Array(12 + 8 + text.length + 8 + bytes.length);
@@ -175,6 +179,70 @@ export function writeGlb(motion: MadeMotion, options: Options = {}): Uint8Array<
   view.setUint32(24 + text.length, 0x004e4942, true);
   out.set(bytes, 28 + text.length);
   return out;
+}
+
+/** The parts of a GLB file's JSON that tests change. */
+interface GlbJson {
+  scenes: { nodes: number[] }[];
+  nodes: { name: string; children?: number[]; mesh?: number; skin?: number }[];
+  skins?: { joints: number[] }[];
+  meshes?: object[];
+  animations: {
+    name: string;
+    samplers: { input: number; output: number }[];
+    channels: { sampler: number; target: { node: number; path: string } }[];
+  }[];
+  accessors: { bufferView: number; count: number }[];
+  bufferViews: { byteOffset: number }[];
+  buffers: { byteLength: number }[];
+  extensions?: Record<string, object>;
+}
+
+function unpacked(glb: Uint8Array<ArrayBuffer>): { json: GlbJson; bytes: Uint8Array } {
+  const end = 20 + new DataView(glb.buffer).getUint32(12, true);
+  return {
+    json: JSON.parse(new TextDecoder().decode(glb.subarray(20, end))) as GlbJson,
+    bytes: glb.subarray(end + 8),
+  };
+}
+
+/** A GLB file with its JSON changed. */
+export function changedGlb(
+  glb: Uint8Array<ArrayBuffer>,
+  change: (json: GlbJson) => void,
+): Uint8Array<ArrayBuffer> {
+  const { json, bytes } = unpacked(glb);
+  change(json);
+  return packed(json, bytes);
+}
+
+/** Two GLB files in one: the nodes and the clips of both, side by side. */
+export function joinedGlb(
+  first: Uint8Array<ArrayBuffer>,
+  second: Uint8Array<ArrayBuffer>,
+): Uint8Array<ArrayBuffer> {
+  const [a, b] = [unpacked(first), unpacked(second)];
+  const [nodes, views, accessors] = [a.json.nodes.length, a.json.bufferViews.length, a.json.accessors.length];
+  for (const node of b.json.nodes) node.children = (node.children ?? []).map((child) => child + nodes);
+  for (const view of b.json.bufferViews) view.byteOffset += a.bytes.length;
+  for (const accessor of b.json.accessors) accessor.bufferView += views;
+  for (const { samplers, channels } of b.json.animations) {
+    for (const sampler of samplers) {
+      sampler.input += accessors;
+      sampler.output += accessors;
+    }
+    for (const { target } of channels) target.node += nodes;
+  }
+  const json: GlbJson = {
+    ...a.json,
+    scenes: [{ nodes: [...a.json.scenes[0]!.nodes, ...b.json.scenes[0]!.nodes.map((node) => node + nodes)] }],
+    nodes: [...a.json.nodes, ...b.json.nodes],
+    animations: [...a.json.animations, ...b.json.animations],
+    accessors: [...a.json.accessors, ...b.json.accessors],
+    bufferViews: [...a.json.bufferViews, ...b.json.bufferViews],
+    buffers: [{ byteLength: a.bytes.length + b.bytes.length }],
+  };
+  return packed(json, Uint8Array.from([...a.bytes, ...b.bytes]));
 }
 
 /** The motion as a glTF file, its numbers within it or in a file beside it. */

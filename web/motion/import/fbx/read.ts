@@ -210,7 +210,13 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
         wanted.map((frame) => start + (frame / fps) * TICKS),
       ),
   };
+  const moved = new Set(
+    clip.channels
+      .filter(({ curves }) => curves.some((curve) => curve && curve.times.length > 1))
+      .map(({ model }) => model),
+  );
+  const moves = (joint: number): boolean => moved.has(order[joint]!.id);
   return scene.clips.length > 1
-    ? { ...pickDancer(source, 0), parts: source.parts, part: source.part }
-    : pickDancer(source, part);
+    ? { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part }
+    : pickDancer(source, part, moves);
 }

@@ -40,6 +40,11 @@ export function tracksOf(file: GltfFile, clip: Gltf['animations'][number]): Trac
   return tracks;
 }
 
+/** Whether tracks move a node. */
+export function movesNode(tracks: Tracks, node: number): boolean {
+  return Object.keys(WIDTHS).some((path) => (tracks.get(`${node} ${path}`)?.times.length ?? 0) > 1);
+}
+
 const isRising = (times: Float32Array): boolean => times.every((time, i) => i === 0 || time >= times[i - 1]!);
 
 /** Length of a clip and its frame rate: that of its densest track where that is a usual one, else `ASSUMED_FPS`. */

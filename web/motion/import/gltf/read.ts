@@ -1,4 +1,4 @@
-import { timingOf, tracksOf } from './animation';
+import { movesNode, timingOf, tracksOf } from './animation';
 import { type Gltf, readContainer } from './container';
 import { humanoidNames } from './humanoid';
 import { posesOf, skeletonOf } from './skeleton';
@@ -65,8 +65,9 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   };
   const body = format === 'VRMA' ? companions.find(({ name }) => /\.vrm$/i.test(name)) : undefined;
   if (body) return onBody(source, readContainer(body, []).json);
-  if (clips.length > 1) return { ...pickDancer(source, 0), parts: source.parts, part: source.part };
-  return pickDancer(source, part);
+  const moves = (joint: number): boolean => movesNode(tracks, skeleton.nodes[joint]!);
+  if (clips.length > 1) return { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part };
+  return pickDancer(source, part, moves);
 }
 
 function noMotion(format: string): AppError {

@@ -58,7 +58,8 @@ export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>):
   });
   const places = new Map<number, number>();
   const order: number[] = [];
-  const waiting = parents.flatMap((parent, node) => (parent < 0 ? [node] : []));
+  // The last one is taken first, so that roots and children keep the order of the file.
+  const waiting = parents.flatMap((parent, node) => (parent < 0 ? [node] : [])).reverse();
   while (waiting.length > 0) {
     const node = waiting.pop()!;
     places.set(node, order.push(node) - 1);
