@@ -311,11 +311,12 @@ describe('glTF and VRM', () => {
     expect(file.report).toMatchObject({ format: 'VRMA', convention: 'VRM / Unity' });
   });
 
+  const vrma = writeGlb(dance, {
+    humanoid: { extension: 'VRMC_vrm_animation', bones: VRM_BONES },
+    restTurn: turned,
+  });
+
   test('a VRM lends a VRMA its body', async () => {
-    const vrma = writeGlb(dance, {
-      humanoid: { extension: 'VRMC_vrm_animation', bones: VRM_BONES },
-      restTurn: turned,
-    });
     const vrm = writeGlb(dance, {
       humanoid: { extension: 'VRMC_vrm', bones: VRM_BONES },
       clips: [],
@@ -334,6 +335,26 @@ describe('glTF and VRM', () => {
     expect(file.report.format).toBe('VRMA on a VRM');
     expect(worstMillimetres(file, { ...expected, places })).toBeLessThan(WORST);
     await expect(read({}, ['a.vrm', vrm])).rejects.toMatchObject({ code: 'no-motion' });
+  });
+
+  test('a VRM 0, whose body faces backwards, moves as the VRMA', async () => {
+    const backwards = {
+      ...dance,
+      joints: dance.joints.map((joint) => {
+        const [x, y, z] = joint.offset;
+        return { ...joint, offset: [-x, y, -z] as const };
+      }),
+    };
+    const humanoid = { extension: 'VRM', bones: VRM_BONES };
+    const vrm = changedGlb(writeGlb(backwards, { humanoid, clips: [] }), ({ nodes, extensions }) => {
+      const humanBones = [...VRM_BONES].map(([name, bone]) => ({
+        bone,
+        node: nodes.findIndex((one) => one.name === name),
+      }));
+      extensions!['VRM'] = { specVersion: '0.0', humanoid: { humanBones } };
+    });
+    const file = await read({}, ['a.vrma', vrma], ['a.vrm', vrm]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
   });
 
   test('three reads the same from the same file', async () => {

@@ -13,16 +13,21 @@ interface Humanoid {
   readonly places: readonly Vec3[];
 }
 
-/** The bones that both a body and a motion have, as the body has them. */
+/** The bones that both a body and a motion have, as the body has them, facing +z as the motion does. */
 function humanoidOf(body: Gltf, moved: ReadonlySet<string>): Humanoid {
   const bones = humanoidNames(body);
   const { joints, nodes, rest } = skeletonOf(body, bones);
   const { places } = worldPose(joints, posesOf({ joints, nodes, rest }, new Map(), [null]), 0);
   const isBone = (joint: number): boolean => bones.has(nodes[joint]!) && moved.has(joints[joint]!.name);
   const kept = [...joints.keys()].filter(isBone);
+  // A body of VRM 0 faces -z.
+  const facing = 'VRM' in body.extensions ? -1 : 1;
   return {
     names: kept.map((joint) => joints[joint]!.name),
-    places: kept.map((joint) => places[joint]!),
+    places: kept.map((joint) => {
+      const [x, y, z] = places[joint]!;
+      return [facing * x, y, facing * z];
+    }),
     parents: kept.map((joint) => {
       let at = joints[joint]!.parent;
       while (at >= 0 && !isBone(at)) at = joints[at]!.parent;
