@@ -45,12 +45,18 @@ function isOtherFile(text: string): boolean {
   );
 }
 
-/** Endings of files that belong to another file of the same name, or to the only other one. */
+/** Endings of files that belong to another file: of its name, else of its first word, else whatever its name. */
 const COMPANIONS: readonly (readonly [RegExp, RegExp])[] = [
   [/\.amc$/i, /\.asf$/i],
   [/\.vrma$/i, /\.vrm$/i],
   [/\.gltf$/i, /\.bin$/i],
 ];
+
+const stemOf = ({ name }: { readonly name: string }): string => name.replace(/\.\w+$/, '').toLowerCase();
+
+/** Whether a name begins with a whole word: 60_10 with 60, not with 6. */
+const startsWithWord = (name: string, word: string): boolean =>
+  name.startsWith(word) && /[^\p{L}\p{N}]/u.test(name.charAt(word.length));
 
 /**
  * Files that are read together, the one with the motion first: an AMC with its ASF skeleton, a VRMA with the VRM it
@@ -60,10 +66,11 @@ export function groupCompanions<T extends { readonly name: string }>(files: read
   const taken = new Set<T>();
   const groups = files.map((file): T[] => {
     const [, companion] = COMPANIONS.find(([motion]) => motion.test(file.name)) ?? [];
-    const stem = file.name.replace(/\.\w+$/, '').toLowerCase();
+    const stem = stemOf(file);
     const others = companion ? files.filter((other) => companion.test(other.name)) : [];
     const named = others.filter((other) => other.name.toLowerCase().startsWith(`${stem}.`));
-    const mine = named.length > 0 ? named : others;
+    const begun = others.filter((other) => startsWithWord(stem, stemOf(other)));
+    const mine = [named, begun].find((some) => some.length > 0) ?? others;
     for (const other of mine) taken.add(other);
     return [file, ...mine];
   });

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { AVERAGE_BODY } from '../../../../web/motion/import/average-body';
+import { groupCompanions } from '../../../../web/motion/import/format';
 import { readLeaderFile } from '../../../../web/motion/import/read';
 import { MMD_JOINTS, mmdBone } from '../../../../web/motion/import/vmd/body';
 import { poseAt } from '../../../../web/motion/import/vmd/curve';
@@ -40,6 +41,19 @@ describe('AMC with ASF', () => {
         sourceFps: 120,
       });
     }
+  });
+
+  test('each motion of a duet has the skeleton of its own dancer', () => {
+    const files = ['60_10.amc', '6.asf', '60.asf', '61_10.amc', '61.asf', '6-1.amc', 'a.amc', 'a.asf'];
+    const groups = groupCompanions(files.map((name) => ({ name })));
+    expect(groups.map((group) => group.map(({ name }) => name))).toEqual([
+      ['60_10.amc', '60.asf'],
+      ['61_10.amc', '61.asf'],
+      ['6-1.amc', '6.asf'],
+      ['a.amc', 'a.asf'],
+    ]);
+    const [only] = groupCompanions([{ name: 'dance.amc' }, { name: 'skeleton.asf' }]);
+    expect(only).toHaveLength(2);
   });
 
   test('one without the other is asked for', async () => {
