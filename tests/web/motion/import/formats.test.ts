@@ -5,7 +5,7 @@ import { describe, expect, test } from 'vitest';
 import { readFbx } from '../../../../web/motion/import/fbx/read';
 import { readGltf } from '../../../../web/motion/import/gltf/read';
 import { aboutAxis } from '../../../../web/motion/math/quat';
-import { add, distance, scale, sub, type Vec3 } from '../../../../web/motion/math/vec3';
+import { add, distance, readVec, scale, sub, type Vec3, Y_AXIS } from '../../../../web/motion/math/vec3';
 import { changedGlb, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
 import { madeBody, MIXAMO } from '../../support/made-bvh';
 import { worldPose } from '../../../../web/motion/retarget/sample';
@@ -30,7 +30,7 @@ import {
   positionsOf,
   worstMillimetres,
 } from '../../support/motion-files/made-motion';
-import { SMPL22 } from '../../../../web/motion/skeleton/skeleton';
+import { J, JOINT_COUNT, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
 
 const utf8 = (text: string): Uint8Array => new TextEncoder().encode(text);
 
@@ -180,6 +180,43 @@ describe('FBX', () => {
       expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
       expect(file.report).toMatchObject({ parts: ['leader', 'follower'], part });
     }
+  });
+
+  test.each([30, 60, 30000 / 1001, 60000 / 1001, 24000 / 1001])(
+    'a dancer who turns all the time, keyed at %d frames per second',
+    async (fps) => {
+      const still = madeMotion({ fps, frames: Math.round(20 * fps) });
+      const rotations = still.rotations.map((turns, frame) =>
+        turns.map((turn, joint) => (joint === 0 ? aboutAxis(Y_AXIS, (Math.PI * frame) / fps) : turn)),
+      );
+      const file = await read({}, ['a.fbx', writeFbxBinary({ ...still, rotations })]);
+      const { positions, frames } = file.clip;
+      const heading = (frame: number): number => {
+        const [left, right] = (['left_hip', 'right_hip'] as const).map((name) =>
+          readVec(positions, frame * JOINT_COUNT + J[name]),
+        ) as [Vec3, Vec3];
+        return Math.atan2(left[2] - right[2], left[0] - right[0]);
+      };
+      const steps = Array.from({ length: frames - 1 }, (_, frame) => {
+        const step = heading(frame + 1) - heading(frame);
+        return (Math.abs(Math.atan2(Math.sin(step), Math.cos(step))) * 180) / Math.PI;
+      });
+      expect(Math.max(...steps)).toBeLessThan(6.1);
+      expect(file.report.sourceFps).toBeCloseTo(fps, 6);
+      // As long as from the first key to the last one.
+      expect(frames).toBe(Math.floor(((still.frames - 1) / fps) * 30 + 1e-6) + 1);
+    },
+  );
+
+  test('a frame rate is that of the keys where a few of them are left out', async () => {
+    const text = new TextDecoder().decode(writeFbxAscii(madeMotion({ frames: 100 })));
+    // The eighth key of every curve.
+    const fewer = text.replaceAll(
+      /\*100 \{\n(\s*a: (?:[^,\n]+,){7})[^,\n]+,/g,
+      (_, kept: string) => `*99 {\n${kept}`,
+    );
+    expect(fewer).not.toBe(text);
+    expect((await read({}, ['a.fbx', utf8(fewer)])).report.sourceFps).toBe(30);
   });
 
   test('a unit that makes a dwarf is doubted', async () => {

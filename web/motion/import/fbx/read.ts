@@ -66,22 +66,39 @@ interface Timing {
   readonly fps: number;
 }
 
+/** Frame rates of video are this share of a whole one: 29.97 of 30. */
+const VIDEO_RATE = 1000 / 1001;
+
+/**
+ * The frame rate of a curve from its usual step, so that frames lie on keys and no angle is read halfway in a leap from
+ * 180 to -180 degrees; null where it is none of a recording.
+ */
+function rateOf({ times }: Curve): number | null {
+  const steps = [...times.subarray(1)].map((time, key) => time - times[key]!).sort((a, b) => a - b);
+  const measured = TICKS / (steps[steps.length >> 1] ?? 0);
+  const whole = nearestRate(measured);
+  if (whole === null || whole < 20) return null;
+  const video = whole * VIDEO_RATE;
+  return Math.abs(measured - video) < Math.abs(measured - whole) ? video : whole;
+}
+
 /** First and last key of a clip and its frame rate: that of its densest curve, else of the file's settings. */
 function timingOf(clip: Clip, settings: FbxScene['settings']): Timing {
   let [start, end, step] = [Infinity, -Infinity, Infinity];
+  let densest: Curve | null = null;
   for (const { curves } of clip.channels)
     for (const curve of curves) {
       const [first, last] = [curve?.times[0], curve?.times.at(-1)];
       if (!curve || first === undefined || last === undefined) continue;
       start = Math.min(start, first);
       end = Math.max(end, last);
-      if (curve.times.length > 2) step = Math.min(step, (last - first) / (curve.times.length - 1));
+      const mean = (last - first) / (curve.times.length - 1);
+      if (curve.times.length > 2 && mean < step) [step, densest] = [mean, curve];
     }
   const mode = TIME_MODES[Number(settings.get('TimeMode')?.[0] ?? 0)] ?? 0;
   const custom = Number(settings.get('CustomFrameRate')?.[0] ?? 0);
   const stated = mode > 0 ? mode : custom > 0 ? custom : ASSUMED_FPS;
-  const dense = nearestRate(TICKS / step);
-  const fps = dense !== null && dense >= 20 ? dense : Math.min(120, Math.max(24, stated));
+  const fps = (densest && rateOf(densest)) ?? Math.min(120, Math.max(24, stated));
   const frames = end > start ? Math.floor(((end - start) / TICKS) * fps + 1e-3) + 1 : 0;
   return { start, frames, fps };
 }
