@@ -7,6 +7,7 @@ import { readGltf } from '../../../../web/motion/import/gltf/read';
 import { aboutAxis } from '../../../../web/motion/math/quat';
 import { add, distance, readVec, scale, sub, type Vec3, Y_AXIS } from '../../../../web/motion/math/vec3';
 import { changedGlb, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
+import { CONVENTIONS } from '../../support/motion-files/conventions';
 import { madeBody, MIXAMO } from '../../support/made-bvh';
 import { worldPose } from '../../../../web/motion/retarget/sample';
 import { writeFbxAscii, writeFbxBinary, writeFbxDuet } from '../../support/motion-files/fbx';
@@ -329,6 +330,24 @@ describe('glTF and VRM', () => {
       expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
       expect(file.report).toMatchObject({ parts: ['dancer 0', 'dancer 1'], part });
     }
+  });
+
+  test('a mesh with the name of a joint, as Blender writes it before the bones', async () => {
+    const named = madeMotion({ names: CONVENTIONS.find(({ label }) => label === 'LaFAN1')!.names });
+    const bytes = changedGlb(writeGlb(named, { armature: true }), (json) => {
+      json.meshes = [{ primitives: [{ attributes: {} }] }];
+      json.skins = [{ joints: [...named.joints.keys()] }];
+      const mesh = json.nodes.push({ name: 'Head', mesh: 0, skin: 0 }) - 1;
+      json.nodes[mesh - 1]!.children!.unshift(mesh);
+    });
+    const file = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(file, named)).toBeLessThan(WORST);
+    expect(file.report.warnings).toEqual([]);
+  });
+
+  test('a figure of rigid parts, whose joints are meshes', async () => {
+    const bytes = changedGlb(writeGlb(dance), ({ nodes }) => nodes.forEach((node) => (node.mesh = 0)));
+    expect(worstMillimetres(await read({}, ['a.glb', bytes]), dance)).toBeLessThan(WORST);
   });
 
   test('VRMA names its bones, whatever the nodes are called', async () => {

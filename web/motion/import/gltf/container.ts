@@ -54,6 +54,7 @@ const schema = v.object({
     ),
     [],
   ),
+  skins: v.optional(v.array(v.object({ joints: v.array(index) })), []),
   animations: v.optional(
     v.array(
       v.object({

@@ -15,7 +15,7 @@ interface Transform {
   readonly size: Vec3;
 }
 
-/** The nodes of a file in an order in which parents come first. */
+/** The nodes of a file that may be joints, in an order in which parents come first. */
 export interface Skeleton {
   readonly joints: readonly SourceJoint[];
   /** Number in the file of each joint. */
@@ -42,10 +42,12 @@ function transformOf(node: Gltf['nodes'][number]): Transform {
 }
 
 /**
+ * Beside the joints of skins, meshes on which no joint hangs are left out: one may have the name of a joint.
+ *
  * @param names names of nodes in place of their own, as a VRM gives them
  * @throws {AppError} `unreadable-file`
  */
-export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>): Skeleton {
+export function skeletonOf({ nodes, skins }: Gltf, names: ReadonlyMap<number, string>): Skeleton {
   if (nodes.length > MAX_NODES)
     throw damagedGltf(`it has ${nodes.length} nodes; up to ${MAX_NODES} are read`);
   const parents = nodes.map(() => -1);
@@ -56,16 +58,24 @@ export function skeletonOf({ nodes }: Gltf, names: ReadonlyMap<number, string>):
       parents[child] = parent;
     }
   });
-  const places = new Map<number, number>();
-  const order: number[] = [];
+  const all: number[] = [];
   // The last one is taken first, so that roots and children keep the order of the file.
   const waiting = parents.flatMap((parent, node) => (parent < 0 ? [node] : [])).reverse();
   while (waiting.length > 0) {
     const node = waiting.pop()!;
-    places.set(node, order.push(node) - 1);
+    all.push(node);
     waiting.push(...nodes[node]!.children.toReversed());
   }
-  if (order.length < nodes.length) throw damagedGltf('its nodes form a circle');
+  if (all.length < nodes.length) throw damagedGltf('its nodes form a circle');
+  const skinned = new Set(skins.flatMap(({ joints }) => joints));
+  const kept = new Set<number>();
+  for (const node of all.toReversed()) {
+    const { mesh, children } = nodes[node]!;
+    const isJoint = mesh === undefined || skinned.size === 0 || skinned.has(node) || names.has(node);
+    if (isJoint || children.some((child) => kept.has(child))) kept.add(node);
+  }
+  const order = all.filter((node) => kept.has(node));
+  const places = new Map(order.map((node, place) => [node, place]));
   return {
     nodes: order,
     joints: order.map((node) => ({
