@@ -183,6 +183,15 @@ describe('FBX', () => {
     }
   });
 
+  test('a pose of one key before the dance is not among the clips', async () => {
+    const options = { pose: 'T-pose', clips: ['dance', 'still'] };
+    const file = await read({}, ['a.fbx', writeFbxBinary(dance, options)]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0 });
+    const pose = read({}, ['a.fbx', writeFbxBinary(dance, { pose: 'T-pose', clips: [] })]);
+    await expect(pose).rejects.toMatchObject({ code: 'too-few-frames' });
+  });
+
   test.each([30, 60, 30000 / 1001, 60000 / 1001, 24000 / 1001])(
     'a dancer who turns all the time, keyed at %d frames per second',
     async (fps) => {
@@ -330,6 +339,25 @@ describe('glTF and VRM', () => {
       expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
       expect(file.report).toMatchObject({ parts: ['dancer 0', 'dancer 1'], part });
     }
+  });
+
+  test('a pose of one key and a clip of shapes alone are not among the clips', async () => {
+    const bytes = changedGlb(writeGlb(dance, { clips: ['dance', 'still'] }), ({ animations, accessors }) => {
+      const firstKey = (accessor: number): number =>
+        accessors.push({ ...accessors[accessor]!, count: 1 }) - 1;
+      const { samplers, channels } = animations[0]!;
+      const pose = samplers.map((one) => ({ input: firstKey(one.input), output: firstKey(one.output) }));
+      const shapes = { sampler: 0, target: { node: 0, path: 'weights' } };
+      animations.unshift(
+        { name: 'T-pose', samplers: pose, channels },
+        { name: 'smile', samplers, channels: [shapes] },
+      );
+    });
+    const file = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0 });
+    const pose = changedGlb(bytes, ({ animations }) => animations.splice(2));
+    await expect(read({}, ['a.glb', pose])).rejects.toMatchObject({ code: 'too-few-frames' });
   });
 
   test('a mesh with the name of a joint, as Blender writes it before the bones', async () => {

@@ -29,6 +29,8 @@ interface Options {
   readonly preRotation?: boolean;
   /** Names of clips; the second one stands still. */
   readonly clips?: readonly string[];
+  /** Name of a clip of one key before them. */
+  readonly pose?: string;
   /** Added to the number of every object, for files of several dancers. */
   readonly firstId?: number;
 }
@@ -49,7 +51,14 @@ const native = (q: Quat, up: 'y' | 'z'): Quat => (up === 'y' ? q : [q[0], -q[2],
 
 /** Nodes of a file with the made motion. */
 function nodesOf(motion: MadeMotion, options: Options): Node[] {
-  const { up = 'y', unitsPerMetre = 100, preRotation = false, clips = ['Take 001'], firstId = 0 } = options;
+  const {
+    up = 'y',
+    unitsPerMetre = 100,
+    preRotation = false,
+    clips = ['Take 001'],
+    firstId = 0,
+    pose,
+  } = options;
   const objects: Node[] = [];
   const links: Node[] = [];
   const link = (child: number, parent: number, prop?: string): void => {
@@ -108,7 +117,9 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
   });
   let next = firstId + 2_000_000;
   const times = Array.from({ length: motion.frames }, (_, frame) => Math.round((frame / motion.fps) * TICKS));
-  clips.forEach((clip, number) => {
+  [...(pose === undefined ? [] : [pose]), ...clips].forEach((clip, number) => {
+    const keys = clip === pose ? 1 : motion.frames;
+    const isStill = number > 0 && clip !== clips[0];
     const [stack, layer] = [next++, next++];
     objects.push(
       node('AnimationStack', [
@@ -148,8 +159,8 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
               ['S', ''],
             ],
             [
-              node('KeyTime', [['l', times]]),
-              node('KeyValueFloat', [['f', number === 0 ? values : values.map(() => values[0]!)]]),
+              node('KeyTime', [['l', times.slice(0, keys)]]),
+              node('KeyValueFloat', [['f', isStill ? values.map(() => values[0]!) : values.slice(0, keys)]]),
             ],
           ),
         );

@@ -177,22 +177,26 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
   const isBinary = bytes[0] === 0x4b && bytes[18] === 0x20;
   const scene = sceneOf(isBinary ? readBinary(bytes) : readAscii(new TextDecoder().decode(bytes)));
   const order = orderedModels(scene);
-  const clip = scene.clips[part] ?? scene.clips[0];
-  if (order.length === 0 || !clip) {
+  // A pose of one key is no motion.
+  const clips = scene.clips
+    .map((clip) => ({ ...clip, ...timingOf(clip, scene.settings) }))
+    .filter(({ frames }) => frames >= 2);
+  const clip = clips[part] ?? clips[0];
+  if (order.length === 0 || scene.clips.length === 0) {
     throw new AppError(
       'no-motion',
       order.length === 0 ? 'The FBX file holds no joints.' : 'The FBX file holds a body without animation.',
       'Export it again with its animation, as FBX 2013 or newer (version 7); Mixamo: “FBX Binary” with a dance.',
     );
   }
-  const { start, frames, fps } = timingOf(clip, scene.settings);
-  if (frames < 2) {
+  if (!clip) {
     throw new AppError(
       'too-few-frames',
       'The animation in the FBX file has no length.',
       'Export the whole animation, not only its current frame.',
     );
   }
+  const { start, frames, fps } = clip;
   const error = tooLong(frames, order.length * 6);
   if (error) throw error;
   const centimetres = Number(scene.settings.get('UnitScaleFactor')?.[0] ?? 1);
@@ -215,8 +219,8 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
       metres: centimetres / 100,
     },
     upAxis: upOf(scene),
-    parts: scene.clips.length > 1 ? scene.clips.map(({ name }) => name.slice(0, 80)) : [],
-    part: scene.clips.indexOf(clip),
+    parts: clips.length > 1 ? clips.map(({ name }) => name.slice(0, 80)) : [],
+    part: clips.indexOf(clip),
     warnings: [],
     truncated: false,
     localPoses: (wanted) =>
@@ -233,7 +237,7 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
       .map(({ model }) => model),
   );
   const moves = (joint: number): boolean => moved.has(order[joint]!.id);
-  return scene.clips.length > 1
+  return clips.length > 1
     ? { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part }
     : pickDancer(source, part, moves);
 }

@@ -27,22 +27,20 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   const file = readContainer(main, companions);
   const { json } = file;
   const format = formatOf(json);
-  const clips = json.animations.filter(({ channels }) => channels.length > 0);
-  const clip = clips[part] ?? clips[0];
-  if (!clip) throw noMotion(format);
   const skeleton = skeletonOf(json, humanoidNames(json));
-  const tracks = tracksOf(file, clip);
-  const { start, frames, fps } = timingOf(tracks);
-  if (frames < 2) {
-    throw new AppError(
-      'too-few-frames',
-      'The animation in the file has no length.',
-      'Export the whole animation, not only its current frame.',
-    );
-  }
+  // A pose of one key, and what moves no node, is no motion.
+  const clips = json.animations
+    .map((animation, number) => {
+      const tracks = tracksOf(file, animation);
+      return { name: (animation.name ?? `clip ${number + 1}`).slice(0, 80), tracks, ...timingOf(tracks) };
+    })
+    .filter(({ frames }) => frames >= 2);
+  const clip = clips[part] ?? clips[0];
+  if (!clip)
+    throw json.animations.some(({ channels }) => channels.length > 0) ? noLength() : noMotion(format);
+  const { tracks, start, frames, fps } = clip;
   const error = tooLong(frames, skeleton.joints.length * 6);
   if (error) throw error;
-  const names = clips.map(({ name }, i) => (name ?? `clip ${i + 1}`).slice(0, 80));
   const source: MotionSource = {
     format,
     joints: skeleton.joints,
@@ -52,7 +50,7 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
     rateAssumed: false,
     unit: { name: 'metres', metres: 1 },
     upAxis: 'y',
-    parts: clips.length > 1 ? names : [],
+    parts: clips.length > 1 ? clips.map(({ name }) => name) : [],
     part: clips.indexOf(clip),
     warnings: [],
     truncated: false,
@@ -68,6 +66,14 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   const moves = (joint: number): boolean => movesNode(tracks, skeleton.nodes[joint]!);
   if (clips.length > 1) return { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part };
   return pickDancer(source, part, moves);
+}
+
+function noLength(): AppError {
+  return new AppError(
+    'too-few-frames',
+    'The animation in the file has no length.',
+    'Export the whole animation, not only its current frame.',
+  );
 }
 
 function noMotion(format: string): AppError {
