@@ -6,6 +6,13 @@ export interface NpzArray {
   readonly data: Float32Array | Float64Array;
 }
 
+/** An array whose header was read, and whose values are when they are asked for. */
+export interface StoredArray {
+  readonly shape: readonly number[];
+  /** @throws what `damaged` makes, where the values cannot be read */
+  read(): NpzArray;
+}
+
 /** Makes the error of a damaged archive or array from a sentence. */
 export type DamageError = (message: string, cause?: unknown) => Error;
 
@@ -51,12 +58,12 @@ function readShape(header: string): number[] | null {
 }
 
 /**
- * Reads one .npy file: little-endian float32, float64, int32 or int64, all values finite.
+ * Reads the header of one .npy file: little-endian float32, float64, int32 or int64, all values finite.
  *
  * @param name the array's name in sentences
- * @throws what `damaged` makes
+ * @throws what `damaged` makes, where the header cannot be read
  */
-export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): NpzArray {
+export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): StoredArray {
   const text = (from: number, to: number): string => String.fromCharCode(...bytes.subarray(from, to));
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const start = bytes.length > 12 && view.getUint8(6) > 1 ? 12 : 10;
@@ -64,19 +71,32 @@ export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
     throw damaged(`The array "${name}" is not a NumPy array.`);
   const end = start + (start === 12 ? view.getUint32(8, true) : view.getUint16(8, true));
   const header = new TextDecoder().decode(bytes.subarray(start, end));
-  const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
-  const read = READERS[type];
-  const itemBytes = ITEM_BYTES[type];
-  if (read === undefined || itemBytes === undefined)
-    throw damaged(`The array "${name}" is of a type that is not read here: ${type.slice(0, 24)}.`);
   const shape = readShape(header);
-  const count = shape?.reduce((product, length) => product * length, 1);
-  if (!shape || count === undefined || bytes.length - end !== count * itemBytes)
-    throw damaged(`The array "${name}" does not have the size that its header states.`);
-  const data = read(new DataView(bytes.buffer, bytes.byteOffset + end), count);
-  if (!data.every((value) => Number.isFinite(value)))
-    throw damaged(`The array "${name}" holds a value that is not a finite number.`);
-  return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
+  const wrongSize = () => damaged(`The array "${name}" does not have the size that its header states.`);
+  if (!shape) throw wrongSize();
+  const readValues = (): NpzArray => {
+    const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
+    const read = READERS[type];
+    const itemBytes = ITEM_BYTES[type];
+    if (read === undefined || itemBytes === undefined)
+      throw damaged(`The array "${name}" is of a type that is not read here: ${type.slice(0, 24)}.`);
+    const count = shape.reduce((product, length) => product * length, 1);
+    if (bytes.length - end !== count * itemBytes) throw wrongSize();
+    const data = read(new DataView(bytes.buffer, bytes.byteOffset + end), count);
+    if (!data.every((value) => Number.isFinite(value)))
+      throw damaged(`The array "${name}" holds a value that is not a finite number.`);
+    return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
+  };
+  return { shape, read: readValues };
+}
+
+/**
+ * Reads one .npy file with its values, see `openNpy`.
+ *
+ * @throws what `damaged` makes
+ */
+export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): NpzArray {
+  return openNpy(bytes, name, damaged).read();
 }
 
 /**

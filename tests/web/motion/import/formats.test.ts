@@ -115,6 +115,38 @@ describe('arrays and tables of joints', () => {
     expect(worstMillimetres(other, fast, 2)).toBeGreaterThan(100);
   });
 
+  test('NPZ whose leader has a gap is refused, and never another dancer read for him', async () => {
+    const data = positionsOf(joints, SMPL22);
+    const shape = [40, 22, 3];
+    const gap = { shape, data: data.map((value, i) => (i === 100 ? NaN : value)) };
+    const fps = { shape: [], data: Float64Array.of(30) };
+    const couple = writeArchive({ leader: gap, follower: { shape, data }, fps });
+    await expect(read({}, ['a.npz', couple])).rejects.toThrow(/not a finite number/);
+    expect(worstMillimetres(await read({ part: 1 }, ['a.npz', couple]), joints)).toBeLessThan(WORST);
+    const alone = writeArchive({ joints: gap, fps });
+    await expect(read({}, ['a.npz', alone])).rejects.toThrow(/not a finite number/);
+  });
+
+  test.each([
+    ['(T, 24, 3)', [40, 24, 3]],
+    ['(1, T, 24, 3)', [1, 40, 24, 3]],
+  ])('NPZ with rotations as %s, and with the place in the unit of AIST++', async (_, shape) => {
+    const data = Float32Array.from({ length: 40 * 72 }, (_, i) => 0.2 * Math.sin(i % 72));
+    const trans = Float32Array.from({ length: 40 * 3 }, (_, i) => 0.01 * i);
+    const flat = writeArchive({
+      poses: { shape: [40, 72], data },
+      trans: { shape: [40, 3], data: trans },
+    });
+    const scaled = writeArchive({
+      smpl_poses: { shape, data },
+      smpl_trans: { shape: [40, 3], data: trans.map((value) => value * 93.7) },
+      smpl_scaling: { shape: [1], data: Float64Array.of(93.7) },
+    });
+    const [expected, file] = [await read({}, ['a.npz', flat]), await read({}, ['a.npz', scaled])];
+    expect(file.report).toEqual(expected.report);
+    file.clip.positions.forEach((value, i) => expect(value).toBeCloseTo(expected.clip.positions[i]!, 5));
+  });
+
   test.each([
     ['npz', (motion: MadeMotion) => writeNpz(exported(motion))],
     ['json', (motion: MadeMotion) => utf8(writeJson(exported(motion)))],

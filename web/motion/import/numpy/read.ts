@@ -1,17 +1,18 @@
 import { sourceOfRotations } from './amass';
 import { bodyOf, JOINT_COUNTS, sourceOfPositions, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
-import { type DamageError, type NpzArray, readNpy, unzipArrays } from '../../../common/npz';
+import { type DamageError, type NpzArray, openNpy, type StoredArray, unzipArrays } from '../../../common/npz';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource } from '../../retarget/source';
 
 /** Largest size of all arrays of an archive together, bytes. */
 const MAX_BYTES = 256 * 1024 * 1024;
-/** Frames per second where the file has none. */
 /** Names of the frame rate, of rotations and of the root's place, as research writes them. */
 const RATES = ['mocap_framerate', 'mocap_frame_rate', 'fps', 'frame_rate', 'framerate'];
 const ROTATIONS = ['poses', 'smpl_poses', 'full_pose', 'fullpose'];
 const PLACES = ['trans', 'smpl_trans', 'transl'];
+/** Units of the root's place in a metre, in archives made of AIST++. */
+const SCALING = 'smpl_scaling';
 /** Smallest number of values of SMPL rotations: those of the body. */
 const BODY_ROTATIONS = 66;
 
@@ -25,43 +26,61 @@ const damaged: DamageError = (message, cause) =>
     },
   );
 
-/** The arrays that can be read; those of texts and objects are left out. */
-function readArrays(bytes: Uint8Array): Map<string, NpzArray> {
-  const arrays = new Map<string, NpzArray>();
-  let failure: unknown = null;
-  for (const [name, content] of unzipArrays(bytes, MAX_BYTES, damaged)) {
-    try {
-      arrays.set(name, readNpy(content, name.slice(0, 40), damaged));
-    } catch (error) {
-      failure ??= error;
-    }
-  }
-  if (arrays.size === 0 && failure) throw failure as Error;
-  return arrays;
+type Archive = ReadonlyMap<string, StoredArray>;
+
+/** The arrays of an archive. Their values are read when they are needed: those of texts and objects cannot be. */
+function openArchive(bytes: Uint8Array): Archive {
+  const files = [...unzipArrays(bytes, MAX_BYTES, damaged)];
+  return new Map(files.map(([name, content]) => [name, openNpy(content, name.slice(0, 40), damaged)]));
 }
 
+/** The lengths of an array without a batch of one before them. */
+const sizesOf = ({ shape }: StoredArray): readonly number[] =>
+  shape.length > 2 && shape[0] === 1 ? shape.slice(1) : shape;
+
+/** The first array of these names. */
+const firstOf = (arrays: Archive, names: readonly string[]): StoredArray | null =>
+  names.map((name) => arrays.get(name)).find((found) => found !== undefined) ?? null;
+
 /** Frames and joints of an array of joints, (T, J, 3), (1, T, J, 3) or (T, 3 J); null for another array. */
-function jointShape({ shape }: NpzArray): { frames: number; count: number } | null {
-  const sizes = shape.length > 2 && shape[0] === 1 ? shape.slice(1) : shape;
+function jointShape(array: StoredArray): { frames: number; count: number } | null {
+  const sizes = sizesOf(array);
   const [frames = 0, second = 0, third] = sizes;
   const count = sizes.length === 3 && third === 3 ? second : sizes.length === 2 ? second / 3 : 0;
   return JOINT_COUNTS.includes(count) ? { frames, count } : null;
 }
 
+/** Frames and values of an array of rotation vectors, (T, J, 3), (1, T, J, 3) or (T, 3 J); null for another array. */
+function rotationShape(array: StoredArray): { frames: number; width: number } | null {
+  const [frames = 0, second = 0, third, ...more] = sizesOf(array);
+  const width = third === undefined ? second : third === 3 && more.length === 0 ? 3 * second : 0;
+  return width >= BODY_ROTATIONS ? { frames, width } : null;
+}
+
 /** Names of the arrays of joints, the leader's first. */
-function dancersIn(arrays: ReadonlyMap<string, NpzArray>): string[] {
+function dancersIn(arrays: Archive): string[] {
   const names = [...arrays].filter(([, array]) => jointShape(array)).map(([name]) => name);
   return names.sort((a, b) => Number(/leader|lead$/i.test(b)) - Number(/leader|lead$/i.test(a)));
 }
 
 /** The frame rate that the archive states, or the usual one. */
-function rateOf(arrays: ReadonlyMap<string, NpzArray>): Pick<MotionSource, 'frameRate' | 'rateAssumed'> {
-  const array = RATES.map((name) => arrays.get(name)).find((found) => found?.data.length === 1);
-  const rate = array?.data[0];
+function rateOf(arrays: Archive): Pick<MotionSource, 'frameRate' | 'rateAssumed'> {
+  const rate = firstOf(arrays, RATES)?.read().data;
+  const stated = rate?.length === 1 ? rate[0] : undefined;
   return {
-    frameRate: () => (rate === undefined ? ASSUMED_FPS : checkedRate(rate)),
-    rateAssumed: rate === undefined,
+    frameRate: () => (stated === undefined ? ASSUMED_FPS : checkedRate(stated)),
+    rateAssumed: stated === undefined,
   };
+}
+
+/** The body's place, (T, 3) in metres; null where the archive has none of every frame. */
+function placesIn(arrays: Archive, frames: number): NpzArray | null {
+  const trans = firstOf(arrays, PLACES);
+  const [count, axes, ...more] = trans ? sizesOf(trans) : [];
+  if (!trans || count !== frames || axes !== 3 || more.length > 0) return null;
+  const scaling = arrays.get(SCALING)?.read().data ?? [];
+  const metres = scaling.length === 1 && scaling[0]! > 0 ? 1 / scaling[0]! : 1;
+  return { shape: [frames, 3], data: Float64Array.from(trans.read().data, (value) => value * metres) };
 }
 
 /**
@@ -74,18 +93,16 @@ function rateOf(arrays: ReadonlyMap<string, NpzArray>): Pick<MotionSource, 'fram
 export function readNumpy(bytes: Uint8Array, name: string, part: number): MotionSource {
   const isArchive = bytes[0] === 0x50 && bytes[1] === 0x4b;
   const arrays = isArchive
-    ? readArrays(bytes)
-    : new Map([['joints', readNpy(bytes, name.slice(0, 40), damaged)]]);
-  const first = (names: readonly string[]) =>
-    names.map((one) => arrays.get(one)).find((found) => found !== undefined) ?? null;
-  const rotations = first(ROTATIONS);
-  if (rotations?.shape.length === 2 && (rotations.shape[1] ?? 0) >= BODY_ROTATIONS) {
-    const [frames = 0, width = 0] = rotations.shape;
-    const trans = first(PLACES);
-    const fits = trans?.shape.length === 2 && trans.shape[0] === frames && trans.shape[1] === 3;
+    ? openArchive(bytes)
+    : new Map([['joints', openNpy(bytes, name.slice(0, 40), damaged)]]);
+  const rotations = firstOf(arrays, ROTATIONS);
+  const turns = rotations && rotationShape(rotations);
+  if (turns) {
+    const { frames, width } = turns;
     const error = tooLong(frames, Math.min(width, BODY_ROTATIONS));
     if (error) throw error;
-    return sourceOfRotations(rotations, fits ? trans : null, rateOf(arrays));
+    const poses = { shape: [frames, width], data: rotations.read().data };
+    return sourceOfRotations(poses, placesIn(arrays, frames), rateOf(arrays));
   }
   const dancers = dancersIn(arrays);
   const chosen = dancers[part] ?? dancers[0];
@@ -94,7 +111,7 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const { frames, count } = jointShape(array)!;
   const error = tooLong(frames, count * 3);
   if (error) throw error;
-  return sourceOfPositions(bodyOf(array.data, count)!, {
+  return sourceOfPositions(bodyOf(array.read().data, count)!, {
     format: isArchive ? 'NPZ' : 'NPY',
     ...rateOf(arrays),
     unit: null,
@@ -104,7 +121,7 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   });
 }
 
-function noJoints(arrays: ReadonlyMap<string, NpzArray>): AppError {
+function noJoints(arrays: Archive): AppError {
   const seen = [...arrays]
     .slice(0, 6)
     .map(([name, { shape }]) => `${name.slice(0, 24)} (${shape.join(', ')})`);
