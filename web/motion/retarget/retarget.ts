@@ -25,6 +25,8 @@ const TOE_FORWARD = 0.17;
 const TOE_DOWN = 0.07;
 /** A toe nearer to the ankle than this share of the body's size is a duplicate of the ankle. */
 const MIN_FOOT_LENGTH = 0.04;
+/** Largest difference in a quaternion of rotations that are the same. */
+const SAME_TURN = 1e-6;
 
 const SIDES = ['left', 'right'] as const;
 
@@ -138,17 +140,21 @@ export function withToes(nodes: readonly SourceJoint[], map: JointMap, motion: N
 }
 
 /**
- * Offset of an estimated toe from the ankle: ahead and below on average over the clip. In the ankle's own axes, so that
- * the foot turns with it, and in the file's unit.
+ * The step from the ankle to an estimated toe in a frame, y up, in the file's unit: ahead and below. On average over the
+ * clip where the ankle turns, so that the foot turns with it; by the hips of each frame where it never does, as in files
+ * of positions.
  */
-function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): Vec3 {
+function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): (frame: number) => Vec3 {
   const turns = body.motion.rotation(body.map.nodes.get(`${side}_ankle`)!);
+  const turn = (frame: number): Quat => multiply(body.up, readQuat(turns, frame));
+  const ahead = (frame: number): Vec3 => add(scale(hipForward(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
+  if (turns.every((value, i) => Math.abs(value - turns[i % 4]!) < SAME_TURN))
+    return (frame) => scale(ahead(frame), trunk);
   let sum = ZERO;
-  for (let frame = 0; frame < body.motion.frames; frame++) {
-    const front = add(scale(hipForward(body, frame), TOE_FORWARD), [0, -TOE_DOWN, 0]);
-    sum = add(sum, rotate(conjugate(multiply(body.up, readQuat(turns, frame))), front));
-  }
-  return scale(direction(sum, [0, 0, 1]), trunk * Math.hypot(TOE_FORWARD, TOE_DOWN));
+  for (let frame = 0; frame < body.motion.frames; frame++)
+    sum = add(sum, rotate(conjugate(turn(frame)), ahead(frame)));
+  const step = scale(direction(sum, [0, 0, 1]), trunk * Math.hypot(TOE_FORWARD, TOE_DOWN));
+  return (frame) => rotate(turn(frame), step);
 }
 
 /**
@@ -159,7 +165,7 @@ function estimatedToe(body: Body, side: (typeof SIDES)[number], trunk: number): 
  */
 export function retarget(body: Body): { positions: Float64Array; estimated: JointName[] } {
   const { map, motion, toes } = body;
-  const estimatedToes = new Map<string, Vec3>();
+  const estimatedToes = new Map<string, (frame: number) => Vec3>();
   const trunk = length(sub(neckAndHead(body, 0).neck, spineLine(body, 0, ZERO)[0]!));
   for (const side of SIDES) if (toes[side] === null) estimatedToes.set(side, estimatedToe(body, side, trunk));
 
@@ -181,10 +187,9 @@ export function retarget(body: Body): { positions: Float64Array; estimated: Join
         put(collar, lerp(neck, jointAt(body, frame, `${side}_shoulder`), COLLAR_SHARE));
       const ankle = map.nodes.get(`${side}_ankle`)!;
       const toe = toes[side];
-      const turn = multiply(body.up, readQuat(motion.rotation(ankle), frame));
       const foot =
         toe === null
-          ? add(nodeAt(body, frame, ankle), rotate(turn, estimatedToes.get(side)!))
+          ? add(nodeAt(body, frame, ankle), estimatedToes.get(side)!(frame))
           : nodeAt(body, frame, toe);
       put(`${side}_foot`, foot);
     }

@@ -4,8 +4,20 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { describe, expect, test } from 'vitest';
 import { readFbx } from '../../../../web/motion/import/fbx/read';
 import { readGltf } from '../../../../web/motion/import/gltf/read';
-import { aboutAxis } from '../../../../web/motion/math/quat';
-import { add, distance, readVec, scale, sub, type Vec3, Y_AXIS } from '../../../../web/motion/math/vec3';
+import { aboutAxis, rotate } from '../../../../web/motion/math/quat';
+import {
+  add,
+  cross,
+  direction,
+  distance,
+  dot,
+  readVec,
+  scale,
+  sub,
+  type Vec3,
+  Y_AXIS,
+  ZERO,
+} from '../../../../web/motion/math/vec3';
 import { changedGlb, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
 import { CONVENTIONS } from '../../support/motion-files/conventions';
 import { madeBody, MIXAMO } from '../../support/made-bvh';
@@ -170,6 +182,28 @@ describe('arrays and tables of joints', () => {
     const file = await read({}, ['a.csv', utf8(text)]);
     expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
     expect(file.report).toMatchObject({ sourceFps: 60, remarks: [] });
+  });
+
+  test('feet that a table lacks point where the dancer turns', async () => {
+    const places = joints.places.map((row, frame) =>
+      row.map((place) => rotate(aboutAxis(Y_AXIS, (2 * Math.PI * frame) / joints.frames), place)),
+    );
+    const turning = { ...joints, places };
+    const rows = writeCsv(turning)
+      .trim()
+      .split('\n')
+      .map((row) => row.split(','));
+    const kept = [...rows[0]!.keys()].filter((column) => !/_foot_/.test(rows[0]![column]!));
+    const text = rows.map((row) => kept.map((column) => row[column]).join(',')).join('\n');
+    const { clip, report } = await read({}, ['a.csv', utf8(text)]);
+    expect(report.estimated).toEqual(['left_foot', 'right_foot']);
+    for (let frame = 0; frame < clip.frames; frame++) {
+      const at = (joint: number): Vec3 => readVec(clip.positions, frame * JOINT_COUNT + joint);
+      const left = sub(at(J.left_hip), at(J.right_hip));
+      const foot = sub(at(J.left_foot), at(J.left_ankle));
+      const ahead = direction(cross([left[0], 0, left[2]], Y_AXIS), ZERO);
+      expect(dot(ahead, direction([foot[0], 0, foot[2]], ZERO))).toBeGreaterThan(0.99);
+    }
   });
 
   test('a wrong map shows as millimetres', async () => {
