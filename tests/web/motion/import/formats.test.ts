@@ -175,6 +175,38 @@ describe('arrays and tables of joints', () => {
     expect(file.report).toMatchObject({ sourceFps: 30, convention: 'SMPL' });
   });
 
+  const cells = (change: (cell: string, row: number, column: number) => string): string =>
+    writeCsv(joints)
+      .trim()
+      .split('\n')
+      .map((line, row) =>
+        line
+          .split(',')
+          .map((cell, column) => change(cell, row, column))
+          .join(','),
+      )
+      .join('\n');
+  test.each([
+    [
+      'as pandas writes it, with an index',
+      cells((cell, row, column) => (column > 0 ? cell : `${row === 0 ? '' : row - 1},${cell}`)),
+    ],
+    ['with quotes about everything', cells((cell) => `"${cell}"`)],
+    ...['time (ms)', 'time_ms'].map((title): [string, string] => [
+      `with ${title}`,
+      cells((cell, row, column) => (column > 0 ? cell : row === 0 ? title : String(Number(cell) * 1000))),
+    ]),
+  ])('CSV %s', async (_, text) => {
+    const file = await read({}, ['a.csv', utf8(text)]);
+    expect(worstMillimetres(file, joints)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ sourceFps: 30, remarks: [] });
+  });
+
+  test('CSV with decimal commas in quotes is refused', async () => {
+    const text = cells((cell, row) => (row === 0 ? cell : `"${cell.replace('.', ',')}"`));
+    await expect(read({}, ['a.csv', utf8(text)])).rejects.toMatchObject({ code: 'bad-number' });
+  });
+
   test('CSV that states its frame rate in a comment', async () => {
     const fast = madeMotion({ names: SMPL_NAMES, fps: 60, frames: 81 });
     const [titles, ...rows] = writeCsv(fast).split('\n');

@@ -7,6 +7,8 @@ import { PARENTS, SMPL22 } from '../../skeleton/skeleton';
 const SEPARATOR = /[,;\t]/;
 /** `leader_left_hip_x`, `left_hip.x` or `LeftHip X`: the dancer if there is one, the joint, and the axis. */
 const COLUMN = /^(?:(leader|reactor|follower|dancer\d*)[_. :/])?(.{1,80}?)[_. :/]?\(?([xyz])\)?$/i;
+/** The title of a column of times, in seconds or with `ms` in milliseconds. */
+const TIME = /^(time|seconds|t)(\W.*|_ms)?$/i;
 /** Largest number of columns. */
 const MAX_COLUMNS = 3000;
 
@@ -18,6 +20,13 @@ function invalid(what: string): AppError {
   );
 }
 
+/** A title or value without the quotes about it. */
+const unquoted = (cell: string): string =>
+  cell
+    .trim()
+    .replace(/^"(.*)"$/, '$1')
+    .trim();
+
 interface Column {
   readonly dancer: string;
   readonly joint: string;
@@ -27,7 +36,7 @@ interface Column {
 
 function columnsOf(titles: readonly string[]): Column[] {
   return titles.flatMap((title, column) => {
-    const match = COLUMN.exec(title.trim());
+    const match = COLUMN.exec(title);
     const [, dancer = '', joint = '', axis = ''] = match ?? [];
     return match ? [{ dancer, joint, axis: 'xyz'.indexOf(axis.toLowerCase()), column }] : [];
   });
@@ -59,19 +68,20 @@ function readRows(
   names: readonly string[],
 ): { places: Float32Array; times: number[] } {
   const places = new Float32Array(rows.length * names.length * 3);
-  const time = titles.findIndex((title) => /^(time|seconds|t)(\W.*)?$/i.test(title));
+  const time = titles.findIndex((title) => TIME.test(title));
+  const unitsPerSecond = /(\W|_)ms\b/i.test(titles[time] ?? '') ? 1000 : 1;
   const times: number[] = [];
   const slots = new Map(names.map((name, joint) => [name, joint]));
   const wanted = columns.filter(({ joint }) => slots.has(joint));
   rows.forEach((row, frame) => {
     const cells = row.split(separator);
     for (const { joint, axis, column } of wanted) {
-      const cell = cells[column]?.trim() ?? '';
+      const cell = unquoted(cells[column] ?? '');
       const value = cell === '' ? NaN : Number(cell);
       if (!Number.isFinite(value)) throw badCell(frame, cell, titles[column]!);
       places[(frame * names.length + slots.get(joint)!) * 3 + axis] = value;
     }
-    if (time >= 0) times.push(Number(cells[time]));
+    if (time >= 0) times.push(Number(unquoted(cells[time] ?? '')) / unitsPerSecond);
   });
   return { places, times };
 }
@@ -95,7 +105,7 @@ export function readCsv(text: string, part: number): MotionSource {
   const comments = lines.filter((line) => line.startsWith('#'));
   const rows = lines.filter((line) => line.trim() !== '' && !line.startsWith('#'));
   const separator = SEPARATOR.exec(rows[0] ?? '')?.[0] ?? ',';
-  const titles = (rows[0] ?? '').split(separator).map((title) => title.replaceAll('"', '').trim());
+  const titles = (rows[0] ?? '').split(separator).map(unquoted);
   if (titles.length > MAX_COLUMNS) throw invalid(`it has ${titles.length} columns`);
   const columns = columnsOf(titles);
   const dancers = [...new Set(columns.map(({ dancer }) => dancer))];
