@@ -112,6 +112,10 @@ test.describe('a real file has the same features as in Python', () => {
   }
 });
 
+test('an MP3 that begins with silence is not taken for a much longer one', async ({ page }) => {
+  expect((await load(page, 'quietly begun MP3')).duration).toBeCloseTo(120, 0);
+});
+
 test.describe('refusals', () => {
   test('an empty file', async ({ page }) => {
     expect(await refusal(page, { text: '' })).toMatchObject({ name: 'AppError', code: 'empty-file' });

@@ -1,4 +1,5 @@
 import { AppError } from '../common/error';
+import { isMp3, mp3Duration } from './mp3';
 import { isPlaylist, PLAYLIST_HEAD_BYTES } from './playlist';
 
 /**
@@ -40,15 +41,20 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
       'Choose another file, or copy this one again.',
     );
   }
-  if (isPlaylist(new Uint8Array(await readBytes(file.slice(0, PLAYLIST_HEAD_BYTES))))) {
+  const head = new Uint8Array(await readBytes(file.slice(0, PLAYLIST_HEAD_BYTES)));
+  if (isPlaylist(head)) {
     throw new AppError(
       'not-audio',
       'The file is a playlist: it names songs, but contains none.',
       'Choose the file of the song itself.',
     );
   }
-  checkDuration(await headerDuration(file));
-  const buffer = await decode(await readBytes(file));
+  const stated = await headerDuration(file);
+  if (!isMp3(head)) checkDuration(stated);
+  const bytes = await readBytes(file);
+  // What browsers say of an MP3 may be a guess, and several times too long.
+  if (stated > MAX_DURATION) checkDuration(mp3Duration(new Uint8Array(bytes)) || stated);
+  const buffer = await decode(bytes);
   if (buffer.length === 0) {
     throw new AppError(
       'no-sound',

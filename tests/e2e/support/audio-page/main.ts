@@ -1,9 +1,11 @@
 /** The audio client without the app around it, for browser tests to call. */
 import { AudioPlayer, loadSong, type Song } from '../../../../web/audio/client';
 import { encodeWav } from '../../../../web/audio/wav';
+import { quietlyBegunMp3 } from '../../../web/support/audio/made-mp3';
 
-/** What a test loads: a file of the server, a text, or silence. */
-export type Source = { url: string } | { text: string } | { silentSeconds: number; rate: number };
+/** What a test loads: a file of the server, a text, an MP3 whose duration browsers guess wrongly, or silence. */
+export type Source =
+  { url: string } | { text: string } | 'quietly begun MP3' | { silentSeconds: number; rate: number };
 
 /** A failure as data, for the test's process. */
 export interface ErrorData {
@@ -32,6 +34,7 @@ export interface SongData {
 }
 
 async function open(source: Source): Promise<Blob> {
+  if (source === 'quietly begun MP3') return new Blob([quietlyBegunMp3()]);
   if ('url' in source) return (await fetch(source.url)).blob();
   if ('text' in source) return new Blob([source.text]);
   return encodeWav([new Float32Array(source.silentSeconds * source.rate)], source.rate);
