@@ -5,8 +5,8 @@ import { type Picture, pictureOf } from './pose/picture';
 
 /** Pictures a second that are read of a faster video. */
 const MAX_RATE = 30;
-/** A picture is read this share of 1 / MAX_RATE after the one before it, at the earliest: rates vary a little. */
-const MIN_SPACING = 0.75;
+/** How much earlier than it is due a picture may come, seconds: rates vary a little. */
+const TOLERANCE = 0.25 / MAX_RATE;
 /** Longest video, seconds. */
 export const MAX_DURATION = 600;
 
@@ -78,6 +78,16 @@ async function videoTrack(input: Input): Promise<InputVideoTrack> {
   return track;
 }
 
+/** Tells of each picture of a video, by its time in seconds, whether it is read: at most 30 a second are. */
+export function pictureChoice(): (time: number) => boolean {
+  let due = -Infinity;
+  return (time) => {
+    if (time < due - TOLERANCE) return false;
+    due = Math.max(due, time) + 1 / MAX_RATE;
+    return true;
+  };
+}
+
 async function* pictures(
   track: InputVideoTrack,
   start: number,
@@ -85,12 +95,11 @@ async function* pictures(
   to: number,
 ): AsyncGenerator<{ readonly time: number; readonly picture: Picture }> {
   const sink = new VideoSampleSink(track);
-  let last = -Infinity;
+  const isRead = pictureChoice();
   for await (const sample of sink.samples(start + from, start + to)) {
     try {
       const time = sample.timestamp - start;
-      if (time - last < MIN_SPACING / MAX_RATE) continue;
-      last = time;
+      if (!isRead(time)) continue;
       yield { time, picture: pictureOf(sample) };
     } finally {
       sample.close();
