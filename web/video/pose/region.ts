@@ -35,8 +35,3 @@ export function pointInPicture(
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   return { x: x + dx * cos - dy * sin, y: y + dx * sin + dy * cos };
 }
-
-/** Whether the two cover each other so much that they are about the same person. */
-export function samePerson(a: Region, b: Region): boolean {
-  return Math.hypot(a.x - b.x, a.y - b.y) < 0.3 * Math.min(a.size, b.size);
-}
