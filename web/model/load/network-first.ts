@@ -19,11 +19,9 @@ export async function fetchLatest(
 ): Promise<Uint8Array<ArrayBuffer>> {
   // A store that fails counts as empty.
   const stored = await store?.get(url).catch(() => undefined);
-  const limited: typeof fetch = (address, options) =>
-    get(address, stored === undefined ? options : { ...options, signal: AbortSignal.timeout(timeoutMs) });
   let bytes: Uint8Array<ArrayBuffer>;
   try {
-    bytes = await body(await fetchFile(url, limited), url);
+    bytes = await body(await fetchFile(url, stored === undefined ? get : begunWithin(get, timeoutMs)), url);
   } catch (error) {
     if (stored !== undefined && error instanceof AppError && error.code === 'download-failed') return stored;
     throw error;
@@ -31,6 +29,19 @@ export async function fetchLatest(
   // A full storage is reported for the large files, which come next.
   await store?.put(url, bytes).catch(() => undefined);
   return bytes;
+}
+
+/** A `fetch` whose response has to begin in time; its body may take longer. */
+function begunWithin(get: typeof fetch, timeoutMs: number): typeof fetch {
+  return async (address, options) => {
+    const request = new AbortController();
+    const timer = setTimeout(() => request.abort(), timeoutMs);
+    try {
+      return await get(address, { ...options, signal: request.signal });
+    } finally {
+      clearTimeout(timer);
+    }
+  };
 }
 
 async function body(response: Response, url: string): Promise<Uint8Array<ArrayBuffer>> {

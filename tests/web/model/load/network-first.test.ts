@@ -44,6 +44,27 @@ describe('the latest version of a file', () => {
     expect(text(await fetchLatest(URL, silent, store('old').answers, 20))).toBe('old');
   });
 
+  it("is the server's when that answers in time, however slowly the file comes", async () => {
+    const slow: typeof fetch = (_, options) =>
+      Promise.resolve(
+        new Response(
+          new ReadableStream<Uint8Array>({
+            start(body) {
+              options?.signal?.addEventListener('abort', () => body.error(options.signal?.reason));
+              setTimeout(() => {
+                if (options?.signal?.aborted) return;
+                body.enqueue(new TextEncoder().encode('new'));
+                body.close();
+              }, 60);
+            },
+          }),
+        ),
+      );
+    const { answers, files } = store('old');
+    expect(text(await fetchLatest(URL, slow, answers, 20))).toBe('new');
+    expect(text(files.get(URL) ?? new Uint8Array())).toBe('new');
+  });
+
   it('is an error when the server answers that there is no such file', async () => {
     await expect(fetchLatest(URL, status(404), store('old').answers)).rejects.toMatchObject({
       code: 'model-missing',
