@@ -69,8 +69,10 @@ export class BranchSampler {
     const runs = missing.length + (meanMissing ? seeds : 0);
     let run = 0;
     const sampleNext = async (branch: Branch, of: number): Promise<Float32Array> => {
-      const { memory } = await this.#condition(known, branch !== 'silent' && song, signal, onCondition);
       const before = run++;
+      // Later conditions come between steps, where this stage is over.
+      const report = before === 0 ? onCondition : undefined;
+      const { memory } = await this.#condition(known, branch !== 'silent' && song, signal, report);
       return this.#sample(memory, branch, of, signal, (done, total) =>
         onStep?.(before * total + done, runs * total),
       );
@@ -86,7 +88,7 @@ export class BranchSampler {
         coarse.push(coarseLayer(await sampleNext('conditional', of), this.manifest.latent));
       known.mean = mean(coarse);
     }
-    const { unfamiliarity } = await this.#condition(known, song, signal, onCondition);
+    const { unfamiliarity } = await this.#condition(known, song, signal);
     return {
       unfamiliarity,
       conditional: latents.get('conditional')!,
@@ -107,7 +109,7 @@ export class BranchSampler {
     { input, conditions }: Known,
     withSong: boolean,
     signal: AbortSignal | undefined,
-    onProgress: ((done: number, total: number) => void) | undefined,
+    onProgress?: (done: number, total: number) => void,
   ): Promise<Condition> {
     const key = withSong ? 'song' : 'silence';
     const found = conditions.get(key);

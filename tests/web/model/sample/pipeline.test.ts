@@ -331,10 +331,17 @@ describe('Pipeline', () => {
     await expect(coarse).rejects.toThrow(/abort/i);
   });
 
-  it('reports progress that ascends to 1', async () => {
+  it.each<[string, Partial<GenerateRequest>]>([
+    ['one branch', {}],
+    [
+      'all branches and the mean',
+      { musicGuidance: 8, guidance: new Float32Array(6).fill(0.5), variety: 0.5 },
+    ],
+  ])('reports progress that ascends to 1 (%s)', async (_, changes) => {
     const seen: Progress[] = [];
-    await pipeline.generate(request(483), { onProgress: (progress) => seen.push(progress) });
-    expect([...new Set(seen.map(({ stage }) => stage))]).toEqual(['condition', 'step']);
+    await pipeline.generate(request(483, changes), { onProgress: (progress) => seen.push(progress) });
+    const stages = seen.map(({ stage }) => stage);
+    expect(stages.filter((stage, i) => stage !== stages[i - 1])).toEqual(['condition', 'step']);
     const fractions = seen.map(({ fraction }) => fraction);
     expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
     expect(fractions.at(-1)).toBe(1);
@@ -434,12 +441,13 @@ describe('the seeds that differ most', () => {
   it('are of fewer seeds where there is no time for more, but never of too few', async () => {
     const shares: number[] = [];
     const onProgress = (share: number): void => void shares.push(share);
-    const wanted = { request: request(120), seeds, count: 3 };
+    const wanted = { request: request(120, { musicGuidance: 8 }), seeds, count: 3 };
     expect(await timed().differingSeeds({ ...wanted, seconds: 0 }, { onProgress })).toEqual([1, 2, 3]);
     expect(shares.at(-1)).toBe(0.6);
     expect(shares).toEqual(shares.toSorted((a, b) => a - b));
     expect(shares.length).toBeGreaterThan(6);
-    await timed().differingSeeds({ ...wanted, seconds: 4 * STEPS }, { onProgress });
+    // Four dances of two branches each.
+    await timed().differingSeeds({ ...wanted, seconds: 4 * 2 * STEPS }, { onProgress });
     expect(shares.at(-1)).toBe(0.8);
   });
 
