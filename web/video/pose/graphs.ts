@@ -5,7 +5,7 @@ import { AppError } from '../../common/error';
 import { downloadRuntime } from '../../model/load/assets';
 import { chooseBackend, environment } from '../../model/load/backend';
 import { fileStore, responseCache } from '../../model/load/cache';
-import { download } from '../../model/load/download';
+import { download, patientFetch } from '../../model/load/download';
 import { fetchLatest } from '../../model/load/network-first';
 import { loadRuntime } from '../../model/load/runtime';
 import { DETECTOR_SIDE } from './detector';
@@ -34,12 +34,13 @@ export async function loadPoseGraphs(
   scope: typeof globalThis,
   onProgress: (fraction: number) => void,
 ): Promise<PoseGraphs> {
-  const bytes = await fetchLatest(listUrl, fetch, responseCache(scope));
+  const get = patientFetch(fetch);
+  const bytes = await fetchLatest(listUrl, get, responseCache(scope));
   const { detector, landmarks } = readList(bytes);
   const [runtimeBytes, [detectorBytes, landmarkBytes], { threads }] = await Promise.all([
     downloadRuntime('wasm', scope),
     download(listUrl, [detector, landmarks], {
-      fetch,
+      fetch: get,
       store: fileStore(scope, 'model', 'pose'),
       onProgress: (loaded, total) => {
         onProgress(loaded / total);
