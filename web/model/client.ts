@@ -1,7 +1,6 @@
 import { AppError } from '../common/error';
 import { newerVersion } from '../common/page-part';
 import { WorkerConnection } from '../common/run-in-worker';
-import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend, Preference } from './load/backend';
 import type { ModelFolder } from './load/download';
 import {
@@ -17,7 +16,13 @@ import { type Playhead, secondsNow } from './sample/playhead';
 import type { Status } from './load/load';
 import type { Manifest } from './manifest';
 import type { DownloadPart } from './load/assets';
-import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './sample/results';
+import type {
+  GeneratedMotion,
+  GenerateOptions,
+  GenerateResult,
+  Preview,
+  SeedsOptions,
+} from './sample/results';
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
@@ -25,6 +30,7 @@ export type {
   Backend,
   CoarseRequest,
   DownloadPart,
+  GeneratedMotion,
   GenerateOptions,
   GenerateRequest,
   GenerateResult,
@@ -83,7 +89,7 @@ export interface Generator {
    * @throws {AppError}
    * @throws the signal's reason, soon after it is aborted
    */
-  coarse(request: CoarseRequest, options?: Pick<GenerateOptions, 'signal'>): Promise<SolvedMotion>;
+  coarse(request: CoarseRequest, options?: Pick<GenerateOptions, 'signal'>): Promise<GeneratedMotion>;
   /** Ends the worker; calls under way are rejected. */
   dispose(): void;
 }
@@ -189,7 +195,7 @@ class WorkerGenerator implements Generator {
   async coarse(
     request: CoarseRequest,
     { signal }: Pick<GenerateOptions, 'signal'> = {},
-  ): Promise<SolvedMotion> {
+  ): Promise<GeneratedMotion> {
     return this.#onWorker(signal, ({ connection }) => connection.call('coarse', request, { signal }));
   }
 

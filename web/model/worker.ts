@@ -1,6 +1,5 @@
 /** The worker that runs the model with onnxruntime. */
 import { serve, type TaskContext } from '../common/run-in-worker';
-import type { SolvedMotion } from '../motion/skeleton/clip';
 import type { Backend } from './load/backend';
 import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
 import type { Manifest } from './manifest';
@@ -8,7 +7,7 @@ import type { Progress } from './progress';
 import type { CoarseRequest, DanceSettings, SeedsRequest, Source } from './sample/inputs';
 import type { Pipeline } from './sample/pipeline';
 import type { Playhead } from './sample/playhead';
-import type { GenerateResult, Preview } from './sample/results';
+import type { GeneratedMotion, GenerateResult, Preview } from './sample/results';
 
 export interface Loaded {
   readonly manifest: Manifest;
@@ -73,7 +72,7 @@ const tasks = {
     );
   },
 
-  coarse(request: CoarseRequest, { signal }: TaskContext<never>): Promise<SolvedMotion> {
+  coarse(request: CoarseRequest, { signal }: TaskContext<never>): Promise<GeneratedMotion> {
     return pipeline().coarse(request, { signal });
   },
 };

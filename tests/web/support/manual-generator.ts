@@ -39,7 +39,7 @@ export class ManualGenerator {
           fail(options.signal?.reason as Error);
         });
       }),
-    coarse: () => Promise.resolve(still(60)),
+    coarse: () => Promise.resolve({ motion: still(60), locked: still(60) }),
     dispose: () => undefined,
   } satisfies Generator;
 }

@@ -37,10 +37,12 @@ export class Assembler {
       this.#decoded?.latents === dance.latents ? this.#decoded.clip : await this.decode(dance, { signal });
     this.#decoded = { latents: dance.latents, clip };
     onDecoded?.();
-    await yieldToEvents(signal);
-    const motion = this.#solve(clip, dance, dance.leader);
-    await yieldToEvents(signal);
-    return { motion, locked: lockFeet(motion) };
+    return this.#finished(clip, dance, signal);
+  }
+
+  /** A whole dance that is asked for beside the last one, which stays decoded. */
+  async beside(dance: Dance, signal?: AbortSignal): Promise<GeneratedMotion> {
+    return this.#finished(await this.decode(dance, { signal }), dance, signal);
   }
 
   /**
@@ -83,6 +85,13 @@ export class Assembler {
       .subarray(0, frames * skeleton.joints.length * 3)
       .map((value) => value / input.scale);
     return { fps: leader.fps, frames, positions };
+  }
+
+  async #finished(clip: MotionClip, dance: Dance, signal?: AbortSignal): Promise<GeneratedMotion> {
+    await yieldToEvents(signal);
+    const motion = this.#solve(clip, dance, dance.leader);
+    await yieldToEvents(signal);
+    return { motion, locked: lockFeet(motion) };
   }
 
   /**

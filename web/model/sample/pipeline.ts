@@ -1,4 +1,3 @@
-import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { mostDifferent } from '../../motion/skeleton/difference';
 import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
@@ -20,7 +19,7 @@ import {
   type Source,
 } from './inputs';
 import { frameAt, type Playhead } from './playhead';
-import type { GenerateOptions, GenerateResult, Preview, SeedsOptions } from './results';
+import type { GeneratedMotion, GenerateOptions, GenerateResult, Preview, SeedsOptions } from './results';
 
 /** Length of the part that is shown before the whole, and how much of it lies before the frame on view, seconds. */
 const PREVIEW = { length: 2.5, before: 0.3 };
@@ -84,13 +83,12 @@ export class Pipeline {
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
    */
-  async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<SolvedMotion> {
+  async coarse(request: CoarseRequest, { signal }: GenerateOptions = {}): Promise<GeneratedMotion> {
     checkCoarse(request, this.manifest);
     const { leader, role } = request;
     const input = prepareInput({ leader, role, music: null }, this.manifest);
     const dance = { ...request, gains: coarseAlone(this.manifest.latent), input };
-    const { motion } = await this.#assembler.whole(dance, signal);
-    return motion;
+    return this.#assembler.beside(dance, signal);
   }
 
   /**

@@ -3,6 +3,7 @@ import type { Generator } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { coarseProblem, isAbort } from '../store/problems';
 import type { Reaction } from '../store/reaction';
+import { cacheLocked } from '../store/reactor-motion';
 import type { AppState } from '../store/state';
 import { apply, watchAll, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
@@ -58,7 +59,8 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
         const { leader, settings } = inputs;
         const { role, height } = settings;
         const request = { leader: leader.file.clip, latents, role, height: height ?? undefined };
-        const motion = await generator.coarse(request, { signal });
+        const { motion, locked } = await generator.coarse(request, { signal });
+        cacheLocked(motion, locked);
         decodedMotions.set(latents, motion);
         if (signal.aborted) return;
         show(latents !== missing.at(-1)?.latents);

@@ -8,6 +8,7 @@ import type { Progress } from '../../../../web/model/progress';
 import type { ModelSession } from '../../../../web/model/load/session';
 import type { Manifest } from '../../../../web/model/manifest';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
+import { lockFeet } from '../../../../web/motion/contact/foot-lock';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
@@ -243,16 +244,18 @@ describe('Pipeline', () => {
       },
     };
     const runs = stepRuns;
-    const coarse = await new Pipeline(manifest, watched, () => 0).coarse({ leader: large.leader, latents });
+    const alone = new Pipeline(manifest, watched, () => 0);
+    const { motion: coarse, locked } = await alone.coarse({ leader: large.leader, latents });
     expect(asked.map(String)).toEqual(['1,0,1,0,1,0']);
     expect(stepRuns).toBe(runs);
     expect(coarse.frames).toBe(motion.frames);
     expect(maxDifference(coarse.positions, motion.positions)).toBeGreaterThan(1e-4);
+    expect(locked).toEqual(lockFeet(coarse));
     // Without its fine layer a reaction is its own coarse reaction.
     const width = manifest.latent.channels;
     const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));
     const again = await pipeline.coarse({ leader: large.leader, latents: plain });
-    expect(again.positions).toEqual(coarse.positions);
+    expect(again.motion.positions).toEqual(coarse.positions);
   });
 
   it('keeps the partner, whole or coarse, out of the body of the leader', async () => {
@@ -265,7 +268,7 @@ describe('Pipeline', () => {
     const { leader, ...rest } = request(120);
     const { motion, locked, latents } = await inside.generate({ leader, ...rest });
     const coarse = await inside.coarse({ leader, latents });
-    const apart = [motion, locked, coarse].map(({ positions }) => {
+    const apart = [motion, locked, coarse.motion].map(({ positions }) => {
       let [least, most] = [Infinity, 0];
       for (let frame = 0; frame < leader.frames; frame++) {
         const at = 3 * (frame * JOINT_COUNT + J.spine3);
@@ -301,7 +304,10 @@ describe('Pipeline', () => {
     );
     expect((await counted.generate(plain)).motion.positions).toEqual(asDecoded.motion.positions);
     const coarse = await counted.coarse({ leader: plain.leader, latents, height: 1.9 });
-    expect(standingHeight(coarse.offsets)).toBeCloseTo(1.9, 5);
+    expect(standingHeight(coarse.motion.offsets)).toBeCloseTo(1.9, 5);
+    // One pass of the decoder, which does not push the dance out of memory.
+    await counted.generate({ ...plain, height: 1.8 });
+    expect(passes).toBe(before + 1);
   });
 
   it.each(['reactor', 'leader'] as const)(

@@ -1,5 +1,10 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { CoarseRequest, GenerateOptions, Generator } from '../../../../web/model/client';
+import type {
+  CoarseRequest,
+  GeneratedMotion,
+  GenerateOptions,
+  Generator,
+} from '../../../../web/model/client';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { coarseIsMissing, createCoarseLayer } from '../../../../web/ui/generation/coarse-layer';
 import { coarseMotion, otherCoarseMotion } from '../../../../web/ui/store/reactor-motion';
@@ -14,7 +19,7 @@ class ManualGenerator {
   readonly calls: {
     request: CoarseRequest;
     signal: AbortSignal | undefined;
-    answer: (motion: SolvedMotion) => void;
+    answer: (motion: SolvedMotion, locked?: SolvedMotion) => void;
     fail: (error: Error) => void;
   }[] = [];
   readonly generator = {
@@ -23,7 +28,8 @@ class ManualGenerator {
     generate: () => Promise.reject(new Error('Nothing is generated here.')),
     differingSeeds: () => Promise.reject(new Error('Nothing is generated here.')),
     coarse: (request: CoarseRequest, { signal }: Pick<GenerateOptions, 'signal'> = {}) =>
-      new Promise<SolvedMotion>((answer, fail) => {
+      new Promise<GeneratedMotion>((resolve, fail) => {
+        const answer = (motion: SolvedMotion, locked = motion): void => resolve({ motion, locked });
         this.calls.push({ request, signal, answer, fail });
         signal?.addEventListener('abort', () => {
           fail(signal.reason as Error);
@@ -79,6 +85,18 @@ describe('the coarse layer', () => {
     expect(coarseMotion(state())).toBe(motion);
     toggle();
     expect(coarseMotion(state())).toBeNull();
+  });
+
+  it('is drawn with the feet that were locked where it was decoded, while foot lock is on', async () => {
+    show(reaction(new Float32Array([1])));
+    toggle();
+    await turn();
+    const [motion, locked] = [still(60), still(60)];
+    model.calls[0]?.answer(motion, locked);
+    await turn();
+    expect(coarseMotion(state())).toBe(motion);
+    change.apply(store, change.footLockSet(true));
+    expect(coarseMotion(state())).toBe(locked);
   });
 
   it('is decoded once for each reaction, however often takes and the overlay are switched', async () => {
