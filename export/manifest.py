@@ -16,7 +16,7 @@ from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 6
+FORMAT, VERSION = "reactdance-model", 7
 LAYER_NAMES = ("coarse", "fine")
 ROLES = ("reactor", "leader")
 
@@ -68,8 +68,14 @@ def quality_rules() -> dict[str, Any]:
     }
 
 
-def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golden: str) -> dict[str, Any]:
-    """The manifest as plain JSON values; `entries` are the graphs as described by `onnx_files.describe`."""
+def manifest(
+    model: Model, card: Card, entries: dict[str, dict[str, Any]], golden: dict[str, Any]
+) -> dict[str, Any]:
+    """The manifest as plain JSON values.
+
+    `entries` are the graphs as described by `onnx_files.describe`, `golden` is the file of the golden tensors as
+    described by `onnx_files.describe_file`.
+    """
     diffusion = model.diffusion
     names = layer_names(model.denoiser.layers)
     return {
@@ -138,7 +144,7 @@ def manifest(model: Model, card: Card, entries: dict[str, dict[str, Any]], golde
         "audio": AudioRecipe().to_dict(),
         "quality": quality_rules(),
         "graphs": entries,
-        "golden": {"path": golden},
+        "golden": golden,
     }
 
 

@@ -152,5 +152,6 @@ def describe(graph: Graph, files: Files) -> dict[str, Any]:
 
 
 def describe_file(path: Path) -> dict[str, Any]:
+    """The manifest's entry of a file beside it, by which the page verifies and caches it."""
     data = path.read_bytes()
     return {"path": path.name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}

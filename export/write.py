@@ -12,7 +12,7 @@ from pathlib import Path
 from export.golden import Scene, reference
 from export.golden import write as write_golden
 from export.manifest import Card, manifest
-from export.onnx_files import describe, graphs, write_onnx
+from export.onnx_files import describe, describe_file, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from export.weights import round_convolutions
 from training.checkpoint import load_model, read_card
@@ -49,7 +49,7 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     model = round_convolutions(model)
     entries = {graph.name: describe(graph, write_onnx(graph, folder)) for graph in graphs(model)}
     write_golden(folder / GOLDEN, reference(model, scene))
-    text = json.dumps(manifest(model, card, entries, GOLDEN), indent=1)
+    text = json.dumps(manifest(model, card, entries, describe_file(folder / GOLDEN)), indent=1)
     (folder / "manifest.json").write_text(text + "\n")
 
 

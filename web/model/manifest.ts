@@ -84,7 +84,7 @@ const names = v.pipe(
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(6),
+  version: v.literal(7),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
@@ -159,7 +159,7 @@ const schema = v.object({
   quality,
   graphs: v.object({ condition: graph, step: graph, decode: graph }),
   /** Inputs and results of one small sampling, as Python computed it. */
-  golden: v.optional(v.object({ path })),
+  golden: file,
 });
 
 /** Every number about a model that the page knows; written by export, checked here. */

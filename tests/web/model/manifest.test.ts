@@ -86,6 +86,12 @@ describe('parseManifest', () => {
     ],
     ['two streams of one name', (json) => void (json.latent.streams[1] = 'upper'), 'manifest-invalid'],
     ['a stream without a name', (json) => void (json.latent.streams[1] = '__proto__'), 'manifest-invalid'],
+    ['no example dance', (json) => void Reflect.deleteProperty(json, 'golden'), 'manifest-invalid'],
+    [
+      'an example dance of any age',
+      (json) => void Reflect.deleteProperty(json.golden, 'sha256'),
+      'manifest-invalid',
+    ],
     ['another first layer', (json) => void (json.latent.layers[0] = 'rough'), 'manifest-invalid'],
     [
       'a fader without a range',

@@ -1,4 +1,6 @@
+import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
+import { filesOf } from '../../../web/model/load/assets';
 import { type Golden, readGolden } from '../../../web/model/load/golden';
 import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
 import { readNpz } from '../../../web/model/load/npz';
@@ -25,8 +27,18 @@ export async function openModel(folder: URL, provider: Provider = 'webgpu'): Pro
     GRAPHS.map((name) => [name, read(manifest.graphs[name].files[provider].path)]),
   ) as Record<GraphName, Uint8Array>;
   const session = await openSession(manifest, graphs, 'wasm', 1);
-  const bytes = read(manifest.golden?.path ?? 'golden.npz');
+  const bytes = read(manifest.golden.path);
   return { manifest, session, golden: readGolden(bytes), arrays: readNpz(bytes) };
+}
+
+/** The paths of a model folder's files that are not as the manifest lists them. */
+export function otherFiles(folder: URL, manifest: Manifest): string[] {
+  return filesOf(manifest)
+    .filter(({ path, bytes, sha256 }) => {
+      const found = readFileSync(new URL(path, folder));
+      return found.length !== bytes || createHash('sha256').update(found).digest('hex') !== sha256;
+    })
+    .map(({ path }) => path);
 }
 
 export const TINY = new URL('../../fixtures/tiny-model/', import.meta.url);

@@ -17,7 +17,7 @@ const smallBody = (): number[][] => SMPL22.map((_, joint) => [0, joint === 0 ? 0
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 6,
+    version: 7,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -125,6 +125,7 @@ export function smallJson() {
         { reactor: ['frames', 22, 3] },
       ),
     },
+    golden: file('golden.npz'),
   };
 }
 

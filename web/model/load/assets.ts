@@ -47,11 +47,38 @@ interface Parts {
   readonly runtime: Uint8Array<ArrayBuffer>;
 }
 
-interface PartsOptions {
+interface Place {
   readonly manifestUrl: string;
   /** The model's files, where the visitor chose them; they are not cached. */
   readonly folder?: ModelFolder | undefined;
   readonly scope: typeof globalThis;
+}
+
+/** All files that a manifest lists. */
+export function filesOf({ graphs, golden }: Pick<Manifest, 'graphs' | 'golden'>): ManifestFile[] {
+  return [...GRAPHS.flatMap((name) => Object.values(graphs[name].files)), golden];
+}
+
+/**
+ * Gets some files of a model, from the cache where it has them.
+ * @returns the files' bytes, in order
+ * @throws {AppError} as `download`
+ */
+export function downloadFiles(
+  manifest: Manifest,
+  files: readonly ManifestFile[],
+  { manifestUrl, folder, scope }: Place,
+  options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure'> = {},
+): Promise<Uint8Array<ArrayBuffer>[]> {
+  return download(manifestUrl, files, {
+    fetch: folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch),
+    store: folder ? undefined : fileStore(scope, 'model', manifest.id),
+    alsoKeep: filesOf(manifest).map(({ sha256 }) => sha256),
+    ...options,
+  });
+}
+
+interface PartsOptions extends Place {
   readonly onProgress: (parts: readonly DownloadPart[]) => void;
   /** Called once, when a file could not be cached. */
   readonly onCacheFailure: (reason: unknown) => void;
@@ -64,7 +91,7 @@ interface PartsOptions {
 export async function downloadParts(
   manifest: Manifest,
   provider: Provider,
-  { manifestUrl, folder, scope, onProgress, onCacheFailure }: PartsOptions,
+  { onProgress, onCacheFailure, ...place }: PartsOptions,
 ): Promise<Parts> {
   const progress = new Map<CachedPart, DownloadPart>();
   const report = (name: CachedPart) => (loaded: number, total: number, cached: number) => {
@@ -78,20 +105,10 @@ export async function downloadParts(
     if (!reported) onCacheFailure(reason);
     reported = true;
   };
-  const graphs = GRAPHS.map((name) => manifest.graphs[name].files);
+  const graphs = GRAPHS.map((name) => manifest.graphs[name].files[provider]);
   const [runtime, model] = await Promise.all([
-    downloadRuntime(provider, scope, { onProgress: report('runtime'), onCacheFailure: reportOnce }),
-    download(
-      manifestUrl,
-      graphs.map((files) => files[provider]),
-      {
-        fetch: folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch),
-        store: folder ? undefined : fileStore(scope, 'model', manifest.id),
-        alsoKeep: graphs.flatMap((files) => Object.values(files).map(({ sha256 }) => sha256)),
-        onProgress: report('model'),
-        onCacheFailure: reportOnce,
-      },
-    ),
+    downloadRuntime(provider, place.scope, { onProgress: report('runtime'), onCacheFailure: reportOnce }),
+    downloadFiles(manifest, graphs, place, { onProgress: report('model'), onCacheFailure: reportOnce }),
   ]);
   return {
     graphs: Object.fromEntries(GRAPHS.map((name, i) => [name, model[i]])) as Record<GraphName, Uint8Array>,

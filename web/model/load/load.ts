@@ -4,7 +4,7 @@ import { goldenError, readGolden } from './golden';
 import { folderFetch, type ModelFolder, patientFetch } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
-import { type DownloadPart, downloadParts } from './assets';
+import { downloadFiles, type DownloadPart, downloadParts } from './assets';
 import { unitGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';
 import { decodeClip } from '../sample/decoder';
@@ -66,19 +66,6 @@ async function fetchManifest(url: string, get: typeof fetch, cache?: ResponseCac
   return parseManifest(json);
 }
 
-/** Metres by which a session's golden sampling differs from Python's; undefined for a model without one. */
-async function checkGolden(
-  manifest: Manifest,
-  session: ModelSession,
-  url: string,
-  get: typeof fetch,
-  cache?: ResponseCache,
-): Promise<number | undefined> {
-  if (manifest.golden === undefined) return undefined;
-  const bytes = await fetchLatest(new URL(manifest.golden.path, url).href, get, cache);
-  return goldenError(manifest, session, readGolden(bytes));
-}
-
 /** Runs each graph once on zeros: the first run compiles it, which would delay the first generation. */
 async function warmUp(manifest: Manifest, session: ModelSession): Promise<void> {
   const { latent, audio, skeleton } = manifest;
@@ -108,14 +95,13 @@ export async function loadModel(
   const cache = folder ? undefined : responseCache(scope);
   const manifest = await fetchManifest(manifestUrl, get, cache);
   onStatus({ kind: 'manifest', manifest });
+  const place = { manifestUrl, folder, scope };
   let backend = await chooseBackend(preference, environment(scope), threads);
   if (processorBecause !== undefined) backend = fallBackToWasm(backend, processorBecause);
 
   const open = async (provider: Provider): Promise<ModelSession> => {
     const { graphs, runtime } = await downloadParts(manifest, provider, {
-      manifestUrl,
-      folder,
-      scope,
+      ...place,
       onProgress: (parts) => {
         onStatus({ kind: 'download', parts });
       },
@@ -139,10 +125,11 @@ export async function loadModel(
     try {
       session = await open('webgpu');
       onStatus({ kind: 'check' });
-      const error = await checkGolden(manifest, session, manifestUrl, get, cache);
-      if (error !== undefined) onStatus({ kind: 'checked', error });
+      const [golden] = await downloadFiles(manifest, [manifest.golden], place);
+      const error = await goldenError(manifest, session, readGolden(golden!));
+      onStatus({ kind: 'checked', error });
       // Written so that NaN is a failure too.
-      if (error !== undefined && !(error <= GOLDEN_TOLERANCE)) {
+      if (!(error <= GOLDEN_TOLERANCE)) {
         failure = `The GPU's numbers differed from the reference by ${error.toPrecision(2)} m`;
       }
     } catch (error) {
@@ -159,7 +146,7 @@ export async function loadModel(
   }
   session ??= await open('wasm');
   // The golden check has warmed a GPU up.
-  if (backend.name === 'wasm' || manifest.golden === undefined) {
+  if (backend.name === 'wasm') {
     onStatus({ kind: 'warm-up' });
     await warmUp(manifest, session);
   }

@@ -2,13 +2,14 @@
 import { existsSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { goldenError } from '../../../../web/model/load/golden';
-import { openModel } from '../../support/open-model';
+import { openModel, otherFiles } from '../../support/open-model';
 
 const folder = new URL('../../../../web/public/models/salsa/', import.meta.url);
 
 describe.skipIf(!existsSync(folder))('the shipped model', () => {
-  it('dances as in Python, to a millimetre', async () => {
+  it('is the one its manifest lists, and dances as in Python, to a millimetre', async () => {
     const { manifest, session, golden } = await openModel(folder);
+    expect(otherFiles(folder, manifest)).toEqual([]);
     expect(await goldenError(manifest, session, golden)).toBeLessThan(1e-3);
     await session.release();
   }, 120_000);
