@@ -17,7 +17,7 @@ from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
 FORMAT, VERSION = "reactdance-model", 7
-LAYER_NAMES = ("coarse", "fine")
+LAYERS = ("coarse", "fine")
 ROLES = ("reactor", "leader")
 
 
@@ -34,11 +34,6 @@ class Card:
     reference_height: float  # metres, `body_height` of the leaders it was trained on
     unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
     reactor_height: float | None = None  # metres, `body_height` of the reactors beside those leaders
-
-
-def layer_names(layers: int) -> list[str]:
-    """coarse, fine; further residual layers, if a config asks for them, are fine_3, fine_4 ..."""
-    return [LAYER_NAMES[r] if r < len(LAYER_NAMES) else f"fine_{r + 1}" for r in range(layers)]
 
 
 def condition_field(model: Model) -> int:
@@ -77,7 +72,6 @@ def manifest(
     described by `onnx_files.describe_file`.
     """
     diffusion = model.diffusion
-    names = layer_names(model.denoiser.layers)
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -108,7 +102,7 @@ def manifest(
             "block": model.denoiser.config.block,
             "channels": model.denoiser.latent_width,
             "streams": list(STREAMS),
-            "layers": names,
+            "layers": list(LAYERS),
             "memory_width": model.denoiser.condition.memory_width,
             "receptive_field": {"condition": condition_field(model), "decode": RECEPTIVE_FIELD},
         },

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from export.golden import Scene, reference
 from export.golden import write as write_golden
-from export.manifest import Card, manifest
+from export.manifest import LAYERS, Card, manifest
 from export.onnx_files import describe, describe_file, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from export.weights import round_convolutions
@@ -33,8 +33,14 @@ class Options:
 def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
     """Graphs, golden tensors and manifest of the model with rounded convolutions into `folder`.
 
-    Raises ValueError for a model that is sampled with stitching or extrapolation, which the page does not have.
+    Raises ValueError for a model of other layers than the page steers, or that is sampled with stitching or
+    extrapolation, which the page does not have.
     """
+    if model.denoiser.layers != len(LAYERS):
+        raise ValueError(
+            f"a model with hfsq.layers {model.denoiser.layers} cannot be exported: the page steers two layers, "
+            f"{' and '.join(LAYERS)}; train one with hfsq.layers {len(LAYERS)}"
+        )
     if model.diffusion.stitching:
         raise ValueError(
             "a model with diffusion.stitching cannot be exported: the page samples blocks side by side, without "

@@ -83,6 +83,9 @@ def test_a_configuration_trains_samples_and_is_exported(
     for graph in graphs(model):
         if graph.name in exported:
             assert_exported(graph)
+    if hfsq.layers != 2:
+        with pytest.raises(ValueError, match=r"layers \d cannot be exported: the page steers two layers"):
+            write_model(model, tiny.CARD, tmp_path / "model", tiny.SCENE)
 
 
 def assert_exported(graph: Graph) -> None:

@@ -167,6 +167,9 @@ export type Manifest = v.InferOutput<typeof schema>;
 export type GraphName = keyof Manifest['graphs'];
 export type ManifestFile = v.InferOutput<typeof file>;
 
+/** Each has a fader, and weights in the golden sampling. */
+const LAYERS = ['coarse', 'fine'];
+
 export const GRAPHS: readonly GraphName[] = ['condition', 'step', 'decode'];
 
 const REEXPORT = 'Export the model again with this version of the project, or use the model it ships with.';
@@ -210,16 +213,19 @@ function check(manifest: Manifest): void {
         `for ${diffusion.train_steps} train steps.`,
     );
   }
+  if (!same(latent.layers, LAYERS)) {
+    throw new AppError(
+      'model-unsupported',
+      `The model has the residual layers ${latent.layers.join(', ')}; ` +
+        `this page steers models of two, ${LAYERS.join(' and ')}.`,
+      'Use a model that was trained with two residual layers, as the one that the page ships with.',
+    );
+  }
   const shapes = shapeProblem(manifest);
   if (shapes !== null) throw invalid(`The model's manifest ${shapes}.`);
   if (audio.sample_rate !== manifest.fps * audio.hop) {
     throw invalid(
       `The model's manifest has ${audio.sample_rate / audio.hop} feature frames a second for ${manifest.fps} motion frames.`,
-    );
-  }
-  if (latent.layers[0] !== 'coarse') {
-    throw invalid(
-      `The model's manifest begins "latent.layers" with "${latent.layers[0]}", not with "coarse".`,
     );
   }
   if (latent.block * Math.max(latent.stride, latent.layers.length * latent.channels) > MAX_BLOCK) {
@@ -255,7 +261,7 @@ function check(manifest: Manifest): void {
 /**
  * Check a parsed manifest.
  * @throws {AppError} `manifest-invalid` naming the first wrong field, `model-unsupported` for another format,
- * version or skeleton
+ * version, skeleton or number of layers
  */
 export function parseManifest(json: unknown): Manifest {
   const head = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);

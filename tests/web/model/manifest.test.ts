@@ -44,6 +44,21 @@ describe('parseManifest', () => {
     expect(failure(change).message).toContain(`declares ${words} as `);
   });
 
+  it('says that a model has more layers than the page steers', () => {
+    const error = failure((json) => {
+      const { step, decode } = json.graphs;
+      json.latent.layers.push('fine_3');
+      step.inputs['x']![2] = 3;
+      step.outputs['next']![2] = 3;
+      decode.inputs['latents']![1] = 3;
+      decode.inputs['gains']![1] = 3;
+    });
+    expect(error.code).toBe('model-unsupported');
+    expect(error.message).toBe(
+      'The model has the residual layers coarse, fine, fine_3; this page steers models of two, coarse and fine.',
+    );
+  });
+
   it('misses a tensor that the page feeds', () => {
     const error = failure((json) => void Reflect.deleteProperty(json.graphs.step.inputs, 'keep'));
     expect(error.message).toBe('The model\'s manifest has no "keep" of the graph "step" among its inputs.');
@@ -92,7 +107,8 @@ describe('parseManifest', () => {
       (json) => void Reflect.deleteProperty(json.golden, 'sha256'),
       'manifest-invalid',
     ],
-    ['another first layer', (json) => void (json.latent.layers[0] = 'rough'), 'manifest-invalid'],
+    ['another first layer', (json) => void (json.latent.layers[0] = 'rough'), 'model-unsupported'],
+    ['one layer', (json) => void json.latent.layers.pop(), 'model-unsupported'],
     [
       'a fader without a range',
       (json) => void Object.assign(json.guidance.music, { min: 2, max: 2 }),
