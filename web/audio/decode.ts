@@ -1,5 +1,4 @@
 import { AppError } from '../common/error';
-import { isMp3, mp3Duration } from './mp3';
 import { isPlaylist, PLAYLIST_HEAD_BYTES } from './playlist';
 
 /**
@@ -50,11 +49,8 @@ export async function decodeSong(file: Blob): Promise<DecodedSong> {
     );
   }
   const stated = await headerDuration(file);
-  if (!isMp3(head)) checkDuration(stated);
-  const bytes = await readBytes(file);
-  // What browsers say of an MP3 may be a guess, and several times too long.
-  if (stated > MAX_DURATION) checkDuration(mp3Duration(new Uint8Array(bytes)) || stated);
-  const buffer = await decode(bytes);
+  if (stated > MAX_DURATION) checkDuration((await countedDuration(file)) || stated);
+  const buffer = await decode(await readBytes(file));
   if (buffer.length === 0) {
     throw new AppError(
       'no-sound',
@@ -97,6 +93,21 @@ async function headerDuration(file: Blob): Promise<number> {
     element.removeAttribute('src');
     URL.revokeObjectURL(address);
   }
+}
+
+/**
+ * Duration by all packets of a file, seconds; 0 where they cannot be read. Of an MP3 without a table of contents browsers
+ * guess it from the first frames, several times too long where a song begins with silence.
+ */
+async function countedDuration(file: Blob): Promise<number> {
+  const { ALL_FORMATS, BlobSource, Input } = await import('mediabunny');
+  const input = new Input({ source: new BlobSource(file), formats: ALL_FORMATS });
+  return input
+    .computeDuration()
+    .catch(() => 0)
+    .finally(() => {
+      input.dispose();
+    });
 }
 
 async function readBytes(file: Blob): Promise<ArrayBuffer> {
