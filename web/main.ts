@@ -139,13 +139,10 @@ const services: Services = {
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
   openOffered: (file) => void openOffered(file, new URL('leaders/', document.baseURI), store, files),
   recordVideo: () => void video.record(),
-  rereadLeader: (options) => void files.rereadLeader(options),
+  rereadLeader: (source, options) => void files.rereadLeader(source, options),
   readAgain: files.readAgain,
-  inspectLeader: async () => {
-    const { refusedLeader, leader } = store.getState();
-    const { files, options } = refusedLeader ?? leader ?? { files: [], options: {} };
-    return inspectLeader({ files, options, remembered: rememberedJoints.read() });
-  },
+  inspectLeader: ({ files, options }) =>
+    inspectLeader({ files, options, remembered: rememberedJoints.read() }),
   playDemo: playback.playFromStart,
   generate: generation.generate,
   cancel: () => {

@@ -75,11 +75,7 @@ export class FileLoader implements Files {
     });
   }
 
-  async rereadLeader(options: ImportOptions): Promise<LoadedLeader | null> {
-    const { leader, refusedLeader } = this.store.getState();
-    const source = refusedLeader ?? leader;
-    if (!source) return null;
-    const { name, label, files } = source;
+  rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
     return this.runLeader({ name, label, files, options }, (read) => {
       this.putLeader(read);
     });

@@ -12,6 +12,7 @@ import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
 import type { AppState, ModelState } from '../store/state';
+import { leaderRefused } from '../store/actions/files';
 import { panelToggled } from '../store/actions/view';
 import { apply, type Store, watchAll } from '../store/store';
 
@@ -136,7 +137,7 @@ function offeredSelect(services: Services): HTMLSelectElement {
   return select;
 }
 
-/** Opens the panel in which joints, unit, axes and clip are set by hand. */
+/** Opens the panel in which joints, unit, axes and clip are set by hand: of the loaded leader, where there is one. */
 function importButton(store: Store): HTMLElement {
   return el('button', {
     class: 'btn ghost',
@@ -144,6 +145,7 @@ function importButton(store: Store): HTMLElement {
     attributes: { id: 'open-import', type: 'button' },
     on: {
       click: () => {
+        if (store.getState().leader) apply(store, leaderRefused(null));
         apply(store, panelToggled('import'));
       },
     },
@@ -164,7 +166,7 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
       on: {
         change: () => {
           const fps = select.value === '' ? undefined : Number(select.value);
-          services.rereadLeader({ ...leader.options, fps });
+          services.rereadLeader(leader, { ...leader.options, fps });
         },
       },
     },

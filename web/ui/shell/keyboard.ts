@@ -9,7 +9,7 @@ import type { AppState } from '../store/state';
 import { guidanceReset, seedRandomized, randomSeed } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { givenSet } from '../store/actions/files';
-import { problemClosed } from '../store/actions/notices';
+import { problemDismissed } from '../store/actions/notices';
 import { cameraSet, panelToggled, playbackSet, SPEEDS } from '../store/actions/view';
 import { regionEndSet, regionSet, zoomedBy, zoomSet } from '../store/actions/timeline';
 import { ZOOM_STEP } from '../timeline/zoom-control';
@@ -73,7 +73,7 @@ function flipsOnStage({ key, shiftKey }: KeyboardEvent, target: HTMLElement, sto
 /** Closes the problem or panel in front, or ends setting the "1", cancels the job, or removes the region; false if there is none of these. */
 function escape(store: Store, services: Services): boolean {
   const { problem, given, settingOne, openPanel, job, variations, playback } = store.getState();
-  if (problem) apply(store, problemClosed());
+  if (problem) apply(store, problemDismissed());
   else if (given) apply(store, givenSet(null));
   else if (settingOne) apply(store, settingOneSet(false));
   else if (openPanel) apply(store, panelToggled(openPanel));

@@ -2,9 +2,10 @@ import { RATES } from '../files/import-report';
 import { createDialogPlace } from '../widgets/dialog-place';
 import { el, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
+import type { LeaderSource } from '../store/reaction';
 import type { AppState, Problem } from '../store/state';
 import { apply, watch, type Store } from '../store/store';
-import { problemClosed } from '../store/actions/notices';
+import { problemClosed, problemDismissed } from '../store/actions/notices';
 import { panelToggled } from '../store/actions/view';
 
 /** A failure over the stage: what is wrong and what to do. Everything loaded before stays loaded. */
@@ -25,17 +26,14 @@ export const mountProblemDialog: Mount = (root, store, services) => {
 };
 
 function build(problem: Problem, state: AppState, store: Store, services: Services): HTMLElement {
-  const dismiss = (): void => {
-    apply(store, problemClosed());
-  };
-  const action = (text: string, kind: string, run: () => void): HTMLElement =>
+  const action = (text: string, kind: string, run: () => void, close = problemClosed): HTMLElement =>
     el('button', {
       class: `btn ${kind}`,
       text,
       attributes: { type: 'button' },
       on: {
         click: () => {
-          dismiss();
+          apply(store, close());
           run();
         },
       },
@@ -54,7 +52,9 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
     },
     el('h1', { attributes: { id: 'problem-title' } }, ...unbroken(problem.title)),
     el('p', { text: hintOf(problem, state), attributes: { id: 'problem-hint' } }),
-    NEEDS_RATE.has(problem.code) ? rateRow(dismiss, services) : null,
+    NEEDS_RATE.has(problem.code) && state.refusedLeader
+      ? rateRow(state.refusedLeader, store, services)
+      : null,
     el(
       'div',
       { class: 'actions' },
@@ -65,7 +65,7 @@ function build(problem: Problem, state: AppState, store: Store, services: Servic
             apply(store, panelToggled('import'));
           })
         : null,
-      action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined),
+      action(dismissLabel(problem, state), remedy ? 'ghost' : 'primary', () => undefined, problemDismissed),
     ),
   );
 }
@@ -87,14 +87,14 @@ export function hintOf(problem: Problem, state: Pick<AppState, 'autosave'>): str
 const NEEDS_RATE: ReadonlySet<string> = new Set(['bad-frame-time', 'too-few-frames']);
 
 /** The frame rate by hand; choosing one reads the file again. */
-function rateRow(dismiss: () => void, services: Services): HTMLElement {
+function rateRow(source: LeaderSource, store: Store, services: Services): HTMLElement {
   const select = el(
     'select',
     {
       on: {
         change: () => {
-          dismiss();
-          services.rereadLeader({ fps: Number(select.value) });
+          apply(store, problemClosed());
+          services.rereadLeader(source, { ...source.options, fps: Number(select.value) });
         },
       },
     },

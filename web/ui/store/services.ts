@@ -39,8 +39,8 @@ export interface Files {
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
-  /** Reads the leader on the page, or the one that was refused last, again with these options. */
-  readonly rereadLeader: (options: ImportOptions) => Promise<LoadedLeader | null>;
+  /** Reads a leader again that was loaded or refused, with other options. */
+  readonly rereadLeader: (source: LeaderSource, options: ImportOptions) => Promise<LoadedLeader | null>;
   /**
    * Reads a song without putting it on the page, under its name at once and in fact when `after` resolves; null when
    * that failed or a newer song cancelled it.
@@ -76,12 +76,12 @@ export interface Services {
   readonly openOffered: (file: string) => void;
   /** Records a leader with the webcam. */
   readonly recordVideo: () => void;
-  /** Reads the leader on the page, or the one that was refused last, again with what was set by hand. */
-  readonly rereadLeader: (options: ImportOptions) => void;
+  /** Reads a leader again that was loaded or refused, with what was set by hand. */
+  readonly rereadLeader: (source: LeaderSource, options: ImportOptions) => void;
   /** Reads the song or leader again whose reading failed last. */
   readonly readAgain: (kind: InputKind) => void;
-  /** The joints of the leader on the page, or of the one that was refused last; rejects where its file can't be read. */
-  readonly inspectLeader: () => Promise<Inspection>;
+  /** The joints of a leader that was loaded or refused; rejects where its file can't be read. */
+  readonly inspectLeader: (source: LeaderSource) => Promise<Inspection>;
   /** Plays the demo from its start. */
   readonly playDemo: () => void;
   /** Generates the reaction now, even if files and settings have not changed. */

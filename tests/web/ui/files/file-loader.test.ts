@@ -84,6 +84,31 @@ describe('reading files', () => {
     expect(store.getState().reading.leader).toBeNull();
   });
 
+  it('a refused leader can be read in another way, until the loaded one is kept', async () => {
+    const { readLeader } = readers;
+    await files.open([file('good.bvh', BVH)]);
+    readers.readLeader = () => Promise.reject(new AppError('bad-frame-time', 'No rate.', 'Choose one.'));
+    await files.open([file('broken.bvh', BVH)]);
+    const { leader, refusedLeader } = store.getState();
+    expect(refusedLeader?.name).toBe('broken.bvh');
+    change.apply(store, change.problemClosed());
+    expect(store.getState().refusedLeader, 'its remedies close the dialog').toBe(refusedLeader);
+    readers.readLeader = readLeader;
+    await files.rereadLeader(leader!, { fps: 60 });
+    expect(store.getState()).toMatchObject({ leader: { name: 'good.bvh' }, problem: null });
+    readers.readLeader = () => Promise.reject(new AppError('bad-frame-time', 'No rate.', 'Choose one.'));
+    await files.open([file('broken.bvh', BVH)]);
+    change.apply(store, change.problemDismissed());
+    expect(store.getState()).toMatchObject({ leader: { name: 'good.bvh' }, refusedLeader: null });
+  });
+
+  it('a refused leader stays to be read in another way where there is no other one', async () => {
+    readers.readLeader = () => Promise.reject(new AppError('bad-frame-time', 'No rate.', 'Choose one.'));
+    await files.open([file('broken.bvh', BVH)]);
+    change.apply(store, change.problemDismissed());
+    expect(store.getState().refusedLeader?.name).toBe('broken.bvh');
+  });
+
   it('reads a file again where the page and not the file failed', async () => {
     const { readLeader } = readers;
     readers.readLeader = () =>
@@ -166,9 +191,8 @@ describe('reading files', () => {
   });
 
   it('a leader is read again at another frame rate from its stored bytes', async () => {
-    expect(await files.rereadLeader({ fps: 60 })).toBeNull();
-    await files.openLeader(source('a.bvh', BVH, 'demo leader'));
-    await files.rereadLeader({ fps: 60 });
+    const loaded = await files.openLeader(source('a.bvh', BVH, 'demo leader'));
+    await files.rereadLeader(loaded!, { fps: 60 });
     expect(store.getState().leader).toMatchObject({
       name: 'a.bvh',
       label: 'demo leader',

@@ -37,11 +37,11 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
       const source = refusedLeader ?? leader;
       content.replaceChildren(el('p', { text: source ? 'Reading the joints…' : 'There is no leader yet.' }));
       if (!source) return;
-      const inspection = await services.inspectLeader().catch(() => null);
+      const inspection = await services.inspectLeader(source).catch(() => null);
       if (number !== opened) return;
       const reread = (options: ImportOptions): void => {
         apply(store, panelToggled('import'));
-        services.rereadLeader(options);
+        services.rereadLeader(source, options);
       };
       content.replaceChildren(...panelContent(inspection, source.options, remembered, reread));
     };

@@ -27,3 +27,11 @@ export function problemShown(problem: Problem): Change {
 export function problemClosed(): Change {
   return ({ queuedProblems: [next, ...rest] }) => ({ problem: next ?? null, queuedProblems: rest });
 }
+
+/** Closes the failure without its remedy: a leader that was refused is forgotten where another one stays. */
+export function problemDismissed(): Change {
+  return (state) => ({
+    ...problemClosed()(state),
+    ...(state.leader && state.problem?.refused?.kind === 'leader' && { refusedLeader: null }),
+  });
+}
