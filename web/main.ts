@@ -24,7 +24,7 @@ import { openGiven } from './ui/files/given-files';
 import { mountImportPanel } from './ui/files/joints/import-panel';
 import { RememberedJointsStorage } from './ui/files/joints/remembered';
 import { mountImportReport } from './ui/files/import-report';
-import { createModelLink } from './ui/files/model-link';
+import { ModelLink } from './ui/files/model-link';
 import { openOffered } from './ui/files/offered';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
@@ -74,7 +74,7 @@ import { mountVideoLane, VideoTrack } from './ui/video/video-lane';
 const store = createAppStore(systemTheme());
 syncPreferences(store, () => localStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
-const model = createModelLink(store, (onStatus, folder) =>
+const model: ModelLink = new ModelLink(store, (onStatus, folder) =>
   createGenerator({
     manifestUrl,
     folder: folder ?? undefined,

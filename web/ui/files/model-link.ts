@@ -7,97 +7,138 @@ import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/mode
 import { apply, type Store } from '../store/store';
 import { problemShown, noticeAdded } from '../store/actions/notices';
 
-export interface ModelLink {
-  /** The model when it is ready; rejects when this attempt to load it has failed. */
-  readonly generator: () => Promise<Generator>;
-  /** The manifest, which comes before the model's bytes; waits through failed attempts. */
-  readonly manifest: () => Promise<Manifest>;
-  /** Loads again after a failure. */
-  readonly retry: () => void;
-  /** Replaces the model by the visitor's own; false when that fails, which is reported, and the present one stays. */
-  readonly open: (folder: ModelFolder) => Promise<boolean>;
+/** Loads a model, from a folder or from the page's own address, and reports each status. */
+type Create = (
+  onStatus: (status: Status | ReloadFailure) => void,
+  folder: ModelFolder | null,
+) => Promise<Generator>;
+
+/** One attempt to load a model, and what it has come to. */
+interface Load {
+  /** The visitor's own model; null for the page's. */
+  readonly folder: ModelFolder | null;
+  state: ModelState;
 }
 
-/**
- * Loads the page's model, or one that the visitor opens, with its progress in the store.
- * @param create loads a model, from a folder or from the page's own address, and reports each status
- */
-export function createModelLink(
-  store: Store,
-  create: (
-    onStatus: (status: Status | ReloadFailure) => void,
-    folder: ModelFolder | null,
-  ) => Promise<Generator>,
-): ModelLink {
-  let resolveManifest: (manifest: Manifest) => void = () => undefined;
-  const manifest = new Promise<Manifest>((resolve) => {
-    resolveManifest = resolve;
+function newLoad(folder: ModelFolder | null): Load {
+  return { folder, state: { phase: 'loading', label: 'Finding the model', received: 0, total: 0 } };
+}
+
+/** Loads the page's model, or one that the visitor opens, with its progress in the store. */
+export class ModelLink {
+  #current = newLoad(null);
+  /** The visitor's own model that is to replace the current one; its progress is shown meanwhile. */
+  #opening: Load | null = null;
+  #generator: Promise<Generator>;
+  #resolveManifest: (manifest: Manifest) => void = () => undefined;
+  readonly #manifest = new Promise<Manifest>((resolve) => {
+    this.#resolveManifest = resolve;
   });
 
-  const fail = (error: unknown): void => {
-    const problem = modelProblem(error);
-    apply(store, modelChanged({ phase: 'failed', problem }));
-    apply(store, problemShown(problem));
-  };
-  const onStatus = (status: Status | ReloadFailure): void => {
-    if (status.kind === 'failed') fail(status.error);
-    else if (status.kind === 'manifest') {
-      if (!store.getState().manifest) apply(store, manifestLoaded(status.manifest, randomSeed()));
-      resolveManifest(status.manifest);
-    } else if (status.kind === 'notice') apply(store, noticeAdded(`${status.message} ${status.hint}`));
-    else apply(store, modelChanged(stateOf(status)));
-  };
-  const load = async (): Promise<Generator> => {
-    apply(store, modelChanged({ phase: 'loading', label: 'Finding the model', received: 0, total: 0 }));
-    // Other downloads may still report progress after one has failed.
-    let failed = false;
-    try {
-      return await usable(
-        create((status) => {
-          if (!failed) onStatus(status);
-        }, null),
-      );
-    } catch (error) {
-      failed = true;
-      fail(error);
-      throw error;
-    }
-  };
-  const begin = (): Promise<Generator> => {
-    const loading = load();
-    // The failure is reported above, and again to each caller of `generator`.
-    loading.catch(() => undefined);
-    return loading;
+  constructor(
+    private readonly store: Store,
+    private readonly create: Create,
+  ) {
+    this.#generator = this.#begin(null);
+  }
+
+  /** The model when it is ready; rejects when this attempt to load it has failed. */
+  readonly generator = (): Promise<Generator> => this.#generator;
+
+  /** The manifest, which comes before the model's bytes; waits through failed attempts. */
+  readonly manifest = (): Promise<Manifest> =>
+    Promise.resolve(this.store.getState().manifest ?? this.#manifest);
+
+  /** Loads the same model again after a failure. */
+  readonly retry = (): void => {
+    if (this.store.getState().model.phase === 'failed') this.#generator = this.#begin(this.#current.folder);
   };
 
-  let current = begin();
-  return {
-    generator: () => current,
-    manifest: () => Promise.resolve(store.getState().manifest ?? manifest),
-    retry: () => {
-      if (store.getState().model.phase === 'failed') current = begin();
-    },
-    open: async (folder) => {
-      const before = current;
-      const shown = store.getState().model;
-      try {
-        // The present model's manifest stays until the other one is ready.
-        const made = await usable(create((status) => status.kind !== 'manifest' && onStatus(status), folder));
-        current = Promise.resolve(made);
-        apply(store, modelOpened(made.manifest, randomSeed()));
-        resolveManifest(made.manifest);
-        before.then(
-          (old) => old.dispose(),
-          () => undefined,
-        );
-        return true;
-      } catch (error) {
-        apply(store, modelChanged(shown));
-        apply(store, problemShown(modelProblem(error)));
-        return false;
-      }
-    },
-  };
+  /**
+   * Replaces the model by the visitor's own; false when that fails, which is reported, or when another one is opened
+   * meanwhile: the present one stays.
+   */
+  async open(folder: ModelFolder): Promise<boolean> {
+    const load = (this.#opening = newLoad(folder));
+    let made: Generator;
+    try {
+      made = await this.#run(load);
+    } catch (error) {
+      if (load !== this.#opening) return false;
+      this.#opening = null;
+      this.#show();
+      apply(this.store, problemShown(modelProblem(error)));
+      return false;
+    }
+    if (load !== this.#opening) {
+      made.dispose();
+      return false;
+    }
+    const before = this.#generator;
+    this.#generator = Promise.resolve(made);
+    this.#current = load;
+    this.#opening = null;
+    apply(this.store, modelOpened(made.manifest, randomSeed()));
+    this.#resolveManifest(made.manifest);
+    before.then(
+      (old) => old.dispose(),
+      () => undefined,
+    );
+    return true;
+  }
+
+  #begin(folder: ModelFolder | null): Promise<Generator> {
+    this.#current = newLoad(folder);
+    const loading = this.#run(this.#current);
+    // The failure is reported by `#run`, and again to each caller of `generator`.
+    loading.catch(() => undefined);
+    return loading;
+  }
+
+  async #run(load: Load): Promise<Generator> {
+    // Other downloads may still report progress after one has failed.
+    let failed = false;
+    this.#show();
+    try {
+      const onStatus = (status: Status | ReloadFailure): void => {
+        if (!failed) this.#onStatus(load, status);
+      };
+      return await usable(this.create(onStatus, load.folder));
+    } catch (error) {
+      failed = true;
+      this.#fail(load, error);
+      throw error;
+    }
+  }
+
+  #onStatus(load: Load, status: Status | ReloadFailure): void {
+    // A model that has been replaced may still be loading.
+    if (load !== this.#current && load !== this.#opening) return;
+    if (status.kind === 'failed') this.#fail(load, status.error);
+    else if (status.kind === 'manifest') {
+      // The present model's manifest stays until the other one is ready.
+      if (load === this.#opening) return;
+      if (!this.store.getState().manifest) apply(this.store, manifestLoaded(status.manifest, randomSeed()));
+      this.#resolveManifest(status.manifest);
+    } else if (status.kind === 'notice') apply(this.store, noticeAdded(`${status.message} ${status.hint}`));
+    else {
+      load.state = stateOf(status);
+      this.#show();
+    }
+  }
+
+  #fail(load: Load, error: unknown): void {
+    if (load !== this.#current) return;
+    const problem = modelProblem(error);
+    load.state = { phase: 'failed', problem };
+    if (this.#opening) return;
+    this.#show();
+    apply(this.store, problemShown(problem));
+  }
+
+  #show(): void {
+    apply(this.store, modelChanged((this.#opening ?? this.#current).state));
+  }
 }
 
 /** A model by whose recipe the page can analyse songs. @throws {AppError} bad-recipe, or why there is no model */

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { AppError } from '../../../../web/common/error';
 import type { Generator, ModelFolder, ReloadFailure, Status } from '../../../../web/model/client';
-import { createModelLink } from '../../../../web/ui/files/model-link';
+import { ModelLink } from '../../../../web/ui/files/model-link';
 import type { LoadedSong } from '../../../../web/ui/store/reaction';
 import { createAppStore } from '../../../../web/ui/store/store';
 import { small } from '../../support/small-manifest';
@@ -17,7 +17,7 @@ function loading() {
     fail: (error: Error) => void;
     folder: ModelFolder | null;
   }[] = [];
-  const link = createModelLink(
+  const link = new ModelLink(
     store,
     (tell, folder) => new Promise((succeed, fail) => attempts.push({ tell, succeed, fail, folder })),
   );
@@ -146,6 +146,71 @@ describe('opening a model of the visitor', () => {
     expect({ ...after, problem: null }).toEqual(before);
     expect(await link.generator()).toBe(present);
     expect(isDisposed()).toBe(false);
+  });
+
+  it('loads the visitor’s own model again, and not the page’s, after it could not be loaded again', async () => {
+    const { store, link, attempts } = await danced();
+    const opened = link.open(folder);
+    const own = { manifest: other } as Generator;
+    attempts[1]?.succeed(own);
+    await opened;
+    attempts[1]?.tell({ kind: 'failed', error: new AppError('download-failed', 'It is gone.', 'Look.') });
+    expect(store.getState().model.phase).toBe('failed');
+    link.retry();
+    expect(attempts[2]?.folder).toBe(folder);
+    attempts[2]?.tell({ kind: 'manifest', manifest: other });
+    attempts[2]?.tell({ kind: 'ready', backend });
+    attempts[2]?.succeed(own);
+    expect(await link.generator()).toBe(own);
+    expect(store.getState()).toMatchObject({ manifest: other, model: { phase: 'ready' } });
+  });
+
+  it('shows what has become of the page’s model meanwhile, when it fails', async () => {
+    const { store, link, attempts } = loading();
+    attempts[0]?.tell({ kind: 'manifest', manifest: small });
+    const opened = link.open(folder);
+    attempts[1]?.tell({ kind: 'warm-up' });
+    attempts[0]?.tell({ kind: 'ready', backend });
+    attempts[0]?.succeed(generator);
+    await link.generator();
+    expect(store.getState().model).toMatchObject({ phase: 'loading', label: 'Warming up' });
+    attempts[1]?.fail(new AppError('model-mismatch', 'Not a model.', 'Take another folder.'));
+    expect(await opened).toBe(false);
+    expect(store.getState()).toMatchObject({
+      model: { phase: 'ready', reason: backend.reason },
+      problem: { code: 'model-mismatch' },
+    });
+  });
+
+  it('hears no more of the page’s model, which may still be loading or fail', async () => {
+    const { store, link, attempts } = loading();
+    const opened = link.open(folder);
+    attempts[1]?.tell({ kind: 'ready', backend });
+    attempts[1]?.succeed({ manifest: other } as Generator);
+    await opened;
+    const before = store.getState();
+    attempts[0]?.tell({ kind: 'manifest', manifest: small });
+    attempts[0]?.tell({ kind: 'warm-up' });
+    attempts[0]?.fail(new AppError('download-failed', 'Nothing has arrived.', 'Try again.'));
+    await new Promise((resolve) => setTimeout(resolve));
+    expect(store.getState()).toBe(before);
+  });
+
+  it('takes the folder that was given last', async () => {
+    const { store, link, attempts, present } = await danced();
+    const first = link.open(folder);
+    const second = link.open({ 'manifest.json': new Blob(['{ }']) });
+    let disposed = false;
+    const late = { manifest: small, dispose: () => void (disposed = true) } as Generator;
+    const made = { manifest: other } as Generator;
+    attempts[2]?.succeed(made);
+    expect(await second).toBe(true);
+    attempts[1]?.succeed(late);
+    expect(await first).toBe(false);
+    expect(disposed).toBe(true);
+    expect(await link.generator()).toBe(made);
+    expect(await link.generator()).not.toBe(present);
+    expect(store.getState().manifest).toBe(other);
   });
 
   it('removes a song that its audio recipe would analyse differently', async () => {
