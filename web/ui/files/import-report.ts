@@ -11,7 +11,7 @@ import { OFFERED_LEADERS } from './offered';
 import { isReading, notes } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
 import type { LoadedLeader, Reaction, Settings } from '../store/reaction';
-import type { AppState, ModelState } from '../store/state';
+import type { AppState } from '../store/state';
 import { leaderRefused } from '../store/actions/files';
 import { panelToggled } from '../store/actions/view';
 import { apply, type Store, watchAll } from '../store/store';
@@ -42,37 +42,40 @@ export const mountImportReport: Mount = (root, store, services) => {
       ...songFacts(state),
       ...leaderFacts(state, store, services),
       ...(state.reaction ? reactionFacts(state.reaction) : []),
-      ...(state.manifest ? modelFacts(state.manifest, state.model) : []),
+      ...(state.manifest ? modelFacts(state.manifest, backendReason(state)) : []),
     );
     list.replaceChildren(
       ...notes(state).map(({ text, isWarning }) => el('li', { text, class: isWarning ? 'warning' : '' })),
     );
     if (focused) document.getElementById(focused)?.focus();
   };
-  return combineDisposers(
-    watchAll(
-      store,
-      (state) => [
-        state.song,
-        state.shift,
-        state.countings,
-        state.leader,
-        state.refusedLeader,
-        ...isReading(state),
-        state.reaction,
-        state.manifest,
-        state.model,
-        state.notices,
-        state.autosave,
-        state.settings?.role,
-      ],
-      show,
-    ),
-    () => {
-      section.remove();
-    },
-  );
+  return combineDisposers(watchAll(store, reported, show), () => {
+    section.remove();
+  });
 };
+
+/** What the report is made of: it is made anew when one of these changes, which closes a list that is open in it. */
+export function reported(state: AppState): readonly unknown[] {
+  return [
+    state.song,
+    state.shift,
+    state.countings,
+    state.leader,
+    state.refusedLeader,
+    ...isReading(state),
+    state.reaction,
+    state.manifest,
+    backendReason(state),
+    state.notices,
+    state.autosave,
+    state.settings?.role,
+  ];
+}
+
+/** Where the model computes, and why; null until it is ready. */
+function backendReason({ model }: AppState): string | null {
+  return model.phase === 'ready' ? model.reason : null;
+}
 
 function group(className: string, name: string): HTMLElement {
   return el('dt', { class: `group ${className}` }, el('span', { class: 'dot' }), name);
@@ -205,11 +208,11 @@ function millimetres(metres: number): string {
   return `${(metres * 1000).toFixed(1)} mm`;
 }
 
-function modelFacts(manifest: Manifest, model: ModelState): HTMLElement[] {
+function modelFacts(manifest: Manifest, reason: string | null): HTMLElement[] {
   return [
     group('', 'Model'),
     ...fact('Name', manifest.name),
-    ...(model.phase === 'ready' ? fact('Runs on', model.reason) : []),
+    ...(reason === null ? [] : fact('Runs on', reason)),
     ...fact('From', manifest.attribution),
     ...manifest.notes.flatMap((note) => fact('Note', note)),
     ...fact('Software', licencesLink()),
