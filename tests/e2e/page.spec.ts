@@ -63,6 +63,18 @@ test('the keys do what the list of keys says', async ({ page }) => {
   await page.keyboard.press('r');
   expect(await app.read(({ settings }) => settings?.guidance['lower']?.['coarse'])).toBe(0);
 
+  // Arrows and Space belong to a choice.
+  await app.drop(bvh({ frames: 60, name: 'one.bvh' }), bvh({ frames: 60, name: 'two.bvh' }));
+  const [one, two] = ['one.bvh', 'two.bvh'].map((name) => page.getByRole('radio', { name }));
+  await expect(one!).toBeFocused();
+  await page.keyboard.press('ArrowDown');
+  await expect(two!).toBeChecked();
+  await page.keyboard.press('ArrowLeft');
+  await expect(one!).toBeChecked();
+  await page.keyboard.press('Space');
+  expect(await app.read(({ playback }) => [playback.time, playback.playing])).toEqual([0, false]);
+  await page.keyboard.press('Escape');
+
   // Digits and letters typed into the seed are the seed's.
   await page.getByRole('spinbutton', { name: 'Seed' }).fill('12');
   await page.keyboard.press('Enter');

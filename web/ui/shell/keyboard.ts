@@ -18,8 +18,8 @@ import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes'
 import { takeOnStage } from '../store/take';
 
 /**
- * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider that has the
- * focus; Space on a control that was reached by keyboard presses that control.
+ * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider or a choice that
+ * has the focus; Space sets a checkbox, and presses a button that was reached by keyboard.
  */
 export function mountKeyboard(store: Store, services: Services): () => void {
   let byPointer = true;
@@ -39,8 +39,10 @@ export function mountKeyboard(store: Store, services: Services): () => void {
       return;
     }
     if (target.matches('input[type="number"], input[type="text"], select, textarea')) return;
-    const ownsArrows = target.matches('input[type="range"], [role="radio"]');
+    const ownsArrows = target.matches('input[type="range"], input[type="radio"], [role="radio"]');
     if (/^(Arrow|Home|End|Page)/.test(event.key) && ownsArrows) return;
+    const isPressed = target.matches('input[type="checkbox"], input[type="radio"], summary');
+    if (event.key === ' ' && isPressed) return;
     if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
     if (press(event, store, services)) event.preventDefault();
   };
