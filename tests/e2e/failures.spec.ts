@@ -92,7 +92,10 @@ test.describe('files', () => {
       bvh({ frames: 60, name: 'leader.bvh' }),
     );
     await app.reaction('leader.bvh');
-    await expect(page.getByRole('list', { name: 'Notes' })).toContainText('The song is silent');
+    const note = page.getByRole('list', { name: 'Notes' }).getByText('The song is silent');
+    await expect(note).toBeVisible();
+    // A warning has a full dot, a remark a ring.
+    expect(await note.evaluate((item) => getComputedStyle(item, '::before').boxShadow)).toBe('none');
   });
 });
 
