@@ -176,8 +176,17 @@ test('a generation can be cancelled and repeated', async ({ page }) => {
   await expect(cancel).toBeVisible();
   await cancel.dispatchEvent('click');
   await app.until(({ job }) => job === null);
-  await page.getByRole('button', { name: 'Generate' }).click();
+  const generate = page.getByRole('button', { name: 'Generate' });
+  await generate.press('Enter');
+  await expect(cancel).toBeVisible();
+  await cancel.focus();
+  await cancel.press('Enter');
+  await expect(generate).toBeFocused();
+  // Nothing is said to be ready: no partner has been made.
+  await expect(page.getByRole('status').getByText(/reactor is/)).toHaveCount(0);
+  await generate.click();
   await app.reaction('very long.bvh');
+  await expect(page.getByText('The reactor is ready.')).toBeAttached();
 });
 
 test('the dance is as long as the leader: the rest of a longer song is not used', async ({ page }) => {

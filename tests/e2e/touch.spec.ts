@@ -96,6 +96,9 @@ test('two fingers zoom stage and timeline, and the page does not scroll', async 
     await expect(page.getByRole('grid', { name: 'Takes' })).toBeVisible();
     await door.tap();
     await expect(page.getByRole('grid', { name: 'Takes' })).toBeHidden();
+    await door.tap();
+    await page.getByRole('button', { name: 'Close' }).tap();
+    await expect(door).toBeFocused();
   });
 
   await test.step('a swipe over the timeline scrolls and moves no playhead', async () => {

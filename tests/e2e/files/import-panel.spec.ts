@@ -79,6 +79,11 @@ test('joints of a refused file are chosen, exchanged, remembered and forgotten',
   await app.until(({ leader }) => leader?.file.report.joints.left_knee === 'b1');
   await expect(page.getByRole('list', { name: 'Notes' })).toContainText('The feet point backwards');
 
+  await openPanel();
+  await panel.getByRole('button', { name: 'Close' }).click();
+  await expect(panel).toBeHidden();
+  await expect(page.getByRole('button', { name: 'Joints and units' })).toBeFocused();
+
   // Another visit, another file of the same skeleton.
   await app.openWithoutPicture();
   await app.settled();
@@ -90,6 +95,9 @@ test('joints of a refused file are chosen, exchanged, remembered and forgotten',
   await panel.getByRole('button', { name: 'As found' }).click();
   await expect(app.alert).toHaveAttribute('data-code', 'missing-joints');
   expect(await app.read(({ leader }) => leader?.name)).toBe('again.bvh');
+
+  await app.alert.getByRole('button', { name: 'Keep again.bvh' }).click();
+  expect(await app.read(({ refusedLeader }) => refusedLeader)).toBeNull();
 });
 
 test('a leader of the page needs no file, on the first visit and later', async ({ page }) => {

@@ -18,10 +18,15 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   await app.openWithoutPicture();
   await app.settled();
   const before = await app.read(({ leader }) => leader?.name);
-  await page.getByRole('button', { name: 'Use the camera' }).click();
+  const opener = page.getByRole('button', { name: 'Use the camera' });
+  await opener.click();
   const dialog = page.getByRole('dialog', { name: 'Record with the camera' });
   const picture = dialog.getByLabel('Picture of the camera');
   await expect.poll(() => picture.evaluate((video: HTMLVideoElement) => video.videoWidth)).toBeGreaterThan(0);
+  await page.keyboard.press('Escape');
+  await expect(dialog).toBeHidden();
+  await expect(opener).toBeFocused();
+  await opener.click();
   await dialog.getByRole('button', { name: 'Record' }).click();
   await expect(dialog.getByRole('status')).toHaveText('3');
   await expect(dialog.getByRole('status')).toHaveText(/Recording, 1 of at most 120 s/);

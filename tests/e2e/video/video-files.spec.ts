@@ -91,7 +91,7 @@ test('of several people the largest is followed, and another one who is clicked'
   await app.settled();
   await app.drop({ name: 'two.webm', mimeType: 'video/webm', buffer });
   const panel = page.getByRole('region', { name: 'Video of the leader' });
-  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
   /** Where the skeleton is drawn, as a share of the picture's width. */
   const skeletonAt = (): Promise<number> =>
     panel.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
@@ -117,12 +117,12 @@ test('of several people the largest is followed, and another one who is clicked'
   await expect(panel.getByRole('progressbar')).toBeVisible();
   // Cancelled, the person who was followed before is there as they were.
   await panel.getByRole('button', { name: 'Cancel' }).click();
-  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   await expect.poll(skeletonAt).toBeLessThan(0.5);
   await panel.getByRole('button', { name: 'Follow another person' }).click();
   await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
   await expect(panel.getByRole('progressbar')).toBeVisible();
-  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible({ timeout: 60_000 });
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
   await expect.poll(skeletonAt).toBeGreaterThan(0.5);
   await panel.getByRole('button', { name: 'Close' }).click();
   await app.until(({ covered }) => covered === 0);

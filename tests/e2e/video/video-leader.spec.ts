@@ -53,7 +53,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
 
   await drop();
   await app.reaction('dance.webm');
-  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   const lane = page.getByRole('img', { name: /The video dance.webm; confidence over 4\.\d s of dance/ });
   await expect(lane).toBeVisible();
   // The camera has the couple in the middle of what the panel leaves free.
@@ -67,6 +67,14 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(reactor.length / 66).toBeGreaterThan(135);
   expect(reactor.every(Number.isFinite)).toBe(true);
 
+  // By keyboard too.
+  await panel.getByText('Correct the motion').press('Space');
+  await expect(panel.getByLabel('Height of the dancer')).toBeVisible();
+  await panel.getByText('Correct the motion').press('Space');
+  await panel.getByLabel('Skeleton over the video').press('Space');
+  await expect(panel.getByLabel('Skeleton over the video')).not.toBeChecked();
+  expect(await app.read(({ playback }) => playback.playing)).toBe(false);
+
   // Its sound is the song after one click.
   await panel.getByRole('button', { name: 'Use its sound as the song' }).click();
   await app.until(({ reaction }) => reaction?.inputs.song?.name === 'dance.webm');
@@ -78,7 +86,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
 
   await page.getByRole('button', { name: 'Download', exact: true }).click();
   await page.getByRole('radio', { name: /As on stage/ }).click();
-  await page.getByRole('checkbox', { name: 'Show the leader’s video beside it' }).check();
+  await page.getByRole('checkbox', { name: 'Show the leader’s video beside it' }).press('Space');
   const coming = page.waitForEvent('download');
   await page.getByRole('button', { name: 'Save video' }).click();
   const [left, right] = await halvesOf(page, await (await coming).path());
@@ -94,6 +102,6 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   });
   await expect(app.alert).toHaveAttribute('data-code', 'not-a-video');
   expect(await app.read(({ leader }) => leader?.name)).toBe('dance.webm');
-  await expect(panel.getByText(/The dancer is the leader now/)).toBeVisible();
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   await expect(lane).toBeVisible();
 });

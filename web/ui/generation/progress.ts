@@ -1,7 +1,7 @@
 import { generatedRole, roleName } from '../store/roles';
-import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, rememberFocus, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { jobText } from '../store/selectors';
-import type { Mount } from '../store/services';
+import type { Mount, Services } from '../store/services';
 import type { AppState } from '../store/state';
 import { watchAll } from '../store/store';
 
@@ -25,20 +25,7 @@ export const mountProgress: Mount = (root, store, services) => {
     },
     fill,
   );
-  const cancel = el(
-    'button',
-    {
-      class: 'btn tint',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.cancel();
-        },
-      },
-    },
-    'Cancel ',
-    el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
-  );
+  const cancel = createCancel(services);
   const title = el('b');
   const box = el('div', { class: 'float progress' }, el('span', {}, title, stageText), meter, cancel);
   box.hidden = true;
@@ -47,14 +34,32 @@ export const mountProgress: Mount = (root, store, services) => {
   root.append(box, spoken);
 
   let timer: ReturnType<typeof setTimeout> | null = null;
+  /** What was on the stage when the job began. */
+  let before: AppState['reaction'] = null;
+  let giveBackFocus = rememberFocus();
+  const end = (state: AppState): void => {
+    if (timer === null) return;
+    clearTimeout(timer);
+    timer = null;
+    const isMade = !box.hidden && state.reaction !== null && state.reaction !== before;
+    before = null;
+    const giveBack = giveBackFocus;
+    setText(spoken, isMade ? `The ${generatedRole(state)} is ready.` : '');
+    // Not before the button that began the job is enabled again.
+    queueMicrotask(() => {
+      giveBack(box);
+      box.hidden = true;
+    });
+  };
   const show = (state: AppState): void => {
     const { job } = state;
     if (!job) {
-      if (timer !== null) clearTimeout(timer);
-      timer = null;
-      if (spoken.textContent) setText(spoken, state.reaction ? `The ${generatedRole(state)} is ready.` : '');
-      box.hidden = true;
+      end(state);
       return;
+    }
+    if (timer === null) {
+      before = state.reaction;
+      giveBackFocus = rememberFocus();
     }
     timer ??= setTimeout(() => {
       box.hidden = false;
@@ -75,3 +80,20 @@ export const mountProgress: Mount = (root, store, services) => {
     },
   );
 };
+
+function createCancel(services: Services): HTMLElement {
+  return el(
+    'button',
+    {
+      class: 'btn tint',
+      attributes: { type: 'button' },
+      on: {
+        click: () => {
+          services.cancel();
+        },
+      },
+    },
+    'Cancel ',
+    el('kbd', { text: 'Esc', attributes: { 'aria-hidden': 'true' } }),
+  );
+}

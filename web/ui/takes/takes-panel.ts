@@ -1,6 +1,6 @@
 import { textButton } from '../widgets/button';
 import { closeButton } from '../widgets/close-button';
-import { el, listen, setText, combineDisposers } from '../widgets/dom';
+import { el, listen, setText, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -74,14 +74,7 @@ export const mountTakes: Mount = (root, store, services) => {
         list.reveal(takeOnStage(state)?.id);
       },
     ),
-    watch(
-      store,
-      (state) => state.openPanel === 'takes',
-      (open) => {
-        section.classList.toggle('open', open);
-        if (open) close.focus();
-      },
-    ),
+    watchSheet(section, close, store),
     closeOutside(section, store),
     undo,
     () => {
@@ -90,6 +83,21 @@ export const mountTakes: Mount = (root, store, services) => {
     },
   );
 };
+
+/** Opens and closes the sheet of the phone; returns a function that stops it. */
+function watchSheet(section: HTMLElement, close: HTMLElement, store: Store): () => void {
+  let giveBackFocus = rememberFocus();
+  return watch(
+    store,
+    (state) => state.openPanel === 'takes',
+    (open) => {
+      if (open) giveBackFocus = rememberFocus();
+      else giveBackFocus(section);
+      section.classList.toggle('open', open);
+      if (open) close.focus();
+    },
+  );
+}
 
 /** Closes the sheet of the phone. */
 function createPhoneClose(store: Store): HTMLButtonElement {

@@ -3,7 +3,7 @@ import type { Services } from '../store/services';
 import type { Store } from '../store/store';
 import { textButton } from '../widgets/button';
 import { closeButton } from '../widgets/close-button';
-import { el, setText } from '../widgets/dom';
+import { el, listen, rememberFocus, setText } from '../widgets/dom';
 
 /** Seconds between the click and the recording: time to walk to one's place. */
 const COUNTDOWN = 5;
@@ -37,6 +37,7 @@ export async function recordCamera(
   let begin: () => void = () => undefined;
   const started = new Promise<void>((resolve) => (begin = resolve));
   const start = textButton('btn primary', 'Record', () => {
+    closing.focus();
     start.hidden = true;
     begin();
   });
@@ -48,19 +49,28 @@ export async function recordCamera(
     cancelled.abort();
     begin();
   };
+  const closing = closeButton(close);
   const dialog = el(
     'section',
     {
       class: 'float video-panel camera',
       attributes: { role: 'dialog', 'aria-label': 'Record with the camera' },
     },
-    el('div', { class: 'head' }, el('h2', { text: 'Record a leader' }), closeButton(close)),
+    el('div', { class: 'head' }, el('h2', { text: 'Record a leader' }), closing),
     el('div', { class: 'frame' }, video),
     status,
     el('div', { class: 'reading' }, start, stop),
   );
+  const giveBackFocus = rememberFocus();
   host.append(dialog);
   start.focus();
+  // Before the keys of the page, which would cancel something behind the dialog.
+  const onKey = (event: KeyboardEvent): void => {
+    if (event.key !== 'Escape' || store.getState().problem) return;
+    event.stopPropagation();
+    close();
+  };
+  const removeListener = listen(window, 'keydown', onKey, { capture: true });
   try {
     await video.play();
     await started;
@@ -74,6 +84,8 @@ export async function recordCamera(
     return await record(stream, { store, playback, status, done: done.signal, cancelled: cancelled.signal });
   } finally {
     for (const track of stream.getTracks()) track.stop();
+    removeListener();
+    giveBackFocus(dialog);
     dialog.remove();
   }
 }

@@ -23,7 +23,9 @@ export interface PanelActions {
 export class VideoPanel {
   readonly #root: HTMLElement;
   readonly #picture: VideoPicture;
-  readonly #status = el('p', { class: 'status', attributes: { role: 'status' } });
+  readonly #status = el('p', { class: 'status' });
+  /** Without the progress, which changes several times a second. */
+  readonly #spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   readonly #fill = el('i');
   readonly #meter: HTMLElement;
   readonly #cancel: HTMLButtonElement;
@@ -60,6 +62,7 @@ export class VideoPanel {
       el('div', { class: 'head' }, el('h2', { text: file.name }), closeButton(actions.close)),
       // Above the picture, which may reach below the edge of a low window.
       this.#status,
+      this.#spoken,
       el('div', { class: 'reading' }, this.#meter, this.#cancel),
       this.#advice,
       this.#sound,
@@ -74,7 +77,7 @@ export class VideoPanel {
   showReading(): void {
     this.#reading(true);
     this.#begun = this.#part = 0;
-    setText(this.#status, 'Opening the video');
+    this.#say('Opening the video');
     this.#progress(0);
   }
 
@@ -91,7 +94,7 @@ export class VideoPanel {
         return;
       case 'persons':
         this.#picture.showPersons(report);
-        setText(this.#status, 'Several people: the largest is followed. Click another one to follow them.');
+        this.#say('Several people: the largest is followed. Click another one to follow them.');
         return;
       case 'picture':
         this.#picture.showRead(report.image, report.landmarks);
@@ -138,8 +141,7 @@ export class VideoPanel {
     this.#controls.setCamera(motion.camera);
     const sure = motion.confidence.reduce((sum, value) => sum + Number(value >= UNSURE), 0);
     const share = Math.round((100 * sure) / Math.max(1, motion.confidence.length));
-    setText(
-      this.#status,
+    this.#say(
       `The dancer is the leader now; ${share} % of the frames are clearly seen.` +
         (this.#hasSound ? '' : ' The video has no sound.'),
     );
@@ -168,6 +170,11 @@ export class VideoPanel {
     this.#meter.hidden = this.#cancel.hidden = !on;
     this.#controls.root.hidden = on;
     this.#sound.hidden = on || !this.#hasSound || this.#soundUsed;
+  }
+
+  #say(text: string): void {
+    setText(this.#status, text);
+    setText(this.#spoken, text);
   }
 
   #progress(share: number): void {

@@ -1,3 +1,5 @@
+import { rememberFocus } from './dom';
+
 /** A place for one dialog at a time, which takes the focus and gives it back. */
 export interface DialogPlace {
   /**
@@ -12,19 +14,18 @@ export interface DialogPlace {
 /** @param root element that dialogs are shown in */
 export function createDialogPlace(root: HTMLElement): DialogPlace {
   let shown: HTMLElement | null = null;
-  let before: Element | null = null;
+  let giveBackFocus = rememberFocus();
 
   const close = (): void => {
     if (!shown) return;
-    const inside = shown.contains(document.activeElement);
+    giveBackFocus(shown);
     shown.remove();
     shown = null;
-    if (inside && before instanceof HTMLElement && before.isConnected) before.focus();
   };
   return {
     show: (dialog, first) => {
       close();
-      before = document.activeElement;
+      giveBackFocus = rememberFocus();
       shown = dialog;
       root.append(dialog);
       dialog.querySelector<HTMLElement>(first)?.focus();

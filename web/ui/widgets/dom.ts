@@ -44,6 +44,20 @@ export function setVariable(element: HTMLElement, name: `--${string}`, value: nu
   element.style.setProperty(name, String(Math.round(value * 1e5) / 1e5));
 }
 
+/**
+ * Remembers what has the focus, for a panel that opens.
+ * @returns gives the focus back when the panel closes, if it is inside; to be called before the panel is hidden
+ */
+export function rememberFocus(): (panel: HTMLElement) => void {
+  const before = document.activeElement;
+  return (panel) => {
+    if (!before || !panel.contains(document.activeElement)) return;
+    // What has been made anew meanwhile has the same id.
+    const there = before.isConnected ? before : document.getElementById(before.id);
+    if (there instanceof HTMLElement) there.focus();
+  };
+}
+
 /** Combines several disposers into one. */
 export function combineDisposers(...disposers: (() => void)[]): () => void {
   return () => {
