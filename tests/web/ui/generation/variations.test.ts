@@ -29,6 +29,13 @@ describe('three variations', () => {
     variations.make();
     await pass();
   };
+  const pickFirst = async (): Promise<void> => {
+    await answer(0);
+    await make();
+    await choose(8, 10, 11);
+    await answer(1);
+    variations.pick(8);
+  };
 
   beforeEach(async () => {
     vi.useFakeTimers();
@@ -99,11 +106,7 @@ describe('three variations', () => {
   });
 
   it('set their settings when they are picked, and nothing is made again', async () => {
-    await answer(0);
-    await make();
-    await choose(8, 10, 11);
-    await answer(1);
-    variations.pick(8);
+    await pickFirst();
     await pass();
     const { reaction, settings, job } = store.getState();
     expect([reaction?.inputs.settings.seed, settings?.seed, job]).toEqual([8, 8, null]);
@@ -119,11 +122,7 @@ describe('three variations', () => {
   });
 
   it('take over a reaction that is there already', async () => {
-    await answer(0);
-    await make();
-    await choose(8, 10, 11);
-    await answer(1);
-    variations.pick(8);
+    await pickFirst();
     const { leader: first, settings } = store.getState();
     change.apply(store, change.leaderLoaded(leader(60, 'other.bvh')));
     await pass();
@@ -171,11 +170,7 @@ describe('three variations', () => {
   });
 
   it('are dropped when another model comes, which takes over no take of the one before', async () => {
-    await answer(0);
-    await make();
-    await choose(8, 10, 11);
-    await answer(1);
-    variations.pick(8);
+    await pickFirst();
     await pass();
     change.apply(store, change.modelOpened({ ...small, id: 'other' }, 7));
     expect(store.getState().variations).toBeNull();
