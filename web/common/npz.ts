@@ -9,6 +9,8 @@ export interface NpzArray {
 /** An array whose header was read, and whose values are when they are asked for. */
 export interface StoredArray {
   readonly shape: readonly number[];
+  /** NumPy's name of the values' type: `<f4` for little-endian floats of four bytes. */
+  readonly type: string;
   /** @throws what `damaged` makes, where the values cannot be read */
   read(): NpzArray;
 }
@@ -74,8 +76,8 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
   const shape = readShape(header);
   const wrongSize = () => damaged(`The array "${name}" does not have the size that its header states.`);
   if (!shape) throw wrongSize();
+  const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
   const readValues = (): NpzArray => {
-    const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
     const read = READERS[type];
     const itemBytes = ITEM_BYTES[type];
     if (read === undefined || itemBytes === undefined)
@@ -87,7 +89,7 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
       throw damaged(`The array "${name}" holds a value that is not a finite number.`);
     return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
   };
-  return { shape, read: readValues };
+  return { shape, type, read: readValues };
 }
 
 /**

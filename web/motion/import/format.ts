@@ -45,12 +45,16 @@ function isOtherFile(text: string): boolean {
   );
 }
 
-/** Endings of files that belong to another file: of its name, else of its first word, else whatever its name. */
-const COMPANIONS: readonly (readonly [RegExp, RegExp])[] = [
-  [/\.amc$/i, /\.asf$/i],
-  [/\.vrma$/i, /\.vrm$/i],
-  [/\.gltf$/i, /\.bin$/i],
-];
+/**
+ * Endings of files that belong to another file: of its name, else, where one of them is enough, of its first word, else
+ * whatever its name.
+ */
+const COMPANIONS: readonly { readonly motion: RegExp; readonly companion: RegExp; readonly one: boolean }[] =
+  [
+    { motion: /\.amc$/i, companion: /\.asf$/i, one: true },
+    { motion: /\.vrma$/i, companion: /\.vrm$/i, one: true },
+    { motion: /\.gltf$/i, companion: /\.bin$/i, one: false },
+  ];
 
 const stemOf = ({ name }: { readonly name: string }): string => name.replace(/\.\w+$/, '').toLowerCase();
 
@@ -65,11 +69,11 @@ const startsWithWord = (name: string, word: string): boolean =>
 export function groupCompanions<T extends { readonly name: string }>(files: readonly T[]): T[][] {
   const taken = new Set<T>();
   const groups = files.map((file): T[] => {
-    const [, companion] = COMPANIONS.find(([motion]) => motion.test(file.name)) ?? [];
+    const rule = COMPANIONS.find(({ motion }) => motion.test(file.name));
     const stem = stemOf(file);
-    const others = companion ? files.filter((other) => companion.test(other.name)) : [];
+    const others = rule ? files.filter((other) => rule.companion.test(other.name)) : [];
     const named = others.filter((other) => other.name.toLowerCase().startsWith(`${stem}.`));
-    const begun = others.filter((other) => startsWithWord(stem, stemOf(other)));
+    const begun = others.filter((other) => rule?.one && startsWithWord(stem, stemOf(other)));
     const mine = [named, begun].find((some) => some.length > 0) ?? others;
     for (const other of mine) taken.add(other);
     return [file, ...mine];

@@ -107,6 +107,9 @@ export class ModelLink {
     } catch (error) {
       failed = true;
       this.#fail(load, error);
+      // Its callers are not told of a failure that is not shown.
+      if (this.#opening && load !== this.#opening)
+        throw new DOMException('Another model is opened.', 'AbortError');
       throw error;
     }
   }

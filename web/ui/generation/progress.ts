@@ -34,15 +34,14 @@ export const mountProgress: Mount = (root, store, services) => {
   root.append(box, spoken);
 
   let timer: ReturnType<typeof setTimeout> | null = null;
-  /** What was on the stage when the job began. */
-  let before: AppState['reaction'] = null;
+  /** The reactions that were there when the job began. */
+  let before: readonly unknown[] = [];
   let giveBackFocus = rememberFocus();
   const end = (state: AppState): void => {
     if (timer === null) return;
     clearTimeout(timer);
     timer = null;
-    const isMade = !box.hidden && state.reaction !== null && state.reaction !== before;
-    before = null;
+    const isMade = !box.hidden && state.reaction !== null && !before.includes(state.reaction);
     const giveBack = giveBackFocus;
     setText(spoken, isMade ? `The ${generatedRole(state)} is ready.` : '');
     // Not before the button that began the job is enabled again.
@@ -58,7 +57,10 @@ export const mountProgress: Mount = (root, store, services) => {
       return;
     }
     if (timer === null) {
-      before = state.reaction;
+      before = [
+        state.reaction,
+        ...[...state.takes, ...(state.variations?.list ?? [])].map((made) => made.reaction),
+      ];
       giveBackFocus = rememberFocus();
     }
     timer ??= setTimeout(() => {

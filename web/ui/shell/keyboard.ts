@@ -41,8 +41,8 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (target.matches('input[type="number"], input[type="text"], select, textarea')) return;
     const ownsArrows = target.matches('input[type="range"], input[type="radio"], [role="radio"]');
     if (/^(Arrow|Home|End|Page)/.test(event.key) && ownsArrows) return;
-    const isPressed = target.matches('input[type="checkbox"], input[type="radio"], summary');
-    if (event.key === ' ' && isPressed) return;
+    const ownsSpace = target.matches('input[type="checkbox"], input[type="radio"], summary');
+    if (event.key === ' ' && ownsSpace) return;
     if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
     if (press(event, store, services)) event.preventDefault();
   };

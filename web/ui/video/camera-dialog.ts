@@ -37,7 +37,8 @@ export async function recordCamera(
   let begin: () => void = () => undefined;
   const started = new Promise<void>((resolve) => (begin = resolve));
   const start = textButton('btn primary', 'Record', () => {
-    closing.focus();
+    // Not a button, which another Enter would press.
+    dialog.focus();
     start.hidden = true;
     begin();
   });
@@ -54,7 +55,7 @@ export async function recordCamera(
     'section',
     {
       class: 'float video-panel camera',
-      attributes: { role: 'dialog', 'aria-label': 'Record with the camera' },
+      attributes: { role: 'dialog', 'aria-label': 'Record with the camera', tabindex: -1 },
     },
     el('div', { class: 'head' }, el('h2', { text: 'Record a leader' }), closing),
     el('div', { class: 'frame' }, video),
@@ -64,9 +65,11 @@ export async function recordCamera(
   const giveBackFocus = rememberFocus();
   host.append(dialog);
   start.focus();
-  // Before the keys of the page, which would cancel something behind the dialog.
+  // Before the keys of the page, which would cancel something behind the dialog, but after what is in front of it.
   const onKey = (event: KeyboardEvent): void => {
-    if (event.key !== 'Escape' || store.getState().problem) return;
+    const { problem, given, openPanel } = store.getState();
+    if (event.key !== 'Escape' || problem || given || openPanel) return;
+    if (document.querySelector(':popover-open') || event.target instanceof HTMLInputElement) return;
     event.stopPropagation();
     close();
   };

@@ -1,3 +1,4 @@
+import { strToU8, unzipSync, zipSync } from 'fflate';
 import { AnimationMixer, Vector3 } from 'three';
 import { FBXLoader } from 'three/addons/loaders/FBXLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -137,6 +138,37 @@ describe('arrays and tables of joints', () => {
     expect(worstMillimetres(await read({ part: 1 }, ['a.npz', couple]), joints)).toBeLessThan(WORST);
     const alone = writeArchive({ joints: gap, fps });
     await expect(read({}, ['a.npz', alone])).rejects.toThrow(/not a finite number/);
+  });
+
+  test('NPZ with a mask, a text and a frame rate of another type beside the joints', async () => {
+    const data = positionsOf(joints, SMPL22);
+    const files = unzipSync(writeArchive({ joints: { shape: [40, 22, 3], data } }));
+    const ofType = (type: string, shape: string, size: number): Uint8Array => {
+      const header = strToU8(`{'descr': '${type}', 'fortran_order': False, 'shape': ${shape}, }`);
+      return Uint8Array.of(
+        ...strToU8('\u0093NUMPY', true),
+        1,
+        0,
+        header.length,
+        0,
+        ...header,
+        ...new Uint8Array(size),
+      );
+    };
+    const bytes = zipSync({
+      'a_valid.npy': ofType('|b1', '(40, 22, 3)', 2640),
+      'fps.npy': ofType('|u1', '()', 1),
+      'about.json': strToU8('{}'),
+      ...files,
+    });
+    const file = await read({}, ['a.npz', bytes]);
+    expect(worstMillimetres(file, joints)).toBeLessThan(WORST);
+    expect(file.report.remarks.join()).toContain('no frame rate');
+  });
+
+  test('NPZ whose joints are named poses, without a place beside them', async () => {
+    const poses = { shape: [40, 22, 3], data: positionsOf(joints, SMPL22) };
+    expect(worstMillimetres(await read({}, ['a.npz', writeArchive({ poses })]), joints)).toBeLessThan(WORST);
   });
 
   test.each([
@@ -456,6 +488,22 @@ describe('glTF and VRM', () => {
     expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0 });
     const pose = changedGlb(bytes, ({ animations }) => animations.splice(2));
     await expect(read({}, ['a.glb', pose])).rejects.toMatchObject({ code: 'too-few-frames' });
+  });
+
+  test('a damaged clip beside others is not among the clips', async () => {
+    const bytes = changedGlb(writeGlb(dance, { clips: ['dance', 'still'] }), ({ animations }) => {
+      const { samplers, channels } = animations[0]!;
+      animations.unshift({
+        name: 'damaged',
+        samplers: samplers.map((one) => ({ ...one, output: 9999 })),
+        channels,
+      });
+    });
+    const file = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0 });
+    const alone = changedGlb(bytes, ({ animations }) => animations.splice(1));
+    await expect(read({}, ['a.glb', alone])).rejects.toMatchObject({ code: 'unreadable-file' });
   });
 
   test('a mesh with the name of a joint, as Blender writes it before the bones', async () => {

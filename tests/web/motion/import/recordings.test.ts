@@ -54,6 +54,9 @@ describe('AMC with ASF', () => {
     ]);
     const [only] = groupCompanions([{ name: 'dance.amc' }, { name: 'skeleton.asf' }]);
     expect(only).toHaveLength(2);
+    // A glTF may need all of them.
+    const buffers = ['dance-2.gltf', 'dance.bin', 'data.bin'].map((name) => ({ name }));
+    expect(groupCompanions(buffers)).toEqual([buffers]);
   });
 
   test('one without the other is asked for', async () => {

@@ -182,6 +182,18 @@ describe('opening a model of the visitor', () => {
     });
   });
 
+  it('keeps quiet about the page’s model that fails meanwhile, also to whom it was promised', async () => {
+    const { store, link, attempts } = loading();
+    const promised = link.generator().catch((error: unknown) => error);
+    const opened = link.open(folder);
+    attempts[0]?.fail(new AppError('download-failed', 'Nothing has arrived.', 'Try again.'));
+    expect(await promised).toMatchObject({ name: 'AbortError' });
+    expect(store.getState()).toMatchObject({ model: { phase: 'loading' }, problem: null });
+    attempts[1]?.fail(new AppError('model-mismatch', 'Not a model.', 'Take another folder.'));
+    await opened;
+    expect(store.getState().model).toMatchObject({ phase: 'failed', problem: { code: 'download-failed' } });
+  });
+
   it('hears no more of the page’s model, which may still be loading or fail', async () => {
     const { store, link, attempts } = loading();
     const opened = link.open(folder);

@@ -28,14 +28,21 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   const { json } = file;
   const format = formatOf(json);
   const skeleton = skeletonOf(json, humanoidNames(json));
-  // A pose of one key, and what moves no node, is no motion.
+  // A pose of one key, what moves no node, and a damaged clip beside others are left out.
+  let failure: unknown = null;
   const clips = json.animations
-    .map((animation, number) => {
-      const tracks = tracksOf(file, animation);
-      return { name: (animation.name ?? `clip ${number + 1}`).slice(0, 80), tracks, ...timingOf(tracks) };
+    .flatMap((animation, number) => {
+      try {
+        const tracks = tracksOf(file, animation);
+        return [{ name: (animation.name ?? `clip ${number + 1}`).slice(0, 80), tracks, ...timingOf(tracks) }];
+      } catch (error) {
+        failure ??= error;
+        return [];
+      }
     })
     .filter(({ frames }) => frames >= 2);
   const clip = clips[part] ?? clips[0];
+  if (!clip && failure) throw failure as Error;
   if (!clip)
     throw json.animations.some(({ channels }) => channels.length > 0) ? noLength() : noMotion(format);
   const { tracks, start, frames, fps } = clip;

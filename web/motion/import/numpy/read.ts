@@ -28,11 +28,26 @@ const damaged: DamageError = (message, cause) =>
 
 type Archive = ReadonlyMap<string, StoredArray>;
 
-/** The arrays of an archive. Their values are read when they are needed: those of texts and objects cannot be. */
+/**
+ * The arrays of an archive without what is no array. Their values are read when they are needed: those of texts and
+ * objects cannot be.
+ */
 function openArchive(bytes: Uint8Array): Archive {
-  const files = [...unzipArrays(bytes, MAX_BYTES, damaged)];
-  return new Map(files.map(([name, content]) => [name, openNpy(content, name.slice(0, 40), damaged)]));
+  const arrays = new Map<string, StoredArray>();
+  let failure: unknown = null;
+  for (const [name, content] of unzipArrays(bytes, MAX_BYTES, damaged)) {
+    try {
+      arrays.set(name, openNpy(content, name.slice(0, 40), damaged));
+    } catch (error) {
+      failure ??= error;
+    }
+  }
+  if (arrays.size === 0 && failure) throw failure as Error;
+  return arrays;
 }
+
+/** Whether an array holds numbers, not truth values, texts or objects. */
+const isOfNumbers = ({ type }: StoredArray): boolean => /^[<>|=]?[fiu]\d/.test(type);
 
 /** The lengths of an array without a batch of one before them. */
 const sizesOf = ({ shape }: StoredArray): readonly number[] =>
@@ -50,27 +65,42 @@ function jointShape(array: StoredArray): { frames: number; count: number } | nul
   return JOINT_COUNTS.includes(count) ? { frames, count } : null;
 }
 
-/** Frames and values of an array of rotation vectors, (T, J, 3), (1, T, J, 3) or (T, 3 J); null for another array. */
-function rotationShape(array: StoredArray): { frames: number; width: number } | null {
+/**
+ * Frames and values of an array of rotation vectors, (T, 3 J) or, with the root's place beside it, (T, J, 3) or
+ * (1, T, J, 3): without, these are joints. Null for another array.
+ */
+function rotationShape(array: StoredArray, hasPlaces: boolean): { frames: number; width: number } | null {
   const [frames = 0, second = 0, third, ...more] = sizesOf(array);
-  const width = third === undefined ? second : third === 3 && more.length === 0 ? 3 * second : 0;
+  const isByJoint = third === 3 && more.length === 0 && hasPlaces;
+  const width = third === undefined ? second : isByJoint ? 3 * second : 0;
   return width >= BODY_ROTATIONS ? { frames, width } : null;
 }
 
 /** Names of the arrays of joints, the leader's first. */
 function dancersIn(arrays: Archive): string[] {
-  const names = [...arrays].filter(([, array]) => jointShape(array)).map(([name]) => name);
+  const names = [...arrays]
+    .filter(([, array]) => isOfNumbers(array) && jointShape(array))
+    .map(([name]) => name);
   return names.sort((a, b) => Number(/leader|lead$/i.test(b)) - Number(/leader|lead$/i.test(a)));
 }
 
 /** The frame rate that the archive states, or the usual one. */
 function rateOf(arrays: Archive): Pick<MotionSource, 'frameRate' | 'rateAssumed'> {
-  const rate = firstOf(arrays, RATES)?.read().data;
-  const stated = rate?.length === 1 ? rate[0] : undefined;
+  const stated = RATES.map((name) => numberIn(arrays.get(name))).find((rate) => rate !== null);
   return {
     frameRate: () => (stated === undefined ? ASSUMED_FPS : checkedRate(stated)),
     rateAssumed: stated === undefined,
   };
+}
+
+/** The only value of an array; null where there is none, or none that can be read. */
+function numberIn(array: StoredArray | undefined): number | null {
+  if (!array?.shape.every((length) => length === 1)) return null;
+  try {
+    return array.read().data[0] ?? null;
+  } catch {
+    return null;
+  }
 }
 
 /** The body's place, (T, 3) in metres; null where the archive has none of every frame. */
@@ -78,8 +108,8 @@ function placesIn(arrays: Archive, frames: number): NpzArray | null {
   const trans = firstOf(arrays, PLACES);
   const [count, axes, ...more] = trans ? sizesOf(trans) : [];
   if (!trans || count !== frames || axes !== 3 || more.length > 0) return null;
-  const scaling = arrays.get(SCALING)?.read().data ?? [];
-  const metres = scaling.length === 1 && scaling[0]! > 0 ? 1 / scaling[0]! : 1;
+  const scaling = numberIn(arrays.get(SCALING));
+  const metres = scaling !== null && scaling > 0 ? 1 / scaling : 1;
   return { shape: [frames, 3], data: Float64Array.from(trans.read().data, (value) => value * metres) };
 }
 
@@ -96,7 +126,7 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
     ? openArchive(bytes)
     : new Map([['joints', openNpy(bytes, name.slice(0, 40), damaged)]]);
   const rotations = firstOf(arrays, ROTATIONS);
-  const turns = rotations && rotationShape(rotations);
+  const turns = rotations && rotationShape(rotations, firstOf(arrays, PLACES) !== null);
   if (turns) {
     const { frames, width } = turns;
     const error = tooLong(frames, Math.min(width, BODY_ROTATIONS));
