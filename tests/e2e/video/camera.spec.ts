@@ -23,6 +23,13 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   const dialog = page.getByRole('dialog', { name: 'Record with the camera' });
   const picture = dialog.getByLabel('Picture of the camera');
   await expect.poll(() => picture.evaluate((video: HTMLVideoElement) => video.videoWidth)).toBeGreaterThan(0);
+  // Escape closes what is in front.
+  const keys = page.getByRole('dialog', { name: 'Keyboard shortcuts' });
+  await page.keyboard.press('?');
+  await expect(keys).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(keys).toBeHidden();
+  await expect(dialog).toBeVisible();
   await page.keyboard.press('Escape');
   await expect(dialog).toBeHidden();
   await expect(opener).toBeFocused();
