@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -140,6 +141,20 @@ def load_model(folder: Path) -> Model:
 def read_card(folder: Path) -> dict:
     """card.json: name, licence, attribution and notes of the model, which the manifest begins with."""
     return read_config(folder, "card")
+
+
+def copy_stage1(source: Path, out: Path) -> None:
+    """Copies stage 1 of a checkpoint into another folder, or leaves it where it is in the same."""
+    if source.resolve() != out.resolve():
+        out.mkdir(parents=True, exist_ok=True)
+        for name in ("hfsq.json", "hfsq.safetensors"):
+            shutil.copy(source / name, out / name)
+
+
+def copy_first_card(source: Path, out: Path) -> None:
+    """Copies the card.json of a checkpoint, if it has one, to be filled in by hand; one that exists is kept."""
+    if (source / "card.json").exists() and not (out / "card.json").exists():
+        shutil.copy(source / "card.json", out)
 
 
 def write_first_card(

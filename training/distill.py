@@ -10,14 +10,13 @@ sampled by the teacher anew, so that none is learnt by heart.
 from __future__ import annotations
 
 import copy
-import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import earlier_training, load_model, save_denoiser
+from training.checkpoint import copy_first_card, copy_stage1, earlier_training, load_model, save_denoiser
 from training.command_line import run_program
 from training.config import DiffusionConfig
 from training.denoiser.denoiser import Denoiser
@@ -90,10 +89,8 @@ def main(options: Options) -> None:
             run.logger.draw()
             provenance = run.provenance("training.distill", leave_out=())
             save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report} | before)
-            for name in ("hfsq.json", "hfsq.safetensors"):
-                shutil.copy(options.teacher / name, options.out / name)
-            if not (options.out / "card.json").exists():  # it may have been filled in before a --resume
-                shutil.copy(options.teacher / "card.json", options.out)
+            copy_stage1(options.teacher, options.out)
+            copy_first_card(options.teacher, options.out)
 
     run.train(lambda random: windows.batch(options.batch, random), finish)
     if fabric.is_global_zero:

@@ -8,14 +8,20 @@ trained with the same stage 1.
 
 from __future__ import annotations
 
-import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
 import torch
 from safetensors.torch import load_file
 
-from training.checkpoint import load_denoiser, load_hfsq, read_config, save_denoiser
+from training.checkpoint import (
+    copy_first_card,
+    copy_stage1,
+    load_denoiser,
+    load_hfsq,
+    read_config,
+    save_denoiser,
+)
 from training.command_line import run_program
 
 
@@ -48,12 +54,8 @@ def main(options: Options) -> None:
         "program": "training.checkpoints.average",
         "checkpoints": [config["provenance"] for config in configs],
     }
-    options.out.mkdir(parents=True, exist_ok=True)
-    if options.out.resolve() != first.resolve():
-        for name in ("hfsq.json", "hfsq.safetensors"):
-            shutil.copy(first / name, options.out / name)
-    if (first / "card.json").exists() and not (options.out / "card.json").exists():
-        shutil.copy(first / "card.json", options.out)
+    copy_stage1(first, options.out)
+    copy_first_card(first, options.out)
     save_denoiser(options.out, denoiser, diffusion, provenance)
 
 

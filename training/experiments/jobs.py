@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Mapping
@@ -13,13 +12,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from training.checkpoint import copy_stage1
 from training.config import write_json
 from training.experiments.scale import Scale
 from training.experiments.tables import Row
 
 COST = "cost.json"
 """Written when a training has ended; checkpoints are there long before."""
-STAGE1_FILES = ("hfsq.json", "hfsq.safetensors")
 
 
 @dataclass(frozen=True)
@@ -109,8 +108,7 @@ def _run(job: Job) -> Job:
     """Runs a job, going on where it was cut off if it left a state."""
     job.folder.mkdir(parents=True, exist_ok=True)
     if job.stage1:
-        for name in STAGE1_FILES:
-            shutil.copy(job.stage1 / name, job.folder / name)
+        copy_stage1(job.stage1, job.folder)
     line = list(job.command)
     resumed = any((job.folder / stage / "state.ckpt").exists() for stage in ("hfsq", "denoiser", "baseline"))
     if resumed:

@@ -60,7 +60,8 @@ function readShape(header: string): number[] | null {
 }
 
 /**
- * Reads the header of one .npy file: little-endian float32, float64, int32 or int64, all values finite.
+ * Reads the header of one .npy file. Values that can be read are little-endian float32, float64, int32 or int64, all
+ * finite.
  *
  * @param name the array's name in sentences
  * @throws what `damaged` makes, where the header cannot be read
@@ -90,15 +91,6 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
     return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };
   };
   return { shape, type, read: readValues };
-}
-
-/**
- * Reads one .npy file with its values, see `openNpy`.
- *
- * @throws what `damaged` makes
- */
-export function readNpy(bytes: Uint8Array, name: string, damaged: DamageError): NpzArray {
-  return openNpy(bytes, name, damaged).read();
 }
 
 /**

@@ -1,5 +1,5 @@
 import { AppError } from '../../common/error';
-import { type DamageError, type NpzArray, readNpy, unzipArrays } from '../../common/npz';
+import { type DamageError, type NpzArray, openNpy, unzipArrays } from '../../common/npz';
 
 /** Largest size of all arrays together, bytes. */
 const MAX_BYTES = 64 * 1024 * 1024;
@@ -19,5 +19,5 @@ const damaged: DamageError = (message, cause) =>
  */
 export function readNpz(bytes: Uint8Array): Map<string, NpzArray> {
   const files = unzipArrays(bytes, MAX_BYTES, damaged);
-  return new Map([...files].map(([name, content]) => [name, readNpy(content, name, damaged)]));
+  return new Map([...files].map(([name, content]) => [name, openNpy(content, name, damaged).read()]));
 }
