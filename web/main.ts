@@ -10,6 +10,7 @@ import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, leaveRoomForControls, withPartRead } from './stage-binding';
 import { createFigures } from './view/figures';
+import { mountLostNote } from './view/lost-note';
 import { createStage, type Stage } from './view/stage';
 import { createDownloads } from './ui/download/downloads';
 import { saveFile } from './ui/download/save-and-share';
@@ -213,6 +214,7 @@ mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
 mountUndoKeys(store);
 if (stage) {
+  mountLostNote(stage, stageHost);
   bindStage(stage, withPartRead(store));
   leaveRoomForControls(stage, store);
 }

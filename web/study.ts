@@ -9,6 +9,7 @@ import { systemTheme } from './ui/shell/theme';
 import { builtInSet } from './ui/study/built-in-set';
 import { KeptSession } from './ui/study/session';
 import { Study } from './ui/study/study';
+import { mountLostNote } from './view/lost-note';
 import { createStage, type Stage } from './view/stage';
 
 const theme = systemTheme();
@@ -54,6 +55,7 @@ function openStage(): Stage | null {
   try {
     const stage = createStage(host);
     stage.setTheme(theme);
+    mountLostNote(stage, host);
     return stage;
   } catch (error) {
     host.textContent = error instanceof AppError ? `${error.message} ${error.hint}` : String(error);

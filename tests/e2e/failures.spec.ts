@@ -1,6 +1,7 @@
 import { brokenLeaders, bvh, emptyFile, notAudio, wav, type TestFile } from './support/files';
 import { App, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
+import { rested } from './support/stage-rest';
 
 /** Expects the problem dialog with this title and hint, and closes it, by Escape if not otherwise said. */
 async function expectProblem(
@@ -208,4 +209,31 @@ test('without WebGL the page still generates and downloads the motion', async ({
   await app.openWithoutPicture();
   await expectStillGenerates(app);
   await expect(page.getByRole('button', { name: 'Download', exact: true })).toBeEnabled();
+});
+
+test('a lost graphics card leaves a sentence on the stage, and the picture comes back with the card', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.open();
+  await app.drop(bvh({ frames: 60, name: 'valid.bvh' }));
+  await app.reaction('valid.bvh');
+  await rested(page);
+  const before = await app.warmPixels();
+  // The stage may show a copy of the canvas that it draws on.
+  const card = await page.evaluateHandle<WEBGL_lose_context>(
+    `window.reactdance.stage.view.canvas.renderer.getContext().getExtension('WEBGL_lose_context')`,
+  );
+  await card.evaluate((extension) => {
+    extension.loseContext();
+  });
+  const note = page.getByRole('status').filter({ hasText: /graphics card has stopped/ });
+  await expect(note).toBeVisible();
+  await card.evaluate((extension) => {
+    extension.restoreContext();
+  });
+  await expect(note).toBeHidden();
+  await expect
+    .poll(async () => (await app.warmPixels()).size, { timeout: 30_000 })
+    .toBeGreaterThan(0.8 * before.size);
 });

@@ -48,7 +48,7 @@ export class Canvas {
   /**
    * @param softwareRendered whether WebGL is drawn by software, without a graphics card
    * @param fixedSize of pictures that leave the page one by one; null follows the host
-   * @param onRestored called when a lost graphics card is there again
+   * @param onLost called when the browser takes the graphics card away (true), and when it is there again (false)
    * @param onPresented called when a frame that was not `presented` at once is on the page
    * @throws {AppError} `webgl-missing` when the browser has no WebGL 2.
    */
@@ -56,7 +56,7 @@ export class Canvas {
     host: HTMLElement,
     softwareRendered: boolean,
     private readonly fixedSize: PictureSize | null,
-    private readonly onRestored: () => void,
+    private readonly onLost: (lost: boolean) => void,
     onPresented: () => void,
   ) {
     const copied = softwareRendered && fixedSize === null;
@@ -159,11 +159,17 @@ export class Canvas {
 
   private readonly loseContext = (event: Event): void => {
     event.preventDefault();
-    this.contextLost = true;
+    this.setLost(true);
   };
 
   private readonly restoreContext = (): void => {
-    this.contextLost = false;
-    this.onRestored();
+    this.setLost(false);
   };
+
+  private setLost(lost: boolean): void {
+    this.contextLost = lost;
+    // Browsers show a lost canvas as a white area with the sign of a missing picture.
+    this.element.style.visibility = lost ? 'hidden' : '';
+    this.onLost(lost);
+  }
 }

@@ -17,6 +17,8 @@ interface RendererOptions {
   readonly fixedSize: PictureSize | null;
   /** Called when something has changed and a frame has to be drawn. */
   readonly invalidate: () => void;
+  /** Called when the browser takes the graphics card away (true), and when it is there again (false). */
+  readonly onLost: (lost: boolean) => void;
   /** Called when a frame that was presented late is on the page. */
   readonly onPresented: () => void;
 }
@@ -48,13 +50,14 @@ export class StageRenderer {
 
   constructor(
     host: HTMLElement,
-    { library, softwareRendered, fixedSize, invalidate, onPresented }: RendererOptions,
+    { library, softwareRendered, fixedSize, invalidate, onLost, onPresented }: RendererOptions,
   ) {
-    const onRestored = (): void => {
+    const lost = (isLost: boolean): void => {
       this.shadowsStale = true;
-      invalidate();
+      if (!isLost) invalidate();
+      onLost(isLost);
     };
-    this.canvas = new Canvas(host, softwareRendered, fixedSize, onRestored, onPresented);
+    this.canvas = new Canvas(host, softwareRendered, fixedSize, lost, onPresented);
     this.contents = new StageScene(
       new Dancers(library, softwareRendered ? perVertexMaterial : perPixelMaterial, invalidate),
     );

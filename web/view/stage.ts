@@ -59,6 +59,7 @@ export class Stage {
   private readonly splitLabels: SplitLabels;
   private readonly resizeObserver: ResizeObserver;
   private readonly frameListeners = new Set<(stats: StageStats) => void>();
+  private readonly lostListeners = new Set<(lost: boolean) => void>();
 
   /**
    * @param library of bodies; shared with offscreen stages, disposed of by the stage that follows its host
@@ -76,6 +77,9 @@ export class Stage {
       softwareRendered,
       fixedSize,
       invalidate: () => this.loop.invalidate(),
+      onLost: (lost) => {
+        for (const listener of this.lostListeners) listener(lost);
+      },
       onPresented: () => this.loop.resume(),
     });
     this.splitLabels = createSplitLabels(host);
@@ -227,6 +231,11 @@ export class Stage {
     return () => this.frameListeners.delete(listener);
   }
 
+  /** Calls `listener` when the browser stops drawing (true), and when it goes on (false). */
+  onLost(listener: (lost: boolean) => void): void {
+    this.lostListeners.add(listener);
+  }
+
   stats(): StageStats {
     const { calls, triangles } = this.view.canvas.renderer.info.render;
     return { drawCalls: calls, triangles, frameMs: this.loop.frameMs, frames: this.view.frames };
@@ -248,6 +257,7 @@ export class Stage {
     this.loop.dispose();
     this.resizeObserver.disconnect();
     this.frameListeners.clear();
+    this.lostListeners.clear();
     this.splitLabels.dispose();
     this.view.dispose();
     if (!this.fixedSize) this.library.dispose();
