@@ -35,6 +35,19 @@ function createRenderer(preserved: boolean, antialias: boolean): WebGLRenderer {
   }
 }
 
+/**
+ * Place of a viewport in a canvas, CSS pixels. three.js rounds left edge and width down to whole pixels one by one, so
+ * the right half is a pixel wider: else it would miss the last column of a canvas of odd width.
+ *
+ * @param size of the canvas, CSS pixels
+ * @param pixelRatio pixels along a CSS pixel
+ */
+export function placeOf(viewport: Viewport, { width, height }: PictureSize, pixelRatio: number): Rect {
+  if (viewport === 'whole') return { left: 0, bottom: 0, width, height };
+  if (viewport === 'left') return { left: 0, bottom: 0, width: width / 2, height };
+  return { left: width / 2, bottom: 0, width: width / 2 + 1 / pixelRatio, height };
+}
+
 /** The canvas in the page and the renderer that draws on it. */
 export class Canvas {
   readonly renderer: WebGLRenderer;
@@ -116,13 +129,12 @@ export class Canvas {
 
   /** Limits drawing to a viewport, and returns its place in CSS pixels. */
   setViewport(viewport: Viewport): Rect {
-    const { width, height } = this.cssSize;
-    const left = viewport === 'right' ? width / 2 : 0;
-    const wide = viewport === 'whole' ? width : width / 2;
+    const place = placeOf(viewport, this.cssSize, this.renderer.getPixelRatio());
+    const { left, bottom, width, height } = place;
     this.renderer.setScissorTest(viewport !== 'whole');
-    this.renderer.setViewport(left, 0, wide, height);
-    this.renderer.setScissor(left, 0, wide, height);
-    return { left, bottom: 0, width: wide, height };
+    this.renderer.setViewport(left, bottom, width, height);
+    this.renderer.setScissor(left, bottom, width, height);
+    return place;
   }
 
   /** Says that all of a frame has been asked of the renderer. */
