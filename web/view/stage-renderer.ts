@@ -126,7 +126,9 @@ export class StageRenderer {
   /** Gives the camera the shape of one viewport. */
   fitCamera(): void {
     const { width, height } = this.canvas.size;
-    this.rig.resize(this.contents.dancers.split ? width / 2 : width, height);
+    const { split } = this.contents.dancers;
+    this.rig.resize(split ? width / 2 : width, height);
+    this.rig.zoomsToPointer = !split;
   }
 
   /**

@@ -163,6 +163,34 @@ test('two reactors are shown side by side, or one as the ghost of the other', as
   expect(left).toBeGreaterThan(0.3 * warm.size);
   expect(both.size - left).toBeGreaterThan(0.3 * warm.size);
 
+  // Zooming in on the couple in one half keeps it in the middle of both.
+  const target = (): Promise<readonly number[]> => onStage(page, (stage) => stage.framing().shot.target);
+  const distance = (): Promise<number> => onStage(page, (stage) => stage.framing().shot.distance);
+  const [from, far] = [await target(), await distance()];
+  await page.mouse.move(box!.x + box!.width / 4, box!.y + box!.height / 2);
+  await page.mouse.wheel(0, -400);
+  await expect.poll(distance).toBeLessThan(0.9 * far);
+  await rested(page);
+  expect(maxDistance(await target(), from)).toBeLessThan(0.01);
+  await page.keyboard.press('a');
+  await rested(page);
+
+  // Nothing lies over the names of the halves, also where all toggles are in a row.
+  await page.setViewportSize({ width: 1280, height: 640 });
+  const names = page.locator('.split-label');
+  const covered = await names.evaluateAll((labels) =>
+    labels.map((label) => {
+      const a = label.getBoundingClientRect();
+      const others = [...document.querySelectorAll('.stage .over:not([hidden])')].flatMap((over) =>
+        [...over.querySelectorAll('button, li')].map((part) => part.getBoundingClientRect()),
+      );
+      return others.some((b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom);
+    }),
+  );
+  expect(covered).toEqual([false, false]);
+  await page.setViewportSize({ width: 900, height: 640 });
+  await rested(page);
+
   // Each half has the coarse ghost of its own take.
   const without = await picture(page);
   await page.keyboard.press('g');

@@ -55,6 +55,11 @@ export class CameraRig {
     return this.reducedMotion?.matches ?? false;
   }
 
+  /** Whether zooming keeps what is under the pointer in its place, which three.js only does in a whole picture. */
+  set zoomsToPointer(on: boolean) {
+    this.orbit.controls.zoomToCursor = on;
+  }
+
   resize(width: number, height: number): void {
     this.orbit.resize(width, height);
   }

@@ -35,7 +35,6 @@ export class OrbitCamera {
     this.controls.maxDistance = MAX_DISTANCE;
     this.controls.maxPolarAngle = POLE + 0.06;
     this.controls.zoomSpeed = 0.8;
-    this.controls.zoomToCursor = true;
   }
 
   /** Width / height of the part of the picture around the couple. */
