@@ -8,6 +8,7 @@ import { createDynamicResolution } from './dynamic-resolution';
 import { createFrameLoop, idleLoop, type FrameLoop } from './frame-loop';
 import { isSoftwareRendered } from './frame-presenter';
 import type { Framing, View } from '../common/framing';
+import { onPixelSize } from '../common/pixel-size';
 import type { VisibleOverlays } from '../common/visible-overlays';
 import { createSplitLabels, type Labels, type SplitLabels } from './split-labels';
 import { StageRenderer } from './stage-renderer';
@@ -57,7 +58,7 @@ export class Stage {
   protected readonly view: StageRenderer;
   private readonly loop: FrameLoop;
   private readonly splitLabels: SplitLabels;
-  private readonly resizeObserver: ResizeObserver;
+  private readonly unwatchSize: () => void;
   private readonly frameListeners = new Set<(stats: StageStats) => void>();
   private readonly lostListeners = new Set<(lost: boolean) => void>();
 
@@ -84,8 +85,7 @@ export class Stage {
     });
     this.splitLabels = createSplitLabels(host);
     this.loop = fixedSize ? idleLoop : this.createFrameLoop();
-    this.resizeObserver = new ResizeObserver(() => this.resize());
-    this.resizeObserver.observe(host);
+    this.unwatchSize = fixedSize ? () => undefined : onPixelSize(host, () => this.resize());
     this.setTheme('dark');
     this.resize();
   }
@@ -255,7 +255,7 @@ export class Stage {
 
   dispose(): void {
     this.loop.dispose();
-    this.resizeObserver.disconnect();
+    this.unwatchSize();
     this.frameListeners.clear();
     this.lostListeners.clear();
     this.splitLabels.dispose();

@@ -1,3 +1,4 @@
+import { onPixelSize } from '../../common/pixel-size';
 import { allVariationsMade, VARIATION_COUNT } from '../store/actions/variations';
 import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
@@ -74,9 +75,8 @@ export const mountVariationCards: Mount = (root, store, services) => {
     const reactions = cardContents(state).map(({ reaction }) => reaction);
     if (services.drawFigure) drawFigures(canvases, reactions, state, services.drawFigure);
   }, DRAW_INTERVAL_MS);
-  const sizes = new ResizeObserver(figures.run);
-  sizes.observe(group);
   return combineDisposers(
+    onPixelSize(group, figures.run),
     watchAll(
       store,
       (state) => [state.variations, state.reaction, state.settings],
@@ -98,7 +98,6 @@ export const mountVariationCards: Mount = (root, store, services) => {
     ),
     () => {
       figures.cancel();
-      sizes.disconnect();
       group.remove();
       spoken.remove();
     },

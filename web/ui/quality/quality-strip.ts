@@ -1,3 +1,4 @@
+import { onPixelSize } from '../../common/pixel-size';
 import { combineDisposers, listen } from '../widgets/dom';
 import { InfoCard } from '../widgets/info-card';
 import { createQualityLane, type LaneContent, type QualityLane } from './quality-lane';
@@ -48,11 +49,10 @@ export function mountQualityStrip(
   const draw = (state: AppState): void => {
     drawLanes(partLanes, worstLane, state, visibleSpan(state));
   };
-  const sizes = new ResizeObserver(() => {
-    draw(store.getState());
-  });
-  sizes.observe(root);
   return combineDisposers(
+    onPixelSize(root, () => {
+      draw(store.getState());
+    }),
     markWhileLookedAt(root, lanes),
     watchAll(
       store,
@@ -70,7 +70,6 @@ export function mountQualityStrip(
       },
     ),
     () => {
-      sizes.disconnect();
       cards.dispose();
       for (const { label, lane } of lanes) {
         label.remove();

@@ -1,3 +1,4 @@
+import { onPixelSize } from '../../common/pixel-size';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { DancerLanes } from './lanes/dancer-lanes';
 import { reactorMotion } from '../store/reactor-motion';
@@ -74,10 +75,8 @@ export function mountTimeline(
     loop.draw();
     playhead.draw();
   });
-  const sizes = new ResizeObserver(redraw.now);
-  sizes.observe(lanes);
-
   return combineDisposers(
+    onPixelSize(lanes, redraw.now),
     ...followMotions(store, dancers),
     watchAll(store, drawnParts, redraw.request),
     watch(
@@ -102,7 +101,6 @@ export function mountTimeline(
     songLane.dispose,
     redraw.cancel,
     () => {
-      sizes.disconnect();
       lanes.remove();
     },
   );

@@ -1,3 +1,4 @@
+import { onPixelSize } from '../../common/pixel-size';
 import { visibleSpan } from '../store/actions/timeline';
 import type { Services } from '../store/services';
 import { type Store, watchAll } from '../store/store';
@@ -79,10 +80,9 @@ export function mountVideoLane(
       });
     };
     lanes.append(label, lane);
-    const sizes = new ResizeObserver(draw);
-    sizes.observe(lane);
     draw();
     return combineDisposers(
+      onPixelSize(lane, draw),
       track.watch(draw),
       watchAll(
         store,
@@ -93,7 +93,6 @@ export function mountVideoLane(
         draw,
       ),
       () => {
-        sizes.disconnect();
         label.remove();
         lane.remove();
       },
