@@ -38,3 +38,25 @@ for (const theme of ['dark', 'light'] as const) {
     expect(await violations(page), 'on a phone').toEqual([]);
   });
 }
+
+test('a high contrast palette of the system shows playhead, switches and buttons', async ({ page }) => {
+  await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const drawn = await page.evaluate(() => {
+    const text = getComputedStyle(document.body).color;
+    return (
+      [
+        ['.head-line', '::after'],
+        ['.switch .knob', '::before'],
+        ['.play', undefined],
+        ['.legend .dot', undefined],
+      ] as const
+    ).map(([selector, part]) => {
+      const element = document.querySelector(selector);
+      return element && getComputedStyle(element, part).backgroundColor === text;
+    });
+  });
+  expect(drawn).toEqual([true, true, true, true]);
+});
