@@ -132,4 +132,16 @@ test('a small phone shows the whole first-visit block, and then stage and both f
   for (const name of ['Coarse guidance', 'Fine guidance'])
     await expect(page.getByRole('slider', { name })).toBeInViewport({ ratio: 1 });
   expect((await page.locator('#stage').boundingBox())!.height).toBeGreaterThan(240);
+
+  await test.step('words beside each other do not overlap on the narrowest phones', async () => {
+    await page.setViewportSize({ width: 320, height: 568 });
+    for (const [left, right] of [
+      ['.legend', '.views'],
+      ['.count .unit:last-of-type', '.lane-label.quality-all'],
+    ] as const) {
+      const before = (await page.locator(left).boundingBox())!;
+      const after = (await page.locator(right).boundingBox())!;
+      expect(before.x + before.width, left).toBeLessThanOrEqual(after.x);
+    }
+  });
 });
