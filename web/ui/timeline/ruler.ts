@@ -42,8 +42,9 @@ interface RulerMarks {
 
 /** Least distance between two marks, CSS pixels. */
 const MARK_DISTANCE = 40;
-/** Width of a mark's text, CSS pixels. */
+/** Width of a mark's text: of a bar, and of a time in seconds and in tenths, CSS pixels. */
 const TEXT_WIDTH = 18;
+const TIME_WIDTH = { seconds: 26, tenths: 36 } as const;
 /** With fewer beats than this the ruler shows seconds. */
 const MIN_BEATS = 8;
 
@@ -85,10 +86,10 @@ function markText({ bar, count, accent }: BarAndCount & { readonly accent: Accen
   return accent !== 'beat' ? String(bar) : `${bar}.${count}`;
 }
 
-function timeMarks({ from, to, x, width }: TimeScale, maxMarks: number): RulerMarks['marks'] {
+function timeMarks({ from, to, x, width, time: timeAt }: TimeScale, maxMarks: number): RulerMarks['marks'] {
   const every = nextOf([0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300], (to - from) / maxMarks);
   const first = Math.ceil(from / every - 1e-6);
-  const last = Math.floor((to - 1e-6) / every);
+  const last = Math.floor(timeAt(width - TIME_WIDTH[every < 1 ? 'tenths' : 'seconds']) / every);
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => {
     const time = (first + index) * every;
     return { text: clockTime(time, every < 1), at: x(time) / width, one: false };

@@ -76,12 +76,17 @@ describe('ruler', () => {
   });
 
   it('shows the seconds of a part', () => {
-    const { marks } = rulerMarks(NONE, timeScale({ from: 8.7, to: 11.3 }, 130));
+    const { marks } = rulerMarks(NONE, timeScale({ from: 8.7, to: 11.3 }, 230));
     expect(marks.map(({ text, at }) => [text, Number((at * 2.6).toFixed(3))])).toEqual([
       ['0:09', 0.3],
       ['0:10', 1.3],
       ['0:11', 2.3],
     ]);
+  });
+
+  it('leaves out a time that would be cut off at the end', () => {
+    const { marks } = rulerMarks(NONE, timeScale({ from: 0, to: 30.2 }, 900));
+    expect(marks.at(-1)?.text).toBe('0:28');
   });
 
   it('shows seconds where there are no beats', () => {
