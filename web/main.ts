@@ -154,6 +154,7 @@ const services: Services = {
   drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
   retryModel: model.retry,
+  reopenModel: () => void model.reopen().then((opened) => opened && generation.generate()),
   togglePlay: playback.toggle,
   seek: playback.seek,
   showMoment: (measure, seconds) => {

@@ -265,6 +265,10 @@ test('the visitor’s own model is dropped as a folder and generates at once', a
 
   await app.drop(own, ...graphs.slice(1));
   await expect(app.alert.getByRole('heading')).toContainText(graphs[0]!.name);
+  await app.alert.getByRole('button', { name: 'Try again' }).click();
+  await expect(app.alert.getByRole('heading'), 'the same folder is tried again').toContainText(
+    graphs[0]!.name,
+  );
   await page.keyboard.press('Escape');
   expect(maxDistance(before, await app.reactor())).toBe(0);
 

@@ -227,16 +227,34 @@ export async function download(
   return results;
 }
 
+const FOLDER_HINT = 'Drop the whole folder onto the page again.';
+
 /**
- * A `fetch` that answers from a folder of files, with 404 for any other address.
+ * A `fetch` that answers from a folder of files.
  *
  * @param root address that the paths are relative to; nothing is ever asked of it
+ * @throws {AppError} from the request: `model-missing` for a file that the folder does not have, or has no longer
  */
 export function folderFetch(folder: ModelFolder, root: string): typeof fetch {
-  const files = new Map(Object.entries(folder).map(([path, file]) => [new URL(path, root).href, file]));
-  return (address) => {
+  const files = new Map(
+    Object.entries(folder).map(([path, file]) => [new URL(path, root).href, { path, file }]),
+  );
+  return async (address) => {
     const url = address instanceof Request ? address.url : String(address);
-    const file = files.get(url);
-    return Promise.resolve(file === undefined ? new Response(null, { status: 404 }) : new Response(file));
+    const found = files.get(url);
+    if (!found) {
+      const name = url.slice(new URL('.', root).href.length);
+      throw new AppError('model-missing', `The folder of the model has no file ${name}.`, FOLDER_HINT);
+    }
+    try {
+      return new Response(await found.file.arrayBuffer());
+    } catch (cause) {
+      throw new AppError(
+        'model-missing',
+        `The file ${found.path} of the model can’t be read any more: it was moved, changed or deleted.`,
+        FOLDER_HINT,
+        { cause },
+      );
+    }
   };
 }

@@ -1,7 +1,7 @@
 import { readRecipe } from '../../audio/client';
 import { randomSeed } from '../store/actions/settings';
 import type { Generator, Manifest, ModelFolder, ReloadFailure, Status } from '../../model/client';
-import { modelProblem } from '../store/problems';
+import { modelProblem, ownModelProblem } from '../store/problems';
 import type { ModelState } from '../store/state';
 import { manifestLoaded, modelChanged, modelOpened } from '../store/actions/model';
 import { apply, type Store } from '../store/store';
@@ -29,6 +29,8 @@ export class ModelLink {
   #current = newLoad(null);
   /** The visitor's own model that is to replace the current one; its progress is shown meanwhile. */
   #opening: Load | null = null;
+  /** The visitor's own model that failed to open last. */
+  #refused: ModelFolder | null = null;
   #generator: Promise<Generator>;
   #resolveManifest: (manifest: Manifest) => void = () => undefined;
   readonly #manifest = new Promise<Manifest>((resolve) => {
@@ -66,8 +68,9 @@ export class ModelLink {
     } catch (error) {
       if (load !== this.#opening) return false;
       this.#opening = null;
+      this.#refused = folder;
       this.#show();
-      apply(this.store, problemShown(modelProblem(error)));
+      apply(this.store, problemShown(ownModelProblem(error)));
       return false;
     }
     if (load !== this.#opening) {
@@ -86,6 +89,9 @@ export class ModelLink {
     );
     return true;
   }
+
+  /** Opens the visitor's own model again that failed to open; as `open`. */
+  readonly reopen = async (): Promise<boolean> => this.#refused !== null && this.open(this.#refused);
 
   #begin(folder: ModelFolder | null): Promise<Generator> {
     this.#current = newLoad(folder);

@@ -130,6 +130,8 @@ function remedyOf(problem: Problem, services: Services): { text: string; run: ()
     }
     case 'model':
       return { text: 'Try again', run: services.retryModel };
+    case 'own-model':
+      return { text: 'Try again', run: services.reopenModel };
     case 'generate':
       return { text: 'Try again', run: services.generate };
     case 'project':

@@ -115,6 +115,12 @@ export function modelProblem(error: unknown): Problem {
   );
 }
 
+/** A failure while the visitor's own model was opened; the present one stays. */
+export function ownModelProblem(error: unknown): Problem {
+  const problem = modelProblem(error);
+  return problem.remedy === 'model' ? { ...problem, remedy: 'own-model' } : problem;
+}
+
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
   const explained = isExplained(error);

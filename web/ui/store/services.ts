@@ -95,6 +95,8 @@ export interface Services {
   readonly pickVariation: (seed: number) => void;
   /** Tries again to load the model. */
   readonly retryModel: () => void;
+  /** Tries again to open the visitor's own model that failed last, and generates with it. */
+  readonly reopenModel: () => void;
   readonly togglePlay: () => void;
   /** Jumps to a time in seconds, playing or not. */
   readonly seek: (seconds: number) => void;

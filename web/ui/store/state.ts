@@ -117,7 +117,16 @@ export interface Problem {
   readonly hint: string;
   /** What the dialog's first button offers. */
   readonly remedy:
-    'song' | 'leader' | 'any-file' | 'read-again' | 'model' | 'generate' | 'project' | 'reload' | 'none';
+    | 'song'
+    | 'leader'
+    | 'any-file'
+    | 'read-again'
+    | 'model'
+    | 'own-model'
+    | 'generate'
+    | 'project'
+    | 'reload'
+    | 'none';
   /** The file that was refused, if it was a file. */
   readonly refused: { readonly kind: InputKind | null; readonly name: string } | null;
 }

@@ -20,4 +20,15 @@ describe('a folder of files', () => {
       message: expect.stringContaining('decode.onnx') as string,
     });
   });
+
+  it('says that a file was moved since it was given, and to drop the folder again', async () => {
+    const moved = new Blob(['abc']);
+    moved.arrayBuffer = () => Promise.reject(new DOMException('gone', 'NotFoundError'));
+    const path = new URL('step.onnx', ROOT).href;
+    await expect(fetchFile(path, folderFetch({ 'step.onnx': moved }, ROOT))).rejects.toMatchObject({
+      code: 'model-missing',
+      message: expect.stringMatching(/step\.onnx .*moved/) as string,
+      hint: expect.stringContaining('Drop the whole folder') as string,
+    });
+  });
 });

@@ -148,6 +148,22 @@ describe('opening a model of the visitor', () => {
     expect(isDisposed()).toBe(false);
   });
 
+  it('tries the folder again that failed, while the present model stays', async () => {
+    const { store, link, attempts, present } = await danced();
+    const opened = link.open(folder);
+    attempts[1]?.fail(new AppError('download-failed', 'Nothing has arrived.', 'Try again.'));
+    await opened;
+    expect(store.getState()).toMatchObject({ problem: { remedy: 'own-model' }, model: { phase: 'ready' } });
+    link.retry();
+    expect(attempts, 'the page’s model has not failed').toHaveLength(2);
+    const again = link.reopen();
+    expect(attempts[2]?.folder).toBe(folder);
+    expect(await link.generator()).toBe(present);
+    attempts[2]?.succeed({ manifest: other } as Generator);
+    expect(await again).toBe(true);
+    expect(store.getState().manifest).toBe(other);
+  });
+
   it('loads the visitor’s own model again, and not the page’s, after it could not be loaded again', async () => {
     const { store, link, attempts } = await danced();
     const opened = link.open(folder);
