@@ -69,6 +69,22 @@ export function pickDancer(
   return { ...withJoints(source, chosen.joints), parts, part: dancers.indexOf(chosen) };
 }
 
+/**
+ * The first dancer of a clip beside other clips, which are what can be chosen; a warning names the dancers who are left
+ * out. Arguments as of `pickDancer`.
+ */
+export function pickFirstDancer(source: MotionSource, moves: (joint: number) => boolean): MotionSource {
+  const first = pickDancer(source, 0, moves);
+  if (first === source) return source;
+  const [name, ...others] = first.parts;
+  const leftOut = others.map((other) => `“${other}”`).join(', ');
+  const warning =
+    `“${source.parts[source.part]!}” moves ${first.parts.length} dancers; “${name!}” was read, not ${leftOut}. ` +
+    'To choose among them, export this motion alone.';
+  const { parts, part, warnings } = source;
+  return { ...first, parts, part, warnings: others.length > 0 ? [...warnings, warning] : warnings };
+}
+
 function hasBody({ joints, rest }: MotionSource): boolean {
   try {
     mapJoints(joints, worldPose(joints, rest, 0).places);

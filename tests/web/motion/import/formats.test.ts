@@ -471,6 +471,25 @@ describe('glTF and VRM', () => {
     }
   });
 
+  test('of several clips that each move two dancers the first dancer is read, and the report names the other', async () => {
+    const bytes = changedGlb(duet, ({ nodes, animations }) => {
+      [dance, other].forEach(({ joints }, i) => (nodes[(i + 1) * joints.length + i]!.name = `dancer ${i}`));
+      const [first, second] = animations as [(typeof animations)[0], (typeof animations)[0]];
+      const count = first.samplers.length;
+      first.channels.push(
+        ...second.channels.map(({ sampler, target }) => ({ sampler: sampler + count, target })),
+      );
+      first.samplers.push(...second.samplers);
+    });
+    const both = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(both, dance)).toBeLessThan(WORST);
+    expect(both.report.parts).toEqual(['leader', 'follower']);
+    expect(both.report.warnings.join()).toMatch(
+      /“leader” moves 2 dancers; “dancer 0” was read, not “dancer 1”/,
+    );
+    expect((await read({ part: 1 }, ['a.glb', bytes])).report.warnings.join()).not.toContain('dancers');
+  });
+
   test('a pose of one key and a clip of shapes alone are not among the clips', async () => {
     const bytes = changedGlb(writeGlb(dance, { clips: ['dance', 'still'] }), ({ animations, accessors }) => {
       const firstKey = (accessor: number): number =>

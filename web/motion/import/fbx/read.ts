@@ -7,7 +7,7 @@ import { tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
-import { pickDancer } from '../../retarget/dancers';
+import { pickDancer, pickFirstDancer } from '../../retarget/dancers';
 import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
 import { ALL_UNITS, type AxisName } from '../../retarget/axes-and-units';
 import type { LocalPoses, MotionSource } from '../../retarget/source';
@@ -237,7 +237,5 @@ export function readFbx(bytes: Uint8Array, part: number): MotionSource {
       .map(({ model }) => model),
   );
   const moves = (joint: number): boolean => moved.has(order[joint]!.id);
-  return clips.length > 1
-    ? { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part }
-    : pickDancer(source, part, moves);
+  return clips.length > 1 ? pickFirstDancer(source, moves) : pickDancer(source, part, moves);
 }

@@ -6,7 +6,7 @@ import { onBody } from './on-body';
 import { tooLong } from '../positions';
 import type { FileBytes } from '../read';
 import { AppError } from '../../../common/error';
-import { pickDancer } from '../../retarget/dancers';
+import { pickDancer, pickFirstDancer } from '../../retarget/dancers';
 import type { MotionSource } from '../../retarget/source';
 
 /** The name of the format by the extensions that a file has. */
@@ -71,8 +71,7 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
   const body = format === 'VRMA' ? companions.find(({ name }) => /\.vrm$/i.test(name)) : undefined;
   if (body) return onBody(source, readContainer(body, []).json);
   const moves = (joint: number): boolean => movesNode(tracks, skeleton.nodes[joint]!);
-  if (clips.length > 1) return { ...pickDancer(source, 0, moves), parts: source.parts, part: source.part };
-  return pickDancer(source, part, moves);
+  return clips.length > 1 ? pickFirstDancer(source, moves) : pickDancer(source, part, moves);
 }
 
 function noLength(): AppError {
