@@ -35,11 +35,16 @@ test('a recording counts down, plays the song, and is read', async ({ page, cont
   await expect(opener).toBeFocused();
   await opener.click();
   await dialog.getByRole('button', { name: 'Record' }).click();
-  await expect(dialog.getByRole('status')).toHaveText('3');
-  await expect(dialog.getByRole('status')).toHaveText(/Recording, 1 of at most 120 s/);
+  const spoken = dialog.getByRole('status');
+  await expect(dialog.getByText('3', { exact: true })).toBeVisible();
+  await expect(spoken).toHaveText('The recording starts in 5 seconds.');
+  await expect(dialog.getByText('Recording, 1 of at most 120 s')).toBeVisible();
+  // A clock that is spoken every second would be heard over everything else.
+  await expect(spoken).toHaveText('Recording.');
   expect(await app.read(({ playback, song }) => song !== null && playback.playing)).toBe(true);
   await dialog.getByRole('button', { name: 'Stop' }).click();
   await expect(dialog).toBeHidden();
+  await expect(page.getByRole('status').getByText('The recording has ended.')).toBeAttached();
   // Nobody is in the picture.
   await expect(app.alert).toHaveAttribute('data-code', 'no-person', { timeout: 60_000 });
   expect(await app.read(({ leader, playback }) => [leader?.name, playback.playing])).toEqual([before, false]);

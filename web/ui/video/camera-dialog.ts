@@ -1,6 +1,7 @@
 import { AppError } from '../../common/error';
 import type { Services } from '../store/services';
-import type { Store } from '../store/store';
+import { toastShown } from '../store/actions/notices';
+import { apply, type Store } from '../store/store';
 import { textButton } from '../widgets/button';
 import { closeButton } from '../widgets/close-button';
 import { el, listen, rememberFocus, setText } from '../widgets/dom';
@@ -30,8 +31,9 @@ export async function recordCamera(
   const status = el('p', {
     class: 'status',
     text: 'Stand so that your whole body is in the picture, with some floor below the feet.',
-    attributes: { role: 'status' },
   });
+  // Without the clock, which changes every second.
+  const spoken = el('p', { class: 'visually-hidden', attributes: { role: 'status' } });
   const cancelled = new AbortController();
   const done = new AbortController();
   let begin: () => void = () => undefined;
@@ -60,6 +62,7 @@ export async function recordCamera(
     el('div', { class: 'head' }, el('h2', { text: 'Record a leader' }), closing),
     el('div', { class: 'frame' }, video),
     status,
+    spoken,
     el('div', { class: 'reading' }, start, stop),
   );
   const giveBackFocus = rememberFocus();
@@ -77,6 +80,7 @@ export async function recordCamera(
   try {
     await video.play();
     await started;
+    setText(spoken, `The recording starts in ${COUNTDOWN} seconds.`);
     for (let left = COUNTDOWN; left > 0 && !cancelled.signal.aborted; left--) {
       setText(status, `${left}`);
       await wait(1, cancelled.signal);
@@ -84,6 +88,7 @@ export async function recordCamera(
     if (cancelled.signal.aborted) return null;
     stop.hidden = false;
     stop.focus();
+    setText(spoken, 'Recording.');
     return await record(stream, { store, playback, status, done: done.signal, cancelled: cancelled.signal });
   } finally {
     for (const track of stream.getTracks()) track.stop();
@@ -149,6 +154,8 @@ async function record(
   play(false);
   await stopped;
   if (cancelled.aborted) return null;
+  // Said by the page: the dialog closes.
+  apply(store, toastShown('The recording has ended.'));
   const kind = recorder.mimeType.startsWith('video/mp4') ? 'mp4' : 'webm';
   return new File(parts, `camera.${kind}`, { type: `video/${kind}` });
 }
