@@ -81,6 +81,44 @@ test('the keys do what the list of keys says', async ({ page }) => {
   await app.until(({ reaction }) => reaction?.inputs.settings.seed === 12);
 });
 
+test('Space presses a button that the page or a key has moved the focus to, and plays after a click', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.drop(bvh({ frames: 900, name: 'mine.bvh' }));
+  await app.reaction('mine.bvh');
+  const playing = () => app.read(({ playback }) => playback.playing);
+  const keys = page.getByRole('dialog', { name: 'Keyboard shortcuts' });
+  await page.keyboard.press('?');
+  await expect(keys.getByRole('button', { name: 'Close' })).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect(keys).toBeHidden();
+  expect(await playing()).toBe(false);
+
+  const opener = page.getByRole('button', { name: 'Project', exact: true });
+  const menu = page.getByRole('dialog', { name: 'Project' });
+  await opener.click();
+  await page.keyboard.press('Escape');
+  await expect(opener).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect(menu).toBeVisible();
+  expect(await playing()).toBe(false);
+  await menu.getByRole('button', { name: 'Close' }).click();
+  await expect(opener).toBeFocused();
+  await page.keyboard.press('Space');
+  await expect(menu).toBeHidden();
+  expect(await playing()).toBe(true);
+
+  // A dialog that takes the place of another one keeps the focus.
+  await page.keyboard.press('?');
+  await page.keyboard.press('e');
+  await expect(keys).toBeHidden();
+  await expect(
+    page.getByRole('dialog', { name: 'Download' }).getByRole('button', { name: /BVH/ }),
+  ).toBeFocused();
+});
+
 test('a fader has a warm outline while its change is being applied', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

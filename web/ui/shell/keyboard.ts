@@ -17,14 +17,21 @@ import { settingOneSet } from '../store/actions/counting';
 import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
+/** Where the page moves the focus itself, whatever was pressed before. */
+const DIALOGS = '[role="dialog"], [role="alertdialog"]';
+
 /**
  * The keys of the page. Letters do nothing while someone types; arrows, Home and End belong to a slider or a choice that
- * has the focus; Space sets a checkbox, and presses a button that was reached by keyboard.
+ * has the focus; Space sets a checkbox, and presses a button in a dialog or one that the focus came to by keyboard.
  */
 export function mountKeyboard(store: Store, services: Services): () => void {
-  let byPointer = true;
+  /** Whether the last press was of a key, and whether it was when the focus came to where it is. */
+  let keyIsLast = false;
+  let byKey = false;
+  let focused: EventTarget | null = null;
+  const isPressedByKeys = (target: EventTarget | null): boolean =>
+    target instanceof HTMLButtonElement && (byKey || target.closest(DIALOGS) !== null);
   const onKey = (event: KeyboardEvent): void => {
-    if (event.key === 'Tab') byPointer = false;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target instanceof HTMLElement ? event.target : document.body;
     if (flipsOnStage(event, target, store)) {
@@ -43,24 +50,26 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     if (/^(Arrow|Home|End|Page)/.test(event.key) && ownsArrows) return;
     const ownsSpace = target.matches('input[type="checkbox"], input[type="radio"], summary');
     if (event.key === ' ' && ownsSpace) return;
-    if ((event.key === ' ' || event.key === 'Enter') && target.matches('button') && !byPointer) return;
+    if ((event.key === ' ' || event.key === 'Enter') && isPressedByKeys(target)) return;
     if (press(event, store, services)) event.preventDefault();
   };
   // A clicked button keeps the focus, and releasing Space would press it again.
   const onRelease = (event: KeyboardEvent): void => {
-    if (event.key === ' ' && byPointer && event.target instanceof HTMLButtonElement) event.preventDefault();
+    const { key, target } = event;
+    if (key === ' ' && target instanceof HTMLButtonElement && !isPressedByKeys(target))
+      event.preventDefault();
+  };
+  const onFocus = ({ target }: FocusEvent): void => {
+    // It also comes again when the window does.
+    if (target !== focused) byKey = keyIsLast;
+    focused = target;
   };
   return combineDisposers(
     listen(window, 'keydown', onKey),
     listen(window, 'keyup', onRelease),
-    listen(
-      window,
-      'pointerdown',
-      () => {
-        byPointer = true;
-      },
-      { capture: true },
-    ),
+    listen(window, 'focusin', onFocus),
+    listen(window, 'keydown', () => void (keyIsLast = true), { capture: true }),
+    listen(window, 'pointerdown', () => void (keyIsLast = byKey = false), { capture: true }),
   );
 }
 

@@ -1,5 +1,5 @@
 import { closeButton } from '../widgets/close-button';
-import { el, combineDisposers } from '../widgets/dom';
+import { el, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';
 import { apply, watch } from '../store/store';
@@ -50,16 +50,16 @@ export const mountKeysDialog: Mount = (root, store) => {
   );
   dialog.hidden = true;
   root.append(dialog);
-  let before: Element | null = null;
+  let giveBackFocus = rememberFocus();
   return combineDisposers(
     watch(
       store,
       (state) => state.openPanel === 'keys',
       (open) => {
-        if (open) before = document.activeElement;
+        if (open) giveBackFocus = rememberFocus();
+        else giveBackFocus(dialog);
         dialog.hidden = !open;
         if (open) close.focus();
-        else if (before instanceof HTMLElement) before.focus();
       },
     ),
     () => {
