@@ -113,6 +113,7 @@ test.describe('the model', () => {
     await app.until(({ leader, job }) => leader?.name === 'patient.bvh' && !job);
     missing = false;
     await page.getByRole('button', { name: 'Try again' }).click();
+    await expect(page.locator('.badge').getByRole('button')).toBeFocused();
     await app.until(({ model }) => model.phase === 'ready');
     await page.getByRole('button', { name: 'Generate' }).click();
     await app.reaction('patient.bvh');
@@ -158,12 +159,20 @@ test.describe('the model', () => {
     await app.openWithoutPicture(SHIPPED);
     await app.settled();
     await app.chooseLeader(bvh({ frames: 2400, name: 'unlucky.bvh' }));
+    await app.reaction('unlucky.bvh');
+    const generate = page.getByRole('button', { name: 'Generate' });
+    await generate.press('Enter');
     await app.until(({ job }) => job?.stage === 'step');
+    const cancel = page.getByRole('button', { name: /^Cancel/ });
+    await expect(cancel).toBeVisible();
+    await cancel.focus();
     const worker = page.workers().find((one) => /worker/.test(one.url()) && !/leader-worker/.test(one.url()));
     await worker?.evaluate('setTimeout(() => { throw new Error("out of luck"); })');
     await expectProblem(app, /stopped unexpectedly/, HINT);
-    await page.getByRole('button', { name: 'Generate' }).click();
-    await app.reaction('unlucky.bvh');
+    await expect(generate).toBeFocused();
+    const failed = await app.read(({ reaction }) => reaction?.inputs.settings.seed);
+    await generate.click();
+    await app.until(({ reaction, job }, seed) => !job && reaction?.inputs.settings.seed !== seed, failed);
   });
 
   test('falling silent is noticed, also after a cancelled request, and Try again starts afresh', async ({

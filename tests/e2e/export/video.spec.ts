@@ -160,6 +160,15 @@ test('a video shows its progress, with the menu closed too, and is cancelled at 
   await expect(page.getByRole('progressbar', { name: 'Video' })).toBeHidden();
   await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
   await expect(page.getByRole('radio', { name: /As on stage/ })).toBeChecked();
+
+  // Also after a failure, which takes the Cancel button away as well.
+  await page.getByRole('button', { name: 'Save video' }).press('Enter');
+  await app.until(({ videoProgress }) => videoProgress);
+  await page.getByRole('button', { name: 'Cancel the video' }).focus();
+  await page.evaluate('VideoEncoder.prototype.encode = () => { throw new Error("out of memory"); }');
+  await expect(app.alert).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(page.getByRole('button', { name: 'Save video' })).toBeFocused();
 });
 
 /** What the page has done since counting began. */

@@ -52,7 +52,10 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   await expect.poll(onStage).toEqual(before);
 
   await drop();
+  await panel.getByRole('button', { name: 'Cancel' }).focus();
   await app.reaction('dance.webm');
+  const close = panel.getByRole('button', { name: 'Close' });
+  await expect(close, 'Cancel is gone').toBeFocused();
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   const lane = page.getByRole('img', { name: /The video dance.webm; confidence over 4\.\d s of dance/ });
   await expect(lane).toBeVisible();
@@ -77,6 +80,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
 
   // Its sound is the song after one click.
   await panel.getByRole('button', { name: 'Use its sound as the song' }).click();
+  await expect(close).toBeFocused();
   await app.until(({ reaction }) => reaction?.inputs.song?.name === 'dance.webm');
   const song = await app.read(({ song, shift }) => ({ ...song!.data, sound: null, shift }));
   expect(song.duration).toBeCloseTo(5, 0);

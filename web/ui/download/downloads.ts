@@ -121,11 +121,10 @@ function createVideoJob(
       apply(store, savedChanged(null));
       // Two stages that draw at once would slow each other down.
       apply(store, playbackSet({ playing: false }));
-      writeDance(store, tools, save, controller.signal)
-        .catch((error: unknown) => {
-          if (!controller.signal.aborted && !isAbort(error)) apply(store, problemShown(savingProblem(error)));
-        })
-        .finally(end);
+      writeDance(store, tools, save, controller.signal).then(end, (error: unknown) => {
+        end();
+        if (!controller.signal.aborted && !isAbort(error)) apply(store, problemShown(savingProblem(error)));
+      });
     },
     cancelVideo: () => {
       running?.abort();

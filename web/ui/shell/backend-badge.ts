@@ -54,6 +54,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
     const loading = model.phase === 'loading';
     meter.hidden = bytes.hidden = !loading;
     dot.hidden = model.phase !== 'ready';
+    if (model.phase !== 'failed' && again === document.activeElement) about.focus();
     again.hidden = model.phase !== 'failed';
     badge.className = `badge ${model.phase}`;
     about.title = '';

@@ -15,10 +15,15 @@ export const mountProblemDialog: Mount = (root, store, services) => {
     watch(
       store,
       (state) => state.problem,
-      (problem, state) => {
+      (problem) => {
         root.classList.toggle('dimmed', problem !== null);
-        if (problem) place.show(build(problem, state, store, services), 'button');
-        else place.close();
+        place.close();
+        // First the focus leaves the Cancel button of a job that has failed, so that it does not go back there.
+        queueMicrotask(() => {
+          const state = store.getState();
+          if (problem && state.problem === problem)
+            place.show(build(problem, state, store, services), 'button');
+        });
       },
     ),
     place.close,

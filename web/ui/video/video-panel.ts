@@ -1,6 +1,6 @@
 import type { Observations, Point, ReadReport, VideoMotion, WorldOptions } from '../../video/client';
 import { closeButton } from '../widgets/close-button';
-import { el, setText, setVariable } from '../widgets/dom';
+import { el, rememberFocus, setText, setVariable } from '../widgets/dom';
 import { textButton } from '../widgets/button';
 import { createControls, type Controls } from './controls';
 import { UNSURE } from './video-lane';
@@ -29,9 +29,11 @@ export class VideoPanel {
   readonly #fill = el('i');
   readonly #meter: HTMLElement;
   readonly #cancel: HTMLButtonElement;
+  readonly #close: HTMLButtonElement;
   readonly #sound: HTMLElement;
   readonly #advice = el('ul', { class: 'notes', attributes: { 'aria-label': 'What to film better' } });
   readonly #controls: Controls;
+  readonly #giveBackFocus = rememberFocus();
   #duration = 0;
   #begun = 0;
   #part = 0;
@@ -53,13 +55,14 @@ export class VideoPanel {
       },
       this.#fill,
     );
+    this.#close = closeButton(actions.close);
     this.#cancel = textButton('btn tint', 'Cancel', actions.cancel);
     this.#sound = textButton('btn tint', 'Use its sound as the song', actions.useSound);
     this.#controls = createControls(actions.change);
     this.#root = el(
       'section',
       { class: 'float video-panel', attributes: { 'aria-label': 'Video of the leader' } },
-      el('div', { class: 'head' }, el('h2', { text: file.name }), closeButton(actions.close)),
+      el('div', { class: 'head' }, el('h2', { text: file.name }), this.#close),
       // Above the picture, which may reach below the edge of a low window.
       this.#status,
       this.#spoken,
@@ -149,7 +152,8 @@ export class VideoPanel {
   }
 
   showSoundUsed(): void {
-    this.#sound.hidden = this.#soundUsed = true;
+    this.#soundUsed = true;
+    this.#hide(this.#sound);
   }
 
   /** Shows the moment of the dance that is played. @param start moment of the video at which the dance begins */
@@ -162,14 +166,27 @@ export class VideoPanel {
 
   dispose(): void {
     this.#picture.dispose();
+    this.#giveBackFocus(this.#root);
     this.#root.remove();
   }
 
   #reading(on: boolean): void {
     this.#root.classList.toggle('is-reading', on);
-    this.#meter.hidden = this.#cancel.hidden = !on;
+    this.#meter.hidden = !on;
+    if (!on) this.#hide(this.#cancel);
+    else {
+      this.#cancel.hidden = false;
+      // What has the focus there goes.
+      if (this.#picture.root.contains(document.activeElement)) this.#cancel.focus();
+    }
     this.#controls.root.hidden = on;
     this.#sound.hidden = on || !this.#hasSound || this.#soundUsed;
+  }
+
+  /** Hides a button; the focus, where the button has it, stays in the panel. */
+  #hide(button: HTMLElement): void {
+    if (button === document.activeElement) this.#close.focus();
+    button.hidden = true;
   }
 
   #say(text: string): void {

@@ -127,10 +127,11 @@ export class VideoPicture {
   }
 
   #picked(point: Point): void {
+    // First, while the person that was pressed still has the focus.
+    this.pick(point);
     this.#endChoice();
     this.#another.hidden = true;
     this.#observations = null;
-    this.pick(point);
   }
 
   /** The picture that was read last; while persons can be chosen theirs stays. */
