@@ -97,6 +97,16 @@ function hingesOf(limb: Limb, poses: Poses, bones: Bones): Float64Array {
   return hinges;
 }
 
+/**
+ * How much of the turn from pelvis to chest each of the two joints between them takes: a third up to a right angle, and
+ * none half a turn away. A chest that goes on past that is turned the other way round against the pelvis; joints with a
+ * third of it would jump there, and between two frames the chest would face the wrong way.
+ */
+function spineShare(pelvis: Quat, chest: Quat): number {
+  const angle = 2 * Math.acos(Math.min(1, Math.abs(quatDot(pelvis, chest))));
+  return Math.min(1, 2 - (2 * angle) / Math.PI) / 3;
+}
+
 /** World rotation of every joint in one frame, given the hinge axes of the four limbs. */
 function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   const turns: Quat[] = [];
@@ -107,8 +117,9 @@ function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: reado
     return multiply(between(rest, direction(sub(at(to), at(from)), rest)), base);
   };
   turns[J.pelvis] = pelvis;
-  turns[J.spine1] = aimed(slerp(pelvis, chest, 1 / 3), J.spine1, J.spine2);
-  turns[J.spine2] = aimed(slerp(pelvis, chest, 2 / 3), J.spine2, J.spine3);
+  const share = spineShare(pelvis, chest);
+  turns[J.spine1] = aimed(slerp(pelvis, chest, share), J.spine1, J.spine2);
+  turns[J.spine2] = aimed(slerp(pelvis, chest, 2 * share), J.spine2, J.spine3);
   turns[J.spine3] = chest;
   const neck = aimed(chest, J.neck, J.head);
   turns[J.neck] = neck;

@@ -214,6 +214,16 @@ describe('rotations over time', () => {
     }
   });
 
+  test('a chest that turns all the way round against the hips turns every joint of the spine smoothly', () => {
+    const made = madeDancer({ frames: 31, seed: 2 });
+    const rotations = made.rotations.map((_, i) => (i % 4 === 3 ? 1 : 0));
+    for (let frame = 0; frame < made.frames; frame++)
+      writeQuat(rotations, frame * JOINT_COUNT + J.spine3, aboutAxis([0, 1, 0], (Math.PI * frame) / 15));
+    const positions = forwardKinematics(made.offsets, made.root, rotations);
+    const solved = solve({ ...made, positions }, made.offsets);
+    for (const joint of [J.spine1, J.spine2, J.spine3]) expect(fastestTurn(solved, joint)).toBeLessThan(45);
+  });
+
   test('a chest whose collars change sides turns there, and hips as well', () => {
     const made = madeDancer({ frames: 90, seed: 4 });
     const positions = made.positions.slice();
