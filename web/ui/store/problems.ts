@@ -221,10 +221,12 @@ const USABLE =
   'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.';
 
 export function unknownFileProblem(name: string): Problem {
+  // Such as the BVH of both dancers that the page writes.
+  const unpack = /\.zip$/i.test(name) ? 'Unpack it and choose a file from it. ' : '';
   return {
     code: 'unknown-file',
     title: `${name} is neither a song, a video nor a motion.`,
-    hint: USABLE,
+    hint: unpack + USABLE,
     remedy: 'any-file',
     refused: { kind: null, name },
   };

@@ -129,6 +129,11 @@ describe('reading files', () => {
     expect(store.getState().firstVisit).toBe(true);
   });
 
+  it('says of an archive, such as the page writes for two dancers, that it is to be unpacked', async () => {
+    await files.open([file('both-bvh.zip', 'PK\u0003\u0004')]);
+    expect(store.getState().problem?.hint).toContain('Unpack it');
+  });
+
   it('the newest file of a kind wins, even if an older one is ready later', async () => {
     const answers: (() => void)[] = [];
     readers.readLeader = ({ files: [source] }) =>
