@@ -67,7 +67,7 @@ export function bestShift(
   const gain = mean(gains);
   const standardError = Math.sqrt(mean(gains.map((each) => (each - gain) ** 2)) / (gains.length - 1));
   const confidence = gain / Math.max(standardError, 1e-9);
-  const clear = by !== 0 && gain >= MIN_GAIN && confidence >= MIN_CONFIDENCE;
+  const clear = gain >= MIN_GAIN && confidence >= MIN_CONFIDENCE;
   return { by, score: mean(after), before: mean(now), confidence, clear };
 }
 

@@ -57,6 +57,13 @@ describe('the best shift of the music', () => {
     expect(found?.score).toBeGreaterThan(0.9);
   });
 
+  it('is the smaller of two that are as good but for one beat', () => {
+    const beats = clicks(0, 20, 1200);
+    // Four frames later all beats fit but the first, sixteen frames earlier all.
+    const music = [2, ...clicks(16, 20, 1220)];
+    expect(bestShift(beats, music, tolerance)?.by).toBe(4);
+  });
+
   it('is none where the beats align already, within a frame', () => {
     expect(betterShift(leader, clicks(still, 20, frames))).toBeNull();
     expect(betterShift(leader, clicks(still + 1, 20, frames))).toBeNull();
@@ -68,6 +75,7 @@ describe('the best shift of the music', () => {
     expect(best).toMatchObject({ clear: false });
     expect(best?.score).toBeGreaterThanOrEqual(best?.before ?? 1);
     expect(bestShift(leader, [1, 2, 3], tolerance)).toBeNull();
+    expect(bestShift(leader, clicks(still, 120, frames).slice(0, 5), tolerance)).toBeNull();
     expect(bestShift([], clicks(0, 20, frames), tolerance)).toBeNull();
   });
 });

@@ -29,6 +29,17 @@ describe('motion beats', () => {
     expect(motionBeats({ positions: new Float32Array(0), frames: 0 }, smoothing)).toEqual([]);
   });
 
+  it('are where the speed is lower than before and after, not where it stays as low', () => {
+    const beatsAt = (speeds: readonly number[]): number[] => {
+      const places = speeds.reduce((path, speed) => [...path, path.at(-1)! + speed], [0]);
+      const positions = Float32Array.from(places.flatMap((x) => [x, 0, 0]));
+      return motionBeats({ positions, frames: places.length }, 0.01);
+    };
+    expect(beatsAt([4, 2, 1, 2, 4])).toEqual([2]);
+    expect(beatsAt([4, 1, 1, 4])).toEqual([]);
+    expect(beatsAt([4, 2, 1])).toEqual([]);
+  });
+
   it('score 0 without music', () => {
     expect(beatScores([3, 7], [], tolerance)).toEqual([0, 0]);
   });

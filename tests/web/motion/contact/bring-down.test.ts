@@ -1,7 +1,9 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, test } from 'vitest';
 import { bringDown } from '../../../../web/motion/contact/bring-down';
-import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { besidePartner } from '../../../../web/motion/contact/beside-partner';
+import { shiftedLevel, type SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { small } from '../../support/small-manifest';
 
 const FPS = 30;
 const STANDING = 0.03;
@@ -23,6 +25,15 @@ function dancer(heights: readonly number[]): SolvedMotion {
     ),
     fitError: 0,
   };
+}
+
+/** As `dancer`, moved along x in each frame. */
+function moved(motion: SolvedMotion, by: (frame: number) => number): SolvedMotion {
+  return shiftedLevel(
+    motion,
+    Float64Array.from({ length: motion.frames }, (_, t) => by(t)),
+    new Float64Array(motion.frames),
+  );
 }
 
 const toeOf = ({ positions }: SolvedMotion, frame: number): number =>
@@ -50,8 +61,28 @@ describe('bringing a dancer down', () => {
     expect(Math.max(...steps)).toBeLessThan(0.015);
   });
 
+  it('leaves who stands on one foot, the other in the air', () => {
+    const motion = dancer(new Array<number>(90).fill(0));
+    for (let t = 0; t < 90; t++) motion.positions[(t * JOINT_COUNT + J.right_foot) * 3 + 1]! += 0.3;
+    expect(bringDown(motion)).toBe(motion);
+  });
+
   it('lowers a hop from a floating stand by the stand alone', () => {
     const motion = dancer(Array.from({ length: 90 }, (_, t) => (t >= 42 && t < 48 ? 0.3 : 0.1)));
     expect(toeOf(bringDown(motion), 45)).toBeCloseTo(0.045 + 0.2, 3);
   });
+});
+
+test('beside a partner a dancer keeps out of their body, glides no faster than dancers go and stands', () => {
+  const still = new Array<number>(120).fill(0);
+  const partner = dancer(still);
+  // Off the floor all the time, and two metres away within a fifth of a second.
+  const wild = moved(dancer(still.map(() => 0.1)), (t) => 0.05 + 2 * Math.min(1, Math.max(0, (t - 57) / 6)));
+  const kept = besidePartner(wild, partner, small.quality.penetration);
+  expect(toeOf(kept, 60)).toBeCloseTo(0.045, 3);
+  expect(kept.root[0]! ** 2 + kept.root[2]! ** 2).toBeGreaterThan(0.15 ** 2);
+  const steps = Array.from({ length: 119 }, (_, t) =>
+    Math.hypot(kept.root[t * 3 + 3]! - kept.root[t * 3]!, kept.root[t * 3 + 5]! - kept.root[t * 3 + 2]!),
+  );
+  expect(Math.max(...steps) * FPS).toBeLessThan(1.501);
 });

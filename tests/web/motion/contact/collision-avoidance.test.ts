@@ -2,6 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import {
   type BodyRule,
+  type CapsuleBody,
   capsuleBody,
   candidatePairs,
   penetrationDepth,
@@ -23,14 +24,16 @@ const stander = (path: (frame: number) => readonly [number, number]): SolvedMoti
   madeStander({ frames: FRAMES, path });
 const leader = stander(() => [0, 0]);
 
+const arm = /elbow|wrist/;
+/** The rule without arms. */
+const trunkRule: BodyRule = {
+  ...rule,
+  capsules: rule.capsules.filter(({ from, to }) => !arm.test(from) && !arm.test(to)),
+};
+
 /** Deepest overlap in every frame of all that is not an arm. */
 function overlaps(a: SolvedMotion, b: SolvedMotion): number[] {
-  const arm = /elbow|wrist/;
-  const withoutArms = {
-    ...rule,
-    capsules: rule.capsules.filter(({ from, to }) => !arm.test(from) && !arm.test(to)),
-  };
-  const [first, second] = [capsuleBody(a, withoutArms), capsuleBody(b, withoutArms)];
+  const [first, second] = [capsuleBody(a, trunkRule), capsuleBody(b, trunkRule)];
   return Array.from({ length: FRAMES }, (_, f) =>
     penetrationDepth(first, second, candidatePairs(first, second, f)),
   );
@@ -94,6 +97,22 @@ describe('avoidCollisions', () => {
     expect(top(z) - Math.min(...z)).toBeLessThan(0.01);
   });
 
+  test('leaves a touch that is shallower than an overlap', () => {
+    const touching = Array.from({ length: 100 }, (_, i) =>
+      madeStander({ frames: 3, path: () => [0, 0.1 + i / 250] }),
+    );
+    const depthOf = (other: SolvedMotion): number => {
+      const bodies = [leader, other].map((each) => capsuleBody(each, trunkRule)) as [
+        CapsuleBody,
+        CapsuleBody,
+      ];
+      return penetrationDepth(...bodies, candidatePairs(...bodies, 0));
+    };
+    const reactor = touching.find((other) => depthOf(other) < 0.8 * rule.deep)!;
+    expect(depthOf(reactor)).toBeGreaterThan(0.2 * rule.deep);
+    expect(avoidCollisions(reactor, madeStander({ frames: 3 }), rule)).toBe(reactor);
+  });
+
   test('does not shift a dancer who stands close without overlap', () => {
     // Standing half a metre off, level with the other: heads and trunks do not touch.
     const reactor = stander(() => [0, 0.5]);
@@ -152,6 +171,15 @@ describe('viterbiPath', () => {
       for (const a of near(b)) for (const c of near(b)) least = Math.min(least, cost([a, b, c]));
     }
     expect(cost(viterbiPath(costs, { start: false, end: false }))).toBeCloseTo(least, 9);
+  });
+
+  test('shifts by at most 0.63 m, in steps of at most 0.21 m, whatever staying costs', () => {
+    expect(top(SHIFTS.map(({ x, z }) => Math.hypot(x, z)))).toBeCloseTo(0.63, 9);
+    const drawnTo = (to: number): Float64Array =>
+      Float64Array.from(SHIFTS, ({ x, z }) => 1e6 * ((x - to) ** 2 + z ** 2));
+    const path = viterbiPath([drawnTo(0), drawnTo(0.63), drawnTo(0.63)], { start: false, end: false });
+    const steps = path.slice(1).map(({ x, z }, i) => Math.hypot(x - path[i]!.x, z - path[i]!.z));
+    expect(top(steps)).toBeCloseTo(0.21, 9);
   });
 
   test('begins and ends with a shift of zero where it has to, whatever that costs', () => {

@@ -186,6 +186,7 @@ describe('contact intervals', () => {
       { first: 0, last: 9 },
     ]);
     expect(carried([...row(5, 2), ...row(3, 0.1), ...row(5, 2)])).toEqual([]);
+    expect(carried([...row(5, 2), ...row(5, 0.1), ...row(5, 2)])).toEqual([{ first: 5, last: 10 }]);
   });
 
   test('are of toes up to 9 cm above the floor, and of ankles as much higher as they rest', () => {

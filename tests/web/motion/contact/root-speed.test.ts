@@ -50,4 +50,14 @@ describe('the limit of the root speed', () => {
     const slowed = limitRootSpeed(dancer(line(120, 4)), partner);
     expect(Math.max(...speeds(slowed))).toBeCloseTo(3, 3);
   });
+
+  it('follows a partner who was fast less than half a second ago, but not one who was fast long ago', () => {
+    /** Stands, goes at 4 m/s for a third of a second from a frame on, and stands. */
+    const dash = (from: number): number[] =>
+      Array.from({ length: 150 }, (_, t) => (4 / FPS) * Math.min(10, Math.max(0, t - from)));
+    const [soon, late] = [dash(32), dash(80)].map(dancer) as [SolvedMotion, SolvedMotion];
+    const partner = dancer(dash(20));
+    expect(limitRootSpeed(soon, partner)).toBe(soon);
+    expect(Math.max(...speeds(limitRootSpeed(late, partner)))).toBeLessThan(1.501);
+  });
 });
