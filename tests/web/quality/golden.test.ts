@@ -3,11 +3,13 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { visibleSlide } from '../../../web/quality/contact';
 import { measure } from '../../../web/quality/measure';
+import { severity, worstMoments } from '../../../web/quality/moments';
 import { overlapDepth } from '../../../web/quality/penetration';
 import type { Duet, Rules } from '../../../web/quality/rules';
 import { boundaries, velocityChange } from '../../../web/quality/seams';
 import { footContacts, RELEASE_SPEED } from '../../../web/motion/contact/foot-contacts';
 import { readNpz } from '../../../web/model/load/npz';
+import { madeStander } from '../support/made-stander';
 
 const folder = new URL('../../fixtures/', import.meta.url);
 const golden = JSON.parse(readFileSync(new URL('quality.json', folder), 'utf8')) as {
@@ -129,5 +131,91 @@ describe('the worst moments are at the made faults', () => {
       const frames = worst.map(({ frame }) => frame).sort((a, b) => a - b);
       frames.slice(1).forEach((frame, index) => expect(frame - frames[index]!).toBeGreaterThan(29));
     }
+  });
+});
+
+describe('what is drawn', () => {
+  const severities = (part: keyof typeof report): number[] =>
+    report[part].worst.map(({ severity }) => severity);
+
+  test('severity is 0 at fine, 1 at the limit and 2 at bad, never below 0, whichever end is fine', () => {
+    for (const [fine, limit, bad] of [
+      [0, 1, 3],
+      [4, 2, 0],
+    ] as const) {
+      const scale = { fine, limit, bad };
+      expect([fine, limit, bad, 2 * bad - limit].map((value) => severity(value, scale))).toEqual([
+        0, 1, 2, 3,
+      ]);
+      expect(severity(2 * fine - limit, scale)).toBe(0);
+      expect(severity(NaN, scale)).toBeNaN();
+    }
+  });
+
+  test('a slide four times over the limit, and an overlap five times over it, have severity 2', () => {
+    const { slide_speed } = golden.rules.contact;
+    const { deep } = golden.rules.penetration;
+    expect(severities('feet').length * severities('closeness').length).toBeGreaterThan(0);
+    severities('feet').forEach((severity, i) =>
+      expect(severity).toBeCloseTo(1 + (report.feet.worst[i]!.value / slide_speed - 1) / 3, 5),
+    );
+    severities('closeness').forEach((severity, i) =>
+      expect(severity).toBeCloseTo(1 + (report.closeness.worst[i]!.value / deep - 1) / 4, 5),
+    );
+  });
+
+  test('dancers who are close without touching are no fault', () => {
+    const [still, beside] = [0, 0.6].map(
+      (z) => madeStander({ frames: 30, path: () => [0, z] }).positions,
+    ) as [Float32Array, Float32Array];
+    const close = measure({ ...duet, frames: 30, leader: still, reactor: beside, beats: [] }, golden.rules);
+    expect(close.closeness.whole).toMatchObject({ overlapShare: 0, deepest: 0 });
+    close.closeness.rows[0]!.forEach((value) => expect(value).toBeCloseTo(0.5, 5));
+    expect(close.closeness.worst).toEqual([]);
+  });
+
+  test('a brush of the floor is no slide, a contact of a third of a second is', () => {
+    const slid = (frames: number): number | undefined => {
+      const inContact = new Uint8Array(30 * 4).map((_, i) =>
+        Number(i % 4 === 0 && i / 4 >= 10 && i / 4 < 10 + frames),
+      );
+      return visibleSlide({ inContact, speed: new Float64Array(30 * 4).fill(0.4) })[12];
+    };
+    expect(slid(4)).toBeNaN();
+    expect(slid(10)).toBeCloseTo(0.4, 6);
+  });
+
+  test('without a song there is no row of the music, and beats outside the dance do not count', () => {
+    const silent = measure({ ...duet, beats: [] }, golden.rules).beats;
+    expect(silent.rows).toEqual([report.beats.rows[1]]);
+    expect(silent.whole.music.value).toBeNaN();
+    const around = [-40, -5, ...duet.beats, duet.frames, duet.frames + 20];
+    expect(measure({ ...duet, beats: around }, golden.rules).beats).toEqual(report.beats);
+  });
+
+  test('a single beat of the music judges nothing', () => {
+    const { rows, worst } = measure({ ...duet, beats: [200] }, golden.rules).beats;
+    expect(rows[0]!.every(Number.isNaN)).toBe(true);
+    expect(worst.every(({ kind }) => kind !== 'music')).toBe(true);
+  });
+
+  test('seams are drawn around the seams alone', () => {
+    const { clear } = golden.rules.seams;
+    report.seams.rows[0]!.forEach((value, frame) => {
+      const near = golden.seam_frames.some((seam) => frame >= seam - clear && frame < seam + clear);
+      expect(Number.isNaN(value)).toBe(!near);
+    });
+  });
+
+  test('of peaks within a thirtieth of a long dance the worst is a moment, of equal ones the first', () => {
+    const momentsOf = (frames: number, peaks: Record<number, number>): number[] => {
+      const row = new Float32Array(frames);
+      for (const [frame, value] of Object.entries(peaks)) row[Number(frame)] = value;
+      return worstMoments(row, 30, 'slide', () => 0).map(({ frame }) => frame);
+    };
+    expect(momentsOf(3000, { 1000: 2, 1090: 3, 2000: 1.5 })).toEqual([1090, 2000]);
+    expect(momentsOf(600, { 100: 2, 190: 3 })).toEqual([190, 100]);
+    expect(momentsOf(600, { 100: 2, 120: 2 })).toEqual([100]);
+    expect(momentsOf(600, { 100: 1.1, 200: 1.4, 300: 1.2, 400: 1.3, 500: 0.9 })).toEqual([200, 400, 300]);
   });
 });

@@ -1,5 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { checkSource, type GenerateRequest, prepareInput } from '../../../../web/model/sample/inputs';
+import {
+  checkSource,
+  type GenerateRequest,
+  prepareInput,
+  sameButHeight,
+} from '../../../../web/model/sample/inputs';
 import { small } from '../../support/small-manifest';
 
 const WIDTH = small.audio.features;
@@ -55,5 +60,39 @@ describe('the song in the model', () => {
     expect(() => {
       checkSource(request(8, { frames: 6, start: 0.5 }), small);
     }).toThrow(/starts at frame 0.5/);
+  });
+});
+
+describe('the leader in the model', () => {
+  it('stands still after the end, up to a whole latent frame', () => {
+    const what = request(7, null);
+    const width = what.leader.positions.length / 7;
+    what.leader.positions.forEach((value, i) => (what.leader.positions[i] = value + Math.floor(i / width)));
+    const { leader } = prepareInput(what, small).condition;
+    expect(leader).toHaveLength(8 * width);
+    expect(leader.subarray(7 * width)).toEqual(leader.subarray(6 * width, 7 * width));
+    expect(leader[6 * width]).not.toBe(leader[5 * width]);
+  });
+});
+
+describe('two requests', () => {
+  const one = request(8, { frames: 12, start: 3 });
+
+  it('are for the same dance where only the height differs', () => {
+    expect(sameButHeight(one, { ...one, guidance: one.guidance.slice(), height: 1.8 })).toBe(true);
+  });
+
+  it.each<[string, Partial<GenerateRequest>]>([
+    ['leader', { leader: { ...one.leader } }],
+    ['song', { music: null }],
+    ['features', { music: { ...one.music!, features: one.music!.features.slice() } }],
+    ['start of the song', { music: { ...one.music!, start: 4 } }],
+    ['role', { role: 'leader' }],
+    ['seed', { seed: 2 }],
+    ['weight of the music', { musicGuidance: 1 }],
+    ['variety', { variety: 0.5 }],
+    ['guidance', { guidance: one.guidance.map((_, i) => (i === 5 ? 1 : 0)) }],
+  ])('are for another dance with another %s', (_, changes) => {
+    expect(sameButHeight(one, { ...one, ...changes })).toBe(false);
   });
 });

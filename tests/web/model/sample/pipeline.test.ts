@@ -127,6 +127,13 @@ describe('Pipeline', () => {
     ];
     expect(maxDifference(layer(one.latents, 0), layer(two.latents, 0))).toBeLessThan(1e-5);
     expect(maxDifference(layer(one.latents, 1), layer(two.latents, 1))).toBeGreaterThan(0.1);
+    const { seeds } = model.manifest.guidance.variety;
+    const mean = new Float32Array(one.latents.length / 2);
+    for (let seed = 0; seed < seeds; seed++)
+      layer((await pipeline.generate(request(120, { seed }))).latents, 0).forEach(
+        (value, i) => (mean[i]! += value / seeds),
+      );
+    expect(maxDifference(layer(one.latents, 0), mean)).toBeLessThan(1e-5);
   });
 
   it('gives the dance the same body whatever the weights', async () => {
@@ -147,10 +154,25 @@ describe('Pipeline', () => {
     const moment = Math.min(at * 30, 599);
     expect(from).toBeLessThanOrEqual(moment);
     expect(from + motion.frames).toBeGreaterThan(moment);
+    // A third of a second before it is shown too, and more than two seconds in all, at the end of the dance as well.
+    expect(from).toBeLessThanOrEqual(Math.max(0, moment - 9));
+    expect(motion.frames).toBeGreaterThan(60);
+    // Shifts out of the leader's body are those of the whole dance, which has one every third frame.
+    expect(from % 3).toBe(0);
     const inWhole = (values: Float32Array): Float32Array =>
       values.subarray(from * 66, (from + motion.frames) * 66);
     expect(maxDifference(motion.positions, inWhole(whole.motion.positions))).toBeLessThan(1e-4);
     expect(maxDifference(locked.positions, inWhole(whole.locked.positions))).toBeLessThan(1e-4);
+  });
+
+  it.each([
+    [150, 0],
+    [151, 1],
+  ])('shows no part of a dance of five seconds first (%i frames)', async (frames, count) => {
+    const previews: Preview[] = [];
+    const onPreview = (preview: Preview): void => void previews.push(preview);
+    await pipeline.generate(request(frames), { playhead: { frame: 60, at: 0, rate: 0 }, onPreview });
+    expect(previews).toHaveLength(count);
   });
 
   it('looks for the part in view when it begins to make it, and makes no whole that is no longer wanted', async () => {
@@ -213,12 +235,23 @@ describe('Pipeline', () => {
     await pipeline.generate({ ...first, music: null, role: 'leader' });
     await pipeline.generate({ ...first, leader: request(119).leader });
     expect(conditions.map(({ role }) => role)).toEqual([0, 1, 1, 1, 0]);
+    // A song that ends earlier is another one, even if its features are zeros as those of silence.
+    for (const frames of [120, 60]) {
+      const features = new Float32Array(frames * model.manifest.audio.features);
+      await pipeline.generate({ ...first, music: { features, frames } });
+    }
+    expect(conditions).toHaveLength(7);
   });
 
   it('marks silence before the model: no song, and a song shorter than the dance', async () => {
     await pipeline.generate(request(120, { music: null }));
     const { music } = request(50);
     await pipeline.generate(request(120, { music }));
+    // Nothing tells a dance without a song from one whose song has no weight.
+    const before = stepRuns;
+    await pipeline.generate(request(120, { music: null, musicGuidance: 5, seed: 9 }));
+    expect(stepRuns - before).toBe(STEPS);
+    conditions.pop();
     const heard = conditions.map(({ musicValid }) => musicValid.reduce((sum, v) => sum + v, 0));
     expect(heard).toEqual([0, 50]);
     expect(conditions[1]?.musicValid[49]).toBe(1);
@@ -295,10 +328,20 @@ describe('Pipeline', () => {
     const plain = request(241);
     const { latents, ...asDecoded } = await counted.generate(plain);
     const before = passes;
-    const tall = await counted.generate({ ...plain, height: 1.9 });
+    const given = latents.slice();
+    const tall = await counted.generate(
+      { ...plain, height: 1.9 },
+      {
+        playhead: { frame: 0, at: 0, rate: 0 },
+        onPreview: () => expect.unreachable('the whole is there as soon'),
+      },
+    );
     expect(passes).toBe(before);
     expect(standingHeight(tall.motion.offsets)).toBeCloseTo(1.9, 5);
     expect(tall.latents).toEqual(latents);
+    // The page may do with them what it wants.
+    tall.latents.fill(0);
+    expect(latents).toEqual(given);
     expect(tall.motion.positions).toEqual(
       (await new Pipeline(manifest, session, () => 0).generate({ ...plain, height: 1.9 })).motion.positions,
     );
@@ -325,6 +368,16 @@ describe('Pipeline', () => {
       }
     },
   );
+
+  it.each(['reactor', 'leader'] as const)('gives a %s the body of that role', async (role) => {
+    const { manifest, session } = model;
+    const skeleton = { ...manifest.skeleton, reactor_height: undefined };
+    const plain = request(20, { role });
+    const { motion } = await new Pipeline({ ...manifest, skeleton }, session, () => 0).generate(plain);
+    const size = bodyHeight(plain.leader) / skeleton.reference_height;
+    const body = skeleton.bodies[role].flat().map((value) => value * size);
+    expect(maxDifference(motion.offsets, body)).toBeLessThan(1e-5);
+  });
 
   it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
     const { latents } = await pipeline.generate(request(120));

@@ -3,7 +3,9 @@ import { describe, expect, it } from 'vitest';
 import { resized } from '../../../../web/motion/contact/body-size';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { J, JOINT_COUNT, PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
-import { distance, readVec } from '../../../../web/motion/math/vec3';
+import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
+import { aboutAxis, writeQuat } from '../../../../web/motion/math/quat';
+import { distance, lerp, readVec, type Vec3 } from '../../../../web/motion/math/vec3';
 import { madeDancer } from '../../support/made-dancer';
 
 const TOE_REST = 0.03;
@@ -61,6 +63,54 @@ describe('resized', () => {
     const other = resized(clip, 1.06, partner, TOE_REST);
     expect(distance(at(other, held, J.right_wrist), at(clip, held, J.right_wrist))).toBeLessThan(0.005);
     expect(distance(at(other, held, J.left_wrist), at(clip, held, J.left_wrist))).toBeGreaterThan(0.02);
+  });
+
+  it('lets a hand go gradually as the other moves away', () => {
+    /** How much of its way with the body the right hand makes where the partner's is so far behind it. */
+    const share = (metres: number): number => {
+      const partner = { ...far, positions: far.positions.slice() };
+      const [x, y, z] = at(clip, 30, J.right_wrist);
+      partner.positions.set([x, y, z - metres], (30 * JOINT_COUNT + J.left_wrist) * 3);
+      const [held, free] = [partner, far].map((other) =>
+        at(resized(clip, 1.06, other, TOE_REST), 30, J.right_wrist),
+      ) as [Vec3, Vec3];
+      return 1 - distance(held, free) / distance(at(clip, 30, J.right_wrist), free);
+    };
+    expect(share(0.1)).toBeLessThan(0.05);
+    expect(share(0.2)).toBeLessThan(0.12);
+    expect(share(0.3)).toBeCloseTo(0.5, 1);
+    expect(share(0.4)).toBeGreaterThan(0.9);
+    expect(share(0.5)).toBe(1);
+  });
+
+  it('bends legs that were straight forwards, and stretches none fully to stay where it stood', () => {
+    // Straight legs, the feet apart.
+    const { offsets } = madeDancer({ frames: 1 });
+    const rotations = new Float32Array(JOINT_COUNT * 4).map((_, i) => (i % 4 === 3 ? 1 : 0));
+    writeQuat(rotations, J.left_hip, aboutAxis([0, 0, 1], 0.5));
+    writeQuat(rotations, J.right_hip, aboutAxis([0, 0, 1], -0.5));
+    const straight: MotionClip = {
+      fps: 30,
+      frames: 1,
+      positions: forwardKinematics(offsets, Float32Array.of(0, 0.9, 0), rotations),
+    };
+    const tall = resized(straight, 1.2, far, TOE_REST);
+    const bent = { ...straight, positions: madeDancer({ frames: 1 }).positions };
+    const small = resized(bent, 0.6, bent, TOE_REST);
+    for (const side of ['left', 'right'] as const) {
+      const [hip, knee, ankle] = [J[`${side}_hip`], J[`${side}_knee`], J[`${side}_ankle`]];
+      const middle = lerp(at(tall, 0, hip), at(tall, 0, ankle), 0.5);
+      expect(at(tall, 0, knee)[2] - middle[2]).toBeGreaterThan(0.1);
+      const limbs = [
+        [hip, knee, ankle],
+        [J[`${side}_shoulder`], J[`${side}_elbow`], J[`${side}_wrist`]],
+      ] as const;
+      for (const [start, joint, end] of limbs) {
+        const bones = [start, end].map((other) => distance(at(small, 0, joint), at(small, 0, other)));
+        const extension = distance(at(small, 0, start), at(small, 0, end)) / (bones[0]! + bones[1]!);
+        expect(extension).toBeLessThan(0.99);
+      }
+    }
   });
 
   it('moves as smoothly as before', () => {

@@ -2,7 +2,16 @@ import { Object3D, Quaternion, Vector3 } from 'three';
 import { describe, expect, test } from 'vitest';
 import type { MotionClip, SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
-import { aboutAxis, multiply, quatDot, readQuat, rotate, writeQuat } from '../../../../web/motion/math/quat';
+import {
+  aboutAxis,
+  IDENTITY,
+  multiply,
+  type Quat,
+  quatDot,
+  readQuat,
+  rotate,
+  writeQuat,
+} from '../../../../web/motion/math/quat';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
 import { distance, readVec, sub } from '../../../../web/motion/math/vec3';
@@ -10,6 +19,15 @@ import { madeDancer, noisy } from '../../support/made-dancer';
 
 const at = (positions: Float32Array, frame: number, joint: number) =>
   readVec(positions, frame * JOINT_COUNT + joint);
+
+/** A dancer in the rest pose but for the rotations that are given. */
+function posed(frames: number, turnOf: (joint: number, frame: number) => Quat | null): SolvedMotion {
+  const made = madeDancer({ frames });
+  const rotations = made.rotations.slice();
+  for (let i = 0; i < frames * JOINT_COUNT; i++)
+    writeQuat(rotations, i, turnOf(i % JOINT_COUNT, Math.floor(i / JOINT_COUNT)) ?? IDENTITY);
+  return { ...made, rotations, positions: forwardKinematics(made.offsets, made.root, rotations) };
+}
 
 /** Largest turn of a joint from one frame to the next, degrees. */
 function fastestTurn(motion: SolvedMotion, joint: number): number {
@@ -178,6 +196,25 @@ describe('the rest pose', () => {
     expect([...readVec(offsets, J.pelvis)]).toEqual([0, 0, 0]);
   });
 
+  test('has the feet of standing, not of jumping, and neither toes up nor straight down', () => {
+    /** The slope of the foot where it turns by so much, for three quarters of the time a metre higher. */
+    const slope = (standing: number, inTheAir: number): number => {
+      const angle = (frame: number): number => (frame < 30 ? standing : inTheAir);
+      const made = posed(120, (joint, frame) =>
+        joint === J.left_ankle || joint === J.right_ankle ? aboutAxis([1, 0, 0], angle(frame)) : null,
+      );
+      const positions = made.positions.map((value, i) =>
+        i % 3 === 1 && i >= 30 * JOINT_COUNT * 3 ? value + 1 : value,
+      );
+      const [, y, z] = readVec(solve({ ...made, positions }).offsets, J.left_foot);
+      return y / Math.hypot(y, z);
+    };
+    const rest = -0.04 / Math.hypot(0.04, 0.1);
+    expect(slope(0, 0.8)).toBeCloseTo(rest, 3);
+    expect(slope(-1, 0)).toBeCloseTo(0, 6);
+    expect(slope(1.3, 0)).toBeCloseTo(-0.9, 3);
+  });
+
   test('has no rotation in the rest pose', () => {
     const made = madeDancer({ frames: 20, seed: 2 });
     const still = made.rotations.map((_, i) => (i % 4 === 3 ? 1 : 0));
@@ -224,34 +261,38 @@ describe('rotations over time', () => {
     for (const joint of [J.spine1, J.spine2, J.spine3]) expect(fastestTurn(solved, joint)).toBeLessThan(45);
   });
 
-  test('a chest whose collars change sides turns there, and hips as well', () => {
-    const made = madeDancer({ frames: 90, seed: 4 });
-    const positions = made.positions.slice();
-    const sides = [
-      [J.left_collar, J.right_collar],
-      [J.left_hip, J.right_hip],
-    ] as const;
-    for (let frame = 0; frame < made.frames; frame++) {
-      // From 1 to -1 within half a second; all other joints stay.
-      const share = Math.max(-1, Math.min(1, (45 - frame) / 7.5));
-      for (const [left, right] of sides)
-        for (let axis = 0; axis < 3; axis++) {
-          const [l, r] = [left, right].map((joint) => 3 * (frame * JOINT_COUNT + joint) + axis) as [
-            number,
-            number,
-          ];
-          const [middle, half] = [(positions[l]! + positions[r]!) / 2, (positions[l]! - positions[r]!) / 2];
-          [positions[l], positions[r]] = [middle + share * half, middle - share * half];
-        }
-    }
-    const turned = solve({ ...made, positions }, made.offsets);
-    expect(fastestTurn(turned, J.pelvis)).toBeLessThan(45);
-    const chest = worldRotations(turned, J.spine3);
-    expect(fastestTurn({ ...turned, rotations: chest }, J.spine3)).toBeLessThan(45);
-    const before = solve(made, made.offsets);
-    const early = 30 * JOINT_COUNT * 3;
-    expect(turned.positions.subarray(0, early)).toEqual(before.positions.subarray(0, early));
-  });
+  // At three quarters of a turn quaternions are found with the other sign.
+  test.each([0, 0.5])(
+    'a chest whose collars change sides turns there, and hips as well (spin %f)',
+    (spin) => {
+      const made = madeDancer({ frames: 90, seed: 4, spin });
+      const positions = made.positions.slice();
+      const sides = [
+        [J.left_collar, J.right_collar],
+        [J.left_hip, J.right_hip],
+      ] as const;
+      for (let frame = 0; frame < made.frames; frame++) {
+        // From 1 to -1 within half a second; all other joints stay.
+        const share = Math.max(-1, Math.min(1, (45 - frame) / 7.5));
+        for (const [left, right] of sides)
+          for (let axis = 0; axis < 3; axis++) {
+            const [l, r] = [left, right].map((joint) => 3 * (frame * JOINT_COUNT + joint) + axis) as [
+              number,
+              number,
+            ];
+            const [middle, half] = [(positions[l]! + positions[r]!) / 2, (positions[l]! - positions[r]!) / 2];
+            [positions[l], positions[r]] = [middle + share * half, middle - share * half];
+          }
+      }
+      const turned = solve({ ...made, positions }, made.offsets);
+      expect(fastestTurn(turned, J.pelvis)).toBeLessThan(45);
+      const chest = worldRotations(turned, J.spine3);
+      expect(fastestTurn({ ...turned, rotations: chest }, J.spine3)).toBeLessThan(45);
+      const before = solve(made, made.offsets);
+      const early = 30 * JOINT_COUNT * 3;
+      expect(turned.positions.subarray(0, early)).toEqual(before.positions.subarray(0, early));
+    },
+  );
 
   test('knees and elbows bend about their hinges', () => {
     const solved = solve(madeDancer({ frames: 150, seed: 4 }));
@@ -269,6 +310,22 @@ describe('rotations over time', () => {
         expect(along).toBeGreaterThan(0.95);
       }
     }
+  });
+
+  test('a straight leg that is turned out turns at the hip, as its foot shows', () => {
+    const made = posed(30, (joint) => (joint === J.left_hip ? aboutAxis([0, 1, 0], 0.6) : null));
+    const solved = solve(made);
+    const [, y, , w] = readQuat(solved.rotations, 15 * JOINT_COUNT + J.left_hip);
+    expect(2 * Math.atan2(y, w)).toBeCloseTo(0.6, 2);
+  });
+
+  test('head, hands and balls of the feet, which positions do not show, do not turn', () => {
+    const solved = solve(madeDancer({ frames: 60, seed: 3 }));
+    for (let frame = 0; frame < solved.frames; frame++)
+      for (const joint of [J.head, J.left_wrist, J.right_wrist, J.left_foot, J.right_foot])
+        expect(Math.abs(readQuat(solved.rotations, frame * JOINT_COUNT + joint)[3])).toBeGreaterThan(
+          0.999999,
+        );
   });
 
   test('an arm that is stretched for a while does not twist, however noisy', () => {
