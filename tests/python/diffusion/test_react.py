@@ -14,7 +14,7 @@ from export.tiny import tiny_model
 from training.config import CONTROLS
 from training.data.made import made_dancer
 from training.diffusion.model import Model
-from training.diffusion.react import Request, react
+from training.diffusion.react import Request, pad_to_stride, react
 from training.motion.rigid_body import bone_lengths
 
 EXPORTED = Path(__file__).parents[2] / "fixtures" / "tiny-model"
@@ -150,3 +150,9 @@ def test_guidance_at_every_step_is_in_the_latents_and_not_in_the_gains_of_the_de
     assert all((gains == 1).all() for gains in decoded_with)
     react(recorded, request(guidance=(0.4, 0.7)))
     assert decoded_with[-1][:, 1].tolist() == pytest.approx([1.7] * 3)
+
+
+def test_a_leader_stands_still_after_the_end_up_to_a_whole_latent_frame() -> None:
+    leader = np.arange(6.0)[:, None]
+    assert pad_to_stride(leader)[:, 0].tolist() == [0, 1, 2, 3, 4, 5, 5, 5]
+    assert len(pad_to_stride(leader[:4])) == 4

@@ -78,3 +78,14 @@ def test_stratified_timesteps_cover_all_noise_levels_in_order() -> None:
     assert torch.equal(times, times.sort().values)
     assert ((times * 64 // 1000) - torch.arange(64)).abs().max() <= 1
     assert times.max() <= 999
+
+
+def test_a_timestep_is_drawn_anywhere_in_its_slice_and_never_after_the_last(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    torch.manual_seed(0)
+    draws = torch.stack([stratified_timesteps(4, 1000, torch.device("cpu")) for _ in range(200)])
+    assert (draws.amax(0) - draws.amin(0) > 200).all()
+    # The greatest number that torch.rand gives: single precision rounds the end of the last slice up.
+    monkeypatch.setattr(torch, "rand", lambda n, device: torch.full((n,), 1 - 2**-24))
+    assert stratified_timesteps(64, 1000, torch.device("cpu")).max() == 999

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from typing import cast
+
 import pytest
 import torch
 
-from training.config import HfsqConfig, MaskingConfig
+from training.config import STREAMS, HfsqConfig, MaskingConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.losses import energy_loss, kinematic, stage1_loss
 from training.hfsq.masking import progressive_masking, slow_motion
-from training.hfsq.quantisers import Hfsq, fsq, fsq_range, make_quantiser
+from training.hfsq.quantisers import Hfsq, KlBottleneck, fsq, fsq_range, make_quantiser
 from training.motion.streams import STREAM_WIDTHS
 
 SMALL = HfsqConfig(groups=2, widths=(16, 16, 8), depth=2, refine_width=8)
@@ -109,6 +113,15 @@ def test_residual_masking_hides_upper_layers_and_perturbs_the_base() -> None:
     assert torch.equal(untouched, codes)
 
 
+def test_a_single_layer_is_perturbed_but_never_hidden() -> None:
+    torch.manual_seed(0)
+    masked, hidden = progressive_masking(
+        torch.ones(200, 6, 1, 8), MaskingConfig(residual=1.0, base_noise=0.1, code=0.0)
+    )
+    assert not hidden.any()
+    assert (masked - 1).std() == pytest.approx(0.1, rel=0.05)
+
+
 def test_code_masking_zeroes_the_asked_share_of_dimensions() -> None:
     torch.manual_seed(0)
     config = MaskingConfig(residual=0.0, code=0.5, code_rate=0.2)
@@ -186,6 +199,40 @@ def test_kinematic_loss_by_hand() -> None:
 def test_options_of_another_quantiser_are_refused(changes: dict) -> None:
     with pytest.raises(ValueError, match="does not read it"):
         make_quantiser(HfsqConfig(**changes))
+
+
+def test_kl_penalty_by_hand() -> None:
+    """0 for a standard normal; of N(1, 4) 0.5 (1 + 4 - 1 - log 4)."""
+    config = HfsqConfig(quantiser="kl", groups=1, layers=1, scales=(1.0,), weight_kl=0.1)
+    bottleneck = KlBottleneck(config)
+    torch.nn.init.zeros_(bottleneck.to_moments.weight)
+    for mean, variance in ((0.0, 1.0), (1.0, 4.0)):
+        moments = torch.tensor([mean, math.log(variance)])
+        bottleneck.to_moments.bias.data.copy_(moments.repeat_interleave(bottleneck.width))
+        bottleneck(torch.randn(2, 3, bottleneck.width))
+        expected = 0.05 * (mean**2 + variance - 1 - math.log(variance))
+        assert float(torch.as_tensor(bottleneck.penalty()).detach()) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize("beta", [0.0, 0.5])
+def test_the_latent_loss_pulls_the_encoder_and_with_beta_the_codes(beta: float) -> None:
+    """Eq. 5 alone: all other weights are zero."""
+    torch.manual_seed(0)
+    config = replace(
+        SMALL, masking=None, weight_position=0.0, weight_velocity=0.0, weight_acceleration=0.0,
+        weight_energy=0.0, weight_latent=2.0, beta=beta,
+    )  # fmt: skip
+    model, batch = Autoencoder(config), motions()
+    loss, parts = stage1_loss(model, batch, batch, config)
+    assert float(loss.detach()) == pytest.approx(2 * sum(float(parts[f"latent/{name}"]) for name in STREAMS))
+    loss.backward()
+    for name, stream, motion in zip(STREAMS, model.each, batch, strict=True):
+        v = stream.features(motion)
+        error = float((v - stream.quantiser.combine(stream.quantiser(v))).square().mean().detach())
+        assert float(parts[f"latent/{name}"]) == pytest.approx((1 + beta) * error, rel=1e-4)
+        assert any(p.grad is not None and p.grad.any() for p in stream.encoder.parameters())
+        up = cast(Hfsq, stream.quantiser).up.grad
+        assert (up is not None and bool(up.any())) is (beta > 0)
 
 
 def test_scales_must_match_layers() -> None:
