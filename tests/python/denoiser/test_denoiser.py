@@ -12,7 +12,7 @@ from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder, condition_dropout
 from training.denoiser.denoiser import Conditioning, Denoiser
-from training.denoiser.transformer import ChannelDropout, phase, sinusoidal
+from training.denoiser.transformer import ChannelDropout, alibi_bias, phase, sinusoidal
 from training.diffusion.model import Model
 
 BLOCK = 60
@@ -77,6 +77,12 @@ def test_without_the_causal_mask_a_token_sees_all_that_are_valid(model: Model) -
     assert torch.equal(seen[50:], torch.zeros(10)), "but no padding"
 
 
+def test_a_head_with_a_slope_looks_less_at_tokens_that_are_farther_away() -> None:
+    flat, steep = alibi_bias(6, (0.0, 0.5))
+    assert torch.equal(flat, torch.zeros(6, 6))
+    assert steep[2].tolist() == [-1.0, -0.5, 0.0, -0.5, -1.0, -1.5]
+
+
 def test_every_place_in_a_block_has_its_own_sinusoidal_position() -> None:
     table = sinusoidal(BLOCK)
     assert table.shape == (BLOCK, 32)
@@ -118,6 +124,11 @@ def test_each_layer_has_its_own_null_embedding_of_each_condition(model: Model) -
     leader, music = own(inputs["memory"], inputs["keep_leader"][:, 0], inputs["keep_music"][:, 0])
     assert torch.equal(leader, own.no_leader.expand_as(leader))
     assert torch.equal(music, own.no_music.expand_as(music))
+    kept = torch.ones(len(leader))
+    lead, song = inputs["memory"].chunk(2, dim=-1)
+    leader, music = own(inputs["memory"], kept, kept)
+    assert torch.equal(leader, own.leader(lead))
+    assert torch.equal(music, own.music(song))
 
 
 def test_music_is_a_condition_per_token(model: Model) -> None:
@@ -201,9 +212,21 @@ def test_features_of_invalid_music_frames_have_no_effect() -> None:
     valid[:, 40:] = 0
     music = torch.randn(1, 80, 54)
     other = music.clone()
-    other[:, 40:] = 1e6
-    assert torch.equal(made(leader, music, valid, role), made(leader, other, valid, role))
+    for anything in (1e6, torch.nan):
+        other[:, 40:] = anything
+        assert torch.equal(made(leader, music, valid, role), made(leader, other, valid, role))
     assert not torch.allclose(made(leader, music, valid, role), made(leader, music, torch.ones(1, 80), role))
+
+
+def test_silence_is_the_learned_vector_where_there_is_no_song_and_nowhere_else() -> None:
+    made = encoder(ConditionConfig(depth=0))
+    leader, music, role = torch.randn(1, 80, 68), torch.randn(1, 80, 54), torch.zeros(1)
+    valid = (torch.arange(80) < 40).float()[None]
+    heard = made(leader, music, valid, role).chunk(2, dim=-1)[1][0]
+    assert torch.equal(heard[10:], made.silence.expand(10, -1))
+    with torch.no_grad():
+        made.silence.add_(1)
+    assert torch.equal(made(leader, music, valid, role).chunk(2, dim=-1)[1][0, :10], heard[:10])
 
 
 def test_the_first_half_of_the_memory_is_the_leaders_and_the_second_the_musics() -> None:
