@@ -7,7 +7,7 @@ const STEPS_PER_METRE = 1e4;
 
 function point(values: Float32Array, joint: number): string {
   const at = (axis: number): number =>
-    Math.round((values[joint * 3 + axis] ?? 0) * STEPS_PER_METRE) / STEPS_PER_METRE || 0;
+    Math.round((values[joint * 3 + axis] ?? 0) * STEPS_PER_METRE) / STEPS_PER_METRE;
   return `[${at(0)},${at(1)},${at(2)}]`;
 }
 

@@ -21,7 +21,7 @@ export function atFrameRate(dance: Dance, rate: FrameRate): Dance {
 /** Between two frames the root goes in a line and every joint turns evenly, so that bones keep their lengths. */
 function resampled(motion: SolvedMotion, rate: number): SolvedMotion {
   const { fps, frames: before, offsets } = motion;
-  const frames = Math.floor(((before - 1) * rate) / fps + 1e-9) + 1;
+  const frames = Math.floor(((before - 1) * rate) / fps) + 1;
   const root = new Float32Array(frames * 3);
   const rotations = new Float32Array(frames * JOINT_COUNT * 4);
   for (let frame = 0; frame < frames; frame++) {

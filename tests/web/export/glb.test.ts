@@ -4,6 +4,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { validateBytes } from 'gltf-validator';
 import { beforeAll, expect, test } from 'vitest';
 import { writeGlb } from '../../../web/export/glb';
+import { atFrameRate } from '../../../web/export/rate';
 import { estimateBytes } from '../../../web/export/sizes';
 import { BVH_NAMES, REFERENCE } from '../../../web/motion/bvh/names';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
@@ -117,11 +118,14 @@ test('played back, the skin is where the stage draws it, to a centimetre', async
   expect(gaps[Math.floor(0.95 * gaps.length)]).toBeLessThan(0.01);
 });
 
-test('keys lie on the frames: from 0, a thirtieth of a second apart', async () => {
-  const { animations } = await new GLTFLoader().parseAsync(await writeGlb(dance, 'dark', bodies), '');
+test.each([30, 60] as const)('keys lie on the frames: from 0, %i a second', async (rate) => {
+  const glb = await writeGlb(atFrameRate(dance, rate), 'dark', bodies);
+  const { animations } = await new GLTFLoader().parseAsync(glb, '');
+  const frames = Math.floor((59 * rate) / 30);
+  expect(animations[0]!.duration).toBeCloseTo(frames / rate, 5);
   for (const { times } of animations[0]!.tracks) {
     expect(times[0]).toBe(0);
-    for (const time of times) expect(time).toBe(Math.fround(Math.round(time * 30) / 30));
+    for (const time of times) expect(time).toBe(Math.fround(Math.round(time * rate) / rate));
   }
 });
 

@@ -1,4 +1,4 @@
-import { describe, expect, test } from 'vitest';
+import { describe, expect, test, vi } from 'vitest';
 import { planVideo, secondsLeft } from '../../../web/export/client';
 import { fitted, titleOpacity, wrapped } from '../../../web/export/video/caption';
 import { videoPixels } from '../../../web/export/video/size';
@@ -60,4 +60,41 @@ test('a long title takes more lines, and only what is beyond the last one is cut
 test('a browser that can neither encode nor record writes no video', async () => {
   expect('VideoEncoder' in globalThis || 'MediaRecorder' in globalThis).toBe(false);
   expect(await planVideo({ width: 1280, height: 720 }, true)).toBeNull();
+});
+
+test('a video has the first pair of codecs that the browser has, and no sound without a song', async () => {
+  const size = { width: 1280, height: 720 };
+  const encoders = (video: RegExp, audio: RegExp): void => {
+    const which = (codecs: RegExp) => ({
+      isConfigSupported: (config: { codec: string }) =>
+        Promise.resolve({ supported: codecs.test(config.codec), config }),
+    });
+    vi.stubGlobal('VideoEncoder', which(video));
+    vi.stubGlobal('AudioEncoder', which(audio));
+  };
+  try {
+    encoders(/^(avc1|vp09)/, /^(mp4a|opus)/);
+    expect(await planVideo(size, true)).toEqual({
+      way: 'encode',
+      container: 'mp4',
+      video: 'avc',
+      audio: 'aac',
+    });
+    expect(await planVideo(size, false)).toEqual({
+      way: 'encode',
+      container: 'mp4',
+      video: 'avc',
+      audio: null,
+    });
+    // Of another size, since answers about one are kept.
+    encoders(/^vp8/, /^(mp4a|opus)/);
+    expect(await planVideo({ width: 640, height: 360 }, true)).toEqual({
+      way: 'encode',
+      container: 'webm',
+      video: 'vp8',
+      audio: 'opus',
+    });
+  } finally {
+    vi.unstubAllGlobals();
+  }
 });
