@@ -64,7 +64,6 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
 
 
-@pytest.mark.skipif(not TINY.exists(), reason="tiny model not built")
 def test_the_program_measures_an_exported_model(tmp_path: Path):
     duets = [made_duet(300, seed, name) for seed, name in enumerate(("train", "val", "one", "two"))]
     archive = {
