@@ -35,7 +35,7 @@ describe('clicks', () => {
       expect(rhythm.tempo).toBeCloseTo(bpm, 0);
       expect(rhythm.sure).toBe(true);
       expect(rhythm.beatsPerBar).toBe(beatsPerBar);
-      expect(farthest(rhythm.beats, bpm, 0.3)).toBeLessThan(0.02);
+      expect(farthest(rhythm.beats, bpm, 0.3)).toBeLessThan(0.006);
       const one = rhythm.beats[rhythm.first]!;
       expect(farthest([one], bpm / beatsPerBar, 0.3), 'the "1" begins a bar').toBeLessThan(0.02);
       expect(isConsistent(rhythm)).toBe(true);
@@ -60,6 +60,25 @@ describe('made music', () => {
     expect(rhythm.tempo).toBeCloseTo(bpm, 0);
     expect(rhythm.beatsPerBar).toBe(3);
     expect(farthest([rhythm.beats[rhythm.first]!], bpm / 3, 0.2)).toBeLessThan(0.03);
+  });
+
+  it('has beats while it plays, none in the silence before and after', () => {
+    const { beats, tempo } = heard(make.joined(make.quiet(6), make.clicks(120, 4), make.quiet(6)));
+    expect(tempo).toBeCloseTo(120, 0);
+    expect(beats[0]).toBeCloseTo(6.3, 1);
+    expect(beats.at(-1)).toBeGreaterThan(29);
+    expect(beats.at(-1)).toBeLessThan(30);
+  });
+
+  it('has its beats on the bass drum, not on the hi-hat that is sharper between them', () => {
+    const song = make.quiet(24);
+    for (let beat = 0; beat < 45; beat++) {
+      make.kick(song, 0.3 + beat / 2, 0.9);
+      make.stroke(song, 0.55 + beat / 2, 0.8, 25);
+    }
+    const { beats, tempo } = heard(song);
+    expect(tempo).toBeCloseTo(120, 0);
+    expect(farthest(beats, 120, 0.3)).toBeLessThan(0.05);
   });
 
   it('keeps its beats where the tempo changes', () => {
