@@ -10,7 +10,9 @@ import torch
 
 from tests.python.support.duets import made_duet
 from training.config import STRIDE, ConditionConfig, FrameConfig, HfsqConfig
-from training.denoiser.clips import Clip, make_clip
+from training.data.augment import warped_length
+from training.data.music_pairing import Variant
+from training.denoiser.clips import Augmentation, Clip, augmented_clips, make_clip
 from training.denoiser.windows import Windows
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
@@ -104,3 +106,54 @@ def test_yaw_turns_heading_streams_and_features(hfsq: Autoencoder, clip: Clip) -
     assert torch.equal(turned.latents, hfsq.normalise(hfsq.encode([s[None] for s in streams]))[0])
     assert not torch.allclose(turned.features[:, :63], clip.features[:, :63], atol=1e-2)
     assert torch.allclose(turned.features[:, 63], clip.features[:, 63], atol=1e-5), "heights do not turn"
+
+
+def test_a_window_cut_short_knows_nothing_beyond_either_end(clip: Clip) -> None:
+    batch = Windows([clip], 12, MARGIN, STRIDE, PLAIN).batch(
+        200, np.random.default_rng(0), short=1.0, song_ends=0.0, ends=0.0
+    )
+    lengths = batch.valid.sum(1).int()
+    assert set(lengths.tolist()) == set(range(8, 13))
+    for n, length in enumerate(lengths):
+        assert torch.equal(
+            batch.inside[n], torch.cat([torch.zeros(MARGIN), batch.valid[n], torch.zeros(MARGIN)])
+        )
+        assert torch.equal(batch.music_valid[n], batch.inside[n].repeat_interleave(STRIDE))
+        assert not batch.latents[n, length:].any()
+        assert batch.latents[n, :length].any()
+
+
+def test_the_share_of_songs_that_stop_is_that_asked_for(clip: Clip) -> None:
+    batch = windows(clip, PLAIN).batch(300, np.random.default_rng(0), short=0.0, song_ends=0.5, ends=0.0)
+    inside = batch.inside.repeat_interleave(STRIDE, dim=1)
+    stops = (batch.music_valid < inside).any(1)
+    assert stops.float().mean() == pytest.approx(0.5, abs=0.1)
+    after = batch.music_valid[stops]
+    assert not ((after.diff(dim=1) > 0) & (inside[stops].diff(dim=1) <= 0)).any(), "and do not begin again"
+
+
+def test_duets_are_danced_at_every_tempo_mirrored_in_both_roles_to_the_music_of_that_tempo(
+    hfsq: Autoencoder,
+) -> None:
+    duet = made_duet(160, 0, "one")
+    # Music says its tempo and its frame.
+    bank = {
+        "one": {
+            Variant(warp, "synth", 0): np.full((warped_length(160, warp), 54), warp, np.float32)
+            + np.arange(warped_length(160, warp), dtype=np.float32)[:, None]
+            for warp in (0.9, 1.0)
+        }
+    }
+    options = Augmentation(tempos=(0.9, 1.0), scales=(1.0, 1.0), yaw=0.0, copies=2)
+    clips = augmented_clips([duet], bank, hfsq, FrameConfig(), options, ConditionConfig(), seed=1)
+    assert len(clips) == 2 * 2 * 2 * 2
+    for clip, tempo in zip(clips, [0.9] * 8 + [1.0] * 8, strict=True):
+        assert [round(float(music[0, 0] % 1), 3) for music in clip.music] == [tempo % 1]
+    plain = [clip for clip in clips[8:12]]
+    assert [clip.role for clip in plain] == [0, 0, 1, 1]
+    for clip in plain:
+        start = int(clip.music[0][0, 0] - 1)  # the grid's offset cuts music and dancers alike
+        leader, reactor = (duet.reactor, duet.leader) if clip.role else (duet.leader, duet.reactor)
+        frames = slice(start, start + len(clip.leader))
+        assert torch.allclose(clip.leader, torch.from_numpy(leader[frames]), atol=1e-5)
+        assert torch.allclose(clip.reactor, torch.from_numpy(reactor[frames]), atol=1e-5)

@@ -9,7 +9,7 @@ import torch
 from onnx import TensorProto, helper, numpy_helper
 
 from export.tiny import tiny_model
-from export.weights import round_convolutions, rounded, store_compactly
+from export.weights import round_convolutions, rounded, store_compactly, to_codes
 
 
 def weights(*shape: int) -> np.ndarray:
@@ -74,3 +74,12 @@ def test_stored_weights_are_the_same_numbers_in_fewer_bytes() -> None:
     after = run(proto, x)
     for old, new in zip(before, after, strict=True):
         assert np.array_equal(old, new)
+
+
+def test_every_product_of_code_and_scale_is_exact_in_single_precision() -> None:
+    """Runtimes multiply in single precision or fuse the product: with a rounded one they would differ."""
+    values = weights(24, 16, 3)
+    codes, scale = to_codes(values, 0)
+    exact = codes.astype(np.float64) * scale.astype(np.float64)
+    assert np.array_equal((codes * scale).astype(np.float64), exact)
+    assert np.abs(codes).max() == 127

@@ -76,5 +76,8 @@ def test_bas_has_its_value_inside_its_interval():
     assert exact["chance"] < 0.2
     mixed = bas(beats + np.array([0, 3] * 5), motion)
     assert mixed["value"] == pytest.approx((1 + np.exp(-0.5)) / 2)
-    assert mixed["low"] < mixed["value"] < mixed["high"]
+    # 95 % of the means of ten draws lie within two of their standard deviations.
+    spread = 1.96 * (1 - np.exp(-0.5)) / 2 / np.sqrt(10)
+    assert mixed["high"] - mixed["value"] == pytest.approx(spread, rel=0.2)
+    assert mixed["value"] - mixed["low"] == pytest.approx(spread, rel=0.2)
     assert np.isnan(bas(np.array([], dtype=int), motion)["value"])

@@ -26,6 +26,9 @@ def test_heading_facing_and_root_distance():
     partner += leader[:, :1] + np.array([0.0, 0.0, 0.7]) - partner[:, :1]
     assert facing(leader, partner) == pytest.approx(np.full(61, 180.0))
     assert facing(leader, turned(leader, 30)) == pytest.approx(np.full(61, 30.0))
+    assert np.isfinite(facing(random_walk(600), random_walk(600))).all(), (
+        "also where both face exactly the same way"
+    )
     assert root_distance(leader, partner) == pytest.approx(np.full(61, 0.7))
 
 

@@ -5,9 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.python.support.bodies import random_body
+from tests.python.support.bodies import random_body, random_walk
 from training.evaluation.metrics import quick_report
-from training.evaluation.metrics.errors import mpjpe, mpjve, root_error, root_error_by_distance
+from training.evaluation.metrics.errors import (
+    bone_variation,
+    mpjpe,
+    mpjve,
+    root_error,
+    root_error_by_distance,
+)
 
 
 def test_mpjpe_ignores_the_place_and_counts_every_joint():
@@ -60,3 +66,20 @@ def test_quick_report():
     assert report["root_error_mm"] == pytest.approx(1000 * np.linalg.norm(offset, axis=-1).mean())
     assert report["speed_ratio"] == pytest.approx(0.5)
     assert report["distance_ratio"] == pytest.approx(distances[0] / distances[1])
+
+
+def test_dancers_in_one_place_count_among_the_nearest():
+    leader, truth = random_body(20), random_body(20)
+    truth[10:, :, 0] += 0.75
+    split = root_error_by_distance(leader, truth, truth + np.array([0.1, 0.0, 0.0]))
+    assert split["0-0.4 m"] == pytest.approx(100.0)
+    assert split["0.4-0.8 m"] == pytest.approx(100.0)
+    assert np.isnan(split[">1.2 m"])
+
+
+def test_bone_variation_is_a_share_of_the_length():
+    motion = random_walk(50)
+    assert bone_variation(2 * motion) == pytest.approx(bone_variation(motion))
+    assert bone_variation(random_body(50)) == pytest.approx(0.0, abs=1e-9)
+    pulsing = random_body(50) * (1 + 0.1 * (-1.0) ** np.arange(50))[:, None, None]
+    assert bone_variation(pulsing) == pytest.approx(0.1)

@@ -83,3 +83,10 @@ def test_fid_and_its_interval():
 def test_clips_have_equal_length():
     pieces = clips(np.arange(10), 4, 3)
     assert [list(piece) for piece in pieces] == [[0, 1, 2, 3], [3, 4, 5, 6], [6, 7, 8, 9]]
+
+
+def test_the_same_clips_are_drawn_together():
+    """So a set against itself has no distance in any draw, while one against other clips of its kind has."""
+    truth, other = (np.random.default_rng(seed).normal(size=(40, 3)) for seed in (8, 9))
+    assert fid(truth, truth).high == pytest.approx(0.0, abs=1e-9)
+    assert fid(truth, other).low > 0.01

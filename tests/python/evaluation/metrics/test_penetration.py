@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from tests.python.support.bodies import standing
+from training.data.made import made_dancer
 from training.evaluation.metrics.errors import bone_variation
 from training.evaluation.metrics.penetration import (
     CAPSULES,
     RADII,
     REFERENCE_HEIGHT,
+    capsules,
     depth,
     penetration,
     segment_distance,
@@ -84,3 +86,18 @@ def test_bone_variation_of_one_stretching_bone():
     assert bone_variation(motion) == pytest.approx(0.0, abs=1e-12)
     motion[::2, 20, 0] += 0.025  # the left forearm, 0.25 m, is 0.275 m every other frame
     assert bone_variation(motion) == pytest.approx((0.0125 / 0.2625) / 21)
+
+
+def test_no_overlap_of_any_two_capsules_is_missed():
+    """Against all pairs: legs and arms also cross in their middles, far from the bones' ends."""
+    leader, reactor = made_dancer(40, 1), made_dancer(40, 2)
+    reactor = reactor + (leader[:, :1] - reactor[:, :1]) * np.array([1, 0, 1]) + np.array([0.25, 0, 0.1])
+    (a0, a1), (b0, b1) = capsules(leader), capsules(reactor)
+    radii = [RADII * body_height(each) / REFERENCE_HEIGHT for each in (leader, reactor)]
+    expected = np.zeros(40)
+    for i in range(len(RADII)):
+        for j in range(len(RADII)):
+            apart = segment_distance(a0[:, i], a1[:, i], b0[:, j], b1[:, j])
+            expected = np.maximum(expected, radii[0][i] + radii[1][j] - apart)
+    assert depth(leader, reactor) == pytest.approx(expected)
+    assert (expected > 0.02).sum() > 10

@@ -63,3 +63,12 @@ def test_neighbouring_windows_are_not_repeats():
     assert (nearest_repeats(dance) > 1.0).all()
     with pytest.raises(ValueError, match="at least"):
         repetition(dance[: WINDOW_FRAMES + 50])
+
+
+def test_a_phrase_that_comes_again_nearly_the_same_repeats_up_to_six_centimetres():
+    for millimetres, found in ((50, True), (70, False)):
+        dance = wandering(900)
+        dance[600:750] = dance[100:250]
+        # Joints that show no heading, and by how far the mean over all joints is the distance.
+        dance[600:750, 15] += np.array([0.0, millimetres / 1000 * np.sqrt(22), 0.0])
+        assert (repetition(dance)["repeat_share"] > 0) is found

@@ -90,3 +90,17 @@ def test_motion_that_follows_the_beat_is_told_from_motion_that_does_not():
     assert shift_test([1 + 0j] * 3, [-1 + 0j] * 3)["p"] == pytest.approx(0.25, abs=0.02)
     with pytest.raises(ValueError, match="pairs"):
         shift_test([], [])
+
+
+def test_motion_before_the_first_and_after_the_last_beat_is_not_heard():
+    beats, motion = np.arange(400, 801, 40), slowing_at(0.25, 1200, 40)
+    assert beat_phase(music_with(beats, 1200), motion) == pytest.approx(1j, abs=0.02)
+    late = motion.copy()
+    late[:380] = slowing_at(0.75, 380, 40)  # elsewhere in the beat before the music begins
+    late[380:] += late[379] - late[380]
+    assert beat_phase(music_with(beats, 1200), late) == pytest.approx(1j, abs=0.1)
+
+
+def test_no_p_value_is_below_what_so_many_exchanges_can_show():
+    sure = shift_test([1 + 0j] * 40, [-1 + 0j] * 40, resamples=99)
+    assert sure["p"] == pytest.approx(1 / 100)

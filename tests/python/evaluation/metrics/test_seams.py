@@ -60,3 +60,9 @@ def test_paper_jitter_sees_thirty_frames():
     assert paper_jitter(motion, np.array([240])) == 0.0
     motion[270, :, 0] = 0.06  # changes frames 269 and 270: of the 60 frames 210..269, one changes by 60 mm
     assert paper_jitter(motion, np.array([240])) == pytest.approx(60 / 60)
+
+
+def test_the_interior_is_eight_frames_away_from_the_seams():
+    sample = seam_sample(smooth(500), smooth(500), boundaries(500))
+    assert sample.frames == 2 * 4
+    assert sample.inside_frames == 498 - 2 * 16

@@ -37,3 +37,14 @@ def test_travelling_does_not_leak_into_the_quick_bands():
 def test_doubling_a_motion_is_six_decibels():
     motion = np.cumsum(np.random.default_rng(1).normal(size=(200, 22, 3)), axis=0)
     assert list(band_decibels(motion, 2 * motion).values()) == pytest.approx([20 * np.log10(2)] * 4)
+
+
+@pytest.mark.parametrize("frames", [121, 122])
+def test_all_bands_together_are_the_squared_speed(frames: int):
+    """Of an even travel, and of a flicker from frame to frame, which is at the highest frequency."""
+    motion = random_body(frames)
+    motion[:, :, 0] += 2 / 30 * np.arange(frames)[:, None]
+    assert band_power(motion).sum() == pytest.approx(4.0)
+    flicker = random_body(frames)
+    flicker[:, :, 0] += 0.01 * (-1.0) ** np.arange(frames)[:, None]
+    assert band_power(flicker).sum() == pytest.approx(0.6**2)
