@@ -9,7 +9,7 @@ export function mountLostNote(stage: Stage, place: HTMLElement): void {
   place.append(note);
   stage.onLost((lost) => {
     note.textContent = lost
-      ? 'The graphics card has stopped drawing the dancers. It mostly goes on by itself in a moment. If it does not, reload the page.'
+      ? 'The graphics card has stopped drawing the dancers. It usually goes on by itself in a moment. If it does not, reload the page.'
       : '';
   });
 }
