@@ -130,3 +130,10 @@ export function smallJson() {
 }
 
 export const small: Manifest = parseManifest(smallJson());
+
+/** The same of a model of the same name whose step graph alone was trained again. */
+export function retrained(): Manifest {
+  const { step } = small.graphs;
+  const wasm = { ...step.files.wasm, sha256: '1'.repeat(64) };
+  return { ...small, graphs: { ...small.graphs, step: { ...step, files: { ...step.files, wasm } } } };
+}

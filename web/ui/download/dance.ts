@@ -45,7 +45,7 @@ export function selectionOf(role: Role | 'both', state: AppState): DancerSelecti
 
 /** The motions to be written: both dancers on the stage or one of them, as chosen; null without a reaction. */
 export function chosenDance(state: AppState): Dance | null {
-  const { reaction, manifest, footLock, download } = state;
+  const { reaction, footLock, download } = state;
   const who = chosenRole(state);
   const motion = reactorMotion(state);
   if (!reaction || !motion) return null;
@@ -59,7 +59,7 @@ export function chosenDance(state: AppState): Dance | null {
       song: song?.name ?? null,
       leader: leader.name,
       take: titleOnStage(state),
-      model: manifest && { id: manifest.id, name: manifest.name },
+      model: reaction.model ? { id: reaction.model.id, name: reaction.model.name } : null,
       settings,
       shift,
       footLock,

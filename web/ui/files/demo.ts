@@ -1,7 +1,15 @@
 import * as v from 'valibot';
+import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
-import type { LoadedLeader, LoadedSong, Reaction, Settings } from '../store/reaction';
+import {
+  modelIdentity,
+  type LoadedLeader,
+  type LoadedSong,
+  type ModelIdentity,
+  type Reaction,
+  type Settings,
+} from '../store/reaction';
 import { demoChanged } from '../store/actions/files';
 import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
@@ -39,7 +47,7 @@ interface DemoReaders {
   /** The motion in a BVH file that this page wrote. */
   readonly readReactor: (bvh: Uint8Array) => Promise<SolvedMotion>;
   /** Resolves when the manifest has given the settings their defaults. */
-  readonly manifest: () => Promise<unknown>;
+  readonly manifest: () => Promise<Manifest>;
 }
 
 /**
@@ -84,7 +92,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
   }
 }
 
-/** Shows the ready-made reaction at once, and again with the song among its inputs once that is analysed. */
+/** Shows the ready-made reaction at once, and again with its model and song when those are there. */
 async function showReaction(
   store: Store,
   made: { motion: SolvedMotion; leader: LoadedLeader; label: string; settings: Settings },
@@ -92,19 +100,20 @@ async function showReaction(
   readers: DemoReaders,
 ): Promise<void> {
   const { motion, leader, label, settings } = made;
-  const shown = (song: LoadedSong | null): Reaction => ({
+  const shown = (song: LoadedSong | null, model?: ModelIdentity): Reaction => ({
     motion,
     latents: null,
+    model,
     inputs: { leader, song, shift: 0, settings },
     label,
     seconds: null,
   });
   if (store.getState().leader !== leader) return;
   apply(store, reactionAdded(shown(null)));
-  await readers.manifest();
+  const model = modelIdentity(await readers.manifest());
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await songLoading;
-  if (song && store.getState().leader === leader) apply(store, reactionAdded(shown(song)));
+  if (store.getState().leader === leader) apply(store, reactionAdded(shown(song, model)));
 }
 
 async function bytesOf(response: Response): Promise<Uint8Array> {

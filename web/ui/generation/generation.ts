@@ -11,7 +11,7 @@ import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
 import { sameBody, withFrames } from './with-frames';
-import type { Inputs, Reaction } from '../store/reaction';
+import { modelIdentity, type Inputs, type Reaction } from '../store/reaction';
 import { firstVisitEnded } from '../store/actions/files';
 import { jobChanged, previewShown, reactionAdded } from '../store/actions/reaction';
 import type { AppState } from '../store/state';
@@ -125,11 +125,11 @@ export class Generation {
       // Whoever asks for another dance to the same files wants to see it, not what the page is for.
       if (sameFiles(this.#store.getState().reaction, inputs)) apply(this.#store, firstVisitEnded());
       apply(this.#store, jobChanged({ stage: 'waiting', fraction: 0 }));
-      const result = await this.#request(running, signal);
+      const reaction = await this.#request(running, signal);
       if (signal.aborted) return;
       this.#running = null;
       const waiting = this.#waiting;
-      apply(this.#store, reactionAdded(reactionOf(result, inputs)));
+      apply(this.#store, reactionAdded(reaction));
       if (waiting) void this.#run(waiting);
     } catch (error) {
       if (signal.aborted) return;
@@ -141,10 +141,10 @@ export class Generation {
   }
 
   /** Runs the model, showing progress and the preview meanwhile. */
-  async #request(running: Running, signal: AbortSignal): Promise<GenerateResult> {
+  async #request(running: Running, signal: AbortSignal): Promise<Reaction> {
     const generator = await this.#model();
     signal.throwIfAborted();
-    return generator.generate(requestFor(running.inputs, generator.manifest), {
+    const result = await generator.generate(requestFor(running.inputs, generator.manifest), {
       signal,
       onProgress: (progress) => {
         if (!signal.aborted) apply(this.#store, jobChanged(progress));
@@ -157,6 +157,7 @@ export class Generation {
         if (this.#waiting) void this.#run(this.#waiting);
       },
     });
+    return reactionOf(result, running.inputs, generator.manifest);
   }
 }
 
@@ -181,11 +182,12 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
 }
 
 /** The model's result as a reaction that can be shown. */
-export function reactionOf(result: GenerateResult, inputs: Inputs): Reaction {
+export function reactionOf(result: GenerateResult, inputs: Inputs, manifest: Manifest): Reaction {
   const { motion, locked, latents, unfamiliarity } = result;
   cacheLocked(motion, locked);
   const seconds = Object.values(result.seconds).reduce((sum, part) => sum + part, 0);
-  return { motion, latents, unfamiliarity, inputs, label: null, seconds };
+  const model = modelIdentity(manifest);
+  return { motion, latents, model, unfamiliarity, inputs, label: null, seconds };
 }
 
 /**

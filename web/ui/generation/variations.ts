@@ -19,7 +19,7 @@ import { firstVisitEnded } from '../store/actions/files';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, readyInputs } from '../store/selectors';
-import type { Inputs, Reaction } from '../store/reaction';
+import { modelIdentity, ofSameModel, type Inputs, type Reaction } from '../store/reaction';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
@@ -144,9 +144,12 @@ export class VariationMaker {
 
   /** A reaction of this model to these inputs that is there already. */
   #known(inputs: Inputs): Reaction | undefined {
-    const { reaction: shown, takes } = this.#store.getState();
+    const { reaction: shown, takes, manifest } = this.#store.getState();
+    const model = manifest ? modelIdentity(manifest) : undefined;
     const known = [...(shown ? [shown] : []), ...takes.map(({ reaction }) => reaction)];
-    return known.find(({ latents, inputs: made }) => latents !== null && sameInputs(made, inputs));
+    return known.find(
+      (made) => made.latents !== null && ofSameModel(made, { model }) && sameInputs(made.inputs, inputs),
+    );
   }
 
   async #makeOne(inputs: Inputs, signal: AbortSignal): Promise<Reaction> {
@@ -159,7 +162,7 @@ export class VariationMaker {
       },
     });
     signal.throwIfAborted();
-    return reactionOf(result, inputs);
+    return reactionOf(result, inputs, generator.manifest);
   }
 
   /** Resolves once no job is under way. */

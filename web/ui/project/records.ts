@@ -28,6 +28,8 @@ const MAX_FILES = 100;
 const MAX_NAME_LENGTH = 1000;
 /** Most files that a leader is read from, with those that belong to it. */
 const MAX_LEADER_FILES = 10;
+/** Most graphs of a model. */
+const MAX_GRAPHS = 10;
 /** Largest rest offset of a joint from its parent, metres. */
 const MAX_BONE = 2;
 /** Largest distance between the root and the pelvis that follows from it, metres. */
@@ -128,6 +130,9 @@ const motion = v.object({
   ),
 });
 
+/** See `ModelIdentity`. */
+const model = v.object({ id, name: text, graphs: v.pipe(v.array(text), v.maxLength(MAX_GRAPHS)) });
+
 const take = v.object({
   id,
   number: count,
@@ -142,6 +147,7 @@ const take = v.object({
   createdAt: v.pipe(v.number(), v.minValue(0), v.maxValue(MAX_DATE)),
   label,
   seconds: v.nullable(amount),
+  model: v.fallback(v.optional(model), undefined),
   motion: id,
   leader: id,
   song: v.nullable(id),

@@ -1,7 +1,14 @@
 import type { Framing } from '../../common/framing';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction } from '../store/reaction';
+import type {
+  Inputs,
+  LeaderSource,
+  LoadedLeader,
+  LoadedSong,
+  ModelIdentity,
+  Reaction,
+} from '../store/reaction';
 import type { AppState, Compare, Letter, SongCounting } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 import type { Span } from '../store/time-scale';
@@ -54,6 +61,7 @@ export interface StoredTake {
   readonly createdAt: number;
   readonly label: string | null;
   readonly seconds: number | null;
+  readonly model?: ModelIdentity | undefined;
   /** Ids of the parts. */
   readonly motion: string;
   readonly leader: string;
@@ -156,14 +164,14 @@ export function storedProject(state: AppState, framing: Framing | null = null): 
   };
 
   const takes = state.takes.map(({ id, number, name, starred, createdAt, reaction }): StoredTake => {
-    const { label, seconds, inputs } = reaction;
+    const { label, seconds, model, inputs } = reaction;
     const parts = {
       motion: motion(reaction),
       leader: leader(inputs.leader),
       song: song(inputs.song),
       inputs: storedInputs(inputs),
     };
-    return { id, number, name, starred, createdAt, label, seconds, ...parts };
+    return { id, number, name, starred, createdAt, label, seconds, model, ...parts };
   });
   const inputs = currentInputs(state);
   const { other, letter, compare, takesMade, footLock, countings, playback } = state;

@@ -1,5 +1,5 @@
 import { differOnlyInWeights, sameInputs } from './selectors';
-import type { Reaction, Take } from './reaction';
+import { ofSameModel, type Reaction, type Take } from './reaction';
 import type { AppState } from './state';
 import { sealed, withoutCleared } from './history/history';
 import { currentInputs, takeOnStage, takeTitle, withTake } from './take';
@@ -33,7 +33,10 @@ export function withReaction(
   const { takes, takesMade, drag, toast } = state;
   const before = takeOnStage(state);
   // A drag stays one step of undo however many reactions come while it lasts.
-  const sameDance = before !== null && differOnlyInWeights(before.reaction.inputs, reaction.inputs);
+  const sameDance =
+    before !== null &&
+    ofSameModel(before.reaction, reaction) &&
+    differOnlyInWeights(before.reaction.inputs, reaction.inputs);
   const history = sameDance ? state.history : sealed(state.history);
   // A drag ends with the reaction to where it was released; one to the way there may come before.
   const goesOn = drag !== null && (drag.held || !sameInputs(reaction.inputs, currentInputs(state)));
@@ -77,9 +80,9 @@ export function withReaction(
   };
 }
 
-/** Whether both are of the same inputs and origin: those of another model, as ready-made ones, have no latents. */
+/** Whether both are of the same inputs, made by the same model or ready-made. */
 function isSameAgain(made: Reaction, reaction: Reaction): boolean {
-  const sameOrigin = made.label === reaction.label && (made.latents === null) === (reaction.latents === null);
+  const sameOrigin = made.label === reaction.label && ofSameModel(made, reaction);
   return sameOrigin && sameInputs(made.inputs, reaction.inputs);
 }
 

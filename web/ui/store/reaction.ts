@@ -1,5 +1,6 @@
 /** What a reaction is generated from, the reaction itself, and takes. */
 import type { Song } from '../../audio/client';
+import type { Manifest } from '../../model/client';
 import type { FileBytes } from '../../motion/import/read';
 import type { LeaderFile } from '../../motion/retarget/leader';
 import type { ImportOptions } from '../../motion/retarget/options';
@@ -60,6 +61,23 @@ export interface Inputs {
   readonly settings: Settings;
 }
 
+/** The model that made a reaction. */
+export interface ModelIdentity {
+  readonly id: string;
+  readonly name: string;
+  /** SHA-256 of its graphs: two models may have the same id and name. */
+  readonly graphs: readonly string[];
+}
+
+export function modelIdentity({ id, name, graphs }: Manifest): ModelIdentity {
+  return { id, name, graphs: Object.values(graphs).map(({ files }) => files.wasm.sha256) };
+}
+
+/** Whether both are of one model; of unknown models as well. */
+export function ofSameModel(one: Pick<Reaction, 'model'>, other: Pick<Reaction, 'model'>): boolean {
+  return one.model?.graphs.join() === other.model?.graphs.join();
+}
+
 export interface Reaction {
   /** As the model generated it; what is drawn and downloaded is `reactorMotion`. */
   readonly motion: SolvedMotion;
@@ -68,6 +86,8 @@ export interface Reaction {
    * another model than the present one made it.
    */
   readonly latents: Float32Array | null;
+  /** Not known of a reaction that an earlier page stored. */
+  readonly model?: ModelIdentity | undefined;
   /** What it was generated from. */
   readonly inputs: Inputs;
   /** How far the leader is from those that the model was trained on; not known of a reaction that is not new. */

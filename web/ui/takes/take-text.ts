@@ -1,20 +1,23 @@
 import { columnOf, guidanceText } from '../store/guidance-matrix';
 import { centimetres } from '../store/format';
-import type { Inputs, Settings, Take } from '../store/reaction';
+import { modelIdentity, ofSameModel, type Inputs, type Settings, type Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 
 /** Length at which the name of a file is cut, characters. */
 const MAX_NAME_LENGTH = 16;
 
 /**
- * What a take was made from, in a line: files and settings that differ from those on the page and the model's
+ * What a take was made from, in a line: files, model and settings that differ from those on the page and the model's
  * defaults, seed and guidance always: `as leader, song 1.7 s later, seed 1204, 2 coarse, 1.5 fine`.
  */
-export function takeText({ reaction: { inputs } }: Take, { leader, song, manifest }: AppState): string {
+export function takeText({ reaction }: Take, { leader, song, manifest }: AppState): string {
+  const { model, inputs } = reaction;
   const { settings } = inputs;
+  const here = manifest ? modelIdentity(manifest) : undefined;
   return [
     ...(inputs.leader === leader ? [] : [`to ${brief(inputs.leader.name)}`]),
     ...(inputs.song === song ? [] : [inputs.song ? brief(inputs.song.name) : 'no song']),
+    ...(model && here && !ofSameModel(reaction, { model: here }) ? [`by ${brief(model.name)}`] : []),
     ...(settings.role === 'leader' ? ['as leader'] : []),
     ...shiftText(inputs),
     `seed ${settings.seed}`,

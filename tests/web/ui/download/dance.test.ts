@@ -10,7 +10,7 @@ import { videoFileName } from '../../../../web/ui/download/file-name';
 import { downloadChosen, savedChanged } from '../../../../web/ui/store/actions/download';
 import { takeChosen } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';
-import type { Role } from '../../../../web/ui/store/reaction';
+import { modelIdentity, type Role } from '../../../../web/ui/store/reaction';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
 import { leader, still } from '../../support/made-state';
@@ -20,7 +20,8 @@ describe('what is downloaded', () => {
   let store: change.Store;
   const react = (id: string): void => {
     const inputs = currentInputs(store.getState())!;
-    const reaction = { motion: still(60), latents: null, inputs, label: null, seconds: 1 };
+    const model = modelIdentity(store.getState().manifest!);
+    const reaction = { motion: still(60), latents: null, model, inputs, label: null, seconds: 1 };
     change.apply(store, change.reactionAdded(reaction, { id, at: Number(id) * 1e6 }));
   };
   /** Roles of the dancers that are written, the generated one marked. */
@@ -52,6 +53,13 @@ describe('what is downloaded', () => {
     expect([written(), chosenRole(store.getState())]).toEqual([['generated reactor'], 'reactor']);
     change.apply(store, takeChosen('2'));
     expect([written(), chosenRole(store.getState())]).toEqual([['generated leader'], 'leader']);
+  });
+
+  it('names the model that made the dance, also when another one is on the page', () => {
+    change.apply(store, change.modelOpened({ ...small, id: 'mine', name: 'Mine' }, 7));
+    expect(chosenDance(store.getState())?.about.model).toEqual({ id: 'small', name: 'Small' });
+    react('2');
+    expect(chosenDance(store.getState())?.about.model).toEqual({ id: 'mine', name: 'Mine' });
   });
 
   it('is the loaded dancer or both where that is chosen, in either role', () => {

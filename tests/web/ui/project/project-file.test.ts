@@ -12,6 +12,7 @@ import {
 import { checked } from '../../../../web/ui/project/records';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';
+import { modelIdentity } from '../../../../web/ui/store/reaction';
 import type { AppState } from '../../../../web/ui/store/state';
 import { regionSet, shiftSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
 import * as change from '../../support/actions';
@@ -45,7 +46,14 @@ function filled(): change.Store {
     change.apply(
       store,
       change.reactionAdded(
-        { motion, latents: at === 1 ? null : latents(60, at), inputs, label: null, seconds: 2 },
+        {
+          motion,
+          latents: at === 1 ? null : latents(60, at),
+          model: at === 1 ? undefined : modelIdentity(small),
+          inputs,
+          label: null,
+          seconds: 2,
+        },
         { id: `t${at}`, at: at * 1e6 },
       ),
     );
@@ -105,6 +113,7 @@ const summary = (state: AppState) => ({
     song: take.reaction.inputs.song?.name,
     motion: take.reaction.motion,
     latents: take.reaction.latents,
+    model: take.reaction.model,
   })),
   onStage: takeOnStage(state)?.id,
   rest: [state.song?.name, state.leader?.name, state.settings, state.other, state.letter, state.footLock],

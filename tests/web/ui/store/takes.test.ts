@@ -1,5 +1,10 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { LoadedLeader, Reaction, Settings } from '../../../../web/ui/store/reaction';
+import {
+  modelIdentity,
+  type LoadedLeader,
+  type Reaction,
+  type Settings,
+} from '../../../../web/ui/store/reaction';
 import type { AppState } from '../../../../web/ui/store/state';
 import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
@@ -9,7 +14,7 @@ import * as edit from '../../../../web/ui/store/actions/takes';
 import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
 import { letterOf, currentInputs, takeOnStage, takeTitle } from '../../../../web/ui/store/take';
-import { small } from '../../support/small-manifest';
+import { retrained, small } from '../../support/small-manifest';
 import { leader, song, still } from '../../support/made-state';
 
 /** A page on which reactions arrive by hand. */
@@ -41,18 +46,15 @@ class Page {
     for (const one of changes) change.apply(this.store, one);
   }
   /** The reaction to what is asked for now arrives. */
-  arrive({
-    label = null,
-    after = 60_000,
-    latents = null,
-  }: { label?: string | null; after?: number; latents?: Float32Array | null } = {}): Reaction {
+  arrive({ label = null, after = 60_000 }: { label?: string | null; after?: number } = {}): Reaction {
     const inputs = currentInputs(this.state);
     if (!inputs) throw new Error('nothing to react to');
     this.now += after;
     const frames = inputs.leader.motion.frames;
     const reaction = {
       motion: still(frames),
-      latents,
+      latents: null,
+      model: modelIdentity(this.state.manifest!),
       inputs,
       label,
       seconds: label === null ? 1 : null,
@@ -115,16 +117,25 @@ describe('a new reaction', () => {
 
 describe('a reaction of another model', () => {
   it('leaves the take that the model before made from the same inputs', () => {
-    const latents = new Float32Array(4);
-    const before = page.arrive({ latents });
-    page.do(change.modelOpened({ ...small, id: 'other' }, 3));
+    const before = page.arrive();
+    page.do(change.modelOpened(retrained(), 3));
     page.seed(7);
-    const other = page.arrive({ latents });
+    const other = page.arrive({ after: 1000 });
     expect(page.titles).toEqual(['Take 2', 'Take 1']);
     expect(page.state.takes.map(({ reaction }) => reaction.motion)).toEqual([other.motion, before.motion]);
     page.do(edit.takeChosen(page.id('Take 1')));
-    page.arrive({ latents });
+    page.arrive();
     expect([page.titles, page.onStage]).toEqual([['Take 2', 'Take 1'], 'Take 2']);
+  });
+
+  it('replaces no take of the model before that differs in weights, however soon it comes', () => {
+    page.arrive();
+    page.do(change.modelOpened(retrained(), 7), change.guidanceSet('coarse', 0.5));
+    page.arrive({ after: 1000 });
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
+    page.do(change.guidanceSet('coarse', 0.6));
+    page.arrive({ after: 1000 });
+    expect(page.titles).toEqual(['Take 2', 'Take 1']);
   });
 });
 
@@ -243,7 +254,7 @@ describe('a drag with the pointer', () => {
     const onTheWay = currentInputs(page.state)!;
     page.do(change.guidanceSet('coarse', 0.4), change.dragEnded());
     const { motion } = page.state.reaction!;
-    const late = { motion: still(motion.frames), latents: null, inputs: onTheWay, label: null, seconds: 1 };
+    const late = { ...page.state.reaction!, motion: still(motion.frames), inputs: onTheWay };
     page.do(change.reactionAdded(late, { id: 'late', at: page.now }));
     page.arrive({ after: 10_000 });
     expect([page.titles, page.coarse, page.state.drag]).toEqual([['Take 2', 'Take 1'], 0.4, null]);

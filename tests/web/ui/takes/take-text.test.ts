@@ -1,9 +1,10 @@
 import { expect, test } from 'vitest';
-import type { Inputs, Take } from '../../../../web/ui/store/reaction';
+import type { Manifest } from '../../../../web/model/manifest';
+import { modelIdentity, type Inputs, type Take } from '../../../../web/ui/store/reaction';
 import type { AppState } from '../../../../web/ui/store/state';
 import { initialState } from '../../../../web/ui/store/store';
 import { fullTakeText, takeText } from '../../../../web/ui/takes/take-text';
-import { small } from '../../support/small-manifest';
+import { retrained, small } from '../../support/small-manifest';
 import { uniformGuidance, leader, song, still } from '../../support/made-state';
 
 const music = small.guidance.music.default;
@@ -44,6 +45,16 @@ test.each<[string, Partial<Inputs>]>([
   [`${guided}, 172 cm tall`, { settings: { ...settings, height: 1.716 } }],
 ])('what sets a take apart comes first: %s', (words, more) => {
   expect(takeText(take(more), page)).toBe(words);
+});
+
+test('the line of a take names its model where it is another than the page’s', () => {
+  const made = take({});
+  const by = (manifest: Manifest): Take => ({
+    ...made,
+    reaction: { ...made.reaction, model: modelIdentity(manifest) },
+  });
+  expect(takeText(by(small), page)).toBe(guided);
+  expect(takeText(by(retrained()), page)).toBe(`by Small, ${guided}`);
 });
 
 test('the tooltip of a take names all inputs', () => {
