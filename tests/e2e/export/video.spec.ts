@@ -1,3 +1,4 @@
+import { readFile } from 'node:fs/promises';
 import type { Download, Page } from '@playwright/test';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
@@ -106,6 +107,45 @@ test('a video has every frame and the song, and the stage is unchanged', async (
   ]);
   expect(await app.onScreen()).toEqual(before);
   expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
+});
+
+/** The encoder as Firefox has it: its decoder record has the first byte of each parameter set twice. */
+const FIREFOX_ENCODER = `{
+  const doubled = (record) => {
+    const bytes = [...new Uint8Array(record)];
+    const end = 8 + (bytes[6] << 8) + bytes[7];
+    const set = ([high, low, first, ...rest]) => [high, low + 1, first, first, ...rest];
+    const pictures = bytes.slice(end + 1, end + 3 + (bytes[end + 1] << 8) + bytes[end + 2]);
+    return new Uint8Array([...bytes.slice(0, 6), ...set(bytes.slice(6, end)), 1, ...set(pictures)]).buffer;
+  };
+  const Encoder = VideoEncoder;
+  VideoEncoder = class extends Encoder {
+    constructor({ output, error }) {
+      super({
+        error,
+        output: (chunk, meta) => {
+          const config = meta?.decoderConfig;
+          if (config) config.description = config.description ? doubled(config.description) : new ArrayBuffer(0);
+          output(chunk, meta);
+        },
+      });
+    }
+  };
+}`;
+
+test('a video that Firefox encodes says how it is decoded as players need it', async ({ page }) => {
+  await page.addInitScript(FIREFOX_ENCODER);
+  await openMenu(page);
+  const download = await saveVideo(page);
+  const file = await readFile(await download.path());
+  const [version, profile, , , , , , length = 0, ...sets] = file.subarray(file.indexOf('avcC') + 4);
+  const SEQUENCE = 0x67;
+  expect([version, ...sets.slice(0, 2)]).toEqual([1, SEQUENCE, profile]);
+  const PICTURE = 0x68;
+  expect([sets[length], sets[length + 3]]).toEqual([1, PICTURE]);
+  expect(sets[length + 4]).not.toBe(PICTURE);
+  const { streams } = await probe(await download.path());
+  expect(streams[0]).toMatchObject({ codec_name: 'h264', nb_read_frames: String(FRAMES) });
 });
 
 test('without an H.264 encoder the video is WebM; writing a video does not wait for timers', async ({

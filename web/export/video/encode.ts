@@ -6,6 +6,7 @@ import {
   Mp4OutputFormat,
   Output,
   QUALITY_HIGH,
+  type VideoEncodingConfig,
   WebMOutputFormat,
 } from 'mediabunny';
 import { yieldToPage } from '../../common/yield-to-events';
@@ -19,6 +20,20 @@ type EncodePlan = Extract<VideoPlan, { way: 'encode' }>;
 const KEY_FRAME_INTERVAL = 2;
 /** Bits per second. */
 const AUDIO_BITRATE = 160_000;
+
+/**
+ * Has H.264 encoded with its parameter sets in the stream (Annex B), from which the muxer writes the file's decoder
+ * record. Firefox's own record has a byte too many in each of them (bug 2031056): QuickTime and Windows refuse the file.
+ */
+const PARAMETERS_IN_STREAM: Pick<VideoEncodingConfig, 'onEncoderConfig' | 'onEncodedPacket'> = {
+  onEncoderConfig: (config) => {
+    config.avc = { format: 'annexb' };
+  },
+  onEncodedPacket: (_, meta) => {
+    // Firefox gives an empty record instead of none.
+    if (meta?.decoderConfig?.description?.byteLength === 0) delete meta.decoderConfig.description;
+  },
+};
 
 /**
  * Writes a video frame by frame with the browser's own encoders, as fast as encoding and drawing allow. The page stays
@@ -40,6 +55,7 @@ export async function encodeVideo(
       codec: plan.video,
       bitrate: QUALITY_HIGH,
       keyFrameInterval: KEY_FRAME_INTERVAL,
+      ...(plan.video === 'avc' && PARAMETERS_IN_STREAM),
     });
     output.addVideoTrack(pictures, { frameRate: fps });
     const audio = sound && source.sound ? addAudio(output, plan, sound, source.sound.start) : null;
