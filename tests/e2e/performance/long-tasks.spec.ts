@@ -28,9 +28,6 @@ interface StagePicture {
   readonly picture: string;
 }
 
-/** Time in which a task computed or waited for a frame, milliseconds. */
-const usedMs = ({ busy, waited }: Task): number => busy + waited.inScripts + waited.onScreen;
-
 const drawn = (page: Page) => page.evaluate<number>('window.reactdance.stage.stats().frames');
 
 /** The page with its model and the demo playing, in a loop: however long a test takes, the dance goes on. */
@@ -75,28 +72,28 @@ test('the main thread has no long task while a reaction is made and the dance pl
   browser,
 }) => {
   const app = await dancing(page);
-  const runs: { readonly used: number; readonly whole: number }[] = [];
+  const runs: { readonly busy: number; readonly whole: number }[] = [];
   for (let i = 0; i < 5; i++) {
     const { tasks, pictures } = await whileMade(page, browser);
     expect(await app.read(({ playback }) => playback.playing)).toBe(true);
     expect(pictures).toBeGreaterThan(3);
 
     const longest = (of: (task: Task) => number): number => Math.round(Math.max(...tasks.map(of)));
-    expect(longest(({ busy }) => busy)).toBeGreaterThan(0);
-    runs.push({ used: longest(usedMs), whole: longest(({ whole }) => whole) });
+    const run = { busy: longest(({ busy }) => busy), whole: longest(({ whole }) => whole) };
+    runs.push(run);
+    expect(run.busy).toBeGreaterThan(0);
     test.info().annotations.push({
       type: 'measured',
       description:
-        `${tasks.length} tasks, ${pictures} pictures; longest: busy ${longest(({ busy }) => busy)} ms, ` +
-        `from beginning to end ${longest(({ whole }) => whole)} ms, of which waiting for a picture ` +
+        `${tasks.length} tasks, ${pictures} pictures; longest: busy ${run.busy} ms, ` +
+        `from beginning to end ${run.whole} ms, of which waiting for a picture ` +
         `${longest(({ waited }) => waited.onScreen)} ms on its way to the screen and ` +
         `${longest(({ waited }) => waited.inScripts)} ms in scripts`,
     });
   }
-  // What the page does itself it does each time; other programs interrupt some of its tasks.
-  const inOrder = (times: readonly number[]): number[] => times.toSorted((a, b) => a - b);
-  expect(inOrder(runs.map(({ used }) => used))[2]).toBeLessThanOrEqual(MAX_TASK_MS);
-  expect(inOrder(runs.map(({ whole }) => whole))[0]).toBeLessThanOrEqual(MAX_TASK_MS);
+  expect(Math.max(...runs.map(({ busy }) => busy))).toBeLessThanOrEqual(MAX_TASK_MS);
+  // What the page waits for it waits for each time; other programs interrupt some of its tasks.
+  expect(Math.min(...runs.map(({ whole }) => whole))).toBeLessThanOrEqual(MAX_TASK_MS);
 });
 
 test('the dancers go on while a reaction is made; without a graphics card the page shows copies of the frames', async ({

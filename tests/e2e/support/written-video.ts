@@ -17,6 +17,13 @@ export async function openWritten(page: Page, file: string): Promise<JSHandle<Wr
       await new Promise((resolve) => (video.onloadeddata = resolve));
       video.currentTime = video.duration / 2;
       await new Promise((resolve) => (video.onseeked = resolve));
+      // A busy browser has no picture yet: then nothing is drawn.
+      const pixel = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })!;
+      for (;;) {
+        pixel.drawImage(video, 0, 0, 1, 1);
+        if (pixel.getImageData(0, 0, 1, 1).data[3] !== 0) break;
+        await new Promise((resolve) => setTimeout(resolve, 50));
+      }
       return { video, bytes };
     },
     (await readFile(file)).toString('base64'),
