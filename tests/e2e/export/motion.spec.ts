@@ -55,7 +55,14 @@ test('leader, reactor or both are saved in four formats with their metadata', as
       `${PREFIX}_reactor.bvh`,
     ]);
     const json = JSON.parse(await readFile(await (await save('JSON')).path(), 'utf8')) as object;
-    expect(json).toMatchObject({ song: 'Made demo song', take: 'Demo reaction', settings, frames: 60 });
+    const model = { id: 'tiny' };
+    expect(json).toMatchObject({
+      song: 'Made demo song',
+      take: 'Demo reaction',
+      model,
+      settings,
+      frames: 60,
+    });
     const archive = await bytes(await save('NPZ'));
     const names = Object.keys(unzipSync(archive));
     expect(names).toEqual(['leader.npy', 'reactor.npy', 'fps.npy', 'joints.npy', 'metadata.npy']);

@@ -19,7 +19,7 @@ import { firstVisitEnded } from '../store/actions/files';
 import { reactionOf, requestFor } from './generation';
 import { generationProblem, isAbort } from '../store/problems';
 import { sameInputs, readyInputs } from '../store/selectors';
-import { modelIdentity, ofSameModel, type Inputs, type Reaction } from '../store/reaction';
+import { modelIdentity, sameModel, type Inputs, type Reaction } from '../store/reaction';
 import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 
@@ -148,7 +148,7 @@ export class VariationMaker {
     const model = manifest ? modelIdentity(manifest) : undefined;
     const known = [...(shown ? [shown] : []), ...takes.map(({ reaction }) => reaction)];
     return known.find(
-      (made) => made.latents !== null && ofSameModel(made, { model }) && sameInputs(made.inputs, inputs),
+      (made) => made.latents !== null && sameModel(made.model, model) && sameInputs(made.inputs, inputs),
     );
   }
 

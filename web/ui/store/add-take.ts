@@ -1,5 +1,5 @@
 import { differOnlyInWeights, sameInputs } from './selectors';
-import { ofSameModel, type Reaction, type Take } from './reaction';
+import { sameModel, type Reaction, type Take } from './reaction';
 import type { AppState } from './state';
 import { sealed, withoutCleared } from './history/history';
 import { currentInputs, takeOnStage, takeTitle, withTake } from './take';
@@ -35,7 +35,7 @@ export function withReaction(
   // A drag stays one step of undo however many reactions come while it lasts.
   const sameDance =
     before !== null &&
-    ofSameModel(before.reaction, reaction) &&
+    sameModel(before.reaction.model, reaction.model) &&
     differOnlyInWeights(before.reaction.inputs, reaction.inputs);
   const history = sameDance ? state.history : sealed(state.history);
   // A drag ends with the reaction to where it was released; one to the way there may come before.
@@ -82,7 +82,7 @@ export function withReaction(
 
 /** Whether both are of the same inputs, made by the same model or ready-made. */
 function isSameAgain(made: Reaction, reaction: Reaction): boolean {
-  const sameOrigin = made.label === reaction.label && ofSameModel(made, reaction);
+  const sameOrigin = made.label === reaction.label && sameModel(made.model, reaction.model);
   return sameOrigin && sameInputs(made.inputs, reaction.inputs);
 }
 

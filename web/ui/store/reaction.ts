@@ -73,9 +73,9 @@ export function modelIdentity({ id, name, graphs }: Manifest): ModelIdentity {
   return { id, name, graphs: Object.values(graphs).map(({ files }) => files.wasm.sha256) };
 }
 
-/** Whether both are of one model; of unknown models as well. */
-export function ofSameModel(one: Pick<Reaction, 'model'>, other: Pick<Reaction, 'model'>): boolean {
-  return one.model?.graphs.join() === other.model?.graphs.join();
+/** Whether both are the same model; two that are not known count as one. */
+export function sameModel(one: ModelIdentity | undefined, other: ModelIdentity | undefined): boolean {
+  return one?.graphs.join() === other?.graphs.join();
 }
 
 export interface Reaction {
@@ -86,7 +86,7 @@ export interface Reaction {
    * another model than the present one made it.
    */
   readonly latents: Float32Array | null;
-  /** Not known of a reaction that an earlier page stored. */
+  /** Not known of one that an earlier page stored, or that came ready-made before the model was loaded. */
   readonly model?: ModelIdentity | undefined;
   /** What it was generated from. */
   readonly inputs: Inputs;

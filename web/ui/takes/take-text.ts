@@ -1,6 +1,6 @@
 import { columnOf, guidanceText } from '../store/guidance-matrix';
 import { centimetres } from '../store/format';
-import { modelIdentity, ofSameModel, type Inputs, type Settings, type Take } from '../store/reaction';
+import { modelIdentity, sameModel, type Inputs, type Settings, type Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 
 /** Length at which the name of a file is cut, characters. */
@@ -13,11 +13,10 @@ const MAX_NAME_LENGTH = 16;
 export function takeText({ reaction }: Take, { leader, song, manifest }: AppState): string {
   const { model, inputs } = reaction;
   const { settings } = inputs;
-  const here = manifest ? modelIdentity(manifest) : undefined;
   return [
     ...(inputs.leader === leader ? [] : [`to ${brief(inputs.leader.name)}`]),
     ...(inputs.song === song ? [] : [inputs.song ? brief(inputs.song.name) : 'no song']),
-    ...(model && here && !ofSameModel(reaction, { model: here }) ? [`by ${brief(model.name)}`] : []),
+    ...(model && manifest && !sameModel(model, modelIdentity(manifest)) ? [`by ${brief(model.name)}`] : []),
     ...(settings.role === 'leader' ? ['as leader'] : []),
     ...shiftText(inputs),
     `seed ${settings.seed}`,
