@@ -1,6 +1,8 @@
+import { writeFileSync } from 'node:fs';
 import { bvh, wav } from './support/files';
 import { App } from './support/app-page';
 import { expect, test } from './support/fixtures';
+import { tasksOf, TRACED } from './support/main-thread';
 
 for (const [name, width, height] of [
   ['desktop', 1440, 900],
@@ -163,37 +165,39 @@ test('the theme follows the system until it is chosen, and is then kept', async 
   expect(await theme()).toBe('light');
 });
 
-test('a song of three minutes is read while the page stays responsive', async ({ page }) => {
+test('a song of three minutes is read while the page stays responsive', async ({ page, browser }) => {
   const app = new App(page);
+  const { name, buffer } = wav({ seconds: 180, name: 'long song.wav' });
+  const path = test.info().outputPath(name);
+  writeFileSync(path, buffer);
   await app.openWithoutPicture();
   await app.settled();
+  await browser.startTracing(page, { categories: TRACED });
   await page.evaluate(`
-    window.tasks = [];
-    new PerformanceObserver((list) => {
-      for (const { duration } of list.getEntries()) window.tasks.push(duration);
-    }).observe({ type: 'longtask' });
     window.parts = new Set();
+    performance.mark('asked');
     (function check() {
-      const { song } = window.reactdance.store.getState().reading;
-      if (song) window.parts.add(song.fraction);
-      setTimeout(check, 20);
+      const { reading, song } = window.reactdance.store.getState();
+      if (reading.song) window.parts.add(reading.song.fraction);
+      if (song?.name === 'long song.wav') performance.mark('read');
+      else setTimeout(check, 20);
     })();
   `);
-  const begun = Date.now();
-  await app.chooseSong(wav({ seconds: 180, name: 'long song.wav' }));
-  await app.until(({ song }) => song?.name === 'long song.wav');
-  const seconds = (Date.now() - begun) / 1000;
-  const [tasks, parts] = await page.evaluate<[number[], number[]]>('[window.tasks, [...window.parts]]');
+  await app.chooseSong(path);
+  await app.until(() => performance.getEntriesByName('read').length);
+  const tasks = tasksOf(await browser.stopTracing(), 'asked', 'read');
+  const busy = tasks.map((task) => Math.round(task.busy)).toSorted((a, b) => b - a);
   test.info().annotations.push({
     type: 'measured',
-    description: `${seconds.toFixed(1)} s, tasks over 50 ms: ${tasks.map(Math.round).join(', ')} ms`,
+    description: `longest tasks, processor time: ${busy.slice(0, 5).join(', ')} ms`,
   });
-  // Five seconds are the aim on an idle machine; a shared one may take three times as long.
-  expect(seconds).toBeLessThan(15);
+
+  const parts = await page.evaluate<number[]>('[...window.parts]');
   expect(parts.length).toBeGreaterThan(3);
   expect(parts).toEqual(parts.toSorted((a, b) => a - b));
-  // Reading itself asks little of the page's own thread: to begin, and to show the song.
-  expect(tasks.filter((duration) => duration > 100).length).toBeLessThanOrEqual(4);
+  // Reading itself asks little of the page's own thread, however busy other programs keep the machine.
+  expect(busy[0]).toBeGreaterThan(0);
+  expect(busy[0]).toBeLessThanOrEqual(100);
 });
 
 test('the page links to the licences of all its software', async ({ page }) => {

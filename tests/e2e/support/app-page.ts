@@ -71,14 +71,17 @@ export class App {
     await expect.poll(() => this.page.evaluate<boolean>(expression), options).toBe(true);
   }
 
-  /** Chooses files through the button that asks for them. */
-  async choose(button: 'Choose a song' | 'Choose a file' | RegExp, file: TestFile): Promise<void> {
+  /**
+   * Chooses files through the button that asks for them.
+   * @param file made here, or the path of one: the browser opens that itself, without a task of the page
+   */
+  async choose(button: 'Choose a song' | 'Choose a file' | RegExp, file: TestFile | string): Promise<void> {
     const chooser = this.page.waitForEvent('filechooser');
     await this.page.getByRole('button', { name: button }).first().click();
     await (await chooser).setFiles(file);
   }
 
-  chooseSong = (file: TestFile): Promise<void> => this.choose(/^(Song: |No song yet)/, file);
+  chooseSong = (file: TestFile | string): Promise<void> => this.choose(/^(Song: |No song yet)/, file);
   chooseLeader = (file: TestFile): Promise<void> => this.choose(/^(Leader: |No leader yet)/, file);
 
   /** Drops files anywhere on the page, all at once. */

@@ -23,8 +23,13 @@ interface Traced {
   readonly tdur?: number;
 }
 
+const RUN_TASK = 'ThreadControllerImpl::RunTask';
+/** What was awaited goes on in microtasks, which Chromium runs after the task that they belong to. */
+const MICROTASKS = 'BlinkScheduler_PerformMicrotaskCheckpoint';
+
 /**
- * The tasks of the main thread between two performance marks, from a trace of Chromium.
+ * The tasks of the main thread between two performance marks, each with the microtasks after it, from a trace of
+ * Chromium.
  *
  * @param from name of the performance mark at the beginning
  * @param to name of the one at the end
@@ -38,25 +43,39 @@ export function tasksOf(trace: Buffer, from: string, to: string): Task[] {
     return found;
   };
   const [begin, end] = [mark(from), mark(to)];
-  const events = traceEvents.filter(
-    ({ ph, pid, tid, ts }) =>
-      ph === 'X' && pid === begin.pid && tid === begin.tid && ts >= begin.ts && ts <= end.ts,
-  );
+  const events = traceEvents
+    .filter(
+      ({ ph, pid, tid, ts }) =>
+        ph === 'X' && pid === begin.pid && tid === begin.tid && ts >= begin.ts && ts <= end.ts,
+    )
+    .toSorted((a, b) => a.ts - b.ts);
   const scripts = events.filter(({ name }) => name === 'FunctionCall' || name === 'FireAnimationFrame');
   const waits = events.filter(({ name }) => name.startsWith('CommandBufferProxyImpl::Wait'));
-  return events
-    .filter(({ name }) => name === 'ThreadControllerImpl::RunTask')
-    .map((task) => {
-      const here = waits.filter((wait) => within(wait, task));
-      const scripted = here.filter((wait) => scripts.some((script) => within(wait, script)));
-      const [all, inScripts] = [here, scripted].map((some) => sum(some.map(({ dur = 0 }) => dur)));
-      return {
-        whole: (task.dur ?? 0) / 1000,
-        // The shortest tasks have no CPU time in the trace.
-        busy: (task.tdur ?? 0) / 1000,
-        waited: { inScripts: inScripts! / 1000, onScreen: (all! - inScripts!) / 1000 },
-      };
-    });
+  return withMicrotasks(events).map((parts) => {
+    const here = waits.filter((wait) => parts.some((part) => within(wait, part)));
+    const scripted = here.filter((wait) => scripts.some((script) => within(wait, script)));
+    const [whole, all, inScripts] = [parts, here, scripted].map((some) =>
+      sum(some.map(({ dur = 0 }) => dur)),
+    );
+    return {
+      whole: whole! / 1000,
+      // The shortest tasks have no CPU time in the trace.
+      busy: sum(parts.map(({ tdur = 0 }) => tdur)) / 1000,
+      waited: { inScripts: inScripts! / 1000, onScreen: (all! - inScripts!) / 1000 },
+    };
+  });
+}
+
+/** Of one thread's events, in their order, those of every task: itself, and the microtasks after it. */
+function withMicrotasks(events: readonly Traced[]): Traced[][] {
+  const tasks: Traced[][] = [];
+  for (const event of events) {
+    const last = tasks.at(-1);
+    if (event.name === RUN_TASK) tasks.push([event]);
+    // Those that a task has run itself are within its time.
+    else if (event.name === MICROTASKS && last && !within(event, last[0]!)) last.push(event);
+  }
+  return tasks;
 }
 
 const within = (inner: Traced, outer: Traced): boolean =>
