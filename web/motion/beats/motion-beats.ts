@@ -4,7 +4,8 @@ import { gaussianFilter } from '../math/statistics';
 /** Mean joint speed between frames, metres per frame: frames - 1 values. */
 function meanSpeed(positions: Float32Array, frames: number): Float64Array {
   const width = frames > 0 ? positions.length / frames : 0;
-  return Float64Array.from({ length: Math.max(0, frames - 1) }, (_, frame) => {
+  const speed = new Float64Array(Math.max(0, frames - 1));
+  for (let frame = 0; frame < speed.length; frame++) {
     let sum = 0;
     for (let at = frame * width; at < (frame + 1) * width; at += 3) {
       const x = positions[at + width]! - positions[at]!;
@@ -12,8 +13,9 @@ function meanSpeed(positions: Float32Array, frames: number): Float64Array {
       const z = positions[at + width + 2]! - positions[at + 2]!;
       sum += Math.sqrt(x * x + y * y + z * z);
     }
-    return (3 * sum) / width;
-  });
+    speed[frame] = (3 * sum) / width;
+  }
+  return speed;
 }
 
 /**

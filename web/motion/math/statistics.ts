@@ -54,10 +54,11 @@ export function gaussianFilter(values: Float64Array, deviation: number): Float64
   const total = raw.reduce((sum, weight, lag) => sum + (lag === 0 ? weight : 2 * weight), 0);
   const weights = raw.map((weight) => weight / total);
   const count = values.length;
-  const reflected = Float64Array.from({ length: count + 2 * radius }, (_, index) => {
+  const reflected = new Float64Array(count + 2 * radius);
+  for (let index = 0; index < reflected.length; index++) {
     const wrapped = (((index - radius) % (2 * count)) + 2 * count) % (2 * count);
-    return values[wrapped < count ? wrapped : 2 * count - 1 - wrapped]!;
-  });
+    reflected[index] = values[wrapped < count ? wrapped : 2 * count - 1 - wrapped]!;
+  }
   const filtered = new Float64Array(count);
   for (let index = 0; index < count; index++) {
     let sum = values[index]! * weights[0]!;

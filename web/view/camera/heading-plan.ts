@@ -17,6 +17,11 @@ const COSINES = Float64Array.from({ length: BINS }, (_, bin) => Math.cos(bin * B
 const MAX_BINS = 3;
 /** Cost of a squared radian a second, where a dancer who hides the other for a second costs 1. */
 const TURN_COST = 0.3;
+/** Costs of turning by -`MAX_BINS` to `MAX_BINS` headings in a step. */
+const TURN_COSTS = Float64Array.from(
+  { length: 2 * MAX_BINS + 1 },
+  (_, i) => TURN_COST * (((i - MAX_BINS) * BIN) / STEP) ** 2,
+);
 /** Distances of the same joints of both across the picture at which one hides the other, and none does, metres. */
 const HIDDEN = 0.12;
 const SEEN = 0.42;
@@ -57,34 +62,46 @@ function hiddenCosts(
     counts[step]!++;
     for (const joint of COMPARED) {
       const at = (frame * JOINT_COUNT + joint) * 3;
-      const [x, z] = [leader[at]! - reactor[at]!, leader[at + 2]! - reactor[at + 2]!];
+      const x = leader[at]! - reactor[at]!;
+      const z = leader[at + 2]! - reactor[at + 2]!;
       for (let bin = 0; bin < BINS; bin++) {
         const apart = Math.abs(x * COSINES[bin]! - z * SINES[bin]!);
-        costs[step * BINS + bin]! += 1 - smoothstep(HIDDEN, SEEN, apart);
+        if (apart < SEEN) costs[step * BINS + bin]! += 1 - smoothstep(HIDDEN, SEEN, apart);
       }
     }
   }
-  return costs.map((cost, i) => cost / (COMPARED.length * Math.max(1, counts[Math.floor(i / BINS)]!)));
+  for (let step = 0; step < steps; step++) {
+    const compared = COMPARED.length * Math.max(1, counts[step]!);
+    for (let bin = 0; bin < BINS; bin++) costs[step * BINS + bin]! /= compared;
+  }
+  return costs;
 }
 
 /** The path of headings with the least sum of costs and turning, radians, without jumps by half turns. */
 function cheapestPath(costs: Float64Array, steps: number): Float64Array {
-  const least = costs.slice();
   const cameFrom = new Int8Array(steps * BINS);
-  const turnCost = (bins: number): number => TURN_COST * ((bins * BIN) / STEP) ** 2;
-  for (let step = 1; step < steps; step++)
+  let totals = costs.slice(0, BINS);
+  // The totals of the step before, with as many of the other end at each end as a turn may reach.
+  const around = new Float64Array(BINS + 2 * MAX_BINS);
+  for (let step = 1; step < steps; step++) {
+    around.set(totals, MAX_BINS);
+    around.set(totals.subarray(BINS - MAX_BINS));
+    around.set(totals.subarray(0, MAX_BINS), BINS + MAX_BINS);
+    totals = costs.slice(step * BINS, (step + 1) * BINS);
     for (let bin = 0; bin < BINS; bin++) {
       let best = Infinity;
-      for (let turn = -MAX_BINS; turn <= MAX_BINS; turn++) {
-        const before = least[(step - 1) * BINS + ((bin + turn + BINS) % BINS)]! + turnCost(turn);
-        if (before >= best) continue;
-        best = before;
-        cameFrom[step * BINS + bin] = turn;
+      let from = 0;
+      for (let turn = 0; turn < TURN_COSTS.length; turn++) {
+        const total = around[bin + turn]! + TURN_COSTS[turn]!;
+        if (total >= best) continue;
+        best = total;
+        from = turn;
       }
-      least[step * BINS + bin]! += best;
+      totals[bin]! += best;
+      cameFrom[step * BINS + bin] = from - MAX_BINS;
     }
-  const last = least.subarray((steps - 1) * BINS);
-  let bin = last.indexOf(Math.min(...last));
+  }
+  let bin = totals.indexOf(Math.min(...totals));
   const path = new Float64Array(steps);
   let heading = bin * BIN;
   for (let step = steps - 1; step >= 0; step--) {
