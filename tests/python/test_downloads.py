@@ -117,7 +117,7 @@ def test_npz_by_numpy(folder: Path):
         assert saved["fps"] == 30
         assert tuple(saved["joints"]) == tuple(JOINTS)
         metadata = json.loads(str(saved["metadata"]))
-    assert metadata["song"] == "Señor “Patio” 舞.mp3"
+    assert metadata["song"] == "Señor “Patio” 舞💃.mp3"
     assert metadata["leader"] == "lead_0412.bvh"
     assert metadata["settings"] == {"guidance": {"coarse": 1.2, "fine": 0.6}, "steps": 5, "seed": 1204}
     assert metadata["model"]["id"] == "salsa"

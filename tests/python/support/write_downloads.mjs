@@ -26,7 +26,7 @@ const dancer = async (role) => {
 };
 const dancers = [await dancer('leader'), await dancer('reactor')];
 const about = {
-  song: 'Señor “Patio” 舞.mp3',
+  song: 'Señor “Patio” 舞💃.mp3',
   leader: 'lead_0412.bvh',
   take: null,
   model: { id: 'salsa', name: 'Salsa' },

@@ -1,8 +1,10 @@
 import { describe, expect, test, vi } from 'vitest';
-import { planVideo, secondsLeft } from '../../../web/export/client';
+import { captioned, planVideo, secondsLeft, writeVideo } from '../../../web/export/client';
 import { fitted, titleOpacity, wrapped } from '../../../web/export/video/caption';
 import { videoPixels } from '../../../web/export/video/size';
-import { songSamples } from '../../../web/export/video/song';
+import { decodeSound, songSamples } from '../../../web/export/video/song';
+import type { VideoSource } from '../../../web/export/video/source';
+import { LOOKS } from '../../../web/view/theme';
 
 describe('the song of a video', () => {
   const sound = { rate: 10, channels: [Float32Array.of(1, 2, 3, 4), Float32Array.of(5, 6, 7, 8)] };
@@ -21,6 +23,118 @@ describe('the song of a video', () => {
     const whole = songSamples(sound, 0.1, 0, 6).subarray(0, 6);
     const pieces = [0, 2, 4].flatMap((from) => [...songSamples(sound, 0.1, from, 2).subarray(0, 2)]);
     expect(pieces).toEqual([...whole]);
+  });
+
+  test('keeps two channels, and more are mixed into one', async () => {
+    const decodedOf = async (...channels: number[][]): Promise<number[][]> => {
+      const buffer = {
+        sampleRate: 48_000,
+        numberOfChannels: channels.length,
+        getChannelData: (i: number) => Float32Array.from(channels[i]!),
+      };
+      vi.stubGlobal(
+        'OfflineAudioContext',
+        class {
+          readonly decodeAudioData = () => Promise.resolve(buffer);
+        },
+      );
+      const { rate, channels: decoded } = await decodeSound(new Blob());
+      expect(rate).toBe(48_000);
+      return decoded.map((samples) => [...samples]);
+    };
+    try {
+      expect(await decodedOf([1, 2], [3, 4])).toEqual([
+        [1, 2],
+        [3, 4],
+      ]);
+      expect(await decodedOf([1, 2], [3, 4], [5, 6], [-1, -8])).toEqual([[2, 1]]);
+    } finally {
+      vi.unstubAllGlobals();
+    }
+  });
+});
+
+test('a failed video says whether the song or the video failed, a cancelled one gives the reason', async () => {
+  const written = (sound: VideoSource['sound'], signal = new AbortController().signal): Promise<Blob> =>
+    writeVideo(
+      // This canvas cannot be recorded.
+      {
+        width: 2,
+        height: 2,
+        fps: 30,
+        frames: 1,
+        canvas: {} as HTMLCanvasElement,
+        draw: () => undefined,
+        sound,
+      },
+      { way: 'record', container: 'webm', type: 'video/webm' },
+      { signal, onProgress: () => undefined },
+    );
+  await expect(written({ file: new Blob(), start: 0 })).rejects.toMatchObject({ code: 'sound-failed' });
+  await expect(written(null)).rejects.toMatchObject({ code: 'video-failed' });
+  await expect(written(null, AbortSignal.abort('cancelled'))).rejects.toBe('cancelled');
+  const controller = new AbortController();
+  const neverRead = Object.assign(new Blob(), {
+    arrayBuffer: () => {
+      controller.abort('cancelled meanwhile');
+      return new Promise<never>(() => undefined);
+    },
+  });
+  await expect(written({ file: neverRead, start: 0 }, controller.signal)).rejects.toBe('cancelled meanwhile');
+});
+
+describe('words in a video', () => {
+  /** Canvases whose letters are all half as wide as high, and what was drawn on them. */
+  const drawnBy = (
+    captions: { title: string; credit: string },
+    seconds: number,
+  ): { picture: HTMLCanvasElement; canvas: HTMLCanvasElement; calls: unknown[][] } => {
+    const calls: unknown[][] = [];
+    const context = {
+      font: '',
+      fillStyle: '',
+      globalAlpha: 1,
+      measureText: (text: string) => ({
+        width: (text.length * parseInt(context.font.split(' ')[1]!, 10)) / 2,
+      }),
+      drawImage: (image: unknown) => calls.push(['picture', image, context.globalAlpha]),
+      fillText: (text: string, x: number, y: number) =>
+        calls.push([text, Math.round(x), Math.round(y), context.globalAlpha, context.fillStyle]),
+    };
+    vi.stubGlobal('document', { createElement: () => ({ getContext: () => context }) });
+    const picture = { width: 2000, height: 1000 } as HTMLCanvasElement;
+    try {
+      const { canvas, draw } = captioned(picture, captions, 'dark');
+      draw(seconds);
+      return { picture, canvas, calls };
+    } finally {
+      vi.unstubAllGlobals();
+    }
+  };
+  const colour = `#${LOOKS.dark.contrast.toString(16).padStart(6, '0')}`;
+
+  test('are a title at the top, which fades, and a credit at the bottom, which stays', () => {
+    const { picture, canvas, calls } = drawnBy({ title: 'Patio', credit: 'Clave' }, 3.7);
+    expect(canvas).toMatchObject({ width: 2000, height: 1000 });
+    expect(calls).toEqual([
+      ['picture', picture, 1],
+      ['Patio', 45, 100, expect.closeTo(0.5), colour],
+      ['Clave', 45, 955, 1, colour],
+    ]);
+  });
+
+  test('of several lines go down from the top and up from the bottom', () => {
+    const { calls } = drawnBy({ title: 'a'.repeat(69) + ' b', credit: 'c'.repeat(146) + ' d' }, 0);
+    const [, first, second, third, fourth] = calls;
+    expect([first![2], second![2]]).toEqual([100, 169]);
+    expect([third![2], fourth![2]]).toEqual([923, 955]);
+    expect(fourth![0]).toBe('d');
+  });
+
+  test('cost nothing where there are none', () => {
+    const { picture, canvas, calls } = drawnBy({ title: ' ', credit: '' }, 0);
+    expect(canvas).toBe(picture);
+    expect(calls).toEqual([]);
   });
 });
 
@@ -62,16 +176,34 @@ test('a browser that can neither encode nor record writes no video', async () =>
   expect(await planVideo({ width: 1280, height: 720 }, true)).toBeNull();
 });
 
+/** A browser that encodes these codecs. */
+function encoders(video: RegExp, audio: RegExp): void {
+  const which = (codecs: RegExp) => ({
+    isConfigSupported: (config: { codec: string }) =>
+      Promise.resolve({ supported: codecs.test(config.codec), config }),
+  });
+  vi.stubGlobal('VideoEncoder', which(video));
+  vi.stubGlobal('AudioEncoder', which(audio));
+}
+
+test('without encoders of sound the one of the page is loaded, at the next call when it could not be', async () => {
+  const size = { width: 1920, height: 1080 };
+  encoders(/^(avc1|vp8)/, /^$/);
+  vi.doMock('@mediabunny/aac-encoder', () => {
+    throw new Error('The page is offline.');
+  });
+  try {
+    expect(await planVideo(size, true)).toBeNull();
+    vi.doUnmock('@mediabunny/aac-encoder');
+    expect(await planVideo(size, true)).toMatchObject({ container: 'mp4', video: 'avc', audio: 'aac' });
+  } finally {
+    vi.doUnmock('@mediabunny/aac-encoder');
+    vi.unstubAllGlobals();
+  }
+});
+
 test('a video has the first pair of codecs that the browser has, and no sound without a song', async () => {
   const size = { width: 1280, height: 720 };
-  const encoders = (video: RegExp, audio: RegExp): void => {
-    const which = (codecs: RegExp) => ({
-      isConfigSupported: (config: { codec: string }) =>
-        Promise.resolve({ supported: codecs.test(config.codec), config }),
-    });
-    vi.stubGlobal('VideoEncoder', which(video));
-    vi.stubGlobal('AudioEncoder', which(audio));
-  };
   try {
     encoders(/^(avc1|vp09)/, /^(mp4a|opus)/);
     expect(await planVideo(size, true)).toEqual({

@@ -104,7 +104,18 @@ describe('what other programs need', () => {
     expect(Math.abs(rest.get('LeftHand')!.y - rest.get('LeftArm')!.y)).toBeLessThan(1e-3);
     expect(rest.get('Hips')!.y - rest.get('LeftFoot')!.y).toBeGreaterThan(75);
     expect(rest.get('LeftToeBase')!.z - rest.get('LeftFoot')!.z).toBeGreaterThan(6);
-    expect(skeleton.bones.filter(({ name }) => name === 'ENDSITE')).toHaveLength(5);
+    const ends = skeleton.bones.filter(({ name }) => name === 'ENDSITE');
+    // Above the head, outwards from the hands, ahead of the feet.
+    expect(ends.map(({ parent, position }) => [parent!.name, ...position.toArray()])).toEqual(
+      expect.arrayContaining([
+        ['Head', 0, 18, 0],
+        ['LeftHand', 9, 0, 0],
+        ['RightHand', -9, 0, 0],
+        ['LeftToeBase', 0, 0, 6],
+        ['RightToeBase', 0, 0, 6],
+      ]),
+    );
+    expect(ends).toHaveLength(5);
     for (const side of ['Left', 'Right']) {
       for (const joint of ['Foot', 'ToeBase']) expect(rest.has(side + joint)).toBe(true);
     }
@@ -125,15 +136,28 @@ describe('what other programs need', () => {
     expect(text.match(/position/g)).toHaveLength(3);
   });
 
+  /** The largest change of an angle from one frame to the next, degrees. */
+  const largestStep = (angles: readonly number[][]): number =>
+    Math.max(
+      ...angles.slice(1).flatMap((row, frame) => row.map((angle, i) => Math.abs(angle - angles[frame]![i]!))),
+    );
+
   test('angles do not jump by full turns while the dancer spins', () => {
     const angles = rows(text).map((row) => row.slice(6));
-    for (let frame = 1; frame < angles.length; frame++) {
-      angles[frame]!.forEach((angle, i) =>
-        expect(Math.abs(angle - angles[frame - 1]![i]!)).toBeLessThan(120),
-      );
-    }
+    expect(largestStep(angles)).toBeLessThan(120);
     // Ten turns in one direction: the angle about y of the root goes on and on.
     expect(Math.abs(angles.at(-1)![2]! - angles[0]![2]!)).toBeGreaterThan(3000);
+  });
+
+  test('angles do not jump by half turns where a limb turns about x by more than a quarter', () => {
+    const made = madeDancer({ frames: 60, seed: 1 });
+    const rotations = made.rotations.slice();
+    for (let frame = 0; frame < made.frames; frame++) {
+      const turn = multiply(aboutAxis([1, 0, 0], 0.05 * frame), aboutAxis([0, 1, 0], 0.4));
+      writeQuat(rotations, frame * JOINT_COUNT + J.left_shoulder, turn);
+    }
+    const angles = rows(writeBvh({ ...made, rotations })).map((row) => row.slice(6));
+    expect(largestStep(angles)).toBeLessThan(45);
   });
 
   test('every rotation is written, at the gimbal lock too', () => {
