@@ -65,8 +65,7 @@ export async function encodeVideo(
       await source.draw(frame);
       await pictures.add(frame / fps, 1 / fps);
       // Sound is added second by second, so that neither track is far behind the other in the file.
-      if (audio && (frame % fps === 0 || frame === frames - 1))
-        await audio.writeUntil(Math.min(frames, frame + fps) / fps);
+      if (audio && frame % fps === 0) await audio.writeUntil(Math.min(frames, frame + fps) / fps);
       onProgress({ frame: frame + 1, frames });
       await yieldToPage();
     }
