@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import torch
 
-from export.evaluate import Options, main, paired_duets, reactor_generator, solve_with_node
+from export.evaluate import SOLVERS, Options, main, paired_duets, reactor_generator, solve_with_node
 from export.golden import Scene
 from export.manifest import Card
 from export.runtime import open_model
@@ -27,11 +27,13 @@ from training.checkpoint import (
 )
 from training.data.sources import read_split
 from training.distill import student_diffusion
+from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.duet import duet_metrics
 from training.evaluation.metrics.errors import bone_variation
 from training.evaluation.metrics.penetration import depth as overlap_depth
 from training.evaluation.protocol import Settings
 from training.motion.skeleton import JOINTS
+from training.music.recipe import MUSIC_FEATURES
 
 TINY = Path(__file__).parents[2] / "fixtures/tiny-model"
 SHIPPED = Path(__file__).parents[3] / "web/public/models/salsa"
@@ -62,6 +64,36 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     assert 0.05 < np.linalg.norm(aside, axis=-1).max() < 0.64
     trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
     assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
+def test_the_row_with_foot_lock_has_less_skating() -> None:
+    motion = made_duet(120, 1).leader
+    far = motion + np.array([3, 0, 0], np.float32)
+    free, locked = (solve([motion], far)[0] for solve in SOLVERS.values())
+    assert foot_skating(locked)["skate_share"] < 0.5 * foot_skating(free)["skate_share"]
+
+
+def test_every_argument_of_a_generator_reaches_the_model() -> None:
+    duet = made_duet(60, 1)
+    music = np.random.default_rng(0).normal(size=(60, MUSIC_FEATURES))
+    generate = reactor_generator(open_model(TINY, threads=1))
+    changes = {
+        "music": None,
+        "seed": 1,
+        "condition_leader": duet.reactor,
+        "guidance": (0.5, 0.0),
+        "music_guidance": 3.0,
+        "variety": 0.5,
+        "role": 1.0,
+    }
+    given = {"leader": duet.leader, "music": music, "seed": 0}
+    usual = generate(**given)
+    assert np.array_equal(usual, generate(**given))
+    for name, value in changes.items():
+        assert not np.allclose(usual, generate(**given | {name: value}), atol=1e-4), name
+    fewer = reactor_generator(open_model(TINY, threads=1), steps=1)
+    assert not np.allclose(usual, fewer(**given), atol=1e-4)
 
 
 def test_the_program_measures_an_exported_model(tmp_path: Path):

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import shutil
+from dataclasses import fields, replace
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnx
@@ -12,10 +16,11 @@ import pytest
 
 from export import tiny
 from export.golden import reference
-from export.onnx_files import describe_file
-from export.runtime import open_model
+from export.manifest import manifest
+from export.runtime import Exported, open_model
 from export.verify import tolerance, verify
 from training.data.made import made_dancer
+from training.diffusion.model import Model
 from training.diffusion.react import Request, react
 
 FIXTURE = Path(__file__).parents[2] / "fixtures" / "tiny-model"
@@ -29,6 +34,12 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
+def of_file(path: Path) -> dict[str, Any]:
+    """What the manifest says of a file."""
+    data = path.read_bytes()
+    return {"path": path.name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
+
+
 def contents(path: Path) -> tuple[list[tuple[str, ...]], dict[str, np.ndarray]]:
     """The nodes of a graph in order, and its weights by name."""
     graph = onnx.load(path).graph
@@ -40,11 +51,13 @@ def test_the_committed_tiny_model_is_what_the_exporter_writes_today(exported: Pa
     """Equal but for the last bits of random weights, which another processor may round another way."""
     hint = "export has changed: run python -m export.tiny --out tests/fixtures/tiny-model"
     fresh, committed = (json.loads((folder / "manifest.json").read_text()) for folder in (exported, FIXTURE))
-    for folder, manifest in ((exported, fresh), (FIXTURE, committed)):
-        manifest.pop("created")
-        assert manifest.pop("golden") == describe_file(folder / "golden.npz"), hint
-        for graph in manifest["graphs"].values():
-            graph.pop("files")
+    for folder, written in ((exported, fresh), (FIXTURE, committed)):
+        written.pop("created")
+        assert written.pop("golden") == of_file(folder / "golden.npz"), hint
+        for graph in written["graphs"].values():
+            for backend, file in graph["files"].items():
+                assert file == of_file(folder / file["path"]), hint
+                graph["files"][backend] = file["path"]
     assert fresh == committed, hint
     assert {path.name for path in exported.glob("*.onnx")} == {path.name for path in FIXTURE.glob("*.onnx")}
     for name in (path.name for path in exported.glob("*.onnx")):
@@ -52,6 +65,9 @@ def test_the_committed_tiny_model_is_what_the_exporter_writes_today(exported: Pa
         committed_nodes, committed_weights = contents(FIXTURE / name)
         assert nodes == committed_nodes, hint
         assert weights.keys() == committed_weights.keys(), hint
+        assert not any(
+            node.metadata_props or node.doc_string for node in onnx.load(exported / name).graph.node
+        ), "stack traces and paths of this machine are in the file"
         for key, values in weights.items():
             nearby = 1 if values.dtype.itemsize == 1 else 2e-3  # a code of 8 bits may be the next one
             assert np.allclose(values.astype(float), committed_weights[key], atol=nearby), f"{key}: {hint}"
@@ -70,6 +86,48 @@ def test_onnxruntime_agrees_with_pytorch() -> None:
 def test_verification_notices_other_weights() -> None:
     with pytest.raises(ValueError, match="differ from PyTorch"):
         verify(tiny.tiny_model(seed=1), FIXTURE, (1,))
+
+
+@pytest.mark.parametrize(
+    ("file", "bias", "value"), [("step-int8.onnx", "0.output.bias", 3.0), ("decode.onnx", "bias", np.nan)]
+)
+def test_verification_notices_one_damaged_graph(tmp_path: Path, file: str, bias: str, value: float) -> None:
+    """The products in 8 bits alone; and numbers that are none."""
+    shutil.copytree(FIXTURE, tmp_path, dirs_exist_ok=True)
+    proto = onnx.load(tmp_path / file)
+    weight = next(each for each in proto.graph.initializer if each.name.endswith(bias))
+    damaged = np.full_like(onnx.numpy_helper.to_array(weight), value)
+    weight.CopyFrom(onnx.numpy_helper.from_array(damaged, weight.name))
+    onnx.save(proto, tmp_path / file)
+    with pytest.raises(ValueError, match="differ from PyTorch"):
+        verify(tiny.tiny_model(), tmp_path, (1,))
+
+
+def with_defaults(**changes: Any) -> Model:
+    model = tiny.tiny_model()
+    return replace(model, diffusion=replace(model.diffusion, **changes))
+
+
+def test_an_exported_model_is_sampled_by_default_as_the_checkpoint_is() -> None:
+    model = with_defaults(
+        steps=3, last_time=0.5, guidance=(0.25, -0.5), music_guidance=2.0, variety=1.5, mean_seeds=3
+    )
+    exported = Exported(manifest(model, tiny.CARD, {}, {}), {}).sampling
+    for field in fields(exported):
+        ours, theirs = getattr(exported, field.name), getattr(model.sampling, field.name)
+        assert np.allclose(ours, theirs, rtol=1e-9), field.name
+
+
+def test_a_default_that_its_control_does_not_reach_is_refused() -> None:
+    with pytest.raises(ValueError, match="default 12 of the control music is not between 0 and 10"):
+        manifest(with_defaults(music_guidance=12.0), tiny.CARD, {}, {})
+
+
+def test_the_height_of_the_reactors_is_in_the_manifest_where_the_card_has_it() -> None:
+    model = tiny.tiny_model()
+    assert "reactor_height" not in manifest(model, tiny.CARD, {}, {})["skeleton"]
+    known = manifest(model, replace(tiny.CARD, reactor_height=1.26274), {}, {})["skeleton"]
+    assert known["reactor_height"] == 1.2627
 
 
 @pytest.mark.parametrize("file", ["step.onnx", "step-int8.onnx"])

@@ -1,4 +1,4 @@
-"""The composed leaders: bodies of constant bones that stand on the floor, and the files that ship."""
+"""The leaders that ship: the composed ones are bodies of constant bones that stand on the floor; the demo's tempo."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from export.demo import on_the_beat
 from export.leaders.dances import DANCES
 from export.leaders.steps import Dance
 from export.leaders.write import FIRST, leader
@@ -17,6 +18,7 @@ from training.motion.foot_contact import contacts
 from training.motion.heading import heading
 from training.motion.skeleton import JOINTS, PARENTS
 from training.music.demo import Options as Song
+from training.music.tempo import CYCLE, Tempo
 
 SHIPPED = Path(__file__).parents[3] / "web" / "public" / "leaders"
 
@@ -114,3 +116,20 @@ def test_easing_keeps_between_its_keys() -> None:
     dance.key(dance.crouch, (0, 0.0), (2, 1.0), (4, 0.5))
     values = dance.crouch.at(np.array([-5.0, 0.0, 1.0, 2.0, 3.0, 9.0]))[:, 0]
     assert values == pytest.approx([0, 0, 0.5, 1.0, 0.75, 0.5])
+
+
+@pytest.mark.parametrize("skip", [0, 2])
+@pytest.mark.parametrize("first", [0.1, 2.9])
+def test_the_dance_of_the_demo_is_brought_to_the_counts_of_its_song(first: float, skip: int) -> None:
+    dance, song = Tempo(180, first), Tempo(200, 0.35)
+    # A motion whose places are the seconds of the dance.
+    motion = np.repeat(np.arange(40 * FPS) / FPS, 22 * 3).reshape(-1, 22, 3)
+    cut = on_the_beat(motion, dance, song, skip, seconds=12.0)
+    assert len(cut) == 12 * FPS
+    seconds = np.arange(len(cut)) / FPS
+    apart = dance.counts(cut[:, 0, 0]) - song.counts(seconds)
+    half_a_frame = 0.5 / FPS * song.bpm / 60
+    assert np.abs((apart + CYCLE / 2) % CYCLE - CYCLE / 2).max() < 1.1 * half_a_frame
+    # Nothing is left out but the cycles that were asked for, and what begins one.
+    cycle = CYCLE * 60 / dance.bpm
+    assert skip * cycle - 1 / FPS <= cut[0, 0, 0] < (skip + 1) * cycle + 1 / FPS
