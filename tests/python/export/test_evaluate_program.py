@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ from training.checkpoint import (
     write_first_card,
 )
 from training.data.sources import read_split
+from training.data.splits import Split
 from training.distill import student_diffusion
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.duet import duet_metrics
@@ -142,6 +144,17 @@ def test_options_that_would_be_ignored_are_refused(changes: dict, sentence: str)
     given = {"data": Path("duets.npz"), "out": Path("out"), "model": TINY, "test": ("one", "two")}
     with pytest.raises(ValueError, match=sentence):
         Options(**given | changes)
+
+
+def test_the_duets_that_are_measured_are_those_that_were_asked_for():
+    duets = Split((), (made_duet(60, 1, "chosen by"),), (made_duet(60, 2, "kept"),))
+    options = Options(data=Path("duets.npz"), out=Path("out"), model=TINY, music=False)
+    for measure, name in (("val", "chosen by"), ("test", "kept")):
+        (held_out,) = paired_duets(replace(options, measure=measure), duets)
+        assert held_out.duet.name == name
+        assert held_out.music is None
+    with pytest.raises(ValueError, match="name them with --val"):
+        paired_duets(replace(options, measure="val"), replace(duets, val=()))
 
 
 def test_the_shipped_model_is_that_of_the_held_out_recipe():

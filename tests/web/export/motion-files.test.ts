@@ -77,12 +77,14 @@ test.each<[MotionFormat, number]>([
 
 test.each(FRAME_RATES)(
   '%d frames a second: as long, at the same places, with bones of the same length',
-  (rate) => {
+  async (rate) => {
     const dance = madeDance(91, 'leader', 'reactor');
     const written = atFrameRate({ ...dance, about: { ...dance.about, shift: 15 } }, rate);
     expect(written.about.shift).toBeCloseTo(rate / 2, 6);
     const fps = unzipSync(writeNpz(written))['fps.npy']!;
     expect(new Float64Array(fps.slice(-8).buffer)).toEqual(Float64Array.of(rate));
+    const json = JSON.parse(await (await writeMotion('json', written, 'dark')).text()) as object;
+    expect(json).toMatchObject({ fps: rate, frames: 3 * rate + 1 });
     written.dancers.forEach(({ motion }, i) => {
       const before = dance.dancers[i]!.motion;
       expect(motion).toMatchObject({ fps: rate, frames: 3 * rate + 1 });
