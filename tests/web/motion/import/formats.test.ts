@@ -5,7 +5,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { describe, expect, test } from 'vitest';
 import { readFbx } from '../../../../web/motion/import/fbx/read';
 import { readGltf } from '../../../../web/motion/import/gltf/read';
-import { aboutAxis, rotate } from '../../../../web/motion/math/quat';
+import { aboutAxis, multiply, rotate } from '../../../../web/motion/math/quat';
 import {
   add,
   cross,
@@ -16,6 +16,7 @@ import {
   scale,
   sub,
   type Vec3,
+  X_AXIS,
   Y_AXIS,
   ZERO,
 } from '../../../../web/motion/math/vec3';
@@ -92,6 +93,27 @@ describe('arrays and tables of joints', () => {
       upAxis: 'up' in options ? 'z' : 'y',
     });
     expect(file.report.remarks.join()).toContain('no frame rate');
+    // The trunk is that of the file.
+    expect(file.report.estimated).toEqual([]);
+    const made = (name: string): Vec3 =>
+      joints.places[20]![joints.joints.findIndex((one) => one.name === name)]!;
+    const at = (joint: number): Vec3 => readVec(file.clip.positions, 20 * JOINT_COUNT + joint);
+    const back = sub(at(J.spine2), at(J.pelvis));
+    expect(distance(back, sub(made('spine2'), made('pelvis')))).toBeLessThan(1e-5);
+  });
+
+  test('a frame rate that is set is not remarked on', async () => {
+    const { report } = await read({ fps: 60 }, ['a.npy', writeNpy(joints)]);
+    expect(report).toMatchObject({ sourceFps: 60, remarks: [] });
+  });
+
+  test('where a lying body leaves it open, up is guessed, with a warning, unless it is set', async () => {
+    const places = joints.places.map((row) => row.map((place) => rotate(aboutAxis(X_AXIS, 0.9), place)));
+    const table = utf8(writeCsv({ ...joints, places }));
+    const doubt = 'It is not clear which way is up; z was taken.';
+    expect((await read({}, ['a.csv', table])).report).toMatchObject({ upAxis: 'z', warnings: [doubt] });
+    const set = await read({ up: 'y' }, ['a.csv', table]);
+    expect(set.report).toMatchObject({ upAxis: 'y', warnings: [] });
   });
 
   test.each([30, 77] as const)('NPY (T, %i, 3) of SOMA', async (count) => {
@@ -234,6 +256,38 @@ describe('arrays and tables of joints', () => {
     expect(file.report).toMatchObject({ sourceFps: 30, remarks: [] });
   });
 
+  test('CSV with two dancers', async () => {
+    const other = madeMotion({ names: SMPL_NAMES, swing: 25 });
+    const tables = [writeCsv(joints, ',', 'leader_'), writeCsv(other, ',', 'follower_')];
+    const [first, second] = tables.map((table) => table.trim().split('\n')) as [string[], string[]];
+    const text = first.map((line, row) => `${line},${second[row]!.replace(/^[^,]*,/, '')}`).join('\n');
+    for (const [part, motion] of [joints, other].entries()) {
+      const file = await read({ part }, ['a.csv', utf8(text)]);
+      expect(worstMillimetres(file, motion)).toBeLessThan(WORST);
+      expect(file.report).toMatchObject({ parts: ['leader', 'follower'], part });
+    }
+  });
+
+  test('JSON whose joints have names that say nothing, and parents', async () => {
+    const dance = madeMotion();
+    const data = positionsOf(
+      dance,
+      dance.joints.map(({ name }) => name),
+    );
+    const count = dance.joints.length;
+    const json = {
+      fps: 30,
+      joints: dance.joints.map((_, joint) => `j${joint}`),
+      parents: dance.joints.map(({ parent }) => parent),
+      positions: Array.from({ length: dance.frames }, (_, frame) =>
+        dance.joints.map((_joint, joint) => readVec(data, frame * count + joint)),
+      ),
+    };
+    const file = await read({}, ['a.json', utf8(JSON.stringify(json))]);
+    expect(file.report).toMatchObject({ mappedBy: 'structure', unit: 'metres', sourceFps: 30 });
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+  });
+
   test('CSV with decimal commas in quotes is refused', async () => {
     const text = cells((cell, row) => (row === 0 ? cell : `"${cell.replace('.', ',')}"`));
     await expect(read({}, ['a.csv', utf8(text)])).rejects.toMatchObject({ code: 'bad-number' });
@@ -285,6 +339,8 @@ describe('FBX', () => {
     ['metres, z up', 'metres', { unitsPerMetre: 1, up: 'z' as const }],
     ['inches, with pre-rotations', 'inches', { unitsPerMetre: 1 / 0.0254, preRotation: true }],
     ['z up, with pre-rotations', 'centimetres', { up: 'z' as const, preRotation: true }],
+    ['keys that begin after two seconds', 'centimetres', { begin: 2 }],
+    ['version 7.5', 'centimetres', { wide: true }],
   ])('%s', async (_, unit, options) => {
     for (const bytes of [writeFbxBinary(dance, options), writeFbxAscii(dance, options)]) {
       const file = await read({}, ['a.fbx', bytes]);
@@ -364,8 +420,30 @@ describe('FBX', () => {
     expect(file.report.warnings.join()).toContain('smaller than people are');
   });
 
-  test('three reads the same from the same file', () => {
-    const options = { preRotation: true, up: 'z' as const };
+  test.each([
+    ['24', { timeMode: 11 }, 24],
+    ['48, as a rate of its own', { timeMode: 14, customRate: 48 }, 48],
+    ['none', { timeMode: 0 }, 30],
+  ])('keys that are far apart are read at the frame rate of the settings: %s', async (_, options, fps) => {
+    const sparse = madeMotion({ fps: 2, frames: 9 });
+    const { report } = await read({}, ['a.fbx', writeFbxBinary(sparse, options)]);
+    expect(report).toMatchObject({ sourceFps: fps, sourceFrames: 4 * fps + 1 });
+  });
+
+  test('the up axis of the settings has a sign', () => {
+    const text = new TextDecoder().decode(writeFbxAscii(dance));
+    const down = text.replace(/("UpAxisSign".*, )1$/m, '$1-1');
+    expect(readFbx(utf8(text), 0).upAxis).toBe('y');
+    expect(readFbx(utf8(down), 0).upAxis).toBe('-y');
+  });
+
+  test.each([
+    ['with z up', { up: 'z' as const }],
+    ['whose joints turn about y first', { rotationOrder: 2 }],
+    ['whose joints turn about z first', { rotationOrder: 4 }],
+    ['with post-rotations', { postRotation: [20, -35, 50] as const }],
+  ])('three reads the same from the same file %s', (_, different) => {
+    const options = { preRotation: true, ...different };
     const bytes = writeFbxBinary(dance, options);
     const group = new FBXLoader().parse(bytes.buffer, '');
     const mixer = new AnimationMixer(group);
@@ -414,12 +492,56 @@ describe('glTF and VRM', () => {
   test.each([
     ['plain', {}],
     ['cubic splines', { interpolation: 'CUBICSPLINE' as const }],
+    ['steps', { interpolation: 'STEP' as const }],
     ['turned rest pose', { restTurn: turned }],
     ['a scaled armature with z up above the root', { armature: true }],
+    ['an armature that is scaled by keys', { armature: true, scaleKeys: true }],
+    ['keys that begin after two seconds', { begin: 2 }],
+    ['interleaved values', { gap: 8 }],
   ])('GLB, %s', async (_, options) => {
     const file = await read({}, ['a.glb', writeGlb(dance, options)]);
     expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
     expect(file.report).toMatchObject({ format: 'glTF', convention: 'Mixamo', sourceFps: 30, warnings: [] });
+  });
+
+  test('rotations as normalised whole numbers', async () => {
+    const file = await read({}, ['a.glb', writeGlb(dance, { shorts: true })]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(0.5);
+  });
+
+  test('a matrix in place of translation, rotation and scale', async () => {
+    const bytes = changedGlb(writeGlb(dance, { armature: true }), ({ nodes }) => {
+      // Turned by a quarter from z up to y up, in columns.
+      const matrix = [0.01, 0, 0, 0, 0, 0, -0.01, 0, 0, 0.01, 0, 0, 0, 0, 0, 1];
+      nodes[dance.joints.length] = { name: 'Armature', matrix, children: [0] };
+    });
+    expect(worstMillimetres(await read({}, ['a.glb', bytes]), dance)).toBeLessThan(WORST);
+  });
+
+  test('steps hold every key until the next one', async () => {
+    const slow = madeMotion({ fps: 15, frames: 20 });
+    const { clip, report } = await read({}, ['a.glb', writeGlb(slow, { interpolation: 'STEP' })]);
+    expect(report).toMatchObject({ sourceFps: 30, sourceFrames: 39 });
+    const frame = (at: number): Float32Array =>
+      clip.positions.subarray(at * JOINT_COUNT * 3, (at + 1) * JOINT_COUNT * 3);
+    expect(frame(11)).toEqual(frame(10));
+    expect(frame(12)).not.toEqual(frame(11));
+  });
+
+  test('the unit that glTF states is not taken where the body would be a giant', async () => {
+    const file = await read({}, ['a.glb', writeGlb(dance, { grown: 100 })]);
+    expect(file.report.unit).toBe('centimetres');
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+  });
+
+  test('where a lying body leaves it open, up is what glTF states', async () => {
+    const still = madeMotion({ swing: 0 });
+    const lean = aboutAxis(X_AXIS, 0.9);
+    const rotations = still.rotations.map((turns) =>
+      turns.map((turn, joint) => (joint === 0 ? multiply(lean, turn) : turn)),
+    );
+    const { report } = await read({}, ['a.glb', writeGlb({ ...still, rotations })]);
+    expect(report).toMatchObject({ upAxis: 'y', warnings: [] });
   });
 
   test('glTF with its numbers inside, and in a file beside it', async () => {

@@ -27,6 +27,17 @@ interface Options {
   readonly unitsPerMetre?: number;
   /** Rotation of each joint's own axes before its animation, as Mixamo and MotionBuilder write it. */
   readonly preRotation?: boolean;
+  /** Number of the order in which every joint turns about its axes; the values written are those of the first order. */
+  readonly rotationOrder?: number;
+  /** Degrees about x, y and z that every joint is turned back after its animation. */
+  readonly postRotation?: Vec3;
+  /** Seconds of the first key. */
+  readonly begin?: number;
+  /** Number of the frame rate in the settings, and the rate that number 14 stands for. */
+  readonly timeMode?: number;
+  readonly customRate?: number;
+  /** Version 7.5, in which the places of nodes have 64 bits. */
+  readonly wide?: boolean;
   /** Names of clips; the second one stands still. */
   readonly clips?: readonly string[];
   /** Name of a clip of one key before them. */
@@ -58,6 +69,11 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     clips = ['Take 001'],
     firstId = 0,
     pose,
+    rotationOrder = 0,
+    postRotation,
+    begin = 0,
+    timeMode = 6,
+    customRate,
   } = options;
   const objects: Node[] = [];
   const links: Node[] = [];
@@ -106,7 +122,9 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
             [],
             [
               property('RotationActive', 'bool', ['I', 1]),
+              property('RotationOrder', 'enum', ['I', rotationOrder]),
               vector('PreRotation', eulerXyz(pre[joint]!)),
+              ...(postRotation ? [vector('PostRotation', postRotation)] : []),
               vector('Lcl Translation', local(inFile(offset, unitsPerMetre, up), joint)),
             ],
           ),
@@ -116,7 +134,9 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     link(id(joint), parent < 0 ? 0 : id(parent));
   });
   let next = firstId + 2_000_000;
-  const times = Array.from({ length: motion.frames }, (_, frame) => Math.round((frame / motion.fps) * TICKS));
+  const times = Array.from({ length: motion.frames }, (_, frame) =>
+    Math.round((begin + frame / motion.fps) * TICKS),
+  );
   [...(pose === undefined ? [] : [pose]), ...clips].forEach((clip, number) => {
     const keys = clip === pose ? 1 : motion.frames;
     const isStill = number > 0 && clip !== clips[0];
@@ -195,7 +215,8 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
           property('UpAxis', 'int', ['I', up === 'y' ? 1 : 2]),
           property('UpAxisSign', 'int', ['I', 1]),
           property('UnitScaleFactor', 'double', ['D', 100 / unitsPerMetre]),
-          property('TimeMode', 'enum', ['I', 6]),
+          property('TimeMode', 'enum', ['I', timeMode]),
+          ...(customRate === undefined ? [] : [property('CustomFrameRate', 'double', ['D', customRate])]),
         ],
       ),
     ],
@@ -254,25 +275,26 @@ function writeValue(out: Bytes, [type, value]: Value, packed: boolean): void {
   }
 }
 
-function writeNode(out: Bytes, { name, values, children }: Node, packed: boolean): void {
+function writeNode(out: Bytes, { name, values, children }: Node, packed: boolean, wide: boolean): void {
+  const word = wide ? 8 : 4;
   const start = out.length;
-  out.push(...new Array<number>(12).fill(0), name.length, ...new TextEncoder().encode(name));
+  out.push(...new Array<number>(3 * word).fill(0), name.length, ...new TextEncoder().encode(name));
   const valuesStart = out.length;
   for (const value of values) writeValue(out, value, packed);
-  out.patch(start + 4, values.length);
-  out.patch(start + 8, out.length - valuesStart);
-  for (const child of children) writeNode(out, child, packed);
-  if (children.length > 0) out.push(...new Array<number>(13).fill(0));
+  out.patch(start + word, values.length);
+  out.patch(start + 2 * word, out.length - valuesStart);
+  for (const child of children) writeNode(out, child, packed, wide);
+  if (children.length > 0) out.push(...new Array<number>(3 * word + 1).fill(0));
   out.patch(start, out.length);
 }
 
-/** The motion as a binary FBX file of version 7.4. */
+/** The motion as a binary FBX file of version 7.4, or 7.5. */
 export function writeFbxBinary(
   motion: MadeMotion,
   options: Options = {},
   packed = true,
 ): Uint8Array<ArrayBuffer> {
-  return binaryFbx(nodesOf(motion, options), packed);
+  return binaryFbx(nodesOf(motion, options), packed, options.wide);
 }
 
 /** Two dancers with a clip each as a binary FBX file. */
@@ -291,12 +313,12 @@ export function writeFbxDuet(
   );
 }
 
-function binaryFbx(nodes: readonly Node[], packed: boolean): Uint8Array<ArrayBuffer> {
+function binaryFbx(nodes: readonly Node[], packed: boolean, wide = false): Uint8Array<ArrayBuffer> {
   const out = new Bytes();
   out.push(...new TextEncoder().encode('Kaydara FBX Binary  \0'), 0x1a, 0);
-  out.uint32(7400);
-  for (const top of nodes) writeNode(out, top, packed);
-  out.push(...new Array<number>(13).fill(0));
+  out.uint32(wide ? 7500 : 7400);
+  for (const top of nodes) writeNode(out, top, packed, wide);
+  out.push(...new Array<number>(wide ? 25 : 13).fill(0));
   return out.result();
 }
 

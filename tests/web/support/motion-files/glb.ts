@@ -5,11 +5,19 @@ import type { Vec3 } from '../../../../web/motion/math/vec3';
 interface Options {
   /** Names of clips; all but the first stand still. */
   readonly clips?: readonly string[];
-  readonly interpolation?: 'LINEAR' | 'CUBICSPLINE';
+  readonly interpolation?: 'LINEAR' | 'CUBICSPLINE' | 'STEP';
+  /** Seconds of the first key. */
+  readonly begin?: number;
+  /** Rotations as normalised whole numbers of two bytes in place of floats. */
+  readonly shorts?: boolean;
+  /** Bytes between the values of a list, as where several lists are interleaved. */
+  readonly gap?: number;
   /** Bones of a VRM humanoid by the joints' names, for a VRMA or a VRM file. */
   readonly humanoid?: { readonly extension: string; readonly bones: ReadonlyMap<string, string> };
   /** A scaled and turned node above the root, as Blender writes armatures. */
   readonly armature?: boolean;
+  /** The armature's scale as keys, not as that of its node. */
+  readonly scaleKeys?: boolean;
   /** Rest rotation of every joint, as avatars have them. */
   readonly restTurn?: Quat;
   /** Sizes of the rest offsets, for a body of other proportions. */
@@ -20,18 +28,37 @@ interface Options {
 class Buffers {
   readonly accessors: object[] = [];
   readonly views: object[] = [];
-  private readonly parts: Float32Array[] = [];
+  private readonly parts: Uint8Array[] = [];
   private length = 0;
 
-  add(values: readonly number[], type: 'SCALAR' | 'VEC3' | 'VEC4', width: number): number {
-    const data = Float32Array.from(values);
-    this.views.push({ buffer: 0, byteOffset: this.length, byteLength: data.byteLength });
-    this.parts.push(data);
+  /** @param gap bytes after every value */
+  add(
+    values: readonly number[],
+    type: 'SCALAR' | 'VEC3' | 'VEC4',
+    width: number,
+    { shorts = false, gap = 0 }: { shorts?: boolean; gap?: number } = {},
+  ): number {
+    const size = shorts ? 2 : 4;
+    const stride = width * size + gap;
+    const data = new DataView(new ArrayBuffer((values.length / width) * stride));
+    values.forEach((value, i) => {
+      const at = Math.floor(i / width) * stride + (i % width) * size;
+      if (shorts) data.setInt16(at, Math.round(value * 32767), true);
+      else data.setFloat32(at, value, true);
+    });
+    this.views.push({
+      buffer: 0,
+      byteOffset: this.length,
+      byteLength: data.byteLength,
+      ...(gap > 0 && { byteStride: stride }),
+    });
+    this.parts.push(new Uint8Array(data.buffer));
     this.length += data.byteLength;
     return (
       this.accessors.push({
         bufferView: this.views.length - 1,
-        componentType: 5126,
+        componentType: shorts ? 5122 : 5126,
+        ...(shorts && { normalized: true }),
         count: values.length / width,
         type,
         ...(type === 'SCALAR' && { min: [Math.min(...values)], max: [Math.max(...values)] }),
@@ -40,13 +67,13 @@ class Buffers {
   }
 
   bytes(): Uint8Array<ArrayBuffer> {
-    const out = new Float32Array(this.length / 4);
+    const out = new Uint8Array(this.length);
     let at = 0;
     for (const part of this.parts) {
       out.set(part, at);
       at += part.length;
     }
-    return new Uint8Array(out.buffer);
+    return out;
   }
 }
 
@@ -64,7 +91,7 @@ function continuous(rows: readonly Quat[]): Quat[] {
 /** The JSON and the numbers of a glTF file with the made motion. */
 function contentOf(motion: MadeMotion, options: Options): { json: object; bytes: Uint8Array<ArrayBuffer> } {
   const { clips = ['dance'], interpolation = 'LINEAR', armature = false, restTurn = [0, 0, 0, 1] } = options;
-  const { humanoid, grown = 1 } = options;
+  const { humanoid, grown = 1, begin = 0, shorts = false, gap = 0, scaleKeys = false } = options;
   const buffers = new Buffers();
   // World rest rotation of joint j is restTurn for all but the root's parent.
   const above = (joint: number): Quat => (motion.joints[joint]!.parent < 0 ? [0, 0, 0, 1] : restTurn);
@@ -88,16 +115,17 @@ function contentOf(motion: MadeMotion, options: Options): { json: object; bytes:
   if (armature) {
     // One hundredth of the size; the first joint is a hundred times larger again.
     nodes[0]!['scale'] = [100, 100, 100];
-    nodes.push({ name: 'Armature', rotation: quarter, scale: [0.01, 0.01, 0.01], children: [0] });
+    const scale = scaleKeys ? {} : { scale: [0.01, 0.01, 0.01] };
+    nodes.push({ name: 'Armature', rotation: quarter, ...scale, children: [0] });
   }
   for (const one of nodes) if ((one['children'] as unknown[]).length === 0) delete one['children'];
   const times = buffers.add(
-    motion.root.map((_, frame) => frame / motion.fps),
+    motion.root.map((_, frame) => begin + frame / motion.fps),
     'SCALAR',
     1,
   );
   const spline = (rows: readonly (readonly number[])[]): number[] =>
-    interpolation === 'LINEAR'
+    interpolation !== 'CUBICSPLINE'
       ? rows.flat()
       : rows.flatMap((row, i) => {
           const [before, after] = [rows[Math.max(0, i - 1)]!, rows[Math.min(rows.length - 1, i + 1)]!];
@@ -114,13 +142,18 @@ function contentOf(motion: MadeMotion, options: Options): { json: object; bytes:
       type: 'VEC3' | 'VEC4',
     ) => {
       const kept = clip === 0 ? rows : rows.map(() => rows[0]!);
-      const output = buffers.add(spline(kept), type, type === 'VEC3' ? 3 : 4);
+      const output = buffers.add(spline(kept), type, type === 'VEC3' ? 3 : 4, {
+        shorts: shorts && path === 'rotation',
+        gap,
+      });
       channels.push({
         sampler: samplers.push({ input: times, output, interpolation }) - 1,
         target: { node, path },
       });
     };
     animate(0, 'translation', rootPlaces, 'VEC3');
+    const scales = rootPlaces.map(() => [0.01, 0.01, 0.01]);
+    if (scaleKeys) animate(motion.joints.length, 'scale', scales, 'VEC3');
     motion.joints.forEach((_, joint) =>
       animate(
         joint,
@@ -184,7 +217,7 @@ function packed(json: object, bytes: Uint8Array): Uint8Array<ArrayBuffer> {
 /** The parts of a GLB file's JSON that tests change. */
 interface GlbJson {
   scenes: { nodes: number[] }[];
-  nodes: { name: string; children?: number[]; mesh?: number; skin?: number }[];
+  nodes: { name: string; children?: number[]; mesh?: number; skin?: number; matrix?: number[] }[];
   skins?: { joints: number[] }[];
   meshes?: object[];
   animations: {

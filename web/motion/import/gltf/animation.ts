@@ -12,6 +12,9 @@ interface Track {
   readonly interpolation: string;
 }
 
+/** Most by which a time in single precision is wrong, seconds: a frame on a key may seem to come before it. */
+const TIME_ROUNDING = 1e-4;
+
 /** Tracks by node and property: `3 rotation`. */
 export type Tracks = ReadonlyMap<string, Track>;
 
@@ -81,7 +84,7 @@ export function valueAt(track: Track, time: number): number[] {
   }
   const span = times[high]! - times[low]!;
   const t = span > 0 ? (time - times[low]!) / span : 0;
-  if (interpolation === 'STEP') return value(low);
+  if (interpolation === 'STEP') return value(times[high]! - time < TIME_ROUNDING ? high : low);
   const [a, b] = [value(low), value(high)];
   if (cubic) {
     const [out, into] = [row(low, 2), row(high, 0)];
