@@ -1,6 +1,9 @@
 import { AppError } from '../../common/error';
 
-/** Common frame rates of recordings; a frame time is written with few decimals and rarely hits one exactly. */
+/**
+ * Common frame rates of recordings; a frame time is written with few decimals and rarely hits one exactly. They are so far
+ * apart that no rate is within `TOLERANCE` of two of them.
+ */
 const COMMON_RATES = [
   24, 25, 30, 48, 50, 60, 72, 75, 90, 100, 120, 144, 150, 180, 200, 240, 250, 300, 360, 480, 500,
 ];
@@ -29,11 +32,8 @@ export function frameRate(frameTime: string): number {
   }
   const decimals = /\.(\d*)/.exec(frameTime)?.[1]?.length ?? 0;
   const lastDecimal = /e/i.test(frameTime) ? seconds * 1e-6 : 10 ** -decimals;
-  const deviation = (rate: number): number => Math.abs(1 / rate - seconds);
-  const matches = COMMON_RATES.filter(
-    (rate) => deviation(rate) <= Math.min(lastDecimal, TOLERANCE * seconds),
-  );
-  return matches.sort((a, b) => deviation(a) - deviation(b))[0] ?? 1 / seconds;
+  const accepted = Math.min(lastDecimal, TOLERANCE * seconds);
+  return COMMON_RATES.find((rate) => Math.abs(1 / rate - seconds) <= accepted) ?? 1 / seconds;
 }
 
 /** The common rate that is within `TOLERANCE` of one that was measured; null where none is. */
