@@ -7,11 +7,21 @@ import { poseAt } from '../../../../web/motion/import/vmd/curve';
 import { readVmdFile } from '../../../../web/motion/import/vmd/file';
 import { readVmd } from '../../../../web/motion/import/vmd/read';
 import { aboutAxis, multiply, type Quat } from '../../../../web/motion/math/quat';
-import { add, direction, distance, sub, type Vec3, X_AXIS, Z_AXIS } from '../../../../web/motion/math/vec3';
+import {
+  add,
+  direction,
+  distance,
+  lerp,
+  readVec,
+  sub,
+  type Vec3,
+  X_AXIS,
+  Z_AXIS,
+} from '../../../../web/motion/math/vec3';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import type { ImportOptions } from '../../../../web/motion/retarget/options';
 import { worldPose } from '../../../../web/motion/retarget/sample';
-import { PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
+import { J, JOINT_COUNT, PARENTS, SMPL22 } from '../../../../web/motion/skeleton/skeleton';
 import { ASF_NAMES, writeAmc } from '../../support/motion-files/amc';
 import { SMPL_NAMES, writeArchive } from '../../support/motion-files/arrays';
 import { writeC3d } from '../../support/motion-files/c3d';
@@ -43,6 +53,25 @@ describe('AMC with ASF', () => {
     }
   });
 
+  test.each([
+    ['radians', { inRadians: true }],
+    ['bones that turn about z first', { zFirst: true }],
+    ['a hierarchy from the tips to the root', { tipsFirst: true }],
+  ])('%s', async (_, options) => {
+    const written = writeAmc(dance, options);
+    const file = await read({}, ['a.amc', written.amc], ['a.asf', written.asf]);
+    expect(worstMillimetres(file, dance, 4)).toBeLessThan(0.1);
+  });
+
+  test('the skeleton of another person, who has other bones', async () => {
+    const other = new TextDecoder().decode(amc).replaceAll('lfemur', 'lthigh');
+    const motion = new TextEncoder().encode(other);
+    await expect(read({}, ['a.amc', motion], ['a.asf', asf])).rejects.toMatchObject({
+      code: 'missing-joints',
+      message: 'The motion moves a bone "lthigh" that the skeleton does not have.',
+    });
+  });
+
   test('each motion of a duet has the skeleton of its own dancer', () => {
     const files = ['60_10.amc', '6.asf', '60.asf', '61_10.amc', '61.asf', '6-1.amc', 'a.amc', 'a.asf'];
     const groups = groupCompanions(files.map((name) => ({ name })));
@@ -67,6 +96,11 @@ describe('AMC with ASF', () => {
 
 describe('C3D', () => {
   const dance = madeMotion({ swing: 8 });
+  /** Markers lie on the skin; centres of joints are estimated from them, and collars have no marker. */
+  const withoutCollars = (motion: typeof dance): typeof dance => {
+    const names = Object.entries(motion.names).filter(([part]) => part !== 'collar');
+    return { ...motion, names: Object.fromEntries(names) as unknown as typeof dance.names };
+  };
 
   test.each([
     ['floats', {}],
@@ -75,6 +109,11 @@ describe('C3D', () => {
       'markers that are hidden for a while',
       { hidden: (label: string, frame: number) => label === 'LKNE' && frame % 9 === 4 },
     ],
+    ['numbers of a DEC processor', { processor: 'dec' as const }],
+    ['numbers of a MIPS processor', { processor: 'mips' as const }],
+    ['whole numbers of a MIPS processor', { processor: 'mips' as const, integers: true }],
+    ['force plates, and a beginning that is cut off', { analog: 12, first: 240 }],
+    ['labels in two lists, and the frame rate in its head', { listed: 9, rateInHead: true }],
   ])('%s', async (_, options) => {
     const file = await read({}, ['a.c3d', writeC3d(dance, options)]);
     expect(file.report).toMatchObject({
@@ -84,12 +123,45 @@ describe('C3D', () => {
       unit: 'mm',
       sourceFps: 30,
     });
-    // Markers lie on the skin; centres of joints are estimated from them, and collars have no marker.
-    const names = Object.fromEntries(
-      Object.entries(dance.names).filter(([part]) => part !== 'collar'),
-    ) as unknown as typeof dance.names;
-    expect(worstMillimetres(file, { ...dance, names })).toBeLessThan(25);
+    expect(worstMillimetres(file, withoutCollars(dance))).toBeLessThan(25);
     expect(file.report.estimated).not.toContain('left_foot');
+  });
+
+  test('metres', async () => {
+    const file = await read({}, ['a.c3d', writeC3d(dance, { unit: 'm' })]);
+    expect(file.report.unit).toBe('m');
+    expect(worstMillimetres(file, withoutCollars(dance))).toBeLessThan(25);
+  });
+
+  test('a marker that is hidden for a while moves straight on', async () => {
+    const hidden = (label: string, frame: number): boolean => label === 'LTOE' && frame >= 10 && frame < 20;
+    const [seen, file] = [
+      await read({}, ['a.c3d', writeC3d(dance)]),
+      await read({}, ['a.c3d', writeC3d(dance, { hidden })]),
+    ];
+    const toe = ({ clip }: LeaderFile, frame: number): Vec3 =>
+      readVec(clip.positions, frame * JOINT_COUNT + J.left_foot);
+    const [before, after] = [toe(seen, 9), toe(seen, 20)];
+    for (const frame of [9, 12, 15, 18, 20])
+      expect(distance(toe(file, frame), lerp(before, after, (frame - 9) / 11))).toBeLessThan(1e-4);
+  });
+
+  test('one of two dancers, under the names that the file has for them', async () => {
+    const other = madeMotion({ swing: 20 });
+    const beside = { subject: 'Ben:', motion: other };
+    const bytes = writeC3d(dance, { subject: 'Ana:', beside });
+    for (const [part, motion] of [dance, other].entries()) {
+      const file = await read({ part }, ['a.c3d', bytes]);
+      expect(file.report).toMatchObject({ parts: ['Ana', 'Ben'], part });
+      expect(worstMillimetres(file, withoutCollars(motion))).toBeLessThan(40);
+    }
+  });
+
+  test('one marker behind the pelvis, and one on each hand', async () => {
+    const relabel = (label: string): string | null =>
+      label === 'LPSI' ? 'SACR' : /RPSI|WRB/.test(label) ? null : label.replace('WRA', 'FIN');
+    const file = await read({}, ['a.c3d', writeC3d(dance, { relabel })]);
+    expect(worstMillimetres(file, withoutCollars(dance))).toBeLessThan(60);
   });
 
   test('a marker that lacks is named', async () => {
@@ -229,6 +301,20 @@ describe('VMD', () => {
     const pose = poseAt(bones.get('センター'), 1000 * curve(100, 120));
     for (const value of pose.move) expect(value).toBeCloseTo(10 * curve(10, 30), 3);
     expect(2 * Math.asin(pose.turn[0])).toBeCloseTo(curve(10, 30), 3);
+  });
+
+  test('a file of the first version, whose model has a shorter name', () => {
+    const keys = [...still, bend('上半身', X_AXIS, 0.4)];
+    const bytes = writeVmd(keys);
+    const first = Uint8Array.from([...bytes.subarray(0, 40), ...bytes.subarray(50)]);
+    first.set(new TextEncoder().encode('Vocaloid Motion Data file\0'));
+    expect(readVmd(first).localPoses([0])).toEqual(readVmd(bytes).localPoses([0]));
+  });
+
+  test('a body that stands still for more than a minute is refused', () => {
+    const late = (frame: number): MadeKey[] => [...still, { bone: 'センター', frame }];
+    expect(() => readVmd(writeVmd(late(1831)))).toThrow(/nothing moves for more than a minute/);
+    expect(readVmd(writeVmd(late(1830))).frames).toBe(1831);
   });
 
   test('is a dancer of 1.60 m', async () => {

@@ -46,59 +46,110 @@ export function markersOf(motion: MadeMotion, frame: number): Map<string, Vec3> 
   return markers;
 }
 
+/** Processors whose numbers a file may have. */
+const PROCESSORS = { intel: 84, dec: 85, mips: 86 } as const;
+
 interface Options {
   readonly subject?: string;
+  /** Another dancer in the same recording. */
+  readonly beside?: { readonly subject: string; readonly motion: MadeMotion };
   /** Whole numbers in place of floats. */
   readonly integers?: boolean;
   /** Frames in which a marker is not seen. */
   readonly hidden?: (label: string, frame: number) => boolean;
+  readonly processor?: keyof typeof PROCESSORS;
+  readonly unit?: 'mm' | 'm';
+  /** Values of force plates after the markers of every frame. */
+  readonly analog?: number;
+  /** Number of the first frame: a recording that was cut does not begin at 1. */
+  readonly first?: number;
+  /** Labels in the first of two lists; all of them where it is left out. */
+  readonly listed?: number;
+  /** Whether only the head states the frame rate. */
+  readonly rateInHead?: boolean;
+  /** The label of a marker in place of its own; null where the file lacks it. */
+  readonly relabel?: (label: string) => string | null;
 }
 
-/** The markers of the motion as a C3D file of an Intel processor: millimetres, z up. */
+/** The markers of the motion as a C3D file with z up. */
 export function writeC3d(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
-  const { subject = '', integers = false, hidden = () => false } = options;
-  const frames = Array.from({ length: motion.frames }, (_, frame) => markersOf(motion, frame));
+  const { subject = '', beside, integers = false, hidden = () => false, processor = 'intel' } = options;
+  const { unit = 'mm', analog = 0, first = 1, rateInHead = false, relabel = (label) => label } = options;
+  const little = processor !== 'mips';
+  const dancers = [{ subject, motion }, ...(beside ? [beside] : [])];
+  const frames = Array.from(
+    { length: motion.frames },
+    (_, frame) =>
+      new Map(
+        dancers.flatMap((dancer) =>
+          [...markersOf(dancer.motion, frame)].flatMap(([own, place]) => {
+            const label = relabel(own);
+            return label === null ? [] : [[`${dancer.subject}${label}`, place] as const];
+          }),
+        ),
+      ),
+  );
   const labels = [...frames[0]!.keys()];
-  const parameters: number[] = [0, 0, 3, 84];
+  const float = (view: DataView, at: number, value: number): void => {
+    // A DEC float has an exponent larger by two and its two words exchanged.
+    view.setFloat32(at, processor === 'dec' ? value * 4 : value, processor === 'intel');
+    if (processor !== 'dec') return;
+    for (const word of [at, at + 2]) view.setUint16(word, view.getUint16(word), true);
+  };
+  const parameters: number[] = [0, 0, 3, PROCESSORS[processor]];
   const text = (value: string): number[] => [...value].map((letter) => letter.charCodeAt(0));
   const parameter = (name: string, type: number, sizes: readonly number[], data: readonly number[]): void => {
     const body = [type & 255, sizes.length, ...sizes, ...data, 0];
     const step = 2 + body.length;
-    parameters.push(name.length, 1, ...text(name), step & 255, step >> 8, ...body);
+    const link = little ? [step & 255, step >> 8] : [step >> 8, step & 255];
+    parameters.push(name.length, 1, ...text(name), ...link, ...body);
   };
   const width = 24;
-  parameters.push(5, 255, ...text('POINT'), 3, 0, 0);
-  parameter(
-    'LABELS',
-    -1,
-    [width, labels.length],
-    labels.flatMap((label) => text(`${subject}${label}`.padEnd(width))),
-  );
-  parameter('UNITS', -1, [4], text('mm  '));
-  parameter('RATE', 4, [], [...new Uint8Array(Float32Array.of(motion.fps).buffer)]);
+  parameters.push(5, 255, ...text('POINT'), ...(little ? [3, 0] : [0, 3]), 0);
+  const { listed = labels.length } = options;
+  for (const [name, some] of [
+    ['LABELS', labels.slice(0, listed)],
+    ['LABELS2', labels.slice(listed)],
+  ] as const)
+    if (some.length > 0)
+      parameter(
+        name,
+        -1,
+        [width, some.length],
+        some.flatMap((label) => text(label.padEnd(width))),
+      );
+  parameter('UNITS', -1, [4], text(unit.padEnd(4)));
+  const rate = new DataView(new ArrayBuffer(4));
+  float(rate, 0, motion.fps);
+  if (!rateInHead) parameter('RATE', 4, [], [...new Uint8Array(rate.buffer)]);
   parameters.push(0, 0);
   const blocks = Math.ceil(parameters.length / 512);
   parameters[2] = blocks;
   const size = integers ? 2 : 4;
   const start = (1 + blocks) * 512;
-  const out = new Uint8Array(start + frames.length * labels.length * 4 * size);
+  const row = (labels.length * 4 + analog) * size;
+  // Programs fill the last block and may leave more of them empty.
+  const out = new Uint8Array((Math.ceil((start + frames.length * row) / 512) + 2) * 512);
   const view = new DataView(out.buffer);
   out.set([2, 0x50]);
-  [labels.length, 0, 1, motion.frames, 0].forEach((word, i) => view.setUint16(2 + 2 * i, word, true));
-  const unit = integers ? 0.1 : -0.1;
-  view.setFloat32(12, unit, true);
-  view.setUint16(16, 2 + blocks, true);
-  view.setFloat32(20, motion.fps, true);
+  [labels.length, analog, first, first + motion.frames - 1, 0].forEach((word, i) =>
+    view.setUint16(2 + 2 * i, word, little),
+  );
+  const perMetre = unit === 'mm' ? 1000 : 1;
+  const step = 0.00005 * perMetre;
+  float(view, 12, integers ? step : -step);
+  view.setUint16(16, 2 + blocks, little);
+  float(view, 20, motion.fps);
   out.set(parameters, 512);
   frames.forEach((markers, frame) =>
     labels.forEach((label, marker) => {
-      const at = start + (frame * labels.length + marker) * 4 * size;
+      const at = start + frame * row + marker * 4 * size;
       const [x, y, z] = markers.get(label)!;
       const unseen = hidden(label, frame);
-      const words = [...(unseen ? [0, 0, 0] : [x * 1000, -z * 1000, y * 1000]), unseen ? -1 : 0];
+      const words = [...(unseen ? [0, 0, 0] : [x, -z, y].map((value) => value * perMetre)), unseen ? -1 : 0];
       words.forEach((value, i) => {
-        if (integers) view.setInt16(at + 2 * i, i < 3 ? Math.round(value / unit) : value, true);
-        else view.setFloat32(at + 4 * i, value, true);
+        if (integers) view.setInt16(at + 2 * i, i < 3 ? Math.round(value / step) : value, little);
+        else float(view, at + 4 * i, value);
       });
     }),
   );
