@@ -65,6 +65,14 @@ describe('what is written is what was solved', () => {
     );
   });
 
+  test('a dancer who was moved far off the floor is put on it', () => {
+    const high = solved.positions.map((value, i) => (i % 3 === 1 ? value + 0.5 : value));
+    const { clip, report } = leaderBvh(writeBvh(solve({ ...solved, positions: high })));
+    expect(report.floor).toBeGreaterThan(0.4);
+    const low = high.map((value, i) => (i % 3 === 1 ? value - report.floor : value));
+    expect(farthest(clip.positions, low)).toBeLessThan(0.02);
+  });
+
   test("three's loader alone places every joint there", () => {
     const { skeleton, clip } = new BVHLoader().parse(text);
     expect(clip.duration).toBeCloseTo(199 / 30, 4);

@@ -2,6 +2,7 @@
 import { describe, expect, test } from 'vitest';
 import { inspectMotion } from '../../../../web/motion/import/inspect';
 import { type FileBytes, readLeaderFile } from '../../../../web/motion/import/read';
+import { distance, readVec } from '../../../../web/motion/math/vec3';
 import { J, JOINT_COUNT, type JointName } from '../../../../web/motion/skeleton/skeleton';
 import { type BodyNames, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
 import { bvhMotion, pairsOf, worstMillimetres } from '../../support/motion-files/made-motion';
@@ -45,6 +46,8 @@ describe('joints set by hand', () => {
     const file = await readLeaderFile(filesOf(later.text), {}, remembered);
     expect(file.report).toMatchObject({ mappedBy: 'hand', skeleton });
     expect(worstMillimetres(file, bvhMotion(later, NAMES, 50))).toBeLessThan(0.05);
+    const shown = await inspectMotion(filesOf(later.text), {}, remembered);
+    expect(shown.joints[shown.found.left_wrist!]!.name).toBe(CHOICE.left_wrist);
     const other = await readLeaderFile(filesOf(madeBvh({ joints: madeBody(MIXAMO) }).text), {}, remembered);
     expect(other.report.mappedBy).toBe('names');
     // What is set for this file goes before what is remembered.
@@ -69,10 +72,22 @@ describe('joints set by hand', () => {
     expect(file.report.warnings.join()).toContain('feet point backwards');
   });
 
-  test('that the file does not have are estimated', async () => {
-    const file = await readLeaderFile(filesOf(made.text), { joints: { ...CHOICE, neck: 'gone' } });
+  test.each([null, 'gone'])('that the file does not have are estimated: %s', async (neck) => {
+    const file = await readLeaderFile(filesOf(made.text), { joints: { ...CHOICE, neck } });
     expect(file.report.joints.neck).toBeNull();
     expect(file.report.estimated).toContain('neck');
+  });
+
+  test('of the trunk are taken where all four are set', async () => {
+    const part = { ...CHOICE, pelvis: 'n0', spine1: 'n1', spine2: 'n2' };
+    const some = await readLeaderFile(filesOf(made.text), { joints: part });
+    expect(some.report.estimated).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
+    expect(some.report.joints.pelvis).toBeNull();
+    const all = await readLeaderFile(filesOf(made.text), { joints: { ...part, spine3: 'n3' } });
+    expect(all.report).toMatchObject({ estimated: [], joints: { pelvis: 'n0', spine3: 'n3' } });
+    const { positions } = all.clip;
+    const back = distance(readVec(positions, J.pelvis), readVec(positions, J.spine1));
+    expect(back).toBeCloseTo(0.125, 5);
   });
 });
 

@@ -244,7 +244,9 @@ describe('missing joints', () => {
       'missing-joints',
       'has no legs: no joint was found for left hip, left knee, left ankle',
     );
-    expect(failure(text).hint).toContain('Its joints are called mixamorig:Hips, mixamorig:Spine');
+    expect(failure(text).hint).toMatch(
+      /^Its joints are called mixamorig:Hips, mixamorig:Spine.* and 6 more\. /,
+    );
   });
   test('arms', () => {
     const text = body({}, ['shoulder', 'elbow', 'wrist', 'collar']);

@@ -6,6 +6,8 @@ import { distance, dot, lerp, readVec, sub, type Vec3 } from '../../../../../web
 import { type BodyNames, madeBody, madeBvh, type MadeFile, MIXAMO } from '../../../support/made-bvh';
 import { CONVENTIONS } from '../../../support/motion-files/conventions';
 import { pairsOf } from '../../../support/motion-files/made-motion';
+import { rotate } from '../../../../../web/motion/math/quat';
+import { ALL_UNITS, UP_AXES } from '../../../../../web/motion/retarget/axes-and-units';
 
 const joint = (file: LeaderFile, frame: number, name: JointName): Vec3 =>
   readVec(file.clip.positions, frame * JOINT_COUNT + J[name]);
@@ -45,6 +47,29 @@ describe('skeleton conventions', () => {
     const rich = leaderBvh(madeBvh({ joints: [...madeBody(names), ...extra], swing: 0 }).text);
     expect(rich.clip).toEqual(plain.clip);
   });
+
+  test('joints of a rig beside those that deform the mesh', () => {
+    const { names } = CONVENTIONS.find(({ label }) => label === 'Rigify, deform bones')!;
+    const helpers = Array.from({ length: 8 }, (_, i) => ({
+      name: `MCH-${i}`,
+      parent: names.root,
+      offset: [0, 0.02, 0] as const,
+    }));
+    const made = madeBvh({ joints: [...madeBody(names), ...helpers] });
+    const file = leaderBvh(made.text);
+    expect(file.report).toMatchObject({ convention: 'Rigify', mappedBy: 'names' });
+    expectSame(file, made, pairsOf(names));
+  });
+
+  test('bones of unlike lengths on the two sides are doubted', () => {
+    const joints = madeBody(MIXAMO).map((one) =>
+      one.name === 'mixamorig:LeftForeArm' ? { ...one, offset: [0.18, 0, 0] as const } : one,
+    );
+    const { report } = leaderBvh(madeBvh({ joints }).text);
+    expect(report.warnings).toEqual(['The left and the right upper arm differ in length by 33 %.']);
+    expect(report.confidence).toBeCloseTo(2 / 3, 5);
+    expect(leaderBvh(madeBvh({ joints: madeBody(MIXAMO) }).text).report.confidence).toBe(1);
+  });
 });
 
 describe('units and axes', () => {
@@ -76,6 +101,44 @@ describe('units and axes', () => {
     expect(file.report.upAxis).toBe(up);
     expectSame(file, made, pairsOf(MIXAMO));
     expect(joint(file, 0, 'head')[1]).toBeGreaterThan(1.2);
+  });
+
+  test.each(UP_AXES)('$name up: the axis is turned upright', ({ axis, turn }) => {
+    expect(distance(rotate(turn, axis), [0, 1, 0])).toBeLessThan(1e-12);
+  });
+
+  test('an up axis, a turn and a floor that are set by hand', () => {
+    const { text } = madeBvh({ joints: madeBody(MIXAMO) });
+    const found = leaderBvh(text);
+    const trunk = (file: LeaderFile): Vec3 => sub(joint(file, 9, 'head'), joint(file, 9, 'left_hip'));
+    const [x, y, z] = trunk(found);
+    const lying = leaderBvh(text, { up: 'z' });
+    expect(lying.report.upAxis).toBe('z');
+    expect(distance(trunk(lying), [x, z, -y])).toBeLessThan(1e-5);
+    // From ahead to the dancer's left, seen from above against the clock.
+    expect(distance(trunk(leaderBvh(text, { turn: 90 })), [z, y, -x])).toBeLessThan(1e-5);
+    const lower = leaderBvh(text, { floor: found.report.floor - 0.5 });
+    expect(lower.report.floor).toBe(found.report.floor - 0.5);
+    expect(joint(lower, 9, 'head')[1]).toBeCloseTo(joint(found, 9, 'head')[1] + 0.5, 5);
+  });
+
+  test.each(ALL_UNITS)('$name that are set by hand', ({ name, metres }) => {
+    const made = madeBvh({ joints: madeBody(MIXAMO), unitsPerMetre: 1 / metres });
+    const file = leaderBvh(made.text, { unit: name });
+    expect(file.report).toMatchObject({ unit: name, warnings: [] });
+    expectSame(file, made, pairsOf(MIXAMO));
+  });
+
+  test.each([
+    ['feet', 0.3048],
+    ['MMD units of 8 cm', 0.08],
+  ] as const)('%s are %d m', (unit, metres) => {
+    expect(ALL_UNITS.find(({ name }) => name === unit)!.metres).toBe(metres);
+  });
+
+  test('a unit that makes a giant is doubted', () => {
+    const { report } = leaderBvh(madeBvh({ joints: madeBody(MIXAMO) }).text, { unit: 'inches' });
+    expect(report.warnings.join()).toContain('In inches the dancer is larger than people are');
   });
 
   test('the floor is at 0: the toes of standing feet are three centimetres above it', () => {
@@ -137,6 +200,11 @@ describe('time', () => {
       Vec3,
     ];
     expect(distance(third, lerp(start, end, 1 / 3))).toBeLessThan(0.2 * distance(start, end));
+    // A body that does not turn goes straight from one place of its root to the next.
+    const gliding = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), frameTime: '0.1', swing: 0 }).text);
+    const [from, between, to] = [0, 1, 3].map((frame) => joint(gliding, frame, 'head')) as [Vec3, Vec3, Vec3];
+    expect(distance(from, to)).toBeGreaterThan(0.01);
+    expect(distance(between, lerp(from, to, 1 / 3))).toBeLessThan(1e-5);
   });
 
   test('frames beyond the stated number are left out, with a warning', () => {
