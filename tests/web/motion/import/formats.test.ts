@@ -502,6 +502,7 @@ describe('glTF and VRM', () => {
     const file = await read({}, ['a.glb', writeGlb(dance, options)]);
     expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
     expect(file.report).toMatchObject({ format: 'glTF', convention: 'Mixamo', sourceFps: 30, warnings: [] });
+    expect(file.report).toMatchObject({ unit: 'metres', upAxis: 'y' });
   });
 
   test('rotations as normalised whole numbers', async () => {
@@ -515,7 +516,9 @@ describe('glTF and VRM', () => {
       const matrix = [0.01, 0, 0, 0, 0, 0, -0.01, 0, 0, 0.01, 0, 0, 0, 0, 0, 1];
       nodes[dance.joints.length] = { name: 'Armature', matrix, children: [0] };
     });
-    expect(worstMillimetres(await read({}, ['a.glb', bytes]), dance)).toBeLessThan(WORST);
+    const file = await read({}, ['a.glb', bytes]);
+    expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
+    expect(file.report).toMatchObject({ unit: 'metres', upAxis: 'y' });
   });
 
   test('steps hold every key until the next one', async () => {

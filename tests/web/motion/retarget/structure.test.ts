@@ -2,7 +2,8 @@ import { describe, expect, test } from 'vitest';
 import type { SourceJoint } from '../../../../web/motion/retarget/source';
 import { mapByStructure } from '../../../../web/motion/retarget/structure';
 import { add, type Vec3, ZERO } from '../../../../web/motion/math/vec3';
-import { type MadeJoint, madeBody, MIXAMO } from '../../support/made-bvh';
+import { leaderBvh } from '../../support/leader-bvh';
+import { type BodyNames, type MadeJoint, madeBody, madeBvh, MIXAMO } from '../../support/made-bvh';
 
 /** Joints with names that say nothing, where they rest, and which joint each was. */
 function unnamed(body: readonly MadeJoint[], rename: (name: string, index: number) => string) {
@@ -82,6 +83,28 @@ describe('a body found by its shape', () => {
       ...chain('hair', 'mixamorig:Head', [0, -0.05, -0.05], 8),
       ...chain('tail', 'mixamorig:Hips', [0, -0.02, -0.12], 7),
     ]);
+  });
+
+  test('with a joint at the crown, and without a neck', () => {
+    const bare = body.map(({ name, parent, offset }): MadeJoint => ({ name, parent, offset }));
+    expectBody([...bare, { name: 'crown', parent: 'mixamorig:Head', offset: [0, 0.15, 0] }]);
+    const neckless = madeBody(
+      Object.fromEntries(Object.entries(MIXAMO).filter(([part]) => part !== 'neck')) as unknown as BodyNames,
+    );
+    expectBody(neckless);
+  });
+
+  test('whose sides nothing tells is doubted', () => {
+    const names: BodyNames = {
+      ...{ root: 'n0', spine: ['n1', 'n2', 'n3'], neck: 'n4', head: 'n5', sides: ['a', 'b'] },
+      ...{ hip: '*1', knee: '*2', ankle: '*3', collar: '*5', shoulder: '*6', elbow: '*7', wrist: '*8' },
+    };
+    const { report } = leaderBvh(madeBvh({ joints: madeBody(names) }).text);
+    expect(report.warnings).toEqual([
+      'Not all joints have known names; the body was found by its shape.',
+      'Nothing tells left from right in this file; they may be exchanged.',
+    ]);
+    expect(report.confidence).toBeCloseTo(0.4, 5);
   });
 
   test('names decide between left and right where there are no feet', () => {
