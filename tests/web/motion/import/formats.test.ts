@@ -245,6 +245,7 @@ describe('arrays and tables of joints', () => {
       'as pandas writes it, with an index',
       cells((cell, row, column) => (column > 0 ? cell : `${row === 0 ? '' : row - 1},${cell}`)),
     ],
+    ['with a byte order mark, as Excel writes it', `\uFEFF${writeCsv(joints)}`],
     ['with quotes about everything', cells((cell) => `"${cell}"`)],
     ...['time (ms)', 'time_ms'].map((title): [string, string] => [
       `with ${title}`,
@@ -505,6 +506,13 @@ describe('glTF and VRM', () => {
     expect(file.report).toMatchObject({ unit: 'metres', upAxis: 'y' });
   });
 
+  test('at 60 frames per second', async () => {
+    const fast = madeMotion({ fps: 60, frames: 81 });
+    const file = await read({}, ['a.glb', writeGlb(fast)]);
+    expect(file.report).toMatchObject({ sourceFps: 60, sourceFrames: 81 });
+    expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
+  });
+
   test('rotations as normalised whole numbers', async () => {
     const file = await read({}, ['a.glb', writeGlb(dance, { shorts: true })]);
     expect(worstMillimetres(file, dance)).toBeLessThan(0.5);
@@ -553,6 +561,8 @@ describe('glTF and VRM', () => {
     const { gltf, bin } = writeGltf(dance, 'numbers.bin');
     const beside = await read({}, ['a.gltf', gltf], ['numbers.bin', bin]);
     expect(worstMillimetres(beside, dance)).toBeLessThan(WORST);
+    const renamed = await read({}, ['a.gltf', gltf], ['renamed.bin', bin]);
+    expect(worstMillimetres(renamed, dance)).toBeLessThan(WORST);
     await expect(read({}, ['a.gltf', gltf])).rejects.toMatchObject({ code: 'missing-file' });
   });
 

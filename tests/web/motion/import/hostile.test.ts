@@ -6,6 +6,7 @@ import { readC3d } from '../../../../web/motion/import/c3d/read';
 import { readFbx } from '../../../../web/motion/import/fbx/read';
 import { readGltf } from '../../../../web/motion/import/gltf/read';
 import { readNumpy } from '../../../../web/motion/import/numpy/read';
+import { readMotion } from '../../../../web/motion/import/read';
 import { readCsv } from '../../../../web/motion/import/tables/csv';
 import { readJsonMotion } from '../../../../web/motion/import/tables/json';
 import { readVmd } from '../../../../web/motion/import/vmd/read';
@@ -127,6 +128,13 @@ describe('absurd files', () => {
     }
     throw new Error('the file was read');
   };
+
+  test('a file of more than 512 MB, and one of no known format', async () => {
+    const large = { name: 'a.bvh', bytes: new Uint8Array(512 * 1024 ** 2 + 1) };
+    await expect(readMotion([large])).rejects.toMatchObject({ code: 'too-large' });
+    const other = { name: 'a.txt', bytes: utf8('words') };
+    await expect(readMotion([other])).rejects.toMatchObject({ code: 'not-motion' });
+  });
 
   test('an archive that unpacks to gigabytes', () => {
     const zeros = zipSync({ 'leader.npy': new Uint8Array(1e6) });

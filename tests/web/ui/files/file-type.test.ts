@@ -79,5 +79,7 @@ describe('the type of a file', () => {
   it('is unknown for the rest', () => {
     expect(fileKind(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
     expect(fileKind(new Uint8Array(0), 'nothing', '')).toBe('unknown');
+    expect(fileKind(bytes('PK\u0003\u0004'), 'notes.docx', '')).toBe('unknown');
+    expect(fileKind(bytes('[1, 2]'), 'list.json', 'application/json')).toBe('unknown');
   });
 });

@@ -101,7 +101,7 @@ function badCell(frame: number, cell: string, title: string): AppError {
  * @throws {AppError} `not-motion`, `bad-number`, `too-long`, `too-few-frames` or `bad-frame-time`
  */
 export function readCsv(text: string, part: number): MotionSource {
-  const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);
+  const lines = text.split(/\r\n|\r|\n/);
   const comments = lines.filter((line) => line.startsWith('#'));
   const rows = lines.filter((line) => line.trim() !== '' && !line.startsWith('#'));
   const separator = SEPARATOR.exec(rows[0] ?? '')?.[0] ?? ',';

@@ -76,6 +76,9 @@ describe('a rest pose before the dance is left out', () => {
     expectLeftOut(before(text, pose(hanging, [40, 95, 40])), text);
     const raised = pose(hanging, [40, 95, 40], { LeftArm: 75, RightArm: -75 });
     expectLeftOut(before(text, raised), text);
+    const turned = pose(hanging, [40, 95, 40]);
+    turned[5] = 140;
+    expectLeftOut(before(text, turned), text);
     const half = pose(hanging, [40, 95, 40], { LeftArm: 40, RightArm: -40 });
     expect(leaderBvh(before(text, half)).report.remarks).toEqual([]);
   });
@@ -159,6 +162,11 @@ describe('no frame is left out of a dance', () => {
       values.map((value, at) => (at < 3 && i >= 20 ? value + 40 : value)),
     );
     expect(remarks(withFrames(dance, [rest, ...jumping]))).toEqual([]);
+  });
+
+  test('that stands still after a small step', () => {
+    const frames = Array.from({ length: 60 }, (_, frame) => pose(body, [frame === 0 ? 0 : 2, 95, 18]));
+    expect(remarks(withFrames(dance, frames))).toEqual([]);
   });
 
   test('that is too short to compare', () => {
