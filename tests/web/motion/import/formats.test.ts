@@ -289,6 +289,14 @@ describe('arrays and tables of joints', () => {
     expect(worstMillimetres(file, dance)).toBeLessThan(WORST);
   });
 
+  test('CSV that lacks an axis of a joint is refused, and the joint named', async () => {
+    const text = writeCsv(joints).replace('left_wrist_z', 'left_wrist_depth');
+    await expect(read({}, ['a.csv', utf8(text)])).rejects.toMatchObject({
+      code: 'missing-joints',
+      message: expect.stringContaining('no joint was found for left wrist.') as string,
+    });
+  });
+
   test('CSV with decimal commas in quotes is refused', async () => {
     const text = cells((cell, row) => (row === 0 ? cell : `"${cell.replace('.', ',')}"`));
     await expect(read({}, ['a.csv', utf8(text)])).rejects.toMatchObject({ code: 'bad-number' });

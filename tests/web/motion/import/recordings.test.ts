@@ -180,8 +180,12 @@ describe('AMASS', () => {
   const dance = madeMotion({ names: SMPL_NAMES, body, fps: 60, frames: 61 });
   const index = new Map(dance.joints.map(({ name }, joint) => [name, joint]));
 
+  /** Names of the arrays of rotations, of the root's place and of the frame rate. */
+  type ArchiveNames = readonly [string, string, string];
+
   /** The motion as rotation vectors, with z up. */
-  function archive(width: number): Uint8Array {
+  function archive(width: number, names: ArchiveNames = ['poses', 'trans', 'mocap_framerate']): Uint8Array {
+    const [turns, place, rate] = names;
     const upright = aboutAxis(X_AXIS, Math.PI / 2);
     const rotation = (turns: readonly Quat[], joint: number): Vec3 => {
       const own = turns[index.get(SMPL22[joint]!)!]!;
@@ -195,15 +199,26 @@ describe('AMASS', () => {
       ...new Array<number>(width - 66).fill(0.1),
     ]);
     return writeArchive({
-      poses: { shape: [61, width], data: Float64Array.from(poses) },
-      trans: {
+      [turns]: { shape: [61, width], data: Float64Array.from(poses) },
+      [place]: {
         shape: [61, 3],
         data: Float64Array.from(dance.root.flatMap((place) => inFile(place, 1, 'z'))),
       },
-      mocap_framerate: { shape: [], data: Float64Array.of(60) },
+      [rate]: { shape: [], data: Float64Array.of(60) },
       gender: { shape: [], data: ['neutral'] },
     });
   }
+
+  test.each([
+    ['smpl_poses', 'smpl_trans', 'fps'],
+    ['fullpose', 'transl', 'mocap_frame_rate'],
+    ['full_pose', 'transl', 'frame_rate'],
+    ['full_pose', 'transl', 'framerate'],
+  ] as const)('arrays named %s, %s and %s', async (...names) => {
+    const file = await read({}, ['a.npz', archive(165, names)]);
+    expect(worstMillimetres(file, dance, 2)).toBeLessThan(0.1);
+    expect(file.report).toMatchObject({ sourceFps: 60, remarks: [] });
+  });
 
   test.each([72, 156, 165])('poses of %i values', async (width) => {
     const file = await read({}, ['a.npz', archive(width)]);

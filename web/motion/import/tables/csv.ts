@@ -42,8 +42,6 @@ function columnsOf(titles: readonly string[]): Column[] {
   });
 }
 
-const isSmplJoint = (name: string): boolean => (SMPL22 as readonly string[]).includes(name.toLowerCase());
-
 /** Joints under their names; the 22 keep the parents that they have in their own skeleton. */
 function jointsOf(names: readonly string[]): SourceJoint[] {
   const all = names.length === SMPL22.length && names.every((name, i) => name.toLowerCase() === SMPL22[i]);
@@ -112,9 +110,7 @@ export function readCsv(text: string, part: number): MotionSource {
   const at = part < dancers.length ? part : 0;
   const mine = columns.filter(({ dancer }) => dancer === dancers[at]);
   const names = [...new Set(mine.map(({ joint }) => joint))].filter(
-    (joint) =>
-      isSmplJoint(joint) ||
-      new Set(mine.filter((one) => one.joint === joint).map(({ axis }) => axis)).size === 3,
+    (joint) => new Set(mine.filter((one) => one.joint === joint).map(({ axis }) => axis)).size === 3,
   );
   if (names.length < 3) throw invalid('its first line names no joints with x, y and z');
   const error = tooLong(rows.length - 1, names.length * 3);
