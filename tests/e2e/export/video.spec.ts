@@ -28,6 +28,19 @@ async function saveVideo(page: Page): Promise<Download> {
   return coming;
 }
 
+/** Moves the song by whole frames, and waits for the reaction to it. */
+async function shiftSong(page: Page, app: App, frames: number): Promise<void> {
+  await page.keyboard.press('Escape');
+  const narrow = page.viewportSize()!;
+  // Phones have no handle for it.
+  await page.setViewportSize({ ...narrow, width: 1000 });
+  const grip = page.getByRole('slider', { name: 'Song shift' });
+  for (let frame = 0; frame < frames; frame++) await grip.press('ArrowRight');
+  await app.until(({ reaction, job }, shift) => reaction?.inputs.shift === shift && !job, frames);
+  await page.setViewportSize(narrow);
+  await page.getByRole('button', { name: 'Download', exact: true }).click();
+}
+
 /** Picture and sound of a video. */
 interface VideoContent {
   /** Shares of warm and cool pixels in the middle frame. */
@@ -53,7 +66,7 @@ async function contentOf(page: Page, file: string): Promise<VideoContent> {
     }
     const sound = await new OfflineAudioContext(1, 1, 48000).decodeAudioData(bytes.buffer);
     const samples = sound.getChannelData(0).map(Math.abs);
-    const loudest = Math.max(...samples);
+    const loudest = samples.reduce((most, sample) => Math.max(most, sample), 0);
     return {
       warm,
       cool,
@@ -107,6 +120,14 @@ test('a video has every frame and the song, and the stage is unchanged', async (
   ]);
   expect(await app.onScreen()).toEqual(before);
   expect(await page.evaluate('window.reactdance.stage.pictureSize()')).toEqual(size);
+});
+
+test('the sound of a video begins where the song was shifted to', async ({ page }) => {
+  const app = await openMenu(page, 60);
+  await shiftSong(page, app, 15);
+  const { soundStart } = await contentOf(page, await (await saveVideo(page)).path());
+  expect(soundStart).toBeGreaterThan(0.48);
+  expect(soundStart).toBeLessThan(0.55);
 });
 
 /** The encoder as Firefox has it: its decoder record has the first byte of each parameter set twice. */
@@ -270,9 +291,13 @@ test('without WebCodecs the video is recorded in real time', async ({ page }) =>
   await page.addInitScript(() => {
     Reflect.deleteProperty(globalThis, 'VideoEncoder');
   });
-  await openMenu(page, 120);
+  const app = await openMenu(page, 120);
+  await shiftSong(page, app, 30);
   await expect(page.getByRole('region', { name: 'Video' })).toContainText('takes 0:04');
   const download = await saveVideo(page);
+  const { soundStart } = await contentOf(page, await download.path());
+  expect(soundStart).toBeGreaterThan(0.95);
+  expect(soundStart).toBeLessThan(1.2);
   const { streams } = await probe(await download.path());
   expect(streams.map(({ codec_type }) => codec_type).sort()).toEqual(['audio', 'video']);
   expect(Number(streams.find((stream) => stream.codec_type === 'video')?.nb_read_frames)).toBeGreaterThan(3);
