@@ -1,7 +1,7 @@
 import { readFile } from 'node:fs/promises';
 import type { JSHandle, Page } from '@playwright/test';
 
-/** A video file that is open in a page, at the middle of its time, or at one second where it does not say how long it is. */
+/** A video file that is open in a page, at the middle of its time. */
 export interface WrittenVideo {
   readonly video: HTMLVideoElement;
   readonly bytes: Uint8Array<ArrayBuffer>;
@@ -15,7 +15,7 @@ export async function openWritten(page: Page, file: string): Promise<JSHandle<Wr
       const video = document.createElement('video');
       video.src = URL.createObjectURL(new Blob([bytes]));
       await new Promise((resolve) => (video.onloadeddata = resolve));
-      video.currentTime = Number.isFinite(video.duration) ? video.duration / 2 : 1;
+      video.currentTime = video.duration / 2;
       await new Promise((resolve) => (video.onseeked = resolve));
       // A busy browser has no picture yet: then nothing is drawn.
       const pixel = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true })!;

@@ -3,14 +3,12 @@ import {
   AudioSampleSource,
   BufferTarget,
   CanvasSource,
-  Mp4OutputFormat,
   Output,
   QUALITY_HIGH,
   type VideoEncodingConfig,
-  WebMOutputFormat,
 } from 'mediabunny';
 import { yieldToPage } from '../../common/yield-to-events';
-import type { VideoPlan } from './plan';
+import { outputFormat, type VideoPlan } from './plan';
 import { decodeSound, songSamples, type Sound } from './song';
 import type { VideoOptions, VideoSource } from './source';
 
@@ -48,8 +46,7 @@ export async function encodeVideo(
   const sound = source.sound && plan.audio && (await decodeSound(source.sound.file));
   signal.throwIfAborted();
   const target = new BufferTarget();
-  const format = plan.container === 'mp4' ? new Mp4OutputFormat() : new WebMOutputFormat();
-  const output = new Output({ format, target });
+  const output = new Output({ format: outputFormat(plan), target });
   try {
     const pictures = new CanvasSource(source.canvas, {
       codec: plan.video,

@@ -1,5 +1,5 @@
 import type { AudioCodec, VideoCodec } from 'mediabunny';
-import { canEncodeAudio, canEncodeVideo } from 'mediabunny';
+import { canEncodeAudio, canEncodeVideo, Mp4OutputFormat, WebMOutputFormat } from 'mediabunny';
 import { canEncodeAac } from './aac';
 
 type Container = 'mp4' | 'webm';
@@ -52,4 +52,9 @@ export async function plan(
   if (!('MediaRecorder' in globalThis) || !('captureStream' in HTMLCanvasElement.prototype)) return null;
   const supported = RECORDED.find(({ type }) => MediaRecorder.isTypeSupported(type));
   return supported ? { way: 'record', ...supported } : null;
+}
+
+/** What writes the files of a plan. */
+export function outputFormat({ container }: VideoPlan): Mp4OutputFormat | WebMOutputFormat {
+  return container === 'mp4' ? new Mp4OutputFormat() : new WebMOutputFormat();
 }

@@ -1,15 +1,18 @@
+import { ALL_FORMATS, BlobSource, BufferTarget, Conversion, Input, Output } from 'mediabunny';
 import type { VideoSource, VideoOptions } from './source';
-import type { VideoPlan } from './plan';
+import { outputFormat, type VideoPlan } from './plan';
 import { decodeSound, type Sound, songSamples } from './song';
 
 /** Bits per second. */
 const VIDEO_BITRATE = 8_000_000;
 const AUDIO_BITRATE = 160_000;
 
+type RecordPlan = Extract<VideoPlan, { way: 'record' }>;
+
 /** Records a video in real time, for browsers without WebCodecs. Frames that are drawn too slowly are left out. */
 export async function recordVideo(
   source: VideoSource,
-  plan: Extract<VideoPlan, { way: 'record' }>,
+  plan: RecordPlan,
   { signal, onProgress }: VideoOptions,
 ): Promise<Blob> {
   const { fps, frames } = source;
@@ -56,7 +59,20 @@ export async function recordVideo(
     for (const track of stream.getTracks()) track.stop();
     await song?.stop();
   }
-  return new Blob(parts, { type: `video/${plan.container}` });
+  const recorded = new Blob(parts, { type: `video/${plan.container}` });
+  return withDuration(recorded, plan).catch(() => recorded);
+}
+
+/** The same pictures and sound in a file that says how long it is and where to seek, which recorders leave out. */
+async function withDuration(recorded: Blob, plan: RecordPlan): Promise<Blob> {
+  const input = new Input({ source: new BlobSource(recorded), formats: ALL_FORMATS });
+  const target = new BufferTarget();
+  const output = new Output({ format: outputFormat(plan), target });
+  const conversion = await Conversion.init({ input, output, copy: { mode: 'forced' } });
+  if (conversion.discardedTracks.length > 0) return recorded;
+  await conversion.execute();
+  if (!target.buffer) throw new Error('The copy of the video is empty.');
+  return new Blob([target.buffer], { type: recorded.type });
 }
 
 /** Adds the song of the whole dance to a stream, without playing it on the page. */
