@@ -100,21 +100,31 @@ test('the dancers go on while a reaction is made; without a graphics card the pa
   page,
 }) => {
   const app = await dancing(page);
-  await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.7');
-  await app.until(({ job }) => job !== null && job.fraction > 0);
-  const pictures: StagePicture[] = [];
-  for (let i = 0; i < 3; i++) {
-    pictures.push(await page.evaluate<StagePicture>(READ_PICTURE));
-    const before = await drawn(page);
-    await expect.poll(() => drawn(page)).toBeGreaterThan(before + 2);
-  }
-  expect(await app.read(({ job }) => job !== null)).toBe(true);
+  // The page itself looks at every picture: asking from here takes as long as the job.
+  await page.evaluate(`
+    window.pictures = [];
+    (() => {
+      const { stage, store } = window.reactdance;
+      let last = 0;
+      (function look() {
+        const { job } = store.getState();
+        const { frames } = stage.stats();
+        if (job && job.fraction > 0 && frames !== last) window.pictures.push(${READ_PICTURE});
+        last = frames;
+        setTimeout(look, 20);
+      })();
+    })();
+  `);
+  // The mean that another variety needs is that of several dances, the most that a fader has the page sample.
+  await page.getByRole('slider', { name: 'Variety' }).fill('1.5');
+  await app.until(({ job, reaction, settings }) => !job && reaction?.inputs.settings === settings);
+  const pictures = await page.evaluate<StagePicture[]>('window.pictures');
   for (const { orange, blue, copied } of pictures) {
     expect(orange).toBeGreaterThan(20);
     expect(blue).toBeGreaterThan(20);
     expect(copied).toBe(true);
   }
-  expect(new Set(pictures.map(({ picture }) => picture)).size).toBe(3);
+  expect(new Set(pictures.map(({ picture }) => picture)).size).toBeGreaterThan(2);
 
   await app.settled();
   // A moment later the canvas itself is there again, and not empty.
