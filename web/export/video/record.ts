@@ -60,6 +60,7 @@ export async function recordVideo(
     await song?.stop();
   }
   const recorded = new Blob(parts, { type: `video/${plan.container}` });
+  // Nobody has to wait for the recording again because it could not be copied.
   return withDuration(recorded, plan).catch(() => recorded);
 }
 
@@ -68,9 +69,13 @@ async function withDuration(recorded: Blob, plan: RecordPlan): Promise<Blob> {
   const input = new Input({ source: new BlobSource(recorded), formats: ALL_FORMATS });
   const target = new BufferTarget();
   const output = new Output({ format: outputFormat(plan), target });
-  const conversion = await Conversion.init({ input, output, copy: { mode: 'forced' } });
-  if (conversion.discardedTracks.length > 0) return recorded;
-  await conversion.execute();
+  try {
+    const conversion = await Conversion.init({ input, output, copy: { mode: 'forced' } });
+    if (conversion.discardedTracks.length > 0) return recorded;
+    await conversion.execute();
+  } finally {
+    input.dispose();
+  }
   if (!target.buffer) throw new Error('The copy of the video is empty.');
   return new Blob([target.buffer], { type: recorded.type });
 }
