@@ -1,5 +1,5 @@
 import { bvh, wav } from './support/files';
-import { App, maxDistance, meanDistance } from './support/app-page';
+import { App, maxDistance, meanDistance, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
 test('guidance by body part, presets and reset', async ({ page }) => {
@@ -219,4 +219,28 @@ test('three reactions that differ most are made, to pick from', async ({ page })
   await page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.5');
   await expect(cards.last()).toBeDisabled();
   await app.until(({ job, variations }) => !job && !variations);
+});
+
+test('a card shows all of a dancer, however tall', async ({ page }) => {
+  const app = new App(page);
+  await app.open(SHIPPED);
+  await app.settled();
+  const canvas = page.locator('.variation canvas').first();
+  const picture = () => canvas.evaluate((card: HTMLCanvasElement) => card.toDataURL());
+  const empty = await canvas.evaluate(({ width, height }: HTMLCanvasElement) =>
+    Object.assign(document.createElement('canvas'), { width, height }).toDataURL(),
+  );
+  await expect.poll(picture).not.toBe(empty);
+  const before = await picture();
+  await page.getByRole('spinbutton', { name: /^Height of the reactor/ }).fill('220');
+  await page.keyboard.press('Enter');
+  await app.until(({ job, reaction }) => !job && reaction?.inputs.settings.height === 2.2);
+  await expect.poll(picture).not.toBe(before);
+  const top = await canvas.evaluate((card: HTMLCanvasElement) => {
+    const { width, height } = card;
+    const { data } = card.getContext('2d')!.getImageData(0, 0, width, height);
+    return data.findIndex((value, i) => i % 4 === 3 && value > 0) / 4 / width / height;
+  });
+  expect(top).toBeGreaterThan(0.05);
+  expect(top).toBeLessThan(0.5);
 });

@@ -1,5 +1,6 @@
 import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import type { SolvedMotion } from '../motion/skeleton/clip';
+import { standingHeight } from '../motion/skeleton/kinematics';
 import type { BodyLibrary } from './body/library';
 import { perPixelMaterial, perVertexMaterial } from './dancer/body-material';
 import { Dancer } from './dancer/dancer';
@@ -23,8 +24,8 @@ export interface Figures {
 }
 
 const FIELD_OF_VIEW = 22;
-/** The middle of what is seen, the eye, and the height of the picture there, metres. */
-const [TARGET_HEIGHT, EYE_HEIGHT, VIEW_HEIGHT] = [0.84, 1.15, 1.9];
+/** The middle of what is seen, the eye, and the height of the picture there, for a dancer as tall as 1. */
+const [TARGET_HEIGHT, EYE_HEIGHT, VIEW_HEIGHT] = [0.56, 0.77, 1.27];
 /** Time between two looks whether a picture is finished, milliseconds. */
 const POLL_MS = 4;
 
@@ -108,10 +109,12 @@ class Studio {
   }
 
   /** Places camera and lights before a dancer. */
-  private aim([x = 0, , z = 0]: Float32Array, { heading, theme }: Figure): void {
-    const distance = VIEW_HEIGHT / 2 / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-    this.camera.position.set(x + Math.sin(heading) * distance, EYE_HEIGHT, z + Math.cos(heading) * distance);
-    this.camera.lookAt(x, TARGET_HEIGHT, z);
+  private aim([x = 0, , z = 0]: Float32Array, { motion, heading, theme }: Figure): void {
+    const size = standingHeight(motion.offsets);
+    const distance = (size * VIEW_HEIGHT) / 2 / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    const [across, ahead] = [Math.sin(heading) * distance, Math.cos(heading) * distance];
+    this.camera.position.set(x + across, size * EYE_HEIGHT, z + ahead);
+    this.camera.lookAt(x, size * TARGET_HEIGHT, z);
     this.lights.setLook(LOOKS[theme]);
     this.lights.place(x, z, heading);
   }
