@@ -1,4 +1,5 @@
 import { fileURLToPath } from 'node:url';
+import pxToRem from 'postcss-pxtorem';
 import { defineConfig, type Plugin } from 'vite';
 import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
 import { licences } from './tools/vite/licences.mjs';
@@ -85,6 +86,8 @@ export default defineConfig({
     plugins: () => [manifestEntry(), licencesOfWorker()],
     rolldownOptions: { output: { chunkFileNames: workerChunkName } },
   },
+  // Whoever has set a larger text in the browser gets all of the page larger, as if it were zoomed. Hairlines stay.
+  css: { postcss: { plugins: [pxToRem({ propList: ['*'], mediaQuery: true, minPixelValue: 2 })] } },
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {

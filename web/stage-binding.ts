@@ -131,19 +131,20 @@ function bindBusy(stage: Stage, store: Watched): () => void {
 }
 
 /** Windows that are wide enough for the dancers beside the first-visit block, and low ones, where it is narrower. */
-const WIDE = matchMedia('(min-width: 761px)');
-const LOW = matchMedia('(max-height: 500px)');
-const FIRST_VISIT_SHIFT_PX = { low: 135, high: 200 };
+const WIDE = matchMedia('(min-width: 47.5625rem)');
+const LOW = matchMedia('(max-height: 31.25rem)');
+const FIRST_VISIT_SHIFT_REM = { low: 8.4375, high: 12.5 };
 /** Height of the cameras and of the stage's tools, along the edges of the picture. */
-const CONTROLS_PX = 44;
+const CONTROLS_REM = 2.75;
 
 /** Keeps the dancers clear of the first-visit block, a leader's video and the stage's controls; returns a function that stops it. */
 export function leaveRoomForControls(stage: Stage, store: Store): () => void {
   const leave = (): void => {
     const { firstVisit, covered } = store.getState();
-    const beside = WIDE.matches ? FIRST_VISIT_SHIFT_PX[LOW.matches ? 'low' : 'high'] : 0;
+    const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    const beside = WIDE.matches ? FIRST_VISIT_SHIFT_REM[LOW.matches ? 'low' : 'high'] * rem : 0;
     const left = firstVisit ? beside : covered / 2;
-    stage.leaveRoom({ left, edges: firstVisit ? 0 : CONTROLS_PX });
+    stage.leaveRoom({ left, edges: firstVisit ? 0 : CONTROLS_REM * rem });
   };
   for (const query of [WIDE, LOW]) query.addEventListener('change', leave);
   return combineDisposers(

@@ -60,3 +60,41 @@ test('a high contrast palette of the system shows playhead, switches and buttons
   });
   expect(drawn).toEqual([true, true, true, true]);
 });
+
+test('whoever has set a larger text in the browser gets the page larger as a whole', async ({
+  page,
+  playwright,
+  launchOptions,
+  site,
+}) => {
+  const boxes = async (opened: Page): Promise<Map<string, readonly number[]>> => {
+    const app = new App(opened);
+    await app.openWithoutPicture();
+    await app.settled();
+    const rows = await opened.evaluate(() =>
+      [...document.querySelectorAll('button, h1, h2, .lane-label, .panel')]
+        .map((element) => ({ name: element.textContent, box: element.getBoundingClientRect() }))
+        .filter(({ box }) => box.width > 0)
+        .map(({ name, box }, index) => [`${index} ${name}`, [box.x, box.y, box.width, box.height]] as const),
+    );
+    return new Map<string, readonly number[]>(rows);
+  };
+  const usual = await boxes(page);
+  const browser = await playwright.chromium.launch({
+    ...launchOptions,
+    args: [...(launchOptions.args ?? []), '--blink-settings=defaultFontSize=20'],
+  });
+  try {
+    const viewport = { width: 1.25 * 1280, height: 1.25 * 800 };
+    const larger = await boxes(await browser.newPage({ baseURL: site, viewport, serviceWorkers: 'block' }));
+    expect([...larger.keys()]).toEqual([...usual.keys()]);
+    expect(usual.size).toBeGreaterThan(30);
+    // Letters are as wide as the system's hinting makes them at each size.
+    const off = [...usual].filter(([name, box]) =>
+      box.some((value, side) => Math.abs(1.25 * value - larger.get(name)![side]!) > 8),
+    );
+    expect(off.map(([name, box]) => [name, box, larger.get(name)])).toEqual([]);
+  } finally {
+    await browser.close();
+  }
+});
