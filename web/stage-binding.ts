@@ -130,7 +130,10 @@ function bindBusy(stage: Stage, store: Watched): () => void {
   );
 }
 
-/** Windows that are wide enough for the dancers beside the first-visit block, and low ones, where it is narrower. */
+/**
+ * Windows that are wide enough for the dancers beside the first-visit block, and low ones, where it is narrower: 761 and
+ * 500 pixels of the style sheets, which the build turns into rem.
+ */
 const WIDE = matchMedia('(min-width: 47.5625rem)');
 const LOW = matchMedia('(max-height: 31.25rem)');
 const FIRST_VISIT_SHIFT_REM = { low: 8.4375, high: 12.5 };
