@@ -5,6 +5,8 @@ import { App, maxDistance, meanSpeed } from './support/app-page';
 import { expect, test } from './support/fixtures';
 import { serveDemo } from './support/made-demo';
 
+test.use({ shippedDemo: true });
+
 test('the shipped demo plays a duet on one click', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();

@@ -1,6 +1,8 @@
 import { App, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 
+test.use({ shippedDemo: true });
+
 test('worst moments of the demo are marked, a click goes there, and the foot lock changes the numbers', async ({
   page,
 }) => {

@@ -6,7 +6,8 @@ import { TINY } from './support/app-page';
 import { bvhText, type TestFile, wav } from './support/files';
 import { expect, test } from './support/fixtures';
 
-test.use({ viewport: { width: 1200, height: 760 } });
+// Among the dances of the page is the demo's.
+test.use({ viewport: { width: 1200, height: 760 }, shippedDemo: true });
 
 const STUDY = TINY.replace('?', '?study&');
 

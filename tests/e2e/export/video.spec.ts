@@ -296,7 +296,8 @@ test('without WebCodecs the video is recorded in real time', async ({ page }) =>
   await expect(page.getByRole('region', { name: 'Video' })).toContainText('takes 0:04');
   const download = await saveVideo(page);
   const { soundStart } = await contentOf(page, await download.path());
-  expect(soundStart).toBeGreaterThan(0.95);
+  // Sound and pictures of a recording are together to a picture, and a processor draws ten a second.
+  expect(soundStart).toBeGreaterThan(0.9);
   expect(soundStart).toBeLessThan(1.2);
   const { format, streams } = await probe(await download.path());
   // Recorders leave it out, and then players can't seek.

@@ -1,13 +1,20 @@
-import { existsSync } from 'node:fs';
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { test as base, expect } from '@playwright/test';
 import { createSite, listen } from '../../../tools/serve.mjs';
+import { demoFiles, usualSettings } from './made-demo';
 
 export { expect };
 
 const project = path.resolve(import.meta.dirname, '../../..');
 
 interface WorkerFixtures {
+  /**
+   * Whether the page has the demo that ships with it. Most tests have a made one of five seconds: reading the shipped
+   * song takes more of a processor than all else that the page does at its start.
+   */
+  readonly shippedDemo: boolean;
   /** Address of the built app; the tiny model of the fixtures is below models/tiny/. */
   readonly site: string;
 }
@@ -19,17 +26,25 @@ interface TestFixtures {
 
 /** Playwright's test, with the built app served as `npm start` does and every request of the browser watched. */
 export const test = base.extend<TestFixtures, WorkerFixtures>({
+  shippedDemo: [false, { scope: 'worker', option: true }],
+
   site: [
-    // eslint-disable-next-line no-empty-pattern -- Playwright reads the wanted fixtures from this pattern
-    async ({}, use) => {
+    async ({ shippedDemo }, use) => {
       const root = path.join(project, 'dist');
       if (!existsSync(path.join(root, 'index.html')))
         throw new Error('dist/ is empty: npm run build comes first');
-      const mounts = { '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model') };
+      const demo = mkdtempSync(path.join(tmpdir(), 'reactdance-demo-'));
+      for (const [name, content] of Object.entries(demoFiles(usualSettings, 150)))
+        writeFileSync(path.join(demo, name), content);
+      const mounts = {
+        '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model'),
+        ...(shippedDemo ? {} : { '/demo/': demo }),
+      };
       const server = createSite({ root, mounts });
       await use(await listen(server, { port: 0 }));
       server.close();
       server.closeAllConnections();
+      rmSync(demo, { recursive: true });
     },
     { scope: 'worker' },
   ],

@@ -48,7 +48,10 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(Math.max(...nobody!.map(Math.abs))).toBe(0);
   await panel.getByRole('button', { name: 'Cancel' }).click();
   await expect(panel).toBeHidden();
-  expect(await app.read(({ leader, partRead }) => [leader?.name, partRead])).toEqual(['Demo leader', null]);
+  expect(await app.read(({ leader, partRead }) => [leader?.name, partRead])).toEqual([
+    'Made demo leader',
+    null,
+  ]);
   await expect.poll(onStage).toEqual(before);
 
   await drop();
