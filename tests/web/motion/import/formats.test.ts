@@ -350,6 +350,13 @@ describe('FBX', () => {
     ['z up, with pre-rotations', 'centimetres', { up: 'z' as const, preRotation: true }],
     ['keys that begin after two seconds', 'centimetres', { begin: 2 }],
     ['version 7.5', 'centimetres', { wide: true }],
+    ['an armature below scaled objects', 'centimetres', { armature: true, preRotation: true }],
+    ['a mesh, attributes and curves of other properties', 'centimetres', { others: true }],
+    [
+      'numbers of objects that a double does not hold',
+      'centimetres',
+      { firstId: 9_223_372_036_800_000_000n },
+    ],
   ])('%s', async (_, unit, options) => {
     for (const bytes of [writeFbxBinary(dance, options), writeFbxAscii(dance, options)]) {
       const file = await read({}, ['a.fbx', bytes]);
@@ -385,6 +392,14 @@ describe('FBX', () => {
     expect(file.report).toMatchObject({ parts: ['dance', 'still'], part: 0 });
     const pose = read({}, ['a.fbx', writeFbxBinary(dance, { pose: 'T-pose', clips: [] })]);
     await expect(pose).rejects.toMatchObject({ code: 'too-few-frames' });
+  });
+
+  test('a clip that moves nothing is no animation', async () => {
+    const files = [writeFbxBinary, writeFbxAscii].map((write) => write(dance, { clips: [], others: true }));
+    for (const bytes of files) {
+      const reading = read({}, ['a.fbx', bytes]);
+      await expect(reading).rejects.toMatchObject({ code: 'no-motion' });
+    }
   });
 
   test.each([30, 60, 30000 / 1001, 60000 / 1001, 24000 / 1001])(
@@ -437,6 +452,16 @@ describe('FBX', () => {
     const sparse = madeMotion({ fps: 2, frames: 9 });
     const { report } = await read({}, ['a.fbx', writeFbxBinary(sparse, options)]);
     expect(report).toMatchObject({ sourceFps: fps, sourceFrames: 4 * fps + 1 });
+  });
+
+  test('objects that are no joints are read as such where a file has nothing else', async () => {
+    const text = new TextDecoder().decode(writeFbxAscii(dance)).replaceAll('"LimbNode"', '"Null"');
+    expect(worstMillimetres(await read({}, ['a.fbx', utf8(text)]), dance)).toBeLessThan(WORST);
+  });
+
+  test('a text that lacks its end is named', () => {
+    const text = new TextDecoder().decode(writeFbxAscii(dance));
+    expect(() => readFbx(utf8(text.slice(0, text.lastIndexOf('}'))), 0)).toThrow(/it ends too early/);
   });
 
   test('the up axis of the settings has a sign', () => {

@@ -5,7 +5,7 @@ import { aboutAxis, conjugate, multiply, type Quat } from '../../../../web/motio
 import { X_AXIS, Y_AXIS, Z_AXIS, type Vec3 } from '../../../../web/motion/math/vec3';
 
 /** A value with its FBX type. */
-type Value = ['I' | 'L' | 'D' | 'S', number | string] | ['l' | 'f' | 'd', readonly number[]];
+type Value = ['I' | 'L' | 'D' | 'S', number | bigint | string] | ['l' | 'f' | 'd', readonly number[]];
 
 interface Node {
   readonly name: string;
@@ -21,6 +21,8 @@ const node = (name: string, values: readonly Value[] = [], children: readonly No
 
 const TICKS = 46_186_158_000;
 const DEGREES = 180 / Math.PI;
+/** Scales of the two objects above an armature. */
+const [OUTER_SCALE, INNER_SCALE] = [50, 2];
 
 interface Options {
   readonly up?: 'y' | 'z';
@@ -43,7 +45,11 @@ interface Options {
   /** Name of a clip of one key before them. */
   readonly pose?: string;
   /** Added to the number of every object, for files of several dancers. */
-  readonly firstId?: number;
+  readonly firstId?: bigint;
+  /** What real files have beside joints and their motion: a mesh, attributes, curves of other properties, an empty clip. */
+  readonly others?: boolean;
+  /** Joints a hundred times smaller below two scaled objects, as Blender writes armatures; the clips hold one scale. */
+  readonly armature?: boolean;
 }
 
 const property = (name: string, type: string, ...values: Value[]): Node =>
@@ -67,7 +73,9 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     unitsPerMetre = 100,
     preRotation = false,
     clips = ['Take 001'],
-    firstId = 0,
+    firstId = 0n,
+    others = false,
+    armature = false,
     pose,
     rotationOrder = 0,
     postRotation,
@@ -77,7 +85,7 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
   } = options;
   const objects: Node[] = [];
   const links: Node[] = [];
-  const link = (child: number, parent: number, prop?: string): void => {
+  const link = (child: bigint, parent: bigint, prop?: string): void => {
     const values: Value[] = [
       ['S', prop === undefined ? 'OO' : 'OP'],
       ['L', child],
@@ -106,7 +114,47 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
     const rotated = multiply(multiply(conjugate(above(joint)), [...v, 0] as unknown as Quat), above(joint));
     return [rotated[0], rotated[1], rotated[2]];
   };
-  const id = (joint: number): number => firstId + 1_000_000 + joint;
+  const id = (joint: number): bigint => firstId + BigInt(1_000_000 + joint);
+  let next = firstId + 2_000_000n;
+  const [mesh, outer, inner] = [next++, next++, next++];
+  const grown = armature ? OUTER_SCALE * INNER_SCALE : 1;
+  if (armature) {
+    const scaled = (number: bigint, name: string, scale: number): Node =>
+      node(
+        'Model',
+        [
+          ['L', number],
+          ['S', `${name}\0\u0001Model`],
+          ['S', 'Null'],
+        ],
+        [node('Properties70', [], [vector('Lcl Scaling', [scale, scale, scale])])],
+      );
+    objects.push(scaled(outer, 'Scene', OUTER_SCALE), scaled(inner, 'Armature', 1));
+    link(outer, 0n);
+    link(inner, outer);
+  }
+  if (others) {
+    const [geometry, attribute, stack] = [next++, next++, next++];
+    const object = (kind: string, number: bigint, name: string, type: string, ...inside: Node[]): Node =>
+      node(
+        kind,
+        [
+          ['L', number],
+          ['S', `${name}\0\u0001${kind}`],
+          ['S', type],
+        ],
+        inside,
+      );
+    objects.push(
+      object('NodeAttribute', attribute, 'Hips', 'LimbNode', node('TypeFlags', [['S', 'Skeleton']])),
+      object('Geometry', geometry, 'Body', 'Mesh', node('Vertices', [['d', [0, 0, 0, 1, 1, 1, 2, 0, 2]]])),
+      object('Model', mesh, motion.joints[0]!.name, 'Mesh', node('Culling', [['S', 'CullingOff']])),
+    );
+    objects.push(object('AnimationStack', stack, 'Nothing', ''));
+    link(attribute, id(0));
+    link(geometry, mesh);
+    link(mesh, 0n);
+  }
   motion.joints.forEach(({ name, parent, offset }, joint) => {
     objects.push(
       node(
@@ -125,15 +173,14 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
               property('RotationOrder', 'enum', ['I', rotationOrder]),
               vector('PreRotation', eulerXyz(pre[joint]!)),
               ...(postRotation ? [vector('PostRotation', postRotation)] : []),
-              vector('Lcl Translation', local(inFile(offset, unitsPerMetre, up), joint)),
+              vector('Lcl Translation', local(inFile(offset, unitsPerMetre / grown, up), joint)),
             ],
           ),
         ],
       ),
     );
-    link(id(joint), parent < 0 ? 0 : id(parent));
+    link(id(joint), parent < 0 ? (armature ? inner : 0n) : id(parent));
   });
-  let next = firstId + 2_000_000;
   const times = Array.from({ length: motion.frames }, (_, frame) =>
     Math.round((begin + frame / motion.fps) * TICKS),
   );
@@ -156,7 +203,30 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
       ]),
     );
     link(layer, stack);
-    const animate = (joint: number, name: string, rows: readonly Vec3[]): void => {
+    if (others) {
+      // A mesh that has another colour long after the dance.
+      const [colour, curve] = [next++, next++];
+      objects.push(
+        node('AnimationCurveNode', [
+          ['L', colour],
+          ['S', 'Color\0\u0001AnimCurveNode'],
+          ['S', ''],
+        ]),
+        node(
+          'AnimationCurve',
+          [
+            ['L', curve],
+            ['S', '\0\u0001AnimCurve'],
+            ['S', ''],
+          ],
+          [node('KeyTime', [['l', [0, 100 * TICKS]]]), node('KeyValueFloat', [['f', [0, 1]]])],
+        ),
+      );
+      link(colour, layer);
+      link(colour, mesh, 'Color');
+      link(curve, colour, 'd|X');
+    }
+    const animate = (model: bigint, name: string, rows: readonly Vec3[]): void => {
       const curves = next++;
       objects.push(
         node('AnimationCurveNode', [
@@ -166,7 +236,9 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
         ]),
       );
       link(curves, layer);
-      link(curves, id(joint), name);
+      link(curves, model, name);
+      // A constraint takes the same values.
+      if (others) link(curves, firstId + 9_000_000n, 'Source');
       (['X', 'Y', 'Z'] as const).forEach((axis, i) => {
         const curve = next++;
         const values = rows.map((row) => row[i]!);
@@ -188,15 +260,21 @@ function nodesOf(motion: MadeMotion, options: Options): Node[] {
       });
     };
     animate(
-      0,
+      id(0),
       'Lcl Translation',
-      motion.root.map((place) => local(inFile(place, unitsPerMetre, up), 0)),
+      motion.root.map((place) => local(inFile(place, unitsPerMetre / grown, up), 0)),
     );
+    if (armature)
+      animate(
+        inner,
+        'Lcl Scaling',
+        motion.root.map(() => [INNER_SCALE, INNER_SCALE, INNER_SCALE]),
+      );
     motion.joints.forEach((_, joint) => {
       // World axes of the joint before its own rotation are those of the chain of pre-rotations.
       const w = world[joint]!;
       animate(
-        joint,
+        id(joint),
         'Lcl Rotation',
         motion.rotations.map((turns) =>
           eulerXyz(multiply(multiply(conjugate(w), native(turns[joint]!, up)), w)),
@@ -254,10 +332,10 @@ function writeValue(out: Bytes, [type, value]: Value, packed: boolean): void {
     const bytes = new TextEncoder().encode(value);
     out.uint32(bytes.length);
     out.push(...bytes);
-  } else if (typeof value === 'number') {
-    if (type === 'I') out.number(4, (view) => view.setInt32(0, value, true));
+  } else if (typeof value === 'number' || typeof value === 'bigint') {
+    if (type === 'I') out.number(4, (view) => view.setInt32(0, Number(value), true));
     else if (type === 'L') out.number(8, (view) => view.setBigInt64(0, BigInt(value), true));
-    else out.number(8, (view) => view.setFloat64(0, value, true));
+    else out.number(8, (view) => view.setFloat64(0, Number(value), true));
   } else {
     const size = type === 'f' ? 4 : 8;
     const view = new DataView(new ArrayBuffer(size * value.length));
@@ -303,7 +381,7 @@ export function writeFbxDuet(
   clips: readonly [string, string],
 ): Uint8Array<ArrayBuffer> {
   const [a, b] = dancers.map((motion, i) =>
-    nodesOf(motion, { clips: [clips[i]!], firstId: i * 10_000_000 }),
+    nodesOf(motion, { clips: [clips[i]!], firstId: BigInt(i) * 10_000_000n }),
   ) as [Node[], Node[]];
   return binaryFbx(
     a.map((top, i) =>
@@ -339,5 +417,5 @@ function asciiNode({ name, values, children }: Node, indent: string): string {
 /** The motion as the text form of FBX. */
 export function writeFbxAscii(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
   const nodes = nodesOf(motion, options).map((top) => asciiNode(top, ''));
-  return new TextEncoder().encode(`; FBX 7.4.0 project file\n; ----\n\n${nodes.join('\n')}\n`);
+  return new TextEncoder().encode(`; FBX 7.4.0 project file\n; ----\n; {Objects}\n\n${nodes.join('\n')}\n`);
 }

@@ -1,7 +1,7 @@
 import { damagedFbx, FbxBudget, type FbxNode, type FbxValue, isSkipped } from './node';
 
 /** Tokens of the text form: a name with its colon, a string, braces, commas, and words or numbers. Comments begin with ;. */
-const TOKEN = /;[^\n]*|"([^"]*)"|([\w|]+):|[{},]|[^\s{},"]+/g;
+const TOKEN = /;[^\n]*|"([^"]*)"|(\w+):|[{},]|[^\s{},"]+/g;
 
 /**
  * Reads the text form of FBX; meshes, materials and pictures are left out.
@@ -43,5 +43,6 @@ export function readAscii(text: string): FbxNode[] {
 function valueOf(token: string, string: string | undefined): FbxValue {
   if (string !== undefined) return string;
   const number = Number(token);
-  return Number.isNaN(number) ? token : number;
+  const isRounded = /^-?\d+$/.test(token) && !Number.isSafeInteger(number);
+  return Number.isNaN(number) || isRounded ? token : number;
 }

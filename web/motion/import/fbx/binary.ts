@@ -94,7 +94,7 @@ class BinaryReader {
         return this.view.getFloat64(from, true);
       case 'L':
         this.at += 8;
-        return Number(this.view.getBigInt64(from, true));
+        return wholeNumber(this.view.getBigInt64(from, true));
       case 'S':
         return utf8.decode(this.take(this.uint32()));
       case 'R':
@@ -118,6 +118,12 @@ class BinaryReader {
     for (let i = 0; i < count; i++) out[i] = item(view, type, i * itemBytes);
     return out;
   }
+}
+
+/** As text where a double would round it: an id is that of one object alone. */
+function wholeNumber(value: bigint): number | string {
+  const number = Number(value);
+  return Number.isSafeInteger(number) ? number : String(value);
 }
 
 function item(view: DataView, type: string, at: number): number {

@@ -1,6 +1,6 @@
 import { AppError } from '../../../common/error';
 
-/** One value of a node: arrays are numbers, 64-bit integers are doubles. */
+/** One value of a node: arrays are numbers; whole numbers that a double does not hold, as ids can be, are text. */
 export type FbxValue = number | string | Float64Array;
 
 /** A node of the tree that both forms of FBX write. */

@@ -38,14 +38,11 @@ export interface FbxScene {
   readonly settings: ReadonlyMap<string, readonly FbxValue[]>;
 }
 
-/** Properties70 of version 7 and Properties60 of version 6: name, then types, then values. */
+/** The values of a node's properties, each of which is a name, three words about its type, and the values. */
 function propertiesOf(node: FbxNode | undefined): Map<string, readonly FbxValue[]> {
-  const seventy = childOf(node, 'Properties70');
-  const list = seventy ?? childOf(node, 'Properties60');
-  const types = seventy ? 4 : 3;
   return new Map(
-    (list?.children ?? []).flatMap(({ values }) =>
-      typeof values[0] === 'string' ? [[values[0], values.slice(types)] as const] : [],
+    (childOf(node, 'Properties70')?.children ?? []).flatMap(({ values }) =>
+      typeof values[0] === 'string' ? [[values[0], values.slice(4)] as const] : [],
     ),
   );
 }
@@ -67,7 +64,7 @@ function plainName(value: FbxValue | undefined): string {
     .replace(/^\w+::/, '');
 }
 
-/** An object with its id; version 6 has names in place of ids. */
+/** An object with its id. */
 interface Entry {
   readonly id: string;
   readonly node: FbxNode;
@@ -75,10 +72,8 @@ interface Entry {
 }
 
 const entryOf = (node: FbxNode): Entry => {
-  const [first, second] = node.values;
-  return typeof first === 'number'
-    ? { id: String(first), node, name: plainName(second) }
-    : { id: plainName(first), node, name: plainName(first) };
+  const [id, name] = node.values;
+  return { id: String(id), node, name: plainName(name) };
 };
 
 interface Link {
@@ -89,8 +84,8 @@ interface Link {
 
 function linksOf(connections: FbxNode | undefined): Link[] {
   return (connections?.children ?? []).map(({ values: [, child, parent, property] }) => ({
-    child: typeof child === 'number' ? String(child) : plainName(child),
-    parent: typeof parent === 'number' ? String(parent) : plainName(parent),
+    child: String(child),
+    parent: String(parent),
     property: typeof property === 'string' ? property : '',
   }));
 }
