@@ -191,6 +191,13 @@ test.describe('the player', () => {
       if (what === 'song') await expectSound(page);
       else expect(await call(page, 'heard')).toBeNull();
 
+      await call(page, 'player.seek', 1);
+      await call(page, 'watch', 0.3);
+      const [[, back]] = (await call<[number, number][]>(page, 'watch', 0.1)) as [[number, number]];
+      expect(back).toBeGreaterThan(1);
+      expect(back).toBeLessThan(2);
+      if (what === 'song') await expectSound(page);
+
       await call(page, 'player.pause');
       const still = await call<[number, number][]>(page, 'watch', 0.3);
       expect(new Set(still.map(([, shown]) => shown)).size).toBe(1);
@@ -222,6 +229,36 @@ test.describe('the player', () => {
     await call(page, 'player.seek', 5);
     const past = (await call<[number, number][]>(page, 'watch', 0.4)).map(([, shown]) => shown);
     expect(Math.min(...past)).toBeGreaterThanOrEqual(5);
+  });
+
+  test('repeats a loop that begins before the song', async ({ page }) => {
+    await call(page, 'setSound', 'song', 60);
+    await call(page, 'player.setSongStart', 3);
+    await call(page, 'player.setLoop', { from: 2.7, to: 3.4 });
+    await call(page, 'player.seek', 2.7);
+    await call(page, 'play');
+    const times = (await call<[number, number][]>(page, 'watch', 2.5)).map(([, time]) => time);
+    expect(Math.max(...times)).toBeLessThan(3.55);
+    const turns = times.filter((time, i) => i > 0 && time < times[i - 1]! - 0.4);
+    expect(turns.length).toBeGreaterThanOrEqual(2);
+  });
+
+  test('moves the song while it plays, and keeps the time', async ({ page }) => {
+    await call(page, 'setSound', 'song', 60);
+    await call(page, 'player.seek', 5);
+    await call(page, 'play');
+    for (const start of [2, -1, 0.5]) {
+      await call(page, 'watch', 0.4);
+      const readings = await page.evaluate<[number, number][]>(
+        `audio.watch(0.1).then(async (before) => {
+          audio.player.setSongStart(${start});
+          return [...before, ...(await audio.watch(0.6))];
+        })`,
+      );
+      expect(drift(readings, 1)).toBeLessThan(0.2);
+      const [time, heard] = await page.evaluate<[number, number]>('[audio.player.time, audio.heard()]');
+      expect(Math.abs(heard + start - time)).toBeLessThan(0.12);
+    }
   });
 
   test('changes the song while it plays, at the same time', async ({ page }) => {

@@ -18,6 +18,10 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
   await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeHidden();
   await app.until(({ reaction, song }) => reaction && song);
   expect(meanSpeed(await app.reactor())).toBeGreaterThan(0.02);
+  // Back to the start while it plays, and on from there.
+  await app.until(({ playback }) => playback.time > 2);
+  await page.keyboard.press('Home');
+  await app.until(({ playback }) => playback.playing && playback.time > 0.1 && playback.time < 1.5);
 });
 
 test('the foot lock is switched by key, and stage and file follow at once', async ({ page }) => {

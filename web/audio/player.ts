@@ -68,10 +68,9 @@ export class AudioPlayer {
   /** Sets when in the dance the song begins, seconds; below 0 its beginning is cut off. Keeps the time. */
   setSongStart(seconds: number): void {
     if (seconds === this.#songStart) return;
-    this.#changeKeepingTime(() => {
-      this.#songStart = seconds;
-    });
-    this.#syncInBackground();
+    const { time } = this;
+    this.#songStart = seconds;
+    this.seek(time);
     this.#cueIdle();
   }
 
@@ -115,7 +114,8 @@ export class AudioPlayer {
   /** Jumps to a time in seconds, kept within the duration. */
   seek(seconds: number): void {
     this.#clock.restart(seconds);
-    this.#syncInBackground();
+    // A song that plays is moved before its position is read as the time.
+    this.#syncInBackground(this.#clock.latest);
     this.#schedule();
   }
 
@@ -166,9 +166,8 @@ export class AudioPlayer {
     return !(position >= this.#elements.active.duration - SYNC_TOLERANCE);
   }
 
-  /** Moves the song to the current time and starts it if playing. */
-  async #syncSong(): Promise<void> {
-    const { time } = this;
+  /** Moves the song to a time of the dance and starts it if playing. */
+  async #syncSong(time = this.time): Promise<void> {
     const element = this.#elements.active;
     if (!this.#hasSong(time)) {
       element.pause();
@@ -181,8 +180,8 @@ export class AudioPlayer {
   }
 
   /** A pause, a seek or a new song ends a start under way with an AbortError, which is no failure. */
-  #syncInBackground(): void {
-    this.#syncSong().catch((error: unknown) => {
+  #syncInBackground(time?: number): void {
+    this.#syncSong(time).catch((error: unknown) => {
       if (!isAbort(error)) this.#playing = false;
     });
   }
@@ -226,10 +225,8 @@ export class AudioPlayer {
   }
 
   #restartLoop(from: number): void {
-    this.#clock.restart(from);
     if (this.#hasSong(from)) this.#elements.swap(() => this.#cueIdle());
-    this.#syncInBackground();
-    this.#schedule();
+    this.seek(from);
   }
 }
 
