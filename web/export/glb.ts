@@ -12,7 +12,7 @@ import {
   VectorKeyframeTrack,
 } from 'three';
 import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
-import { BVH_NAMES } from '../motion/bvh/names';
+import { ARMATURES, BVH_NAMES } from '../motion/bvh/names';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { restRoot } from '../motion/skeleton/kinematics';
 import { JOINT_COUNT, SMPL22 } from '../motion/skeleton/skeleton';
@@ -20,10 +20,8 @@ import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
 import { createRig, type Rig } from '../view/dancer/rig';
-import { LOOKS, type Role, type Theme } from '../view/theme';
+import { LOOKS, type Theme } from '../view/theme';
 import type { Dance } from './dance';
-
-const NAMES: Readonly<Record<Role, string>> = { leader: 'Leader', reactor: 'Reactor' };
 
 /**
  * The dance as binary glTF: for each dancer a skinned mannequin in the theme's colour of its role, bones named as in
@@ -46,17 +44,17 @@ export async function writeGlb(
     const rig = createRig();
     const geometry = geometryAtRest(toFullGeometry(body).clone(), rig, motion, body.offsets);
     const material = new MeshStandardMaterial({
-      name: NAMES[role],
+      name: ARMATURES[role],
       color: LOOKS[theme][role],
       roughness: 0.62,
       metalness: 0,
       vertexColors: true,
     });
     const mesh = new SkinnedMesh(geometry, material);
-    mesh.name = `${NAMES[role]} body`;
+    mesh.name = `${ARMATURES[role]} body`;
     mesh.bind(rig.skeleton, new Matrix4());
     const armature = new Group();
-    armature.name = NAMES[role];
+    armature.name = ARMATURES[role];
     armature.add(rig.root);
     // Viewers ignore the parent of a skinned mesh, so it is a sibling of its bones.
     scene.add(armature, mesh);

@@ -48,6 +48,8 @@ export function registerServiceWorker(script: URL, onUpdate: () => void): Servic
   return {
     activateUpdate: () => {
       if (!waiting) return;
+      // Another tab has activated it already: it controls this page too, and no event will come.
+      if (waiting.state !== 'installed') return location.reload();
       container?.addEventListener(
         'controllerchange',
         () => {

@@ -131,22 +131,29 @@ test('a browser without storage generates all the same, and the page says so', a
   await expect(card.getByRole('status')).toHaveText('Nothing is kept for offline use.');
 });
 
-test('a new build is offered, and then loaded completely', async ({ page, host }) => {
+test('a new build is offered in every tab, and then loaded completely', async ({ page, host }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await serviceWorkerReady(page);
   const file = path.join(host.root, 'index.html');
   const before = readFileSync(file, 'utf8');
-  writeFileSync(file, before.replace('<title>', '<meta name="build" content="next" /><title>'));
-  await writeServiceWorker(host.root);
-
-  await app.openWithoutPicture();
-  const next = page.locator('meta[name="build"]');
-  await expect(next).not.toBeAttached();
-  const note = page.getByRole('status').filter({ hasText: 'A new version is ready.' });
-  await expect(note).toBeVisible();
-  await note.getByRole('button', { name: 'Reload' }).click();
-  await expect(next).toBeAttached();
+  const update = async (name: string, ...tabs: Page[]): Promise<void> => {
+    writeFileSync(file, before.replace('<title>', `<meta name="build" content="${name}" /><title>`));
+    await writeServiceWorker(host.root);
+    for (const tab of tabs) await new App(tab).openWithoutPicture();
+    for (const tab of tabs) {
+      const next = tab.locator(`meta[name="build"][content="${name}"]`);
+      await expect(next).not.toBeAttached();
+      const note = tab.getByRole('status').filter({ hasText: 'A new version is ready.' });
+      await note.getByRole('button', { name: 'Reload' }).click();
+      await expect(next).toBeAttached();
+    }
+  };
+  const other = await page.context().newPage();
+  await update('next', page, other);
+  await other.close();
+  // What two tabs left of the first build goes with the second one.
+  await update('last', page);
   await expect.poll(() => page.evaluate(shells)).toHaveLength(1);
 });
 

@@ -6,7 +6,8 @@ import { beforeAll, expect, test } from 'vitest';
 import { writeGlb } from '../../../web/export/glb';
 import { atFrameRate } from '../../../web/export/rate';
 import { estimateBytes } from '../../../web/export/sizes';
-import { BVH_NAMES, REFERENCE } from '../../../web/motion/bvh/names';
+import { BVH_NAMES, OWN_CONVENTION, REFERENCE } from '../../../web/motion/bvh/names';
+import { readLeaderFile } from '../../../web/motion/import/read';
 import { JOINT_COUNT, SMPL22 } from '../../../web/motion/skeleton/skeleton';
 import { writeBvh } from '../../../web/motion/bvh/write';
 import { toFullGeometry } from '../../../web/view/body/geometry';
@@ -121,6 +122,15 @@ test('played back, the skin is where the stage draws it, to a centimetre', async
     expect(most(gaps)).toBeLessThan(0.01);
     expect(most(turns)).toBeLessThan(0.04);
   }
+});
+
+test.each(['leader', 'reactor'] as const)('read as a leader, the %s is where it was', async (role) => {
+  const one = madeDance(60, role);
+  const bytes = new Uint8Array(await writeGlb(one, 'dark', bodies));
+  const { clip, report } = await readLeaderFile([{ name: 'dance.glb', bytes }]);
+  expect(report.convention).toBe(OWN_CONVENTION);
+  expect(report.estimated).toEqual([]);
+  one.dancers[0]!.motion.positions.forEach((value, i) => expect(clip.positions[i]).toBeCloseTo(value, 3));
 });
 
 /** Normal of a skin in its present pose. */

@@ -35,9 +35,14 @@ export const REFERENCE = 'Reference';
 /** Name of the convention of files that `writeBvh` wrote. */
 export const OWN_CONVENTION = 'ReactDance';
 
-/** Whether these are the names of a file that this page wrote: exactly the 22 of `BVH_NAMES`, and in BVH the reference. */
+/** Names of the armatures above the hips in GLB files. */
+export const ARMATURES = { leader: 'Leader', reactor: 'Reactor' };
+
+const ABOVE_HIPS: readonly string[] = [REFERENCE, ...Object.values(ARMATURES)];
+
+/** Whether these are the names of one dancer in a file that this page wrote: those of `BVH_NAMES`, and one above them. */
 export function isOwnSkeleton(names: readonly string[]): boolean {
   const own = Object.values(BVH_NAMES);
-  const joints = names.filter((name) => name !== REFERENCE);
+  const joints = names.filter((name) => !ABOVE_HIPS.includes(name));
   return joints.length === own.length && own.every((name) => joints.includes(name));
 }

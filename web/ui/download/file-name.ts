@@ -1,7 +1,7 @@
 import { type FrameRate, motionExtension, type MotionFormat } from '../../export/client';
 import { FPS } from '../../motion/skeleton/clip';
 import { otherRole } from '../store/roles';
-import { slug } from '../store/format';
+import { fileSlug, slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
 import type { Inputs, Role } from '../store/reaction';
 
@@ -37,7 +37,7 @@ export function videoFileName(named: FileNameParts, size: string, container: str
 }
 
 function inputParts({ song, leader }: Inputs): string[] {
-  return [song ? slug(song.name, 'song') : 'no-song', slug(leader.name, 'leader')];
+  return [song ? fileSlug(song.name, 'song') : 'no-song', fileSlug(leader.name, 'leader')];
 }
 
 function settingsParts({ inputs: { song, settings }, footLock, take }: FileNameParts): string[] {

@@ -216,6 +216,7 @@ function storedParts(state: AppState): readonly unknown[] {
     countings,
     song,
     playback.region,
+    playback.loop,
     ...Object.values<unknown>({ ...currentInputs(state) }),
   ];
 }

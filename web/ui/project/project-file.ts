@@ -1,6 +1,6 @@
 import { strFromU8, strToU8, type Unzipped, unzipSync, type Zippable, zipSync } from 'fflate';
 import * as v from 'valibot';
-import { slug } from '../store/format';
+import { fileSlug } from '../store/format';
 import { checked } from './records';
 import { type StoredProject, VERSION } from './schema';
 import { motionBytes, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
@@ -30,11 +30,19 @@ type Manifest = v.InferOutput<typeof schema>;
 /**
  * Writes a project: a zip archive with project.json, songs and leaders as they were given, and motion and latents of
  * takes as float32.
+ * @throws {AppError} `too-large` where it could not be read again
  */
 export async function writeProject(project: StoredProject): Promise<Uint8Array<ArrayBuffer>> {
   const files: Zippable = {};
   // Songs are compressed already, and motion hardly shrinks.
+  let total = 0;
   const add = (file: string, bytes: Uint8Array, level: 0 | 1): string => {
+    if ((total += bytes.length) > MAX_BYTES)
+      throw new AppError(
+        'too-large',
+        `The project has more than ${Math.round(MAX_BYTES / 1e6)} MB.`,
+        'Delete takes of long songs, and save again.',
+      );
     files[file] = [bytes, { level }];
     return file;
   };
@@ -42,14 +50,14 @@ export async function writeProject(project: StoredProject): Promise<Uint8Array<A
   for (const [index, { id, name, label, file }] of project.songs.entries()) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const ending = /\.[a-z0-9]{1,5}$/i.exec(name)?.[0] ?? '';
-    const path = `songs/${index + 1}-${slug(name, 'song')}${ending}`;
+    const path = `songs/${index + 1}-${fileSlug(name, 'song')}${ending}`;
     songs.push({ id, name, label, type: file.type, file: add(path, bytes, 0) });
   }
   const leaders = project.leaders.map(({ id, name, label, files: parts, options }, index) => {
     const folder = project.leaders.length === 1 ? '' : 'leaders/';
     const [file, ...companions] = parts.map((part, place) => {
       const ending = /\.[a-z0-9]{1,5}$/i.exec(part.name)?.[0].toLowerCase() ?? '';
-      const stem = folder === '' ? 'leader' : `${index + 1}-${slug(name, 'leader')}`;
+      const stem = folder === '' ? 'leader' : `${index + 1}-${fileSlug(name, 'leader')}`;
       const path = `${folder}${stem}${place > 0 ? `-${place + 1}` : ''}${ending}`;
       return { name: part.name, file: add(path, part.bytes, 1) };
     });

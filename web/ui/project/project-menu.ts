@@ -54,10 +54,11 @@ export const mountProjectMenu: Mount = (root, store, services) => {
     ),
     watchAll(
       store,
-      (state) => [state.leader, state.song, state.takes, state.countings],
+      (state) => [state.leader, state.song, state.takes, state.countings, state.restoring],
       (state) => {
-        save.disabled = !state.leader && !state.song;
-        clear.disabled = !hasVisitorContent(state);
+        // What is still being restored would be missing in the file, and could not be brought back.
+        save.disabled = state.restoring !== null || (!state.leader && !state.song);
+        clear.disabled = state.restoring !== null || !hasVisitorContent(state);
       },
     ),
     listen(window, 'pointerdown', ({ target }) => {

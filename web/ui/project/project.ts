@@ -2,7 +2,7 @@ import type { Framing } from '../../common/framing';
 import { randomSeed } from '../store/actions/settings';
 import type { Files, FileReaders } from '../store/services';
 import { leaderlessProblem, projectProblem } from '../store/problems';
-import { slug } from '../store/format';
+import { fileSlug } from '../store/format';
 import type { Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
@@ -54,6 +54,8 @@ export class Project {
   /** Reads without changing the page; null for what fails. */
   private readonly background: StoredFileReaders;
   private persistenceAsked = false;
+  /** Settles when all of an earlier visit is on the page. */
+  private restored: Promise<void> = Promise.resolve();
   /** Resolves when the couple of an earlier visit is drawn, or there is none to draw. */
   coupleShown: Promise<void> = Promise.resolve();
 
@@ -83,11 +85,16 @@ export class Project {
   restore(): Promise<boolean> {
     let shown = (): void => undefined;
     this.coupleShown = new Promise((resolve) => (shown = resolve));
-    return this.restoreStored(shown).finally(shown);
+    const visit = this.restoreVisible(shown).finally(shown);
+    this.restored = visit.then((restorer) => (restorer ? this.restoreRest(restorer) : undefined));
+    return visit.then((restorer) => restorer !== null);
   }
 
-  /** @param shown called when the couple is drawn, or could not be read */
-  private async restoreStored(shown: () => void): Promise<boolean> {
+  /**
+   * @param shown called when the couple is drawn, or could not be read
+   * @returns what is left to restore; null when there is nothing to restore
+   */
+  private async restoreVisible(shown: () => void): Promise<Restorer | null> {
     const { store } = this;
     const found = await this.autosave.read();
     const { project, losses } = found ? checked(found) : NOTHING;
@@ -95,7 +102,7 @@ export class Project {
     if (!project || (project.leaders.length === 0 && project.songs.length === 0)) {
       apply(store, nothingRestored());
       this.autosave.start();
-      return false;
+      return null;
     }
     void isPersistent(this.means.persistence).then((answer) => apply(store, persistenceAnswered(answer)));
     apply(store, firstVisitEnded());
@@ -106,8 +113,7 @@ export class Project {
     await song;
     this.showPageSong(restorer);
     this.autosave.start();
-    void this.restoreRest(restorer);
-    return true;
+    return restorer;
   }
 
   /** Opens a project file in place of everything; false when that fails, which is reported in the store. */
@@ -116,6 +122,8 @@ export class Project {
     apply(store, problemClosed());
     try {
       const { project, losses } = readProject(new Uint8Array(await file.arrayBuffer()));
+      // What came later would be mixed with what is opened, and undo would not bring it back.
+      await this.restored.catch(() => undefined);
       apply(store, restoringSet(restoringOf(project)));
       await this.readers.manifest();
       const before = store.getState();
@@ -149,12 +157,15 @@ export class Project {
     const state = this.store.getState();
     try {
       return { name: projectName(state), bytes: await writeProject(storedProject(state, this.framing())) };
-    } catch {
-      const error = new AppError(
-        'too-large',
-        'The project could not be written.',
-        'Delete some takes, or close other tabs, and save again.',
-      );
+    } catch (cause) {
+      const error =
+        cause instanceof AppError
+          ? cause
+          : new AppError(
+              'too-large',
+              'The project could not be written.',
+              'Delete some takes, or close other tabs, and save again.',
+            );
       apply(this.store, problemShown(projectProblem(error, projectName(state), 'none')));
       return null;
     }
@@ -255,7 +266,7 @@ function backgroundReaders(readers: FileReaders): StoredFileReaders {
 
 /** `descarga_leader-0412.reactdance`. */
 function projectName({ song, leader }: AppState): string {
-  const parts = [song && slug(song.name, 'song'), leader && slug(leader.name, 'leader')];
+  const parts = [song && fileSlug(song.name, 'song'), leader && fileSlug(leader.name, 'leader')];
   return `${parts.filter(Boolean).join('_') || 'project'}.reactdance`;
 }
 

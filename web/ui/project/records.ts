@@ -26,8 +26,8 @@ interface CheckedProject {
 /** Most songs, and most leaders, that are read again: each takes a worker of its own for a while. */
 const MAX_FILES = 100;
 const MAX_NAME_LENGTH = 1000;
-/** Most files that a leader is read from, with those that belong to it. */
-const MAX_LEADER_FILES = 10;
+/** Most files that a leader is read from, with those that belong to it: any that were dropped with it may. */
+const MAX_LEADER_FILES = 1000;
 /** Most graphs of a model. */
 const MAX_GRAPHS = 10;
 /** Largest rest offset of a joint from its parent, metres. */
@@ -201,6 +201,7 @@ const page = v.object({
   countings: v.fallback(v.pipe(v.array(counting), v.maxLength(MAX_FILES)), []),
   time: v.fallback(amount, 0),
   region: v.fallback(v.nullable(region), null),
+  loop: v.fallback(v.boolean(), false),
   framing: v.fallback(v.nullable(framing), null),
 });
 

@@ -102,7 +102,7 @@ export class Restorer {
     const onStage = takes.find(({ id }) => id === page.shown)?.reaction ?? null;
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
-    const { letter, takesMade, footLock, countings, time, region, framing } = page;
+    const { letter, takesMade, footLock, countings, time, region, loop, framing } = page;
     const length = leader ? seconds(leader.motion) : 0;
     const inputs: Partial<Inputs> =
       leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song, shift: 0 };
@@ -122,6 +122,7 @@ export class Restorer {
         playing: false,
         time: Math.min(time, length),
         region: region && region.to <= length ? region : null,
+        loop,
       },
       ...(framing && { camera: framing.view }),
     };

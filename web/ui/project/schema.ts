@@ -84,8 +84,10 @@ export interface StoredPage {
   readonly countings: readonly SongCounting[];
   /** Seconds. */
   readonly time: number;
-  /** The part of the dance that is looped. */
+  /** The chosen part of the dance. */
   readonly region: Span | null;
+  /** Whether that part, or the whole dance, repeats. */
+  readonly loop: boolean;
   /** How the camera sees the couple; null where the page shows none. */
   readonly framing: Framing | null;
 }
@@ -188,6 +190,7 @@ export function storedProject(state: AppState, framing: Framing | null = null): 
     countings,
     time: playback.time,
     region: playback.region,
+    loop: playback.loop,
     framing: state.leader && framing,
   };
   return {

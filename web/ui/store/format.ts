@@ -37,10 +37,9 @@ export function toStep(value: number, step: number, origin: number): number {
   return Number((origin + Math.round((value - origin) / step) * step).toFixed(6));
 }
 
-/** A file's name without its ending, in small letters, digits and hyphens; never empty. */
-export function slug(fileName: string, fallback: string): string {
-  const plain = fileName
-    .replace(/\.[a-z0-9]{1,5}$/i, '')
+/** A title in small letters, digits and hyphens; never empty. */
+export function slug(title: string, fallback: string): string {
+  const plain = title
     .normalize('NFKD')
     .replace(/\p{M}/gu, '')
     .toLowerCase()
@@ -49,4 +48,9 @@ export function slug(fileName: string, fallback: string): string {
     .slice(0, 40)
     .replace(/-+$/, '');
   return plain || fallback;
+}
+
+/** `slug` of a file's name without its ending. */
+export function fileSlug(fileName: string, fallback: string): string {
+  return slug(fileName.replace(/\.[a-z0-9]{1,5}$/i, ''), fallback);
 }

@@ -25,6 +25,12 @@ test('a file name holds song, leader, take, seed, guidance, foot lock and role',
   );
 });
 
+test('takes whose names have a dot keep what follows it', () => {
+  const named = (take: string): string => motionFileName({ inputs, footLock: false, take }, 'reactor', 'bvh');
+  expect(named('v1.1')).toMatch(/_v1-1_s1204_/);
+  expect(named('soft.er')).toMatch(/_soft-er_s1204_/);
+});
+
 test('a file name holds the frame rate where it is not that of the page', () => {
   expect(motionFileName({ inputs, footLock: false, rate: 30 }, 'leader', 'glb')).toMatch(
     /-0412_leader\.glb$/,

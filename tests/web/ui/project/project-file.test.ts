@@ -120,7 +120,7 @@ const summary = (state: AppState) => ({
   countings: state.countings,
   shift: state.shift,
   time: state.playback.time,
-  region: state.playback.region,
+  region: [state.playback.region, state.playback.loop],
   takesMade: state.takesMade,
 });
 
@@ -184,6 +184,26 @@ describe('a project', () => {
     // The same files are the same objects, so that nothing is made anew.
     expect(store.getState().reaction?.inputs).toEqual(currentInputs(store.getState()));
     expect(store.getState().reaction?.inputs.leader).toBe(store.getState().leader);
+  });
+
+  it('holds a leader of many files, as a dance with the figures of a folder is', async () => {
+    const bytes = new TextEncoder().encode('glTF');
+    const files = ['walk.vrma', ...Array.from({ length: 12 }, (_, i) => `figure-${i}.vrm`)].map((name) => ({
+      name,
+      bytes,
+    }));
+    const kept = storedProject(filled().getState());
+    const leaders = kept.leaders.map((one) => ({ ...one, name: 'walk.vrma', files }));
+    const { project, losses } = readProject(await writeProject({ ...kept, leaders }));
+    expect(losses).toEqual([]);
+    expect(project.leaders.map((one) => one.files)).toEqual(leaders.map((one) => one.files));
+  });
+
+  it('that is too large to be read again is not written', async () => {
+    const kept = storedProject(filled().getState());
+    const files = [1, 2].map((part) => ({ name: `${part}.bvh`, bytes: new Uint8Array(6e8) }));
+    const leaders = kept.leaders.map((one) => ({ ...one, files }));
+    await expect(writeProject({ ...kept, leaders })).rejects.toMatchObject({ code: 'too-large' });
   });
 
   it('holds files that other programs open', async () => {
