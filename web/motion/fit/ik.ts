@@ -2,6 +2,7 @@ import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { forwardKinematics } from '../skeleton/kinematics';
 import { type Bones, bonesOf, fitPoses, type Poses } from './pose-fit';
 import {
+  aboutAxis,
   between,
   conjugate,
   fromAxes,
@@ -19,7 +20,7 @@ import { restOffsets } from './rest-pose';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 import { steadyTrunk, trunkRotations } from './trunk';
 import { smoothHinges } from './twist';
-import { add, cross, direction, readVec, scale, sub, type Vec3, writeVec } from '../math/vec3';
+import { add, cross, direction, dot, readVec, scale, sub, type Vec3, writeVec } from '../math/vec3';
 
 /** A limb whose upper bone gets its twist from the hinge at its middle joint. */
 interface Limb {
@@ -107,6 +108,11 @@ function spineShare(pelvis: Quat, chest: Quat): number {
   return Math.min(1, 2 - (2 * angle) / Math.PI) / 3;
 }
 
+/** The angle about a unit axis that turns `from` the nearest to `to`, both unit vectors, radians. */
+function angleAbout(axis: Vec3, from: Vec3, to: Vec3): number {
+  return Math.atan2(dot(cross(from, to), axis), dot(from, to) - dot(from, axis) * dot(to, axis));
+}
+
 /** World rotation of every joint in one frame, given the hinge axes of the four limbs. */
 function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   const turns: Quat[] = [];
@@ -132,7 +138,10 @@ function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: reado
     const bone = direction(sub(at(middle), at(start)), rest);
     const upper = multiply(fromAxes(hinges[i]!, bone), conjugate(fromAxes(hinge, rest)));
     turns[start] = upper;
-    const lower = aimed(upper, middle, end);
+    // About the hinge first: a limb that folds onto itself has no shortest rotation, and a forearm would flip there.
+    const forward = rotate(upper, readVec(bones.directions, end));
+    const bend = angleAbout(hinges[i]!, forward, direction(sub(at(end), at(middle)), forward));
+    const lower = aimed(multiply(aboutAxis(hinges[i]!, bend), upper), middle, end);
     turns[middle] = lower;
     turns[end] = toe === null ? lower : aimed(lower, end, toe);
     if (toe !== null) turns[toe] = turns[end];

@@ -1,4 +1,14 @@
-import { negate, normaliseQuat, type Quat, quatDot, readQuat, slerp, writeQuat } from '../math/quat';
+import {
+  conjugate,
+  multiply,
+  negate,
+  normaliseQuat,
+  type Quat,
+  quatDot,
+  readQuat,
+  slerp,
+  writeQuat,
+} from '../math/quat';
 import { bodyFrame } from '../math/rigid';
 import { rowDistance } from '../math/rows';
 import { lerp, readVec, sub, type Vec3 } from '../math/vec3';
@@ -26,7 +36,7 @@ const SIDES = {
 const CERTAIN = 0.8;
 const CERTAINTY_POWER = 4;
 /** Standard deviation in time of the Gaussian filter over uncertain rotations, seconds, and how often it is applied. */
-const SMOOTHING = 0.07;
+const SMOOTHING = 0.1;
 const PASSES = 3;
 
 /**
@@ -68,11 +78,43 @@ export function steadyTrunk(
     pelvis: certaintyOf('pelvis', observed, offsets),
     chest: certaintyOf('chest', observed, offsets),
   };
+  const deviation = SMOOTHING * fps;
+  const surest = certainty.pelvis.map((pelvis, t) => Math.max(pelvis, certainty.chest[t]!));
+  const middle = rowsOf(trunk.pelvis, (t) => {
+    const [pelvis, chest] = [certainty.pelvis[t]!, certainty.chest[t]!];
+    return slerp(readQuat(trunk.pelvis, t), readQuat(trunk.chest, t), chest / (pelvis + chest || 1));
+  });
+  const whole = steady(withoutSignChanges(middle), surest, deviation);
   return {
-    pelvis: steady(trunk.pelvis, certainty.pelvis, SMOOTHING * fps),
-    chest: steady(trunk.chest, certainty.chest, SMOOTHING * fps),
+    pelvis: steadyBeside(whole, trunk.pelvis, certainty.pelvis, deviation),
+    chest: steadyBeside(whole, trunk.chest, certainty.chest, deviation),
     certainty,
   };
+}
+
+/**
+ * The rotations of a part, steadied as it turns against the other part, by less than half a turn: where it is uncertain
+ * which way round it turned, it turns with the other one, and the spine is not wound up.
+ */
+function steadyBeside(
+  other: Float64Array,
+  part: Float64Array,
+  certainty: Float64Array,
+  deviation: number,
+): Float64Array {
+  const relative = rowsOf(part, (t) => {
+    const turn = multiply(conjugate(readQuat(other, t)), readQuat(part, t));
+    return turn[3] < 0 ? negate(turn) : turn;
+  });
+  const turned = steady(relative, certainty, deviation);
+  return rowsOf(part, (t) => multiply(readQuat(other, t), readQuat(turned, t)));
+}
+
+/** One rotation for each of those given. */
+function rowsOf(rotations: Float64Array, rotation: (frame: number) => Quat): Float64Array {
+  const rows = new Float64Array(rotations.length);
+  for (let t = 0; t < rows.length / 4; t++) writeQuat(rows, t, rotation(t));
+  return rows;
 }
 
 function certaintyOf(
@@ -93,14 +135,13 @@ function certaintyOf(
 function steady(rotations: Float64Array, certainty: Float64Array, deviation: number): Float64Array {
   const uncertain = [...certainty.keys()].filter((t) => certainty[t]! < 1);
   if (uncertain.length === 0) return rotations;
-  const shown = withoutSignChanges(rotations);
   const weights = gaussianWeights(deviation);
-  let turned = shown;
+  let turned = rotations;
   for (let pass = 0; pass < PASSES; pass++) {
     const next = turned.slice();
     for (const t of uncertain) {
       const around = normaliseQuat(weightedSum(turned, t, weights));
-      writeQuat(next, t, slerp(around, readQuat(shown, t), certainty[t]!));
+      writeQuat(next, t, slerp(around, readQuat(rotations, t), certainty[t]!));
     }
     turned = next;
   }

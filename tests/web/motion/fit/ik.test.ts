@@ -294,6 +294,47 @@ describe('rotations over time', () => {
     },
   );
 
+  test('a chest that a decoder blends into its place after a turn goes round with the hips', () => {
+    // The hips turn half round to the left in half a second, the chest from 20 degrees behind to 20 degrees ahead of
+    // them. Between the two its joints are in straight lines, which pass the spine on the right.
+    const turned = (degrees: number): Quat => aboutAxis([0, 1, 0], (Math.PI * degrees) / 180);
+    const shareAt = (frame: number): number => Math.max(0, Math.min(1, (frame - 30) / 15));
+    const couple = [-20, 20].map((ahead) =>
+      posed(80, (joint, frame) =>
+        joint === J.pelvis
+          ? turned(180 * shareAt(frame))
+          : joint === J.spine3
+            ? turned(ahead + 180 * (Math.round((ahead + 20) / 40) - shareAt(frame)))
+            : null,
+      ),
+    );
+    const [before, after] = couple as [SolvedMotion, SolvedMotion];
+    const positions = before.positions.map((value, i) => {
+      const share = shareAt(Math.floor(i / (3 * JOINT_COUNT)));
+      return value + share * (after.positions[i]! - value);
+    });
+    const solved = solve({ ...before, positions }, before.offsets);
+    const [pelvis, chest] = [J.pelvis, J.spine3].map((joint) => worldRotations(solved, joint)) as [
+      Float32Array,
+      Float32Array,
+    ];
+    for (let frame = 0; frame < solved.frames; frame++) {
+      const row = frame * JOINT_COUNT;
+      const alike = Math.abs(quatDot(readQuat(pelvis, row + J.pelvis), readQuat(chest, row + J.spine3)));
+      expect(2 * Math.acos(Math.min(1, alike)), `frame ${frame}`).toBeLessThan(Math.PI / 2);
+    }
+    expect(fastestTurn({ ...solved, rotations: chest }, J.spine3)).toBeLessThan(60);
+  });
+
+  test('a forearm that is folded onto the upper arm, and past it, does not flip', () => {
+    const fold = (frame: number): number => (Math.PI * (140 + 2 * Math.min(frame, 30))) / 180;
+    const made = posed(60, (joint, frame) =>
+      joint === J.left_elbow ? aboutAxis([0, -1, 0.1], fold(frame)) : null,
+    );
+    const solved = solve(made, made.offsets);
+    expect(fastestTurn(solved, J.left_elbow)).toBeLessThan(20);
+  });
+
   test('knees and elbows bend about their hinges', () => {
     const solved = solve(madeDancer({ frames: 150, seed: 4 }));
     const hinges = [
