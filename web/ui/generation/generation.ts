@@ -10,6 +10,7 @@ import {
 import { generationProblem, isAbort } from '../store/problems';
 import { reactorMotion, cacheLocked } from '../store/reactor-motion';
 import { differOnlyInWeights, guidanceMatrix, readyInputs, sameInputs } from '../store/selectors';
+import { currentInputs } from '../store/take';
 import { sameBody, withFrames } from './with-frames';
 import { modelIdentity, type Inputs, type Reaction } from '../store/reaction';
 import { firstVisitEnded } from '../store/actions/files';
@@ -91,7 +92,10 @@ export class Generation {
   #followInputs(): void {
     const state = this.#store.getState();
     const inputs = readyInputs(state);
-    if (!inputs) return;
+    if (!inputs) {
+      this.#endUnwanted(state);
+      return;
+    }
     if (state.reaction && sameInputs(inputs, state.reaction.inputs)) {
       this.#keepOnStage(inputs);
       return;
@@ -101,6 +105,17 @@ export class Generation {
     const running = this.#running;
     if (running && !running.previewed && differOnlyInWeights(running.inputs, inputs)) this.#waiting = inputs;
     else void this.#run(inputs);
+  }
+
+  /** While a file is read a request goes on, unless its leader is no longer on the page, or has the other role. */
+  #endUnwanted(state: AppState): void {
+    const running = this.#running?.inputs;
+    if (!running) return;
+    const now = currentInputs(state);
+    if (now?.leader === running.leader && now.settings.role === running.settings.role) return;
+    // They are asked for again if they come back.
+    this.#requested = null;
+    this.cancel();
   }
 
   /**

@@ -3,6 +3,8 @@ import type { Preview } from '../../../../web/model/client';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { readyInputs } from '../../../../web/ui/store/selectors';
+import { projectOpened } from '../../../../web/ui/store/actions/project';
+import { redone, undone } from '../../../../web/ui/store/history/history';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
 import { ManualGenerator, result } from '../../support/manual-generator';
@@ -73,6 +75,64 @@ describe('generation', () => {
     await settled();
     expect(model.calls).toHaveLength(1);
     expect(model.calls[0]?.request.music?.frames).toBe(60);
+  });
+
+  it('goes on while a song is read, but not for a leader that is replaced meanwhile', async () => {
+    await begin();
+    change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0 }));
+    await settled();
+    expect(model.calls[0]?.options.signal?.aborted).toBe(false);
+    change.apply(store, change.leaderLoaded(leader(90, 'other.bvh')));
+    await settled();
+    expect(store.getState().job).toBeNull();
+    model.calls[0]?.answer(result());
+    await settled();
+    expect(store.getState().reaction).toBeNull();
+    change.apply(store, change.songLoaded(song(3)));
+    await settled();
+    expect(model.calls).toHaveLength(2);
+    expect(model.calls[1]?.request.leader.frames).toBe(90);
+  });
+
+  it('ends when the roles are swapped while a song is read, and begins again when they are swapped back', async () => {
+    await begin();
+    change.apply(store, change.readingSet('song', { name: 'a.mp3', fraction: 0 }));
+    change.apply(store, change.rolesSwapped());
+    await settled();
+    expect(model.calls[0]?.options.signal?.aborted).toBe(true);
+    expect(store.getState().job).toBeNull();
+    change.apply(store, change.rolesSwapped());
+    change.apply(store, change.readingSet('song', null));
+    await settled();
+    expect(model.calls).toHaveLength(2);
+  });
+
+  it('ends when a project without a leader leaves none on the page', async () => {
+    change.apply(store, projectOpened({ leader: leader(60) }));
+    await settled();
+    change.apply(store, projectOpened({ leader: null, reaction: null }));
+    await settled();
+    expect(model.calls[0]?.options.signal?.aborted).toBe(true);
+    expect(store.getState().job).toBeNull();
+  });
+
+  it('shows no part of a dance within the one that undo or a project brings', async () => {
+    await begin();
+    model.calls[0]?.answer(result());
+    await settled();
+    change.apply(store, change.seedSet(8));
+    const preview = async (): Promise<void> => {
+      await settled();
+      void model.calls.at(-1)?.options.onPreview?.(part(24, 24, 1));
+      expect(store.getState().preview).not.toBeNull();
+    };
+    await preview();
+    change.apply(store, projectOpened({ leader: leader(90), reaction: null }));
+    expect(store.getState().preview).toBeNull();
+    change.apply(store, undone());
+    await preview();
+    change.apply(store, redone());
+    expect(store.getState().preview).toBeNull();
   });
 
   it('makes another reaction for a song that starts later', async () => {

@@ -86,7 +86,10 @@ export function takesMerged(stored: readonly Take[], synced: readonly Take[]): C
 
 /** A project replaces everything on the page; undo brings back what was there. */
 export function projectOpened(content: Partial<AppState>): Change {
-  return (state) => withUndoOfAll(state, { ...content, zoom: null, firstVisit: false });
+  return (state) => ({
+    ...withUndoOfAll(state, { ...content, zoom: null, firstVisit: false }),
+    preview: null,
+  });
 }
 
 /**

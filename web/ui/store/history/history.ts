@@ -168,11 +168,13 @@ function withStep({ back, edits, stage }: Step, state: AppState): Partial<AppSta
       createdAt: stage.createdAt,
     });
   const there = takes.some(({ id, reaction }) => id === after.other && reaction !== after.reaction);
-  const answers = after.reaction?.inputs.leader === after.leader;
+  const reaction = after.reaction?.inputs.leader === after.leader ? after.reaction : null;
   return {
     ...back,
     takes,
-    reaction: answers ? after.reaction : null,
+    reaction,
+    // A preview is frames within the reaction on the stage.
+    ...(reaction !== state.reaction && { preview: null }),
     other: there ? after.other : null,
     compare: there ? after.compare : 'off',
     ...timelineWithin(state, { ...after, playback: { ...state.playback, time, region } }),
