@@ -86,6 +86,13 @@ export class FileLoader implements Files {
     this.retry[kind]?.();
   };
 
+  cancel(side: InputKind): void {
+    if (!this.running[side]) return;
+    this.running[side].abort();
+    this.running[side] = null;
+    this.endReading(side);
+  }
+
   readSong(blob: Blob, name: string, label: string | null, after: Promise<void>): Promise<LoadedSong | null> {
     const done = (): void => {
       this.endReading('song');

@@ -54,6 +54,8 @@ export class Project {
   /** Reads without changing the page; null for what fails. */
   private readonly background: StoredFileReaders;
   private persistenceAsked = false;
+  /** The project that was asked for last; an older one that is still being read gives way. */
+  private opening: File | null = null;
   /** Settles when all of an earlier visit is on the page. */
   private restored: Promise<void> = Promise.resolve();
   /** Resolves when the couple of an earlier visit is drawn, or there is none to draw. */
@@ -61,7 +63,7 @@ export class Project {
 
   constructor(
     private readonly store: Store,
-    files: Files,
+    private readonly files: Files,
     private readonly readers: FileReaders,
     private readonly means: ProjectMeans,
   ) {
@@ -120,19 +122,28 @@ export class Project {
   async open(file: File): Promise<boolean> {
     const { store } = this;
     apply(store, problemClosed());
+    this.opening = file;
+    const isNewest = (): boolean => this.opening === file;
     try {
       const { project, losses } = readProject(new Uint8Array(await file.arrayBuffer()));
       // What came later would be mixed with what is opened, and undo would not bring it back.
       await this.restored.catch(() => undefined);
+      if (!isNewest()) return false;
       apply(store, restoringSet(restoringOf(project)));
-      await this.readers.manifest();
+      // What is still being read was asked for before.
+      this.files.cancel('leader');
+      this.files.cancel('song');
       const before = store.getState();
       const restorer = new Restorer(project);
-      await Promise.all([restorer.readPageLeader(this.foreground), restorer.readPageSong(this.foreground)]);
+      await Promise.all([
+        this.readers.manifest(),
+        restorer.readPageLeader(this.foreground),
+        restorer.readPageSong(this.foreground),
+      ]);
       await restorer.readRest(this.background);
       const now = store.getState();
       // Files that the visitor has chosen in the meantime are the newer request.
-      if (now.leader !== before.leader || now.song !== before.song) return false;
+      if (!isNewest() || now.leader !== before.leader || now.song !== before.song) return false;
       const content = restorer.content(now);
       if (project.page.leader !== null && !content.leader) return false;
       apply(store, projectOpened(content));
@@ -145,7 +156,7 @@ export class Project {
       apply(store, problemShown(projectProblem(error, file.name, 'any-file')));
       return false;
     } finally {
-      apply(store, restoringSet(null));
+      if (isNewest()) apply(store, restoringSet(null));
     }
   }
 

@@ -39,6 +39,8 @@ export interface Files {
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
+  /** Ends the reading of a song or leader that is no longer wanted. */
+  readonly cancel: (side: InputKind) => void;
   /** Reads a leader again that was loaded or refused, with other options. */
   readonly rereadLeader: (source: LeaderSource, options: ImportOptions) => Promise<LoadedLeader | null>;
   /**

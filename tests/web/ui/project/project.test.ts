@@ -1,13 +1,14 @@
-import { expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import { openedText, Project } from '../../../../web/ui/project/project';
+import type { FoundProject } from '../../../../web/ui/project/records';
 import { writeProject } from '../../../../web/ui/project/project-file';
 import { storedProject } from '../../../../web/ui/project/schema';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { FileReaders } from '../../../../web/ui/store/services';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
-import { leader, leaderFile, numbered, song, still } from '../../support/made-state';
+import { leader, leaderFile, numbered, song, songData, still } from '../../support/made-state';
 import { small } from '../../support/small-manifest';
 
 it('an opened project is named by song, leader and number of takes', () => {
@@ -30,46 +31,115 @@ function pageOf(...leaders: readonly string[]): change.Store {
   return store;
 }
 
-it('a project opened while an earlier visit is still being read replaces all of it, and undo brings all back', async () => {
-  const earlier = storedProject(pageOf('second.bvh', 'first.bvh').getState());
-  const file = new File([await writeProject(storedProject(pageOf('new.bvh').getState()))], 'new.zip');
-  const store = change.createAppStore('dark');
-  let goOn = (): void => undefined;
-  const held = new Promise<void>((resolve) => (goOn = resolve));
-  const readers: FileReaders = {
-    loadSong: () => Promise.reject(new Error('There is no song.')),
-    readLeader: async ({ files }) => {
-      if (files[0]!.name === 'second.bvh') await held;
-      return { file: leaderFile(30), motion: still(30) };
-    },
-    manifest: () => {
-      change.apply(store, change.manifestLoaded(small, 7));
-      return Promise.resolve(small);
-    },
+/** The project file of a page with a take for each leader. */
+async function fileOf(...leaders: readonly string[]): Promise<File> {
+  return new File([await writeProject(storedProject(pageOf(...leaders).getState()))], 'new.zip');
+}
+
+describe('a project', () => {
+  let store: change.Store;
+  let project: Project;
+  let files: FileLoader;
+  /** By the names of leaders and the contents of songs: what their reading waits for, and what lets it go on. */
+  let held: Map<string, { readonly wait: Promise<void>; readonly goOn: () => void }>;
+  const hold = (name: string): void => {
+    let goOn = (): void => undefined;
+    const wait = new Promise<void>((resolve) => (goOn = resolve));
+    held.set(name, { wait, goOn });
   };
-  const project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
-    stage: () => null,
-    storage: {
-      read: () => Promise.resolve({ ...earlier, songs: [] }),
-      write: () => Promise.resolve(),
-      removeOwn: () => Promise.resolve(),
-      clear: () => Promise.resolve(),
-    },
-    tabs: { locks: undefined, channel: undefined },
-    persistence: { persisted: () => Promise.resolve(true), persist: () => Promise.resolve(true) },
-  });
+  const goOn = (name: string): void => held.get(name)?.goOn();
   const takes = (): string[] => store.getState().takes.map(({ id }) => id);
-  try {
+  /** Lets everything happen that does not wait for what is held. */
+  const pass = () => new Promise((resolve) => setTimeout(resolve, 50));
+
+  /** Opens the page in a browser in which an earlier visit has stored this. */
+  const visit = (found: FoundProject | null): void => {
+    store = change.createAppStore('dark');
+    const readers: FileReaders = {
+      loadSong: async (file) => {
+        await held.get(await file.text())?.wait;
+        return songData(3);
+      },
+      readLeader: async ({ files }) => {
+        await held.get(files[0]!.name)?.wait;
+        return { file: leaderFile(30), motion: still(30) };
+      },
+      manifest: () => {
+        if (!store.getState().manifest) change.apply(store, change.manifestLoaded(small, 7));
+        return Promise.resolve(small);
+      },
+    };
+    files = new FileLoader(store, readers, () => Promise.resolve());
+    project = new Project(store, files, readers, {
+      stage: () => null,
+      storage: {
+        read: () => Promise.resolve(found),
+        write: () => Promise.resolve(),
+        removeOwn: () => Promise.resolve(),
+        clear: () => Promise.resolve(),
+      },
+      tabs: { locks: undefined, channel: undefined },
+      persistence: { persisted: () => Promise.resolve(true), persist: () => Promise.resolve(true) },
+    });
+  };
+
+  beforeEach(() => {
+    held = new Map();
+  });
+  afterEach(() => {
+    project.dispose();
+  });
+
+  it('opened while an earlier visit is still being read replaces all of it, and undo brings all back', async () => {
+    visit({ ...storedProject(pageOf('second.bvh', 'first.bvh').getState()), songs: [] });
+    hold('second.bvh');
     expect(await project.restore()).toBe(true);
     expect(takes()).toEqual(['of first.bvh']);
-    const opened = project.open(file);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-    goOn();
+    const opened = project.open(await fileOf('new.bvh'));
+    await pass();
+    goOn('second.bvh');
     expect(await opened).toBe(true);
     expect(takes()).toEqual(['of new.bvh']);
     change.apply(store, undone());
     expect(takes().sort()).toEqual(['of first.bvh', 'of second.bvh']);
-  } finally {
-    project.dispose();
-  }
+  });
+
+  it.for(['before', 'after'])(
+    'has no song where the demo’s was being read, which ends %s it',
+    async (order) => {
+      visit(null);
+      await project.restore();
+      hold('demo song');
+      hold('new.bvh');
+      void files.openSong(new Blob(['demo song']), 'demo.ogg', 'demo');
+      await pass();
+      const opened = project.open(await fileOf('new.bvh'));
+      await pass();
+      for (const name of order === 'before' ? ['demo song', 'new.bvh'] : ['new.bvh', 'demo song']) {
+        goOn(name);
+        await pass();
+      }
+      expect(await opened).toBe(true);
+      expect(store.getState()).toMatchObject({ song: null, reading: { song: null } });
+      expect(takes()).toEqual(['of new.bvh']);
+    },
+  );
+
+  it('that is given while an older one is still being read is the one that is opened', async () => {
+    visit(null);
+    await project.restore();
+    hold('newer.bvh');
+    hold('old.bvh');
+    const older = project.open(await fileOf('old.bvh', 'page.bvh'));
+    await pass();
+    const newer = project.open(await fileOf('newer.bvh'));
+    await pass();
+    goOn('old.bvh');
+    expect(await older).toBe(false);
+    expect(store.getState().restoring?.what).toContain('newer.bvh');
+    goOn('newer.bvh');
+    expect(await newer).toBe(true);
+    expect(takes()).toEqual(['of newer.bvh']);
+    expect(store.getState().restoring).toBeNull();
+  });
 });
