@@ -6,6 +6,7 @@ import { fileSlug } from '../store/format';
 import type { Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 import { firstVisitEnded } from '../store/actions/files';
+import { countingsRestored } from '../store/actions/counting';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
 import {
@@ -210,14 +211,16 @@ export class Project {
     const before = store.getState();
     await Promise.all([this.readers.manifest(), restorer.readPageLeader(this.foreground)]);
     const now = store.getState();
+    const { countings = [], ...content } = restorer.content(now);
     // Files that the visitor has chosen in the meantime stay.
-    const superseded = now.leader !== before.leader || now.song !== before.song || now.takes.length > 0;
-    const content = restorer.content(now);
-    if (superseded) apply(store, takesRestored(content.takes ?? []));
+    if (now.leader !== before.leader || now.takes.length > 0)
+      apply(store, takesRestored(content.takes ?? []));
     else {
-      apply(store, visitRestored(content));
+      const isSongNewer = now.song !== before.song;
+      apply(store, visitRestored({ ...content, ...(isSongNewer && { song: now.song, shift: 0 }) }));
       this.frame(restorer.stored.page.framing);
     }
+    apply(store, countingsRestored(countings));
     // The work comes back also where a body can't be drawn.
     await this.means
       .stage()
@@ -228,8 +231,11 @@ export class Project {
   /** Restores the takes of other songs and leaders than the page's. */
   private async restoreRest(restorer: Restorer): Promise<void> {
     const { store } = this;
+    const there = new Set(restorer.takes(store.getState()).map(({ id }) => id));
     await restorer.readRest(this.background);
-    apply(store, takesRestored(restorer.takes(store.getState())));
+    // A take that was there may have been deleted since.
+    const rest = restorer.takes(store.getState()).filter(({ id }) => !there.has(id));
+    apply(store, takesRestored(rest));
     this.showPageSong(restorer);
     apply(store, restoringSet(null));
     this.autosave.noteSynced();

@@ -4,8 +4,11 @@ import { openedText, Project } from '../../../../web/ui/project/project';
 import type { FoundProject } from '../../../../web/ui/project/records';
 import { writeProject } from '../../../../web/ui/project/project-file';
 import { storedProject } from '../../../../web/ui/project/schema';
+import { countingsRestored } from '../../../../web/ui/store/actions/counting';
+import { takeDeleted } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { FileReaders } from '../../../../web/ui/store/services';
+import type { SongCounting } from '../../../../web/ui/store/state';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
 import { leader, leaderFile, numbered, song, songData, still } from '../../support/made-state';
@@ -30,6 +33,9 @@ function pageOf(...leaders: readonly string[]): change.Store {
   }
   return store;
 }
+
+/** How a song was counted. */
+const COUNTED: SongCounting = { song: 'a.mp3', bytes: 3, beatsPerBar: 3, rate: 2, one: 0.5 };
 
 /** The project file of a page with a take for each leader. */
 async function fileOf(...leaders: readonly string[]): Promise<File> {
@@ -90,8 +96,15 @@ describe('a project', () => {
     project.dispose();
   });
 
+  /** What an earlier visit stored: takes for two leaders, and how a song was counted. */
+  const stored = (): FoundProject => {
+    const earlier = pageOf('second.bvh', 'first.bvh');
+    change.apply(earlier, countingsRestored([COUNTED]));
+    return { ...storedProject(earlier.getState()), songs: [] };
+  };
+
   it('opened while an earlier visit is still being read replaces all of it, and undo brings all back', async () => {
-    visit({ ...storedProject(pageOf('second.bvh', 'first.bvh').getState()), songs: [] });
+    visit(stored());
     hold('second.bvh');
     expect(await project.restore()).toBe(true);
     expect(takes()).toEqual(['of first.bvh']);
@@ -102,6 +115,48 @@ describe('a project', () => {
     expect(takes()).toEqual(['of new.bvh']);
     change.apply(store, undone());
     expect(takes().sort()).toEqual(['of first.bvh', 'of second.bvh']);
+  });
+
+  it('of an earlier visit comes back without a take that is deleted while the others are read', async () => {
+    visit(stored());
+    hold('second.bvh');
+    await project.restore();
+    change.apply(store, takeDeleted('of first.bvh'));
+    goOn('second.bvh');
+    await pass();
+    expect(takes()).toEqual(['of second.bvh']);
+  });
+
+  it('of an earlier visit keeps how songs were counted when the visitor opens a leader before it is read', async () => {
+    visit(stored());
+    hold('first.bvh');
+    const restored = project.restore();
+    await pass();
+    await files.openLeader({
+      name: 'newer.bvh',
+      label: null,
+      files: [{ name: 'newer.bvh', bytes: new Uint8Array() }],
+      options: {},
+    });
+    goOn('first.bvh');
+    await restored;
+    await pass();
+    expect(store.getState()).toMatchObject({ leader: { name: 'newer.bvh' }, countings: [COUNTED] });
+    expect(takes().sort()).toEqual(['of first.bvh', 'of second.bvh']);
+  });
+
+  it('of an earlier visit comes back with the song that the visitor opens before it is read', async () => {
+    visit(stored());
+    hold('first.bvh');
+    const restored = project.restore();
+    await pass();
+    await files.openSong(new Blob(['newer song']), 'newer.mp3', null);
+    goOn('first.bvh');
+    await restored;
+    const { song, leader, reaction, countings } = store.getState();
+    expect([song?.name, leader?.name]).toEqual(['newer.mp3', 'first.bvh']);
+    expect(reaction).not.toBeNull();
+    expect(countings).toEqual([COUNTED]);
   });
 
   it.for(['before', 'after'])(

@@ -1,7 +1,7 @@
 /** How the song is counted. */
 import { countedBeats, countingOf, isOf, nearestIndex } from '../counting';
 import { songStart } from '../song-shift';
-import type { Counting } from '../state';
+import type { AppState, Counting } from '../state';
 import type { Change } from '../store';
 
 /** Songs whose counting is remembered. */
@@ -19,6 +19,14 @@ export function countingSet(change: Partial<Counting> | null): Change {
     const own = { ...after, song: song.name, bytes: song.file.size };
     return same ? {} : { countings: [own, ...others].slice(0, MAX_COUNTINGS) };
   };
+}
+
+/** How songs were counted in an earlier visit; what the visitor has set meanwhile counts. */
+export function countingsRestored(earlier: AppState['countings']): Change {
+  return ({ countings, history }) => ({
+    countings: [...countings, ...earlier].slice(0, MAX_COUNTINGS),
+    history,
+  });
 }
 
 /** Makes the counted beat nearest to a time (seconds of the dance) a "1". */
