@@ -151,6 +151,8 @@ export class Autosave {
     try {
       if (hasVisitorContent(state)) {
         this.anythingStored = true;
+        // It is set again if the visitor starts afresh while this is being written.
+        this.cleared = false;
         await this.storage.write(storedProject(state, this.callbacks.framing()));
         this.hasFitted = true;
         const isNew = ({ id, reaction }: Take): boolean =>
@@ -158,10 +160,10 @@ export class Autosave {
         if (state.takes.some(isNew)) this.callbacks.takeStored();
       } else if (this.anythingStored) {
         await (this.cleared ? this.storage.clear() : this.storage.removeOwn());
+        this.cleared = false;
         this.anythingStored = false;
       } else return;
       this.synced = state.takes;
-      this.cleared = false;
       this.report('stored');
     } catch (error) {
       if (isNewer(error)) {

@@ -9,6 +9,7 @@ import { Project } from '../../../../web/ui/project/project';
 import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
+import { undone } from '../../../../web/ui/store/history/history';
 import { currentInputs } from '../../../../web/ui/store/take';
 import { small } from '../../support/small-manifest';
 import { leader, still } from '../../support/made-state';
@@ -35,6 +36,8 @@ describe('autosave', () => {
   let failure: Error;
   /** The write that is under way. */
   let writing: Promise<void>;
+  /** How often the storage was emptied of everything. */
+  let emptied: number;
   /** How often the browser was asked to keep what is stored. */
   let asked: number;
   const made = (id: string): void => {
@@ -69,7 +72,10 @@ describe('autosave', () => {
           return writing;
         },
         removeOwn: () => Promise.resolve(),
-        clear: () => Promise.resolve(),
+        clear: () => {
+          emptied++;
+          return Promise.resolve();
+        },
       },
       tabs,
       persistence: {
@@ -80,7 +86,7 @@ describe('autosave', () => {
         },
       },
     });
-    asked = 0;
+    asked = emptied = 0;
     writing = Promise.resolve();
     void project.restore();
     await pass(1000);
@@ -150,6 +156,29 @@ describe('autosave', () => {
       await pass(16);
     }
     expect(writes).toHaveLength(2);
+  });
+
+  it('empties the storage of everything when the visitor starts afresh while a change is being written', async () => {
+    let written = (): void => undefined;
+    writing = new Promise((resolve) => (written = resolve));
+    made('a');
+    await pass(0);
+    expect(writes).toHaveLength(1);
+    project.clear();
+    written();
+    await pass(0);
+    expect(emptied).toBe(1);
+  });
+
+  it('keeps what could not be restored when the visitor undoes starting afresh', async () => {
+    made('a');
+    await pass(0);
+    project.clear();
+    change.apply(store, undone());
+    await pass(0);
+    store.setState({ leader: null, takes: [] });
+    await pass(0);
+    expect(emptied).toBe(0);
   });
 
   it('reports once that the space is full, tries again by itself, and stops saying so when there is room', async () => {
