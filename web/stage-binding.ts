@@ -158,11 +158,16 @@ export function leaveRoomForControls(stage: Stage, store: Store): () => void {
   );
 }
 
-/** Opens an offscreen stage for a video: it shows what `from` shows now, from the start of the dance, and does not follow later changes. */
+/**
+ * Opens an offscreen stage for a video: it shows the finished dance that `from` shows now, from its start, and does not
+ * follow later changes.
+ */
 export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<VideoStage> {
   const stage = createOffscreenStage(from, size);
   try {
-    bindStage(stage, store)();
+    // A preview is half of the old dance and half of the new one.
+    const finished = { ...store.getState(), preview: null };
+    bindStage(stage, { getState: () => finished, subscribe: () => () => undefined })();
     stage.setEarlier(null);
     const framing = from.framing();
     await stage.ready();

@@ -1,22 +1,29 @@
 import { beforeAll, expect, it, vi } from 'vitest';
 import type { Role } from '../../web/view/theme';
 import type { DancerOptions, Stage } from '../../web/view/stage';
+import type * as binding from '../../web/stage-binding';
 import type { Inputs, Take } from '../../web/ui/store/reaction';
 import type { AppState } from '../../web/ui/store/state';
-import { initialState, type Watched } from '../../web/ui/store/store';
+import { initialState } from '../../web/ui/store/store';
 import { partReadSet } from '../../web/ui/store/actions/files';
 import { compareSet, takesSwapped, takeChosen } from '../../web/ui/store/actions/takes';
 import { playbackSet } from '../../web/ui/store/actions/view';
 import * as change from './support/actions';
 import { uniformGuidance, leader, still } from './support/made-state';
 
-let bindStage: (stage: Stage, store: change.Store) => () => void;
-let withPartRead: (store: change.Store) => Watched;
+// A stage for a video has a canvas of its own, which Node has not.
+vi.mock('../../web/view/offscreen-stage', () => ({ createOffscreenStage: (stage: Stage) => stage }));
+
+let bindStage: typeof binding.bindStage;
+let openCamera: typeof binding.openCamera;
+let withPartRead: typeof binding.withPartRead;
 beforeAll(async () => {
   // Node has no screen to ask.
   vi.stubGlobal('matchMedia', () => ({ matches: false }));
-  ({ bindStage, withPartRead } = await import('../../web/stage-binding'));
+  ({ bindStage, openCamera, withPartRead } = await import('../../web/stage-binding'));
 });
+
+type Dancers = Parameters<Stage['setDancers']>[0];
 
 const dancer = leader(30);
 const take = (id: string): Take => {
@@ -33,6 +40,15 @@ const take = (id: string): Take => {
   return { id, number: 1, name: null, starred: false, createdAt: 0, reaction };
 };
 
+/** A stage that tells which dancers it is given, and does nothing else. */
+function stageThatCalls(setDancers: (shown: Dancers, how?: DancerOptions) => void): Stage {
+  const nothing = (): void => undefined;
+  return new Proxy(
+    { setDancers },
+    { get: (known, name) => (name in known ? known.setDancers : nothing) },
+  ) as unknown as Stage;
+}
+
 it('crossfades from one take to the next, but not in a split view', () => {
   const takes = [take('a'), take('b'), take('c')];
   const store = change.createAppStore('dark');
@@ -44,11 +60,7 @@ it('crossfades from one take to the next, but not in a split view', () => {
   };
   store.setState({ ...initialState('dark'), ...state });
   const crossfades: (boolean | undefined)[] = [];
-  const nothing = (): void => undefined;
-  const stage = new Proxy(
-    { setDancers: (_: unknown, how?: DancerOptions) => crossfades.push(how?.crossfade) },
-    { get: (known, name) => (name in known ? known.setDancers : nothing) },
-  ) as unknown as Stage;
+  const stage = stageThatCalls((_, how) => crossfades.push(how?.crossfade));
   const stop = bindStage(stage, store);
   const crossfadeAfter = (...changes: change.Change[]): boolean | undefined => {
     for (const one of changes) change.apply(store, one);
@@ -80,4 +92,17 @@ it('shows what has been read of a video alone, except while the dance before is 
   change.apply(store, partReadSet(null));
   expect(seen).toMatchObject({ leader: dancer, reaction, compare: 'ghost' });
   stop();
+});
+
+it('saves the finished dance as a video while a part of the next one is on the stage', async () => {
+  const store = change.createAppStore('dark');
+  const { reaction } = take('a');
+  const { settings } = reaction.inputs;
+  const part = still(30);
+  const preview = { motion: part, locked: part };
+  store.setState({ leader: dancer, settings, reaction, preview, footLock: false });
+  const drawn: Dancers[] = [];
+  const stage = stageThatCalls((shown) => drawn.push(shown));
+  await openCamera(stage, store, { width: 640, height: 360 });
+  expect(drawn[0]?.reactor).toBe(reaction.motion);
 });
