@@ -87,9 +87,9 @@ export function createFaders(store: Store): {
   /** The control that was moved last, until the job that it caused has ended. */
   let changed: Control | null = null;
   let hadJob = false;
-  let beforeDrag: Guidance | undefined;
   const faders = FADERS.map((moved) => {
     const { control, set, reset } = moved;
+    let beforeDrag: Guidance | undefined;
     const fader = createFader(control, moved, {
       change: (value) => {
         changed = control;

@@ -62,10 +62,17 @@ export function withCell(
 /**
  * With one layer moved so that its mean over the streams is `value`. All streams move by the same amount and keep
  * their differences, except that each is clamped to the range.
+ * @param from where they move from in this layer, when that is not where they are
  */
-export function withColumn(guidance: Guidance, layer: Layer, value: number, range: Range): Guidance {
+export function withColumn(
+  guidance: Guidance,
+  layer: Layer,
+  value: number,
+  range: Range,
+  from = guidance,
+): Guidance {
   const rows = Object.entries(guidance);
-  const before = rows.map(([, row]) => row[layer] ?? 0);
+  const before = rows.map(([stream]) => guidanceAt(from, stream, layer));
   const by = shiftTo(before, Math.min(range.max, Math.max(range.min, value)), range);
   return Object.fromEntries(
     rows.map(([stream, row], i) => [

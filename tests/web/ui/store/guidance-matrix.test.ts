@@ -74,6 +74,17 @@ describe('changes of the guidance', () => {
     expect(guidance(store)).toEqual(held);
   });
 
+  it('keep what another finger does to the other layer, while the same drag goes on', () => {
+    const store = ready();
+    const held = guidance(store);
+    for (const value of [0.3, 0.5]) {
+      change.apply(store, change.guidanceSet('coarse', value, held));
+      change.apply(store, change.guidanceSet('fine', value, held));
+    }
+    change.apply(store, change.guidanceSet('coarse', 0.6, held));
+    expect(guidance(store)).toEqual(uniformGuidance(0.6, 0.5));
+  });
+
   it('reset one layer and leave the other', () => {
     const store = ready();
     change.apply(store, change.guidanceCellSet('upper', 'coarse', 0.6));

@@ -235,6 +235,17 @@ describe('a drag with the pointer', () => {
     expect([page.onStage, page.coarse]).toEqual(['Take 1', 0]);
   });
 
+  it('is one step of undo with that of another fader by a second finger', () => {
+    page.arrive();
+    page.now += 60_000;
+    page.do(change.dragBegun());
+    for (const value of [0.2, 0.4, 0.6]) page.do(change.guidanceSet('coarse', value), change.musicSet(value));
+    page.do(change.dragEnded());
+    expect(steps()).toBe(1);
+    page.do(undone());
+    expect(page.coarse).toBe(0);
+  });
+
   it('leaves the take of the drag before, however soon it follows', () => {
     page.arrive();
     page.now += 60_000;

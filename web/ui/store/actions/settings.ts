@@ -27,7 +27,7 @@ export function settingsSet(settings: Settings): Change {
  */
 export function guidanceSet(layer: Layer, value: number, from?: Guidance): Change {
   return guided(({ guidance }, { guidance: ranges }) => ({
-    guidance: withColumn(from ?? guidance, layer, value, rangeOf(ranges, layer)),
+    guidance: withColumn(guidance, layer, value, rangeOf(ranges, layer), from),
   }));
 }
 

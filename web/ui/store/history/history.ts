@@ -68,8 +68,11 @@ export function withUndo(before: AppState, patch: Partial<AppState>, at: number)
   const kind = edits.length > 0 ? null : chosen ? 'take' : kindOf(parts, before, after);
   const { past, open } = before.history;
   const last = past.at(-1);
-  const sameGesture = before.drag?.held === true || (last !== undefined && at - last.at < SAME_GESTURE_MS);
-  const continues = open && kind !== null && last?.kind === kind && sameGesture;
+  const held = before.drag?.held === true;
+  const sameGesture = held || (last !== undefined && at - last.at < SAME_GESTURE_MS);
+  // Two fingers may move two faders.
+  const sameKind = last?.kind === kind || (held && isOfSettings(last?.kind) && isOfSettings(kind));
+  const continues = open && kind !== null && last !== undefined && sameKind && sameGesture;
   const step: Step = continues
     ? { ...last, at }
     : {
@@ -237,6 +240,10 @@ function kindOf(parts: readonly (keyof AppState)[], before: AppState, after: App
       return `settings.${names.join('+')}`;
     })
     .join(' ');
+}
+
+function isOfSettings(kind: string | null | undefined): boolean {
+  return kind?.startsWith('settings.') ?? false;
 }
 
 function pick(state: AppState, keys: readonly (keyof AppState)[]): Partial<AppState> {
