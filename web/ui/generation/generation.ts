@@ -107,15 +107,16 @@ export class Generation {
     else void this.#run(inputs);
   }
 
-  /** While a file is read a request goes on, unless its leader is no longer on the page, or has the other role. */
+  /**
+   * While a file is read a request goes on, unless its leader is no longer on the page, or has the other role. If they
+   * come back, as by undoing that all was cleared, it begins again.
+   */
   #endUnwanted(state: AppState): void {
-    const running = this.#running?.inputs;
-    if (!running) return;
     const now = currentInputs(state);
-    if (now?.leader === running.leader && now.settings.role === running.settings.role) return;
-    // They are asked for again if they come back.
+    const last = this.#requested;
+    if (!last || (now?.leader === last.leader && now.settings.role === last.settings.role)) return;
     this.#requested = null;
-    this.cancel();
+    if (this.#running) this.cancel();
   }
 
   /**

@@ -3,7 +3,7 @@ import type { Preview } from '../../../../web/model/client';
 import { Generation } from '../../../../web/ui/generation/generation';
 import * as change from '../../support/actions';
 import { readyInputs } from '../../../../web/ui/store/selectors';
-import { projectOpened } from '../../../../web/ui/store/actions/project';
+import { projectCleared, projectOpened } from '../../../../web/ui/store/actions/project';
 import { redone, undone } from '../../../../web/ui/store/history/history';
 import { shiftSet } from '../../../../web/ui/store/actions/timeline';
 import { small } from '../../support/small-manifest';
@@ -114,6 +114,16 @@ describe('generation', () => {
     await settled();
     expect(model.calls[0]?.options.signal?.aborted).toBe(true);
     expect(store.getState().job).toBeNull();
+  });
+
+  it('begins again when starting afresh, which has cancelled it, is undone', async () => {
+    await begin();
+    generation.cancel();
+    change.apply(store, projectCleared(small, 3));
+    await settled();
+    change.apply(store, undone());
+    await settled();
+    expect(model.calls).toHaveLength(2);
   });
 
   it('shows no part of a dance within the one that undo or a project brings', async () => {

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import * as change from '../../support/actions';
+import { projectCleared } from '../../../../web/ui/store/actions/project';
 import { undone } from '../../../../web/ui/store/history/history';
 import type { Problem } from '../../../../web/ui/store/state';
 import { small } from '../../support/small-manifest';
@@ -40,6 +41,16 @@ describe('settings', () => {
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0.35));
     change.apply(store, change.guidanceReset());
     expect(store.getState().settings?.guidance).toEqual(uniformGuidance(0, 0));
+  });
+
+  it('keep a locked seed when another model comes or the visitor starts afresh, and the role when a model comes', () => {
+    const store = ready();
+    change.apply(store, change.seedLockSet(true));
+    change.apply(store, change.rolesSwapped());
+    change.apply(store, change.modelOpened({ ...small, id: 'other' }, 8));
+    expect(store.getState().settings).toMatchObject({ seed: 7, role: 'leader' });
+    change.apply(store, projectCleared(small, 9));
+    expect(store.getState().settings).toMatchObject({ seed: 7, role: 'reactor' });
   });
 
   it('have a height that is clamped, undone and back in proportion', () => {
@@ -166,6 +177,14 @@ describe('playing', () => {
     expect(store.getState().playback.time).toBe(5);
     change.apply(store, change.playbackSet({ time: -1 }));
     expect(store.getState().playback.time).toBe(0);
+  });
+
+  it('moves the playhead to the end of a shorter song where there is no leader', () => {
+    const store = ready();
+    change.apply(store, change.songLoaded(song(30)));
+    change.apply(store, change.playbackSet({ time: 20 }));
+    change.apply(store, change.songLoaded(song(10)));
+    expect(store.getState().playback.time).toBe(10);
   });
 
   it('opens one floating panel at a time and closes it by the same button', () => {

@@ -14,7 +14,10 @@ export function songLoaded(song: LoadedSong): Change {
     shift: 0,
     reading: { ...state.reading, song: null },
     // Without a leader the song sets the length of what plays.
-    ...(!state.leader && { zoom: null, playback: { ...state.playback, region: null } }),
+    ...(!state.leader && {
+      zoom: null,
+      playback: { ...state.playback, time: Math.min(state.playback.time, song.data.duration), region: null },
+    }),
   });
 }
 
