@@ -143,12 +143,13 @@ interface KeyPress {
 }
 
 /** Does what a key is for; false for a key that does nothing. */
-function press({ key, shiftKey: shift }: KeyboardEvent, store: Store, services: Services): boolean {
+function press({ key, shiftKey: shift, repeat }: KeyboardEvent, store: Store, services: Services): boolean {
   const overlay = OVERLAYS.find((one) => one.key === key.toUpperCase());
   const action = ACTIONS[key.length === 1 ? key.toLowerCase() : key];
   const state = store.getState();
   if (overlay) toggleOverlay(store, overlay.what);
-  else action?.({ store, services, state, shift, time: state.playback.time });
+  // Held, Space plays or stops once.
+  else if (key !== ' ' || !repeat) action?.({ store, services, state, shift, time: state.playback.time });
   return overlay !== undefined || action !== undefined;
 }
 

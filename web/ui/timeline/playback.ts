@@ -127,6 +127,8 @@ export class PlaybackControl {
   }
 
   #requestFrame(): void {
+    // Where it was stopped and started again before the player began, both starts come here.
+    cancelAnimationFrame(this.#frame);
     this.#frame = requestAnimationFrame(() => {
       this.#followPlayer();
     });

@@ -94,6 +94,13 @@ describe('playback', () => {
     expect(player.playing).toBe(false);
   });
 
+  it('follows the player once each frame where it is stopped and started before the player begins', async () => {
+    load();
+    for (let press = 0; press < 3; press++) playback.toggle();
+    await draw(0.5);
+    expect(frames).toHaveLength(1);
+  });
+
   it('starts over from the end, by hand or by loop', async () => {
     load();
     playback.seek(3);
