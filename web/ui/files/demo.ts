@@ -113,7 +113,10 @@ async function showReaction(
   const model = modelIdentity(await readers.manifest());
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await songLoading;
-  if (store.getState().leader === leader) apply(store, reactionAdded(shown(song, model)));
+  const now = store.getState();
+  // The visitor may have swapped the roles.
+  if (now.leader === leader && now.settings?.role === settings.role)
+    apply(store, reactionAdded(shown(song, model)));
 }
 
 async function bytesOf(response: Response): Promise<Uint8Array> {
