@@ -1,5 +1,14 @@
 import { describe, expect, it } from 'vitest';
-import { byteSize, bytesOf, clockTime, duration, rate, slug, toStep } from '../../../../web/ui/store/format';
+import {
+  byteSize,
+  bytesOf,
+  clockTime,
+  duration,
+  rate,
+  fileSlug,
+  slug,
+  toStep,
+} from '../../../../web/ui/store/format';
 
 describe('formatted numbers', () => {
   it('cuts seconds to tenths instead of rounding them', () => {
@@ -39,10 +48,11 @@ describe('formatted numbers', () => {
   });
 
   it('makes file names that every system takes', () => {
-    expect(slug('Descarga en Ré.mp3', 'song')).toBe('descarga-en-re');
-    expect(slug('leader_0412.bvh', 'leader')).toBe('leader-0412');
-    expect(slug('../..\\evil:name?.wav', 'song')).toBe('evil-name');
-    expect(slug('歌.mp3', 'song')).toBe('song');
-    expect(slug(`${'a'.repeat(300)}.mp3`, 'song')).toHaveLength(40);
+    expect(fileSlug('Descarga en Ré.mp3', 'song')).toBe('descarga-en-re');
+    expect(fileSlug('leader_0412.bvh', 'leader')).toBe('leader-0412');
+    expect(fileSlug('../..\\evil:name?.wav', 'song')).toBe('evil-name');
+    expect(fileSlug('歌.mp3', 'song')).toBe('song');
+    expect(fileSlug(`${'a'.repeat(300)}.mp3`, 'song')).toHaveLength(40);
+    expect(slug('v1.1', 'take')).toBe('v1-1');
   });
 });
