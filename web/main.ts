@@ -94,7 +94,10 @@ const readers = {
     readLeader({ ...request, remembered: rememberedJoints.read() }, signal),
   manifest: model.manifest,
 };
-const files = new FileLoader(store, readers, (file) => video.open(file));
+const files = new FileLoader(store, readers, {
+  open: (file) => video.open(file),
+  cancel: () => video.cancel(),
+});
 const videoTrack = new VideoTrack();
 const video = createVideoFeature(
   store,
@@ -262,8 +265,10 @@ function openStage(host: HTMLElement): Stage | null {
 /** A project has its own song and leader, so other files beside it are not read. */
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
-  if (projectFile) await project.open(projectFile);
-  else await openGiven(chosen, store, files);
+  if (projectFile) {
+    video.cancel();
+    await project.open(projectFile);
+  } else await openGiven(chosen, store, files);
 }
 
 async function saveProject(): Promise<void> {

@@ -1,5 +1,6 @@
 import type { Page } from '@playwright/test';
 import { App, maxDistance } from '../support/app-page';
+import { bvh } from '../support/files';
 import { expect, test } from '../support/fixtures';
 import { openStudio, SHOT } from '../support/video-files';
 import { openWritten } from '../support/written-video';
@@ -111,4 +112,33 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(await app.read(({ leader }) => leader?.name)).toBe('dance.webm');
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
   await expect(lane).toBeVisible();
+});
+
+test('a video outlasts the demo that comes while it is read, and gives way to a newer file', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const buffer = Buffer.from(await studio.call('film', 'salsa', SHOT, 3, { container: 'webm' }), 'base64');
+  await studio.close();
+  let release = (): void => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/demo/leader.bvh', async (route) => {
+    await held;
+    await route.continue();
+  });
+  const app = new App(page);
+  await app.openWithoutPicture();
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  await app.drop({ name: 'first.webm', mimeType: 'video/webm', buffer });
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  release();
+  await app.until(({ leader }) => leader?.label === 'demo leader');
+  await app.until(({ leader }) => leader?.name === 'first.webm');
+
+  await app.drop({ name: 'second.webm', mimeType: 'video/webm', buffer });
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.until(({ leader }) => leader?.name === 'mine.bvh');
+  await expect(panel).toHaveCount(0);
 });

@@ -21,6 +21,13 @@ async function bytesOf(file: File): Promise<FileBytes> {
   return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
 }
 
+/** Where videos are read. */
+interface Videos {
+  readonly open: (file: File) => Promise<void>;
+  /** Ends the reading of a video, since a newer leader has been asked for. */
+  readonly cancel: () => void;
+}
+
 /** A song or leader to read, and what to do with it. */
 interface Task<T> {
   readonly side: InputKind;
@@ -32,8 +39,8 @@ interface Task<T> {
 }
 
 /**
- * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older one that is still
- * being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
+ * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older
+ * one that is still being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
   private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
@@ -43,7 +50,7 @@ export class FileLoader implements Files {
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
-    private readonly openVideo: (file: File) => Promise<void>,
+    private readonly videos: Videos,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
@@ -76,6 +83,7 @@ export class FileLoader implements Files {
   }
 
   rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
+    this.videos.cancel();
     return this.runLeader({ name, label, files, options }, (read) => {
       this.putLeader(read);
     });
@@ -122,7 +130,7 @@ export class FileLoader implements Files {
         await this.openLeaderFiles([file, ...companions]);
         return;
       case 'video':
-        await this.openVideo(file);
+        await this.videos.open(file);
         return;
       case 'picture':
       case 'unknown':
@@ -134,6 +142,7 @@ export class FileLoader implements Files {
   private async openLeaderFiles(parts: readonly File[]): Promise<void> {
     const files = await Promise.all(parts.map(bytesOf));
     apply(this.store, firstVisitEnded());
+    this.videos.cancel();
     await this.openLeader({ name: files[0]!.name, label: null, files, options: {} });
   }
 

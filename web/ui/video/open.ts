@@ -10,6 +10,8 @@ import type { VideoLeader } from './video-leader';
 export interface VideoFeature {
   /** Reads a video file. */
   readonly open: (file: File) => Promise<void>;
+  /** Ends the reading of a video, since a newer leader has been asked for. */
+  readonly cancel: () => void;
   /** Records with the webcam and reads that. */
   readonly record: () => Promise<void>;
 }
@@ -21,7 +23,7 @@ export interface VideoFeature {
  */
 export function createVideoFeature(
   store: Store,
-  files: () => Pick<Files, 'openLeader' | 'readLeader' | 'openSong'>,
+  files: () => Pick<Files, 'openLeader' | 'openSong'>,
   host: () => HTMLElement,
   playback: Pick<Services, 'seek' | 'togglePlay'>,
   track: VideoTrack,
@@ -40,6 +42,7 @@ export function createVideoFeature(
         apply(store, problemShown(fileProblem(error, 'leader', file.name)));
       }
     },
+    cancel: () => leader?.cancel(),
     record: async () => {
       try {
         const [videoLeader, { recordCamera }] = await Promise.all([load(), import('./camera-dialog')]);

@@ -9,6 +9,7 @@ import {
   type WorldOptions,
 } from '../../video/client';
 import { AppError } from '../../common/error';
+import { readLeader } from '../../motion/client';
 import { FPS } from '../../motion/skeleton/clip';
 import { problemShown } from '../store/actions/notices';
 import { shiftSet } from '../store/actions/timeline';
@@ -53,7 +54,7 @@ export class VideoLeader {
 
   constructor(
     private readonly store: Store,
-    private readonly files: Pick<Files, 'openLeader' | 'readLeader' | 'openSong'>,
+    private readonly files: Pick<Files, 'openLeader' | 'openSong'>,
     private readonly host: HTMLElement,
     private readonly track: VideoTrack,
   ) {
@@ -96,12 +97,18 @@ export class VideoLeader {
     await this.#read(session, null);
   }
 
+  /** A newer leader has been asked for: a video that is still being read is not to take its place. */
+  cancel(): void {
+    if (this.#session && this.#reading) this.#cancelReading(this.#session);
+  }
+
   async #read(session: Session, pick: Point | null): Promise<void> {
     const { file, reader, panel, ended } = session;
     this.#reading?.abort();
     const reading = new AbortController();
     this.#reading = reading;
     const signal = AbortSignal.any([reading.signal, ended.signal]);
+    let part = new AbortController();
     try {
       panel.showReading();
       this.#part.end();
@@ -111,8 +118,12 @@ export class VideoLeader {
         if (report.kind === 'thumbnail') {
           thumbnails = [...thumbnails, report];
           this.#showLane(session, thumbnails);
-        } else if (report.kind === 'part') void this.#showPart(session, report.motion, signal);
-        else panel.showReport(report);
+        } else if (report.kind === 'part') {
+          // The newest one is the longest.
+          part.abort();
+          part = new AbortController();
+          void this.#showPart(session, report.motion, AbortSignal.any([signal, part.signal]));
+        } else panel.showReport(report);
       };
       const observations = await reader.read(file, pick, session.options, signal, onReport);
       session.observations = observations;
@@ -124,15 +135,19 @@ export class VideoLeader {
       if (error instanceof AppError && error.code === 'sound-only')
         await this.files.openSong(file, file.name, null);
       else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+    } finally {
+      if (this.#reading === reading) this.#reading = null;
     }
   }
 
   /** Shows what has been read so far on the stage, unless the reading has ended meanwhile. */
   async #showPart({ file, panel }: Session, { bvh }: VideoMotion, signal: AbortSignal): Promise<void> {
-    const leader = await this.files.readLeader(sourceOf(file, bvh));
-    if (!leader || signal.aborted) return;
-    this.#part.play(leader);
-    panel.showPart(leader.motion.frames / leader.motion.fps);
+    const source = sourceOf(file, bvh);
+    // Not by way of `files`, where it would cancel the reading of another leader.
+    const read = await readLeader(source, signal).catch(() => null);
+    if (!read || signal.aborted) return;
+    this.#part.play({ ...source, ...read });
+    panel.showPart(read.motion.frames / read.motion.fps);
   }
 
   /** Makes the motion with these options and puts it on the page as the leader. */
@@ -178,7 +193,6 @@ export class VideoLeader {
   /** Keeps the video in step with the dance; closes it when another leader takes the place of its dancer. */
   #follow(session: Session): () => void {
     const { store } = this;
-    const before = store.getState().leader;
     return combineDisposers(
       watchAll(
         store,
@@ -192,7 +206,8 @@ export class VideoLeader {
         ({ leader }) => leader,
         (leader) => {
           const own = leader?.name === session.file.name && leader.label === null;
-          if (leader !== before && !own) this.#end(session);
+          // What comes while it is read was asked for earlier, as the demo: newer files call `cancel`.
+          if (session.motion && !own) this.#end(session);
         },
       ),
     );

@@ -21,6 +21,7 @@ describe('reading files', () => {
   let store: change.Store;
   let files: FileLoader;
   let videos: string[];
+  let cancelVideo: ReturnType<typeof vi.fn<() => void>>;
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
@@ -38,6 +39,7 @@ describe('reading files', () => {
       manifest: () => Promise.resolve(small),
     };
     videos = [];
+    cancelVideo = vi.fn();
     files = new FileLoader(
       store,
       {
@@ -45,9 +47,12 @@ describe('reading files', () => {
         readLeader: (...all) => readers.readLeader(...all),
         manifest: () => readers.manifest(),
       },
-      ({ name }) => {
-        videos.push(name);
-        return Promise.resolve();
+      {
+        open: ({ name }) => {
+          videos.push(name);
+          return Promise.resolve();
+        },
+        cancel: cancelVideo,
       },
     );
   });
@@ -56,6 +61,17 @@ describe('reading files', () => {
     await files.open([file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  '), file('b', SONG)]);
     expect(videos).toEqual(['dance.mov']);
     expect(store.getState().song?.name).toBe('b');
+    expect(cancelVideo, 'a song is no leader').not.toHaveBeenCalled();
+  });
+
+  it('a newer leader ends the reading of a video, which the page’s own do not', async () => {
+    const demo = await files.openLeader(source('demo.bvh', BVH, 'demo leader'));
+    await files.readLeader(source('stored.bvh'));
+    expect(cancelVideo).not.toHaveBeenCalled();
+    await files.open([file('mine.bvh', BVH)]);
+    expect(cancelVideo).toHaveBeenCalledTimes(1);
+    await files.rereadLeader(demo!, { fps: 60 });
+    expect(cancelVideo).toHaveBeenCalledTimes(2);
   });
 
   it('tells songs and leaders apart by content and reads them together', async () => {

@@ -16,6 +16,7 @@ import { leader, still } from '../../support/made-state';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));
 const readers: FileReaders = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
+const noVideos = { open: () => Promise.resolve(), cancel: () => undefined };
 interface Browser {
   /** What an earlier visit has stored. */
   readonly found: FoundProject | null;
@@ -62,7 +63,7 @@ describe('autosave', () => {
     store = change.createAppStore('dark');
     change.apply(store, change.manifestLoaded(small, 7));
     change.apply(store, change.leaderLoaded(leader(30)));
-    project = new Project(store, new FileLoader(store, readers, () => Promise.resolve()), readers, {
+    project = new Project(store, new FileLoader(store, readers, noVideos), readers, {
       stage: () => null,
       storage: {
         read: () => Promise.resolve(found),

@@ -21,6 +21,8 @@ it('an opened project is named by song, leader and number of takes', () => {
   expect(openedText({ song: null, leader: files.leader, takes: [] })).toContain('no song');
 });
 
+const noVideos = { open: () => Promise.resolve(), cancel: () => undefined };
+
 /** A page with a take for each leader, the last of which is on the page. */
 function pageOf(...leaders: readonly string[]): change.Store {
   const store = change.createAppStore('dark');
@@ -75,7 +77,7 @@ describe('a project', () => {
         return Promise.resolve(small);
       },
     };
-    files = new FileLoader(store, readers, () => Promise.resolve());
+    files = new FileLoader(store, readers, noVideos);
     project = new Project(store, files, readers, {
       stage: () => null,
       storage: {
