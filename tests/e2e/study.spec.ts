@@ -32,6 +32,13 @@ async function violations(page: Page): Promise<string[]> {
   return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 160)).join(' | ')}`);
 }
 
+/** As on a machine without WebGL, which is faster. */
+async function withoutPicture(page: Page): Promise<void> {
+  await page.addInitScript(() => {
+    Reflect.set(HTMLCanvasElement.prototype, 'getContext', () => null);
+  });
+}
+
 async function saved(page: Page, button: string): Promise<string> {
   const coming = page.waitForEvent('download');
   await page.getByRole('button', { name: button }).click();
@@ -41,10 +48,7 @@ async function saved(page: Page, button: string): Promise<string> {
 test('files are compared by keyboard, a reload loses nothing, and the answers come as tables', async ({
   page,
 }) => {
-  // As on a machine without WebGL, which is faster.
-  await page.addInitScript(() => {
-    Reflect.set(HTMLCanvasElement.prototype, 'getContext', () => null);
-  });
+  await withoutPicture(page);
   await page.goto(STUDY);
   const setup = page.getByRole('region', { name: 'Setup' });
   const [chooser] = await Promise.all([
@@ -64,7 +68,12 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   expect(await violations(page), 'a pair').toEqual([]);
   // The method that made a partner is nowhere on the page.
   expect(await page.locator('body').innerText()).not.toMatch(/ours|edge/);
-  for (const key of asked === 3 ? '153' : '15') await page.keyboard.press(key);
+  // A key that is held answers one question.
+  await page.keyboard.down('1');
+  await page.keyboard.down('1');
+  await page.keyboard.up('1');
+  await expect(questions.getByRole('radio', { checked: true })).toHaveCount(1);
+  for (const key of asked === 3 ? '53' : '5') await page.keyboard.press(key);
   await page.keyboard.press('Enter');
   await expect(questions.getByRole('heading')).toHaveText('Pair 2 of 2');
 
@@ -113,4 +122,25 @@ test('the dances of the page are shown without a file, also after a first failur
   await play.click();
   const stopped = await time();
   expect(await time()).toBeCloseTo(stopped, 1);
+});
+
+test('a test that has begun goes on when files are read that were chosen before it', async ({ page }) => {
+  await withoutPicture(page);
+  let release = (): void => undefined;
+  const held = new Promise<void>((resolve) => (release = resolve));
+  await page.route('**/assets/worker-*.js', async (route) => {
+    await held;
+    await route.continue();
+  });
+  await page.goto(STUDY);
+  const setup = page.getByRole('region', { name: 'Setup' });
+  await setup.locator('input[type="file"]').first().setInputFiles(FILES.slice(0, 4));
+  await setup.getByRole('button', { name: 'Dances of this page' }).click();
+  await expect(setup.getByRole('status')).toHaveText(/The dances of this page/);
+  await setup.getByRole('button', { name: 'Start' }).click();
+  const questions = page.getByRole('region', { name: 'Questions' });
+  await expect(questions.getByRole('status')).toBeVisible();
+  // The files are small, and a pair is made of a whole song and several dances.
+  release();
+  await expect(questions.getByRole('button', { name: /Play|Pause/ })).toBeEnabled({ timeout: 60_000 });
 });

@@ -113,7 +113,8 @@ export class PairView {
     const choice = CHOICES[Number(event.key) - 1];
     const isReady = areShown(state);
     if (choice) {
-      if (!isReady) return false;
+      // A key that is held answers one question.
+      if (!isReady || event.repeat) return false;
       const { criteria, answers } = state;
       const focused = target instanceof HTMLInputElement ? target.name : '';
       const question =
@@ -124,7 +125,9 @@ export class PairView {
     // A button does what it says itself, and a space chooses what has the focus.
     const isUnchosen = target instanceof HTMLInputElement && target.type === 'radio' && !target.checked;
     if (target instanceof HTMLButtonElement || (event.key === ' ' && isUnchosen)) return false;
-    if (event.key === ' ' && isReady) this.actions.togglePlay();
+    if (event.key === ' ' && isReady) {
+      if (!event.repeat) this.actions.togglePlay();
+    } else if (event.repeat) return false;
     else if (event.key === 'Enter' && !this.#next.disabled) this.actions.next();
     else if (event.key === 'Backspace' && state.number > 0) this.actions.back();
     else return false;

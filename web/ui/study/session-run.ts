@@ -84,10 +84,6 @@ export class SessionRun {
     this.#go(firstOpen(session, (pair) => this.#criteria(pair).length));
   }
 
-  stop(): void {
-    this.#session = null;
-  }
-
   /** Says what is being loaded, where a pair waits for it. */
   showStatus(text: string): void {
     if (this.#isWaiting) this.#showPair(text, false);

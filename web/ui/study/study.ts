@@ -30,6 +30,8 @@ export class Study {
   readonly #setup: SetupView;
   readonly #run: SessionRun;
   #set: StudySet | null = null;
+  /** How many sets were asked for: only the newest one is shown. */
+  #asked = 0;
 
   constructor(private readonly services: StudyServices) {
     this.#setup = new SetupView({
@@ -81,29 +83,36 @@ export class Study {
     this.#alert.hidden = false;
   }
 
+  get #isSettingUp(): boolean {
+    return this.element.contains(this.#setup.element);
+  }
+
   #showSetup(waiting: string | null = null): void {
-    this.#run.stop();
     this.#setup.show(this.#set, waiting, this.services.storage.read());
-    if (!this.#setup.element.isConnected) this.#show(this.#setup.element);
+    if (!this.#isSettingUp) this.#show(this.#setup.element);
   }
 
   /** Says what is being read or loaded, which goes on while the first pairs are made ready. */
   #showStatus(text: string): void {
-    if (this.#run.isRunning) this.#run.showStatus(text);
-    else this.#showSetup(text);
+    if (this.#isSettingUp) this.#showSetup(text);
+    else this.#run.showStatus(text);
   }
 
   async #load(load: (onStatus: (text: string) => void) => Promise<StudySet>): Promise<void> {
+    const number = ++this.#asked;
+    /** No other set has been asked for since, and no test has begun with the one before. */
+    const isAwaited = (): boolean => number === this.#asked && this.#isSettingUp;
     this.#alert.hidden = true;
     this.#showSetup('Reading the dances');
     try {
-      this.#set = await load((text) => {
-        this.#showStatus(text);
+      const set = await load((text) => {
+        if (number === this.#asked) this.#showStatus(text);
       });
+      if (isAwaited()) this.#set = set;
     } catch (error) {
-      this.#fail(error);
+      if (isAwaited()) this.#fail(error);
     }
-    this.#showSetup();
+    if (isAwaited()) this.#showSetup();
   }
 
   #begin({ participant, pairs, seed }: { participant: string; pairs: number; seed: number | null }): void {
