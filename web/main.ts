@@ -26,7 +26,7 @@ import { mountImportPanel } from './ui/files/joints/import-panel';
 import { RememberedJointsStorage } from './ui/files/joints/remembered';
 import { mountImportReport } from './ui/files/import-report';
 import { ModelLink } from './ui/files/model-link';
-import { openOffered } from './ui/files/offered';
+import { OfferedLeaders } from './ui/files/offered';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { createEarlierDance } from './ui/generation/earlier-dance';
@@ -95,9 +95,10 @@ const readers = {
   manifest: model.manifest,
 };
 const files = new FileLoader(store, readers, {
-  open: (file) => video.open(file),
-  cancel: () => video.cancel(),
+  openVideo: (file) => video.open(file),
+  cancel: cancelOtherLeaders,
 });
+const offered = new OfferedLeaders(store, files, new URL('leaders/', document.baseURI));
 const videoTrack = new VideoTrack();
 const video = createVideoFeature(
   store,
@@ -141,7 +142,7 @@ const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   useGiven: (chosen) => void files.open(chosen),
   choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
-  openOffered: (file) => void openOffered(file, new URL('leaders/', document.baseURI), store, files),
+  openOffered: (file) => void offered.open(file),
   recordVideo: () => void video.record(),
   rereadLeader: (source, options) => void files.rereadLeader(source, options),
   readAgain: files.readAgain,
@@ -262,11 +263,17 @@ function openStage(host: HTMLElement): Stage | null {
   }
 }
 
+/** A newer leader has been asked for: one that is not there yet gives way. */
+function cancelOtherLeaders(): void {
+  video.cancel();
+  offered.cancel();
+}
+
 /** A project has its own song and leader, so other files beside it are not read. */
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) {
-    video.cancel();
+    cancelOtherLeaders();
     await project.open(projectFile);
   } else await openGiven(chosen, store, files);
 }

@@ -21,10 +21,10 @@ async function bytesOf(file: File): Promise<FileBytes> {
   return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
 }
 
-/** Where videos are read. */
-interface Videos {
-  readonly open: (file: File) => Promise<void>;
-  /** Ends the reading of a video, since a newer leader has been asked for. */
+/** What else makes leaders: videos, and the files that ship with the page, which are downloaded first. */
+interface OtherLeaders {
+  readonly openVideo: (file: File) => Promise<void>;
+  /** A newer leader has been asked for: one that is not there yet gives way. */
   readonly cancel: () => void;
 }
 
@@ -50,7 +50,7 @@ export class FileLoader implements Files {
   constructor(
     private readonly store: Store,
     private readonly readers: FileReaders,
-    private readonly videos: Videos,
+    private readonly otherLeaders: OtherLeaders,
   ) {}
 
   async open(files: readonly File[]): Promise<void> {
@@ -83,7 +83,7 @@ export class FileLoader implements Files {
   }
 
   rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
-    this.videos.cancel();
+    this.otherLeaders.cancel();
     return this.runLeader({ name, label, files, options }, (read) => {
       this.putLeader(read);
     });
@@ -130,7 +130,8 @@ export class FileLoader implements Files {
         await this.openLeaderFiles([file, ...companions]);
         return;
       case 'video':
-        await this.videos.open(file);
+        this.otherLeaders.cancel();
+        await this.otherLeaders.openVideo(file);
         return;
       case 'picture':
       case 'unknown':
@@ -142,7 +143,7 @@ export class FileLoader implements Files {
   private async openLeaderFiles(parts: readonly File[]): Promise<void> {
     const files = await Promise.all(parts.map(bytesOf));
     apply(this.store, firstVisitEnded());
-    this.videos.cancel();
+    this.otherLeaders.cancel();
     await this.openLeader({ name: files[0]!.name, label: null, files, options: {} });
   }
 

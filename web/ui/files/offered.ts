@@ -18,29 +18,41 @@ export const OFFERED_LEADERS: readonly OfferedLeader[] = [
   { file: 'sample.webm', name: 'A sample video' },
 ];
 
-/**
- * Opens a leader that ships with the page, as if the visitor had given its file.
- * @param file its name in the folder
- */
-export async function openOffered(
-  file: string,
-  folder: URL,
-  store: Store,
-  files: Pick<Files, 'open'>,
-): Promise<void> {
-  const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
-  let content: Blob;
-  try {
-    const response = await fetch(new URL(file, folder));
-    // A server of single-page apps answers with a page where a file is missing.
-    const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
-    if (!response.ok || isPage) throw new Error(`The server answered ${response.status}.`);
-    content = await response.blob();
-  } catch {
-    apply(store, problemShown(offeredProblem(name)));
-    return;
+/** Opens leaders that ship with the page, as if the visitor had given their files. */
+export class OfferedLeaders {
+  /** Ends the download of the one that was asked for last. */
+  #loading = new AbortController();
+
+  /** @param folder where their files are */
+  constructor(
+    private readonly store: Store,
+    private readonly files: Pick<Files, 'open'>,
+    private readonly folder: URL,
+  ) {}
+
+  /** @param file its name in the folder */
+  async open(file: string): Promise<void> {
+    this.cancel();
+    const { signal } = (this.#loading = new AbortController());
+    const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
+    let content: Blob;
+    try {
+      const response = await fetch(new URL(file, this.folder), { signal });
+      // A server of single-page apps answers with a page where a file is missing.
+      const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
+      if (!response.ok || isPage) throw new Error(`The server answered ${response.status}.`);
+      content = await response.blob();
+    } catch {
+      if (!signal.aborted) apply(this.store, problemShown(offeredProblem(name)));
+      return;
+    }
+    const ending = file.replace(/^[^.]*/, '');
+    const type = ending === '.webm' ? 'video/webm' : '';
+    await this.files.open([new File([content], `${name.replace(/^A /, '')}${ending}`, { type })]);
   }
-  const ending = file.replace(/^[^.]*/, '');
-  const type = ending === '.webm' ? 'video/webm' : '';
-  await files.open([new File([content], `${name.replace(/^A /, '')}${ending}`, { type })]);
+
+  /** A newer leader has been asked for: one that is still being downloaded is not to take its place. */
+  cancel(): void {
+    this.#loading.abort();
+  }
 }

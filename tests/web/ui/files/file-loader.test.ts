@@ -21,7 +21,7 @@ describe('reading files', () => {
   let store: change.Store;
   let files: FileLoader;
   let videos: string[];
-  let cancelVideo: ReturnType<typeof vi.fn<() => void>>;
+  let cancelOther: ReturnType<typeof vi.fn<() => void>>;
   let readers: { -readonly [K in keyof FileReaders]: FileReaders[K] };
 
   beforeEach(() => {
@@ -39,7 +39,7 @@ describe('reading files', () => {
       manifest: () => Promise.resolve(small),
     };
     videos = [];
-    cancelVideo = vi.fn();
+    cancelOther = vi.fn();
     files = new FileLoader(
       store,
       {
@@ -48,11 +48,11 @@ describe('reading files', () => {
         manifest: () => readers.manifest(),
       },
       {
-        open: ({ name }) => {
+        openVideo: ({ name }) => {
           videos.push(name);
           return Promise.resolve();
         },
-        cancel: cancelVideo,
+        cancel: cancelOther,
       },
     );
   });
@@ -61,17 +61,19 @@ describe('reading files', () => {
     await files.open([file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  '), file('b', SONG)]);
     expect(videos).toEqual(['dance.mov']);
     expect(store.getState().song?.name).toBe('b');
-    expect(cancelVideo, 'a song is no leader').not.toHaveBeenCalled();
   });
 
-  it('a newer leader ends the reading of a video, which the page’s own do not', async () => {
+  it('a newer leader of the visitor’s ends what is still made of a video or downloaded; the page’s own and songs do not', async () => {
     const demo = await files.openLeader(source('demo.bvh', BVH, 'demo leader'));
     await files.readLeader(source('stored.bvh'));
-    expect(cancelVideo).not.toHaveBeenCalled();
+    await files.open([file('a.mp3', SONG)]);
+    expect(cancelOther).not.toHaveBeenCalled();
     await files.open([file('mine.bvh', BVH)]);
-    expect(cancelVideo).toHaveBeenCalledTimes(1);
+    expect(cancelOther).toHaveBeenCalledTimes(1);
     await files.rereadLeader(demo!, { fps: 60 });
-    expect(cancelVideo).toHaveBeenCalledTimes(2);
+    expect(cancelOther).toHaveBeenCalledTimes(2);
+    await files.open([file('dance.mov', '\u0000\u0000\u0000\u0014ftypqt  ')]);
+    expect(cancelOther).toHaveBeenCalledTimes(3);
   });
 
   it('tells songs and leaders apart by content and reads them together', async () => {

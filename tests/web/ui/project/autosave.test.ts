@@ -16,7 +16,7 @@ import { leader, still } from '../../support/made-state';
 
 const never = () => Promise.reject(new Error('Nothing is read here.'));
 const readers: FileReaders = { loadSong: never, readLeader: never, manifest: () => Promise.resolve(small) };
-const noVideos = { open: () => Promise.resolve(), cancel: () => undefined };
+const noVideos = { openVideo: () => Promise.resolve(), cancel: () => undefined };
 interface Browser {
   /** What an earlier visit has stored. */
   readonly found: FoundProject | null;

@@ -21,7 +21,7 @@ it('an opened project is named by song, leader and number of takes', () => {
   expect(openedText({ song: null, leader: files.leader, takes: [] })).toContain('no song');
 });
 
-const noVideos = { open: () => Promise.resolve(), cancel: () => undefined };
+const noVideos = { openVideo: () => Promise.resolve(), cancel: () => undefined };
 
 /** A page with a take for each leader, the last of which is on the page. */
 function pageOf(...leaders: readonly string[]): change.Store {
