@@ -84,6 +84,12 @@ test('joints of a refused file are chosen, exchanged, remembered and forgotten',
   await expect(panel).toBeHidden();
   await expect(page.getByRole('button', { name: 'Joints and units' })).toBeFocused();
 
+  // It is for the leader that it was opened for.
+  await openPanel();
+  await app.drop(unknown('newer.bvh'));
+  await app.until(({ leader }) => leader?.name === 'newer.bvh');
+  await expect(panel).toBeHidden();
+
   // Another visit, another file of the same skeleton.
   await app.openWithoutPicture();
   await app.settled();

@@ -38,6 +38,8 @@ export async function openGiven(
   store: Store,
   reader: Pick<Files, 'open'>,
 ): Promise<void> {
+  // Files from which nothing was chosen are no longer wanted.
+  apply(store, givenSet(null));
   // What is wrong with a single file is said at length.
   if (files.length === 1) return reader.open(files);
   const given = await sortedFiles(files);

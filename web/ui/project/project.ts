@@ -5,7 +5,7 @@ import { leaderlessProblem, projectProblem } from '../store/problems';
 import { fileSlug } from '../store/format';
 import type { Take } from '../store/reaction';
 import type { AppState } from '../store/state';
-import { firstVisitEnded } from '../store/actions/files';
+import { firstVisitEnded, givenSet } from '../store/actions/files';
 import { countingsRestored } from '../store/actions/counting';
 import { apply, type Store } from '../store/store';
 import { toastShown, problemClosed, noticeAdded, problemShown } from '../store/actions/notices';
@@ -123,6 +123,7 @@ export class Project {
   async open(file: File): Promise<boolean> {
     const { store } = this;
     apply(store, problemClosed());
+    apply(store, givenSet(null));
     this.opening = file;
     const isNewest = (): boolean => this.opening === file;
     try {

@@ -6,9 +6,10 @@ const song = (name: string): File => new File(['ID3 sound'], name);
 const leader = (name: string): File => new File(['HIERARCHY\nROOT Hips'], name);
 const photo = (name: string): File => new File([Uint8Array.of(0xff, 0xd8, 0xff, 0xe0)], name);
 
-/** Opens files and says what was read and what is shown. */
+/** Opens files, where others wait to be chosen from, and says what was read and what is shown. */
 async function opened(...files: File[]) {
   const store = change.createAppStore('dark');
+  change.apply(store, change.givenSet({ songs: [[song('older.mp3')]], leaders: [], unused: [] }));
   const read: string[] = [];
   await openGiven(files, store, {
     open: (all) => {

@@ -110,7 +110,9 @@ describe('a project', () => {
     hold('second.bvh');
     expect(await project.restore()).toBe(true);
     expect(takes()).toEqual(['of first.bvh']);
+    change.apply(store, change.givenSet({ songs: [], leaders: [], unused: [] }));
     const opened = project.open(await fileOf('new.bvh'));
+    expect(store.getState().given, 'files to choose from are no longer wanted').toBeNull();
     await pass();
     goOn('second.bvh');
     expect(await opened).toBe(true);

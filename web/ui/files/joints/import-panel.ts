@@ -59,6 +59,14 @@ export function mountImportPanel(remembered: RememberedJointsStorage): Mount {
           void open();
         },
       ),
+      // What is set here is meant for the leader that it was opened for.
+      watch(
+        store,
+        ({ refusedLeader, leader }) => refusedLeader ?? leader,
+        (_, { openPanel }) => {
+          if (openPanel === 'import') apply(store, panelToggled('import'));
+        },
+      ),
       () => {
         opened++;
         dialog.remove();
