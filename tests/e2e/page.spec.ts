@@ -77,10 +77,27 @@ test('the keys do what the list of keys says', async ({ page }) => {
   expect(await app.read(({ playback }) => [playback.time, playback.playing])).toEqual([0, false]);
   await page.keyboard.press('Escape');
 
+  for (const key of ['Home', 'i', 'Shift+ArrowRight', 'o']) await page.keyboard.press(key);
+  const region = () => app.read(({ playback }) => playback.region);
+  const looped = await region();
+  expect(looped?.to).toBeLessThan(3);
+
   // Digits and letters typed into the seed are the seed's.
-  await page.getByRole('spinbutton', { name: 'Seed' }).fill('12');
+  const seed = page.getByRole('spinbutton', { name: 'Seed' });
+  await seed.fill('12');
   await page.keyboard.press('Enter');
   await app.until(({ reaction }) => reaction?.inputs.settings.seed === 12);
+  // Escape takes back a number that is being typed, and only then what is in the page.
+  for (const box of [seed, page.getByRole('spinbutton', { name: /^Height/ })]) {
+    const before = await box.inputValue();
+    await box.fill('');
+    await page.keyboard.type('34');
+    await page.keyboard.press('Escape');
+    await expect(box).toHaveValue(before);
+    expect(await region()).toEqual(looped);
+  }
+  await page.keyboard.press('Escape');
+  expect(await region()).toBeNull();
 });
 
 test('Space presses a button that the page or a key has moved the focus to, and plays after a click', async ({

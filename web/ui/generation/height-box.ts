@@ -2,6 +2,7 @@ import { HEIGHTS } from '../../model/client';
 import { standingHeight } from '../../motion/skeleton/kinematics';
 import { iconButton } from '../widgets/button';
 import { el, combineDisposers } from '../widgets/dom';
+import { takeBackOnEscape } from '../widgets/unfinished-number';
 import { centimetres } from '../store/format';
 import { generatedRole, roleName } from '../store/roles';
 import type { Mount } from '../store/services';
@@ -26,6 +27,7 @@ export const mountHeightBox: Mount = (root, store) => {
       },
     },
   });
+  takeBackOnEscape(input);
   const reset = iconButton(
     'icon',
     'reset',
@@ -52,7 +54,7 @@ export const mountHeightBox: Mount = (root, store) => {
     input.disabled = !settings;
     reset.hidden = set === null;
     const height = set ?? proportionalHeight(state);
-    input.value = height === null ? '' : String(centimetres(height));
+    input.value = input.defaultValue = height === null ? '' : String(centimetres(height));
     const who = roleName(generatedRole(state));
     input.setAttribute('aria-label', `Height of the ${who.toLowerCase()} in centimetres`);
     input.title =

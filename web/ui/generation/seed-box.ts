@@ -2,6 +2,7 @@ import { SEEDS } from '../../model/client';
 import { iconButton } from '../widgets/button';
 import { el, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
+import { takeBackOnEscape } from '../widgets/unfinished-number';
 import type { Mount } from '../store/services';
 import { seedLockSet, seedRandomized, seedSet, randomSeed } from '../store/actions/settings';
 import { apply, watchAll } from '../store/store';
@@ -24,6 +25,7 @@ export const mountSeedBox: Mount = (root, store) => {
       },
     },
   });
+  takeBackOnEscape(input);
   const roll = iconButton('icon', 'dice', { label: 'Roll a new seed' }, () => {
     apply(store, seedRandomized(randomSeed()));
   });
@@ -38,7 +40,7 @@ export const mountSeedBox: Mount = (root, store) => {
     const { settings, seedLocked } = store.getState();
     input.disabled = lock.disabled = !settings;
     roll.disabled = !settings || seedLocked;
-    input.value = settings ? String(settings.seed) : '';
+    input.value = input.defaultValue = settings ? String(settings.seed) : '';
     roll.title = seedLocked ? 'The seed is locked' : 'Another reaction (D)';
     lock.title = seedLocked ? 'Unlock the seed' : 'Lock the seed, so that it stays when you generate again';
     lock.setAttribute('aria-pressed', String(seedLocked));
