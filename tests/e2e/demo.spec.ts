@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { leaderBvh } from '../web/support/leader-bvh';
 import { bvhText } from './support/files';
-import { App, maxDistance, meanSpeed } from './support/app-page';
+import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 import { serveDemo } from './support/made-demo';
 
@@ -9,7 +9,7 @@ test.use({ shippedDemo: true });
 
 test('the shipped demo plays a duet on one click', async ({ page }) => {
   const app = new App(page);
-  await app.openWithoutPicture();
+  await app.openWithoutPicture(SHIPPED);
   await app.until(({ demo, reading }) => demo !== 'loading' && !reading.song);
   await expect(page.getByRole('button', { name: /^Song: .*demo/ })).toBeVisible();
   await expect(page.getByRole('button', { name: /^Leader: .*demo/ })).toBeVisible();
@@ -26,7 +26,7 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
 
 test('the foot lock is switched by key, and stage and file follow at once', async ({ page }) => {
   const app = new App(page);
-  await app.open();
+  await app.open(SHIPPED);
   await app.settled();
   const lock = page.getByRole('switch', { name: 'Foot lock' });
   await expect(lock).toBeChecked();

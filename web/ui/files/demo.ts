@@ -30,6 +30,8 @@ const schema = v.object({
   reactor: v.optional(
     v.object({
       file: text,
+      /** Id of the model that made it; where that is left out, it is shown with any model. */
+      model: v.optional(text),
       label: text,
       settings: v.object({
         /** By stream and layer. */
@@ -78,7 +80,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
         const motion = await readers.readReactor(reactorBytes);
         await showReaction(
           store,
-          { motion, leader, label: reactor.label, settings: { ...reactor.settings, height: null } },
+          { ...reactor, motion, leader, settings: { ...reactor.settings, height: null } },
           songLoading,
           readers,
         );
@@ -92,14 +94,24 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
   }
 }
 
-/** Shows the ready-made reaction at once, and again with its model and song when those are there. */
+/**
+ * Shows the ready-made reaction at once, and again with its model and song when those are there. Another model makes one
+ * itself, with its own settings.
+ */
 async function showReaction(
   store: Store,
-  made: { motion: SolvedMotion; leader: LoadedLeader; label: string; settings: Settings },
+  made: {
+    motion: SolvedMotion;
+    leader: LoadedLeader;
+    label: string;
+    settings: Settings;
+    model?: string | undefined;
+  },
   songLoading: Promise<LoadedSong | null>,
   readers: DemoReaders,
 ): Promise<void> {
   const { motion, leader, label, settings } = made;
+  const isOfOther = ({ id }: Manifest): boolean => made.model !== undefined && made.model !== id;
   const shown = (song: LoadedSong | null, model?: ModelIdentity): Reaction => ({
     motion,
     latents: null,
@@ -108,9 +120,12 @@ async function showReaction(
     label,
     seconds: null,
   });
-  if (store.getState().leader !== leader) return;
+  const { leader: present, manifest: known } = store.getState();
+  if (present !== leader || (known && isOfOther(known))) return;
   apply(store, reactionAdded(shown(null)));
-  const model = modelIdentity(await readers.manifest());
+  const manifest = await readers.manifest();
+  if (isOfOther(manifest)) return;
+  const model = modelIdentity(manifest);
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
   const song = await songLoading;
   const now = store.getState();
@@ -124,8 +139,8 @@ async function bytesOf(response: Response): Promise<Uint8Array> {
 }
 
 function isUntouched(store: Store): boolean {
-  const { song, leader, reading } = store.getState();
-  return !song && !leader && !reading.song && !reading.leader;
+  const { song, leader, reading, restoring } = store.getState();
+  return !song && !leader && !reading.song && !reading.leader && !restoring;
 }
 
 /** A file of the demo. A server of single-page apps answers with a page where a file is missing. */

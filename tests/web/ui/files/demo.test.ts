@@ -1,62 +1,79 @@
-import { afterEach, expect, it, vi } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { loadDemo } from '../../../../web/ui/files/demo';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import * as change from '../../support/actions';
-import { leaderFile, songData, still, uniformGuidance } from '../../support/made-state';
+import { leaderFile, madeSettings, songData, still } from '../../support/made-state';
 import { small } from '../../support/small-manifest';
 
-const DEMO = {
-  song: { file: 'song.mp3', name: 'Song', label: 'demo song' },
-  leader: { file: 'leader.bvh', name: 'Leader', label: 'demo leader' },
-  reactor: {
-    file: 'reactor.bvh',
-    label: 'demo reaction',
-    settings: { guidance: uniformGuidance(0, 0), music: 2, variety: 1, seed: 3, role: 'reactor' },
-  },
-};
+describe('the demo’s ready-made reaction', () => {
+  const settings = { ...madeSettings, seed: 1206, music: 8 };
+  const named = (file: string): object => ({ file, name: file, label: `demo ${file}` });
+  /** After the dancers are shown, and before the song is read. */
+  type Act = (store: change.Store) => void;
 
-afterEach(() => void vi.unstubAllGlobals());
+  /** Loads a demo whose reaction was made by the model with this id; the visitor does something meanwhile. */
+  const load = async (model: string, act: Act = () => undefined): Promise<change.Store> => {
+    const store = change.createAppStore('dark');
+    change.apply(store, change.manifestLoaded(small, 7));
+    const reactor = { file: 'reactor', label: 'demo reaction', model, settings };
+    const demo = JSON.stringify({ song: named('song'), leader: named('leader'), reactor });
+    vi.stubGlobal('fetch', ({ pathname }: URL) =>
+      Promise.resolve(new Response(pathname.endsWith('.json') ? demo : 'content')),
+    );
+    let goOn = (): void => undefined;
+    const held = new Promise<void>((resolve) => (goOn = resolve));
+    const readers = {
+      loadSong: () => held.then(() => songData(1)),
+      readLeader: () => Promise.resolve({ file: leaderFile(30), motion: still(30) }),
+      manifest: () => Promise.resolve(small),
+    };
+    const videos = { openVideo: () => Promise.resolve(), cancel: () => undefined };
+    const loading = loadDemo(
+      store,
+      new FileLoader(store, readers, videos),
+      new URL('https://page.example/demo/'),
+      { readReactor: () => Promise.resolve(still(30)), manifest: readers.manifest },
+    );
+    await vi.waitUntil(() => store.getState().demo === 'ready');
+    await new Promise((resolve) => setTimeout(resolve, 20));
+    act(store);
+    goOn();
+    await loading;
+    return store;
+  };
 
-/** Loads the demo; the visitor does something after its dancers are shown and before its song is read. */
-async function loadedAfter(act: (store: change.Store) => void): Promise<change.Store> {
-  vi.stubGlobal('fetch', (url: URL) =>
-    Promise.resolve(new Response(url.pathname.endsWith('.json') ? JSON.stringify(DEMO) : 'anything')),
-  );
-  const store = change.createAppStore('dark');
-  change.apply(store, change.manifestLoaded(small, 7));
-  let goOn = (): void => undefined;
-  const held = new Promise<void>((resolve) => (goOn = resolve));
-  const manifest = () => Promise.resolve(small);
-  const files = new FileLoader(
-    store,
-    {
-      loadSong: () => held.then(() => songData(2)),
-      readLeader: () => Promise.resolve({ file: leaderFile(60), motion: still(60) }),
-      manifest,
-    },
-    () => Promise.resolve(),
-  );
-  const readReactor = () => Promise.resolve(still(60));
-  const loading = loadDemo(store, files, new URL('https://example.org/demo/'), { readReactor, manifest });
-  await vi.waitUntil(() => store.getState().reaction !== null);
-  act(store);
-  goOn();
-  await loading;
-  return store;
-}
-
-it('the demo’s reaction is shown before its song is read, and again with the song', async () => {
-  const store = await loadedAfter(() => undefined);
-  const { reaction, takes, song } = store.getState();
-  expect(reaction?.label).toBe('demo reaction');
-  expect(reaction?.inputs.song).toBe(song);
-  expect(takes).toHaveLength(1);
-});
-
-it('the demo’s reaction does not come back in the other role when the roles are swapped while its song is read', async () => {
-  const store = await loadedAfter((page) => {
-    change.apply(page, change.rolesSwapped());
+  afterEach(() => {
+    vi.unstubAllGlobals();
   });
-  expect(store.getState().settings?.role).toBe('leader');
-  expect(store.getState().reaction).toBeNull();
+
+  it('is shown before its song is read, and again with it, as its model’s, with its settings', async () => {
+    const store = await load(small.id, ({ getState }) => {
+      expect(getState().reaction).toMatchObject({ label: 'demo reaction', inputs: { song: null } });
+    });
+    const { takes, ...state } = store.getState();
+    expect(state).toMatchObject({
+      settings,
+      reaction: { label: 'demo reaction', model: { id: small.id }, inputs: { song: { name: 'song' } } },
+    });
+    expect(takes).toHaveLength(1);
+  });
+
+  it('is left out with another model, which keeps its own settings', async () => {
+    const store = await load('another model');
+    expect(store.getState()).toMatchObject({
+      leader: { name: 'leader' },
+      song: { name: 'song' },
+      reaction: null,
+      takes: [],
+      settings: { seed: 7, music: small.guidance.music.default },
+    });
+  });
+
+  it('does not come back in the other role when the roles are swapped while its song is read', async () => {
+    const store = await load(small.id, (page) => {
+      change.apply(page, change.rolesSwapped());
+    });
+    expect(store.getState().settings?.role).toBe('leader');
+    expect(store.getState().reaction).toBeNull();
+  });
 });
