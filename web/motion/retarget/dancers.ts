@@ -1,14 +1,20 @@
 import { mapJoints } from './joint-map';
 import { worldPose } from './sample';
-import type { LocalPoses, MotionSource } from './source';
+import type { LocalPoses, MotionSource, SourceJoint } from './source';
+import { distance, type Vec3 } from '../math/vec3';
 
-/** The joints below a root, itself included, in the order of the file. */
-function below(source: MotionSource, root: number): number[] {
-  const inside = new Set([root]);
-  source.joints.forEach(({ parent }, joint) => {
-    if (inside.has(parent)) inside.add(joint);
-  });
-  return [...inside].sort((a, b) => a - b);
+/** The joints below a joint, itself included, in the order of the file. */
+function below(children: readonly (readonly number[])[], top: number): number[] {
+  const inside = [top];
+  for (const joint of inside) for (const child of children[joint]!) inside.push(child);
+  return inside.sort((a, b) => a - b);
+}
+
+/** The joints above a joint, the nearest first. */
+function above(joints: readonly SourceJoint[], joint: number): number[] {
+  const chain: number[] = [];
+  for (let at = joints[joint]!.parent; at >= 0; at = joints[at]!.parent) chain.push(at);
+  return chain;
 }
 
 /** The source with only some joints; a kept joint's ancestors are kept too. */
@@ -41,12 +47,51 @@ function withJoints(source: MotionSource, kept: readonly number[]): MotionSource
   };
 }
 
-/** Fewest joints below a root that may be a dancer. */
+/** Fewest joints below a joint that may be a dancer. */
 const MIN_JOINTS = 12;
+/** Most objects within one another that each hold several things of so many joints; deeper, nobody is looked for. */
+const MAX_FORKS = 4;
+/** Least share of the thigh of a whole that the thigh of a dancer within it has: five fingers can look like a body. */
+const MIN_THIGH_SHARE = 0.4;
+
+/** A body in a file. */
+interface Body {
+  /** The joint on which all of it hangs. */
+  readonly top: number;
+  readonly joints: readonly number[];
+  /** Length of a thigh at rest, in the file's unit. */
+  readonly thigh: number;
+}
+
+/** The bodies in a file: what hangs on a root, or on an object below it where that holds several bodies. */
+function bodiesOf({ joints, rest }: MotionSource): Body[] {
+  const { places } = worldPose(joints, rest, 0);
+  const children = joints.map((): number[] => []);
+  const roots: number[] = [];
+  joints.forEach(({ parent }, joint) => (children[parent] ?? roots).push(joint));
+  const counts = joints.map(() => 1);
+  for (let joint = joints.length - 1; joint >= 0; joint--)
+    if (joints[joint]!.parent >= 0) counts[joints[joint]!.parent]! += counts[joint]!;
+  const large = (of: readonly number[]): number[] => of.filter((joint) => counts[joint]! >= MIN_JOINTS);
+
+  // A joint is in one body of each fork at most, so that the work grows as the number of joints does.
+  const among = (tops: readonly number[], forks: number): Body[] =>
+    large(tops).flatMap((top) => {
+      const inside = below(children, top);
+      const thigh = thighOf(joints, places, inside);
+      const whole = thigh === null ? [] : [{ top, joints: inside, thigh }];
+      let fork = large(children[top]!);
+      while (fork.length === 1) fork = large(children[fork[0]!]!);
+      if (forks === 0 || fork.length === 0) return whole;
+      const parts = among(fork, forks - 1).filter((part) => part.thigh >= MIN_THIGH_SHARE * (thigh ?? 0));
+      return parts.length > 1 || thigh === null ? parts : whole;
+    });
+  return among(roots, MAX_FORKS);
+}
 
 /**
- * One dancer of a file with several roots; as it is where at most one of them carries a body. A prop beside the only
- * dancer is left out.
+ * One dancer of a file with several, who are below roots or objects of their own; as it is where it has one root and at
+ * most one body. A prop beside the only dancer is left out.
  *
  * @param part number of the dancer among those found
  * @param moves whether a joint is animated; bodies that stand still are left out, unless all of them do
@@ -56,17 +101,15 @@ export function pickDancer(
   part: number,
   moves: (joint: number) => boolean = () => true,
 ): MotionSource {
-  const roots = source.joints.flatMap(({ parent }, joint) => (parent < 0 ? [joint] : []));
-  if (roots.length < 2) return source;
-  const bodies = roots
-    .map((root) => ({ root, joints: below(source, root) }))
-    .filter(({ joints }) => joints.length >= MIN_JOINTS && hasBody(withJoints(source, joints)));
+  const bodies = bodiesOf(source);
+  if (bodies.length < 2 && source.joints.filter(({ parent }) => parent < 0).length < 2) return source;
   const moving = bodies.filter(({ joints }) => joints.some(moves));
   const dancers = moving.length > 0 ? moving : bodies;
   const chosen = dancers[part] ?? dancers[0];
   if (chosen === undefined) return source;
-  const parts = dancers.map(({ root }) => source.joints[root]!.name);
-  return { ...withJoints(source, chosen.joints), parts, part: dancers.indexOf(chosen) };
+  const parts = dancers.map(({ top }) => source.joints[top]!.name);
+  const kept = [...above(source.joints, chosen.top).reverse(), ...chosen.joints];
+  return { ...withJoints(source, kept), parts, part: dancers.indexOf(chosen) };
 }
 
 /**
@@ -85,11 +128,19 @@ export function pickFirstDancer(source: MotionSource, moves: (joint: number) => 
   return { ...first, parts, part, warnings: others.length > 0 ? [...warnings, warning] : warnings };
 }
 
-function hasBody({ joints, rest }: MotionSource): boolean {
+/** Length of the left thigh of the body that some joints are; null where they are none. */
+function thighOf(
+  joints: readonly SourceJoint[],
+  places: readonly Vec3[],
+  inside: readonly number[],
+): number | null {
+  const index = new Map(inside.map((joint, place) => [joint, place]));
+  const ours = inside.map((joint) => ({ ...joints[joint]!, parent: index.get(joints[joint]!.parent) ?? -1 }));
+  const own = inside.map((joint) => places[joint]!);
   try {
-    mapJoints(joints, worldPose(joints, rest, 0).places);
-    return true;
+    const { nodes } = mapJoints(ours, own);
+    return distance(own[nodes.get('left_hip')!]!, own[nodes.get('left_knee')!]!);
   } catch {
-    return false;
+    return null;
   }
 }

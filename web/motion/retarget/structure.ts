@@ -42,37 +42,43 @@ const ARM_SHARE = 1.05;
 const MAX_SHARE_ERROR = 0.9;
 /** Most pairs of chains that are compared with one another: a cloak or a tail has many that are no limbs. */
 const MAX_PAIRS = 60;
+/** Most joints of a chain that are looked at: a file may have chains of thousands. */
+const MAX_CHAIN = 60;
 
 /** What is known about the tree of joints. */
 interface Tree {
   readonly places: readonly Vec3[];
   readonly children: readonly (readonly number[])[];
   readonly parents: readonly number[];
-  /** Length of the longest way from each joint outwards. */
-  readonly reach: readonly number[];
+  /** The child with which the longest way from each joint outwards begins; none for a tip. */
+  readonly longest: readonly (number | undefined)[];
 }
 
 function treeOf(joints: readonly SourceJoint[], places: readonly Vec3[]): Tree {
   const children: number[][] = joints.map(() => []);
   joints.forEach(({ parent }, joint) => children[parent]?.push(joint));
   const reach = joints.map(() => 0);
+  const longest: (number | undefined)[] = joints.map(() => undefined);
   for (let joint = joints.length - 1; joint >= 0; joint--) {
-    for (const child of children[joint]!)
-      reach[joint] = Math.max(reach[joint]!, distance(places[joint]!, places[child]!) + reach[child]!);
+    for (const child of children[joint]!) {
+      const far = distance(places[joint]!, places[child]!) + reach[child]!;
+      if (longest[joint] !== undefined && far <= reach[joint]!) continue;
+      reach[joint] = far;
+      longest[joint] = child;
+    }
   }
-  return { places, children, parents: joints.map(({ parent }) => parent), reach };
+  return { places, children, parents: joints.map(({ parent }) => parent), longest };
 }
 
 /** The joints of the longest way outwards from a joint, itself first. */
-function mainChain({ places, children, reach }: Tree, joint: number): number[] {
+function mainChain({ longest }: Tree, joint: number): number[] {
   const chain = [joint];
-  for (;;) {
-    const at = chain.at(-1)!;
-    const far = (child: number): number => distance(places[at]!, places[child]!) + reach[child]!;
-    const next = children[at]!.toSorted((a, b) => far(b) - far(a))[0];
-    if (next === undefined) return chain;
+  while (chain.length < MAX_CHAIN) {
+    const next = longest[chain.at(-1)!];
+    if (next === undefined) break;
     chain.push(next);
   }
+  return chain;
 }
 
 /** The two longest bones that follow one another in a chain: thigh and shin, or upper arm and forearm. */
