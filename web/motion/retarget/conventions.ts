@@ -149,6 +149,23 @@ export const CONVENTIONS: readonly SkeletonConvention[] = [
     head: ['spine006', 'head'],
   },
   {
+    // The default rig of MakeHuman, whose long bones have two halves.
+    name: 'MakeHuman',
+    sides: SIDE_LETTERS,
+    limbs: {
+      hip: ['upperleg01*'],
+      knee: ['lowerleg01*'],
+      ankle: ['foot*'],
+      toe: ['toe11*', 'toe21*'],
+      shoulder: ['upperarm01*'],
+      elbow: ['lowerarm01*'],
+      wrist: ['wrist*'],
+      collar: ['clavicle*'],
+    },
+    neck: ['neck01'],
+    head: ['head'],
+  },
+  {
     name: 'SOMA',
     sides: SIDE_WORDS,
     limbs: { ...HUMAN_IK.limbs, hip: ['*leg'], knee: ['*shin'] },

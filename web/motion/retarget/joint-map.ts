@@ -180,12 +180,24 @@ function findByNames(nodes: readonly SourceJoint[]): Found {
 const SHAPE_CONFIDENCE = 0.8;
 const SIDES_CONFIDENCE = 0.5;
 
+/** Largest ratio by which legs and arms that were found by the shape differ from those of a person without a doubt. */
+const MAX_SHARE = 1.6;
+
 /** The joints by the shape of the body; null where it has none. */
 function findByStructure(nodes: readonly SourceJoint[], places: readonly Vec3[]): Found | null {
   const found = mapByStructure(nodes, places);
   if (found === null) return null;
   const doubts = ['Not all joints have known names; the body was found by its shape.'];
   if (!found.sidesCertain) doubts.push('Nothing tells left from right in this file; they may be exchanged.');
+  if (found.sidesDisputed)
+    doubts.push('Names and feet disagree about left and right; the feet were believed.');
+  for (const [limbs, share] of Object.entries(found.shares)) {
+    if (share >= 1 / MAX_SHARE && share <= MAX_SHARE) continue;
+    const size = share < 1 ? 'short' : 'long';
+    doubts.push(
+      `The ${limbs} are too ${size} for the trunk: a joint within a bone may have been taken for one at its end.`,
+    );
+  }
   return {
     convention: 'found by shape',
     by: 'structure',

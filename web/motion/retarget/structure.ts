@@ -7,6 +7,10 @@ export interface StructuralMap {
   readonly nodes: ReadonlyMap<JointName, number>;
   /** Whether feet or names tell left from right. */
   readonly sidesCertain: boolean;
+  /** Whether names say left where the feet say right. */
+  readonly sidesDisputed: boolean;
+  /** Lengths of leg and arm as shares of the trunk, by those of a person: 1 is usual. */
+  readonly shares: { readonly legs: number; readonly arms: number };
   /** How alike the limbs of the two sides are, 0 to 1. */
   readonly symmetry: number;
 }
@@ -47,6 +51,7 @@ const MAX_CHAIN = 60;
 
 /** What is known about the tree of joints. */
 interface Tree {
+  readonly names: readonly string[];
   readonly places: readonly Vec3[];
   readonly children: readonly (readonly number[])[];
   readonly parents: readonly number[];
@@ -67,7 +72,8 @@ function treeOf(joints: readonly SourceJoint[], places: readonly Vec3[]): Tree {
       longest[joint] = child;
     }
   }
-  return { places, children, parents: joints.map(({ parent }) => parent), longest };
+  const names = joints.map(({ name }) => name);
+  return { names, places, children, parents: joints.map(({ parent }) => parent), longest };
 }
 
 /** The joints of the longest way outwards from a joint, itself first. */
@@ -95,16 +101,29 @@ function limbOf({ places }: Tree, chain: readonly number[]): Limb | null {
   return best;
 }
 
+/** A name without what tells the halves of a bone from one another: numbers, and words such as roll. */
+const stemOf = (name: string): string => name.toLowerCase().replaceAll(/roll|twist|[^\p{L}]/gu, '');
+
+/** A chain as it is, and without the second halves of bones: `upperleg02.L` after `upperleg01.L`, `LegRoll` after `Leg`. */
+function readingsOf(tree: Tree, chain: readonly number[]): (readonly number[])[] {
+  const stems = chain.map((joint) => stemOf(tree.names[joint]!));
+  const whole = chain.filter((_, at) => at === 0 || stems[at] !== stems[at - 1]);
+  return whole.length < chain.length ? [chain, whole] : [chain];
+}
+
 function pairsAt(tree: Tree, fork: number): Pair[] {
-  const limbs = tree.children[fork]!.flatMap((child) => {
-    const chain = mainChain(tree, child);
-    const limb = limbOf(tree, chain);
-    return limb ? [{ chain, limb }] : [];
-  });
+  if (tree.children[fork]!.length < 2) return [];
+  const limbs = tree.children[fork]!.flatMap((child) =>
+    readingsOf(tree, mainChain(tree, child)).flatMap((chain) => {
+      const limb = limbOf(tree, chain);
+      return limb ? [{ chain, limb }] : [];
+    }),
+  );
   return limbs.flatMap((a, i) =>
     limbs.slice(i + 1).flatMap((b): Pair[] => {
       const symmetry = Math.min(a.limb.length, b.limb.length) / Math.max(a.limb.length, b.limb.length);
       if (!(symmetry >= MIN_SYMMETRY) || a.limb.start !== b.limb.start) return [];
+      if (a.chain[0] === b.chain[0]) return [];
       return [{ chains: [a.chain, b.chain], limbs: [a.limb, b.limb], fork, symmetry }];
     }),
   );
@@ -128,16 +147,21 @@ function isMirrored(tree: Tree, pair: Pair, hips: Vec3, trunk: Vec3): boolean {
   return Math.min(...away) >= MIN_SPREAD_RATIO * Math.max(...away);
 }
 
+/** Length of the limbs of a pair as a share of the trunk. */
+function shareOf(tree: Tree, pair: Pair, legs: Pair, arms: Pair): number {
+  const size = distance(middle(tree, arms, 0), middle(tree, legs, 0));
+  return (pair.limbs[0].length + pair.limbs[1].length) / 2 / size;
+}
+
 /** How unlike a body legs and arms are; null where they can't be one. */
 function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
   if (legs.chains.some((chain) => chain.some((joint) => arms.chains.flat().includes(joint)))) return null;
   if (legs.chains.some((chain) => chain.includes(arms.fork))) return null;
   const trunk = sub(middle(tree, arms, 0), middle(tree, legs, 0));
-  const size = length(trunk);
-  if (!(size > 0)) return null;
+  if (!(length(trunk) > 0)) return null;
   if ([legs, arms].some((pair) => !isMirrored(tree, pair, middle(tree, legs, 0), trunk))) return null;
-  const share = (pair: Pair): number => (pair.limbs[0].length + pair.limbs[1].length) / 2 / size;
-  const errors = [Math.abs(Math.log(share(legs) / LEG_SHARE)), Math.abs(Math.log(share(arms) / ARM_SHARE))];
+  const shares = [shareOf(tree, legs, legs, arms) / LEG_SHARE, shareOf(tree, arms, legs, arms) / ARM_SHARE];
+  const errors = shares.map((share) => Math.abs(Math.log(share)));
   if (errors.some((error) => !(error <= MAX_SHARE_ERROR))) return null;
   const down = direction(sub(middle(tree, legs, 2), middle(tree, legs, 0)), ZERO);
   // Legs go on from the trunk; a seated rest pose has them level with the floor.
@@ -243,8 +267,12 @@ export function mapByStructure(
   const left = leftOf(tree, legs, arms);
   const nodes = new Map<JointName, number>();
   let sidesCertain = true;
+  let sidesDisputed = false;
   const put = (pair: Pair, names: readonly string[]): void => {
-    const side = (left && sideByPlace(tree, pair, left)) || sideByName(joints, pair);
+    const byPlace = left ? sideByPlace(tree, pair, left) : 0;
+    const byName = sideByName(joints, pair);
+    const side = byPlace || byName;
+    if (byPlace * byName < 0) sidesDisputed = true;
     if (side === 0) sidesCertain = false;
     names.forEach((name, at) => {
       if (name === '') return;
@@ -259,5 +287,10 @@ export function mapByStructure(
   const { neck, head } = neckAndHead(joints, tree, legs, arms);
   if (neck !== undefined) nodes.set('neck', neck);
   if (head !== undefined) nodes.set('head', head);
-  return { nodes, sidesCertain, symmetry: Math.min(legs.symmetry, arms.symmetry) };
+  const shares = {
+    legs: shareOf(tree, legs, legs, arms) / LEG_SHARE,
+    arms: shareOf(tree, arms, legs, arms) / ARM_SHARE,
+  };
+  const symmetry = Math.min(legs.symmetry, arms.symmetry);
+  return { nodes, sidesCertain, sidesDisputed, shares, symmetry };
 }

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import type { SourceJoint } from '../../../../web/motion/retarget/source';
+import { mapJoints } from '../../../../web/motion/retarget/joint-map';
 import { mapByStructure } from '../../../../web/motion/retarget/structure';
 import { add, type Vec3, ZERO } from '../../../../web/motion/math/vec3';
 import { leaderBvh } from '../../support/leader-bvh';
@@ -38,8 +39,12 @@ const EXPECTED = {
   left_wrist: 'LeftHand',
 } as const;
 
-function expectBody(body: readonly MadeJoint[], places?: (place: Vec3) => Vec3): void {
-  const made = unnamed(body, (_, index) => `骨${index}`);
+function expectBody(
+  body: readonly MadeJoint[],
+  places?: (place: Vec3) => Vec3,
+  rename: (name: string, index: number) => string = (_, index) => `骨${index}`,
+): void {
+  const made = unnamed(body, rename);
   const found = mapByStructure(made.joints, places ? made.places.map(places) : made.places);
   expect(found).not.toBeNull();
   for (const [joint, name] of Object.entries(EXPECTED)) {
@@ -116,6 +121,47 @@ describe('a body found by its shape', () => {
     expect(made.truth[found.nodes.get('left_knee')!]).toBe('mixamorig:LeftLeg');
     const nameless = unnamed(barefoot, (_, index) => `${index}`);
     expect(mapByStructure(nameless.joints, nameless.places)!.sidesCertain).toBe(false);
+  });
+
+  /** The body with a joint in the middle of every long bone, which turns with the joint at the bone's beginning. */
+  const inHalves = (): MadeJoint[] =>
+    body.flatMap((joint): MadeJoint[] => {
+      if (!/(Left|Right)(Leg|Foot|ForeArm|Hand)$/.test(joint.name)) return [joint];
+      const half = `${joint.parent!} half`;
+      const offset = joint.offset.map((value) => value / 2) as unknown as MadeJoint['offset'];
+      return [
+        { name: half, parent: joint.parent, offset },
+        { ...joint, parent: half, offset },
+      ];
+    });
+
+  test.each([
+    ['numbers', '_07', '_08'],
+    ['numbers of bones', '.01', '.02'],
+    ['words', '', 'Roll'],
+  ])('with bones in halves that %s tell from one another', (_, first, second) => {
+    const letters = 'abcdefghijklmnopqrstuvwxyz';
+    const name = (bone: string): string => `骨${letters[body.findIndex((joint) => joint.name === bone)]!}`;
+    expectBody(inHalves(), undefined, (joint) =>
+      joint.endsWith(' half') ? name(joint.slice(0, -5)) + second : name(joint) + first,
+    );
+  });
+
+  test('with numbers alone for names', () => expectBody(body, undefined, (_, index) => `Bone.${index}`));
+
+  test('whose legs and arms are too short is doubted: they may be halves of bones', () => {
+    const made = unnamed(inHalves(), (_, index) => `骨${index}`);
+    const { doubts } = mapJoints(made.joints, made.places);
+    expect(doubts.join()).toMatch(/The legs are too short .*The arms are too short/);
+    const whole = unnamed(body, (_, index) => `骨${index}`);
+    expect(mapJoints(whole.joints, whole.places).doubts).toHaveLength(1);
+  });
+
+  test('whose names and feet disagree about the sides is doubted', () => {
+    const swapped = unnamed(body, (name, index) => `${name.includes('Left') ? 'right' : 'left'} ${index}`);
+    expect(mapJoints(swapped.joints, swapped.places).doubts.join()).toContain('Names and feet disagree');
+    const agreed = unnamed(body, (name, index) => `${name.includes('Left') ? 'left' : 'right'} ${index}`);
+    expect(mapJoints(agreed.joints, agreed.places).doubts).toHaveLength(1);
   });
 
   test.each(['UpLeg', 'Arm'])('none without its %s', (part) => {

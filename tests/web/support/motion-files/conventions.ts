@@ -350,6 +350,25 @@ export const CONVENTIONS: readonly WrittenConvention[] = [
     },
   },
   {
+    label: 'MakeHuman',
+    reported: 'MakeHuman',
+    names: {
+      root: 'root',
+      spine: ['spine05', 'spine03', 'spine01'],
+      neck: 'neck01',
+      head: 'head',
+      sides: ['.L', '.R'],
+      hip: 'upperleg01*',
+      knee: 'lowerleg01*',
+      ankle: 'foot*',
+      toe: 'toe1-1*',
+      collar: 'clavicle*',
+      shoulder: 'upperarm01*',
+      elbow: 'lowerarm01*',
+      wrist: 'wrist*',
+    },
+  },
+  {
     label: 'MMD',
     reported: 'MMD',
     names: {
