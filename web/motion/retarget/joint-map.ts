@@ -44,12 +44,10 @@ const LEG: readonly LimbJoint[] = ['hip', 'knee', 'ankle'];
 const ARM: readonly LimbJoint[] = ['shoulder', 'elbow', 'wrist'];
 const REQUIRED = new Set<LimbJoint>([...LEG, ...ARM]);
 
-/** A node's name in the form that is compared; null where it lacks the convention's prefix. */
-function normalisedName(name: string, convention: SkeletonConvention, shared: string): string | null {
-  if (convention.prefix !== undefined) {
-    return convention.prefix.test(name) ? normalise(name.replace(convention.prefix, '')) : null;
-  }
-  return normalise(name.startsWith(shared) ? name.slice(shared.length) : name);
+/** A name in the form that is compared; null where it lacks the convention's prefix. */
+function normalisedName({ whole, own }: BareName, { prefix }: SkeletonConvention): string | null {
+  if (prefix === undefined) return normalise(own);
+  return prefix.test(whole) ? normalise(whole.replace(prefix, '')) : null;
 }
 
 function normalise(name: string): string {
@@ -64,28 +62,56 @@ function normalise(name: string): string {
 /** Least share of a file's joints that a prefix belongs to. */
 const PREFIX_SHARE = 0.8;
 
-/** The beginning that nearly all names share, up to a separator: `Character1_`. */
-function sharedPrefix(nodes: readonly SourceJoint[]): string {
-  const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
-  const counts = new Map<string, number>();
-  for (const name of names) {
-    const prefix = /^.{2,40}?[_:.|-]/u.exec(name)?.[0];
-    if (prefix !== undefined) counts.set(prefix, (counts.get(prefix) ?? 0) + 1);
+/** Most characters of a shared beginning. */
+const MAX_PREFIX = 120;
+/** A number that a program puts after every name, as Sketchfab does: `LeftUpLeg_055`. */
+const NUMBER = /_\d+$/;
+
+/** A joint's name without a number that nearly all names end in. */
+interface BareName {
+  readonly whole: string;
+  /** The name without the beginning that nearly all share, too. */
+  readonly own: string;
+}
+
+/** The beginning that nearly all names share, up to the last separator in it: `Character1_`, `dancer:Character1_`. */
+function sharedPrefix(names: readonly string[]): string {
+  let shared = '';
+  while (shared.length < MAX_PREFIX) {
+    const counts = new Map<string, number>();
+    for (const name of names) {
+      const next = name.startsWith(shared) && /^.{2,40}?[_:.|-]/u.exec(name.slice(shared.length))?.[0];
+      if (next) counts.set(next, (counts.get(next) ?? 0) + 1);
+    }
+    const next = [...counts].find(([, count]) => count >= PREFIX_SHARE * names.length)?.[0];
+    if (next === undefined) break;
+    shared += next;
   }
-  return [...counts].find(([, count]) => count >= PREFIX_SHARE * names.length)?.[0] ?? '';
+  return shared;
+}
+
+/** The names of all nodes but tips, without what a program wrote before and after nearly all of them. */
+function bareNames(nodes: readonly SourceJoint[]): (BareName | null)[] {
+  const names = nodes.filter(({ endSite }) => !endSite).map(({ name }) => name);
+  const numbered = names.filter((name) => NUMBER.test(name)).length >= PREFIX_SHARE * names.length;
+  const shared = sharedPrefix(names);
+  return nodes.map(({ name, endSite }) => {
+    if (endSite) return null;
+    const whole = numbered ? name.replace(NUMBER, '') : name;
+    return { whole, own: whole.startsWith(shared) ? whole.slice(shared.length) : whole };
+  });
 }
 
 /** The node of every joint that a convention has a name for; no node stands for two joints. */
 function findJoints(
-  nodes: readonly SourceJoint[],
+  names: readonly (BareName | null)[],
   convention: SkeletonConvention,
   sides: readonly [string, string],
 ): Map<JointName, number> {
   const found = new Map<JointName, number>();
   const byName = new Map<string, number>();
-  const shared = sharedPrefix(nodes);
-  nodes.forEach((node, index) => {
-    const word = node.endSite ? null : normalisedName(node.name, convention, shared);
+  names.forEach((name, index) => {
+    const word = name && normalisedName(name, convention);
     if (word !== null && !byName.has(word)) byName.set(word, index);
   });
   const take = (joint: JointName, words: readonly string[]): void => {
@@ -163,10 +189,11 @@ type Found = Pick<JointMap, 'convention' | 'by' | 'confidence' | 'doubts' | 'has
 
 /** The joints by the names of the convention of which most are found. */
 function findByNames(nodes: readonly SourceJoint[]): Found {
+  const names = bareNames(nodes);
   let best: { convention: SkeletonConvention; found: Map<JointName, number> } | null = null;
   for (const convention of CONVENTIONS) {
     for (const sides of convention.sides) {
-      const found = findJoints(nodes, convention, sides);
+      const found = findJoints(names, convention, sides);
       if (best === null || score(convention, found) > score(best.convention, best.found))
         best = { convention, found };
     }
