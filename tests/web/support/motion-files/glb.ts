@@ -217,7 +217,14 @@ function packed(json: object, bytes: Uint8Array): Uint8Array<ArrayBuffer> {
 /** The parts of a GLB file's JSON that tests change. */
 interface GlbJson {
   scenes: { nodes: number[] }[];
-  nodes: { name: string; children?: number[]; mesh?: number; skin?: number; matrix?: number[] }[];
+  nodes: {
+    name: string;
+    children?: number[];
+    mesh?: number;
+    skin?: number;
+    matrix?: number[];
+    scale?: number[];
+  }[];
   skins?: { joints: number[] }[];
   meshes?: object[];
   animations: {

@@ -1,7 +1,7 @@
 import { damagedGltf, type Gltf } from './container';
 import { Matrix4, Quaternion, Vector3 } from 'three';
-import { normaliseQuat, type Quat, writeQuat } from '../../math/quat';
-import { type Vec3, writeVec } from '../../math/vec3';
+import { conjugate, multiply, normaliseQuat, type Quat, rotate, writeQuat } from '../../math/quat';
+import { sub, type Vec3, writeVec, ZERO } from '../../math/vec3';
 import type { LocalPoses, SourceJoint } from '../../retarget/source';
 import { type Tracks, valueAt } from './animation';
 
@@ -87,7 +87,12 @@ export function skeletonOf({ nodes, skins }: Gltf, names: ReadonlyMap<number, st
   };
 }
 
-/** Poses at times in seconds; a node's scale is handed to the places of what hangs on it. Null is the rest pose. */
+const placeOf = (matrix: Matrix4): Vec3 => new Vector3().setFromMatrixPosition(matrix).toArray();
+
+/**
+ * Poses at times in seconds, null for the rest pose. Rotations are those of the nodes; translations are such that every
+ * joint is where its file has it, scales of all kinds included.
+ */
 export function posesOf(
   { joints, nodes, rest }: Skeleton,
   tracks: Tracks,
@@ -96,24 +101,30 @@ export function posesOf(
   const rotations = new Float32Array(times.length * joints.length * 4);
   const translations = new Float32Array(times.length * joints.length * 3);
   times.forEach((time, frame) => {
-    const sizes: Vec3[] = [];
+    const world: Matrix4[] = [];
+    const turns: Quat[] = [];
     joints.forEach(({ parent }, joint) => {
       const still = rest[joint]!;
       const value = (path: string): number[] | null => {
         const track = time === null ? undefined : tracks.get(`${nodes[joint]!} ${path}`);
         return track && time !== null ? valueAt(track, time) : null;
       };
-      const place = (value('translation') ?? still.place) as Vec3;
-      const turn = (value('rotation') ?? still.turn) as unknown as Quat;
-      const size = (value('scale') ?? still.size) as Vec3;
-      const above: Vec3 = parent < 0 ? [1, 1, 1] : sizes[parent]!;
-      sizes.push([above[0] * size[0], above[1] * size[1], above[2] * size[2]]);
-      writeQuat(rotations, frame * joints.length + joint, normaliseQuat(turn));
-      writeVec(translations, frame * joints.length + joint, [
-        place[0] * above[0],
-        place[1] * above[1],
-        place[2] * above[2],
-      ]);
+      const turn = normaliseQuat((value('rotation') ?? still.turn) as unknown as Quat);
+      const matrix = new Matrix4().compose(
+        new Vector3(...((value('translation') ?? still.place) as Vec3)),
+        new Quaternion(...turn),
+        new Vector3(...((value('scale') ?? still.size) as Vec3)),
+      );
+      if (parent >= 0) matrix.premultiply(world[parent]!);
+      world.push(matrix);
+      turns.push(parent < 0 ? turn : multiply(turns[parent]!, turn));
+      const step = sub(placeOf(matrix), parent < 0 ? ZERO : placeOf(world[parent]!));
+      writeQuat(rotations, frame * joints.length + joint, turn);
+      writeVec(
+        translations,
+        frame * joints.length + joint,
+        parent < 0 ? step : rotate(conjugate(turns[parent]!), step),
+      );
     });
   });
   return { rotations, translations };

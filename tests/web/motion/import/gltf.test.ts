@@ -1,0 +1,107 @@
+/** Details of glTF files: scales of all kinds, numbers of all types, and what is refused. */
+import { AnimationMixer, Vector3 } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { describe, expect, test } from 'vitest';
+import { readAccessor } from '../../../../web/motion/import/gltf/accessor';
+import { readContainer } from '../../../../web/motion/import/gltf/container';
+import { readGltf } from '../../../../web/motion/import/gltf/read';
+import { distance } from '../../../../web/motion/math/vec3';
+import { worldPose } from '../../../../web/motion/retarget/sample';
+import { changedGlb, writeGlb } from '../../support/motion-files/glb';
+import { madeMotion } from '../../support/motion-files/made-motion';
+
+const WORST = 0.05;
+const dance = madeMotion();
+
+/** Largest distance in millimetres of a joint from where three has it, in all frames that the file is read with. */
+async function worstFromThree(bytes: Uint8Array<ArrayBuffer>): Promise<number> {
+  const { scene, animations } = await new GLTFLoader().parseAsync(bytes.buffer, '');
+  const mixer = new AnimationMixer(scene);
+  mixer.clipAction(animations[0]!).play();
+  const source = readGltf([{ name: 'a.glb', bytes }], 0);
+  let worst = 0;
+  for (let frame = 0; frame < source.frames; frame++) {
+    mixer.setTime(Math.min(frame / source.frameRate(), animations[0]!.duration - 1e-6));
+    scene.updateMatrixWorld(true);
+    const { places } = worldPose(source.joints, source.localPoses([frame]), 0);
+    source.joints.forEach(({ name }, joint) => {
+      const { x, y, z } = scene
+        .getObjectByName(name.replaceAll(/[:.]/g, ''))!
+        .getWorldPosition(new Vector3());
+      worst = Math.max(worst, 1000 * distance([x, y, z], places[joint]!));
+    });
+  }
+  return worst;
+}
+
+describe('scales', () => {
+  const below = (root: object): Uint8Array<ArrayBuffer> =>
+    changedGlb(writeGlb(dance), ({ nodes, scenes }) => {
+      scenes[0]!.nodes = [nodes.push({ name: '__root__', ...root, children: [0] }) - 1];
+    });
+
+  test.each([
+    ['that mirrors', { scale: [1, 1, -1] }],
+    ['that turns and mirrors, as Babylon writes it', { rotation: [0, 1, 0, 0], scale: [1, 1, -1] }],
+    ['of another height', { scale: [1, 1.2, 1] }],
+  ])('a root %s has the joints where three has them', async (_, root) => {
+    expect(await worstFromThree(below(root))).toBeLessThan(WORST);
+  });
+
+  test('a joint of another height within the body has those below it where three has them', async () => {
+    const bytes = changedGlb(writeGlb(dance), ({ nodes }) => (nodes[1]!.scale = [1, 1.2, 1]));
+    expect(await worstFromThree(bytes)).toBeLessThan(WORST);
+  });
+});
+
+test.each(['CUBICSPLINE', 'LINEAR'] as const)(
+  'between %s keys joints are where three has them',
+  async (interpolation) => {
+    const slow = madeMotion({ frames: 12, fps: 4, swing: 40 });
+    expect(await worstFromThree(writeGlb(slow, { interpolation }))).toBeLessThan(WORST);
+  },
+);
+
+describe('accessors', () => {
+  /** The values of an accessor of scalars in a file whose only buffer holds these bytes. */
+  const values = (bytes: Uint8Array, accessor: object): number[] => {
+    const uri = `data:application/octet-stream;base64,${Buffer.from(bytes).toString('base64')}`;
+    const json = {
+      asset: { version: '2.0' },
+      buffers: [{ byteLength: bytes.length, uri }],
+      bufferViews: [{ buffer: 0, byteOffset: 2, byteLength: bytes.length - 2 }],
+      accessors: [{ bufferView: 0, type: 'SCALAR', ...accessor }],
+      nodes: [],
+      animations: [],
+    };
+    const gltf = new TextEncoder().encode(JSON.stringify(json));
+    return [...readAccessor(readContainer({ name: 'a.gltf', bytes: gltf }, []), 0)];
+  };
+
+  test.each([
+    ['unsigned bytes', 5121, Uint8Array.of(9, 9, 0, 51, 255), [0, 0.2, 1]],
+    ['bytes, the least of which stands for -1 too', 5120, Uint8Array.of(9, 9, 129, 128, 127), [-1, -1, 1]],
+    ['unsigned shorts', 5123, Uint8Array.of(9, 9, 0, 0, 51, 51, 255, 255), [0, 0.2, 1]],
+    [
+      'shorts, the least of which stands for -1 too',
+      5122,
+      Uint8Array.of(9, 9, 1, 128, 0, 128, 255, 127),
+      [-1, -1, 1],
+    ],
+  ])('normalised %s', (_, componentType, bytes, expected) => {
+    const read = values(bytes, { componentType, normalized: true, count: 3 });
+    read.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 6));
+    expect(Math.min(...read)).toBeGreaterThanOrEqual(-1);
+  });
+
+  test('whole numbers that are not normalised, behind an offset of their own', () => {
+    expect(values(Uint8Array.of(9, 9, 8, 7, 5, 6), { componentType: 5121, byteOffset: 2, count: 2 })).toEqual(
+      [5, 6],
+    );
+  });
+
+  test('sparse ones are refused', () => {
+    const sparse = { componentType: 5121, count: 2, sparse: { count: 1 } };
+    expect(() => values(Uint8Array.of(9, 9, 1, 2), sparse)).toThrow('the values number 0 are sparse');
+  });
+});
