@@ -49,6 +49,8 @@ export function markersOf(motion: MadeMotion, frame: number): Map<string, Vec3> 
 /** Processors whose numbers a file may have. */
 const PROCESSORS = { intel: 84, dec: 85, mips: 86 } as const;
 
+const UNITS_PER_METRE = { mm: 1000, cm: 100, m: 1, in: 1 / 0.0254 } as const;
+
 interface Options {
   readonly subject?: string;
   /** Another dancer in the same recording. */
@@ -58,7 +60,11 @@ interface Options {
   /** Frames in which a marker is not seen. */
   readonly hidden?: (label: string, frame: number) => boolean;
   readonly processor?: keyof typeof PROCESSORS;
-  readonly unit?: 'mm' | 'm';
+  readonly unit?: keyof typeof UNITS_PER_METRE;
+  /** The unit as the file names it, where it is not called so. */
+  readonly unitName?: string;
+  /** The fourth word of a marker that is not seen; 0 is that of one that is seen. */
+  readonly residual?: number;
   /** Values of force plates after the markers of every frame. */
   readonly analog?: number;
   /** Number of the first frame: a recording that was cut does not begin at 1. */
@@ -75,6 +81,7 @@ interface Options {
 export function writeC3d(motion: MadeMotion, options: Options = {}): Uint8Array<ArrayBuffer> {
   const { subject = '', beside, integers = false, hidden = () => false, processor = 'intel' } = options;
   const { unit = 'mm', analog = 0, first = 1, rateInHead = false, relabel = (label) => label } = options;
+  const { unitName = unit, residual = -1 } = options;
   const little = processor !== 'mips';
   const dancers = [{ subject, motion }, ...(beside ? [beside] : [])];
   const frames = Array.from(
@@ -118,7 +125,7 @@ export function writeC3d(motion: MadeMotion, options: Options = {}): Uint8Array<
         [width, some.length],
         some.flatMap((label) => text(label.padEnd(width))),
       );
-  parameter('UNITS', -1, [4], text(unit.padEnd(4)));
+  parameter('UNITS', -1, [8], text(unitName.padEnd(8)));
   const rate = new DataView(new ArrayBuffer(4));
   float(rate, 0, motion.fps);
   if (!rateInHead) parameter('RATE', 4, [], [...new Uint8Array(rate.buffer)]);
@@ -135,7 +142,7 @@ export function writeC3d(motion: MadeMotion, options: Options = {}): Uint8Array<
   [labels.length, analog, first, first + motion.frames - 1, 0].forEach((word, i) =>
     view.setUint16(2 + 2 * i, word, little),
   );
-  const perMetre = unit === 'mm' ? 1000 : 1;
+  const perMetre = UNITS_PER_METRE[unit];
   const step = 0.00005 * perMetre;
   float(view, 12, integers ? step : -step);
   view.setUint16(16, 2 + blocks, little);
@@ -146,7 +153,10 @@ export function writeC3d(motion: MadeMotion, options: Options = {}): Uint8Array<
       const at = start + frame * row + marker * 4 * size;
       const [x, y, z] = markers.get(label)!;
       const unseen = hidden(label, frame);
-      const words = [...(unseen ? [0, 0, 0] : [x, -z, y].map((value) => value * perMetre)), unseen ? -1 : 0];
+      const words = [
+        ...(unseen ? [0, 0, 0] : [x, -z, y].map((value) => value * perMetre)),
+        unseen ? residual : 0,
+      ];
       words.forEach((value, i) => {
         if (integers) view.setInt16(at + 2 * i, i < 3 ? Math.round(value / step) : value, little);
         else float(view, at + 4 * i, value);

@@ -17,6 +17,8 @@ export interface C3d {
   readonly unit: string;
   /** frames x labels x 3; NaN where a marker was not seen. */
   readonly places: Float32Array;
+  /** Number of frames that the file states; null where it has more than its head can state. */
+  readonly stated: number | null;
 }
 
 /** The error of a file that is not as C3D says. */
@@ -141,10 +143,10 @@ function readMarkers(bytes: Uint8Array, start: number): C3d {
   const width = isFloat ? 4 : 2;
   const row = (points * 4 + analog) * width;
   // A file of more than 65,535 frames says so elsewhere; what is there counts.
-  const stated = last - first + 1;
+  const stated = last >= first && last < 65_535 ? last - first + 1 : null;
   const there = row > 0 && data > 0 ? Math.floor((bytes.length - data) / row) : 0;
-  const frames = stated > 0 && last < 65_535 ? Math.min(stated, there) : there;
-  if (points === 0 || labels.length < points || !(frames > 0)) throw damagedC3d('it holds no markers');
+  const frames = Math.min(stated ?? there, there);
+  if (points === 0 || labels.length === 0 || !(frames > 0)) throw damagedC3d('it holds no markers');
   if (frames * points * 3 > MAX_VALUES) {
     throw new AppError(
       'too-long',
@@ -158,14 +160,23 @@ function readMarkers(bytes: Uint8Array, start: number): C3d {
       const at = data + frame * row + point * 4 * width;
       const value = (i: number): number =>
         isFloat ? numbers.float(at + 4 * i) : numbers.int16(at + 2 * i) * scale;
-      // The fourth word is below 0 where the marker was not seen.
-      const seen = (isFloat ? numbers.float(at + 12) : numbers.int16(at + 6)) >= 0;
+      // The fourth word is below 0 where the marker was not seen; some programs only leave its place at 0.
+      const seen =
+        (isFloat ? numbers.float(at + 12) : numbers.int16(at + 6)) >= 0 &&
+        (value(0) !== 0 || value(1) !== 0 || value(2) !== 0);
       for (let axis = 0; axis < 3; axis++)
         places[(frame * points + point) * 3 + axis] = seen ? value(axis) : NaN;
     }
+  // What fills the last block up looks like frames in which no marker was seen.
+  const size = points * 3;
+  const isUnseen = (frame: number): boolean =>
+    places.subarray(frame * size, (frame + 1) * size).every(Number.isNaN);
+  let kept = frames;
+  while (stated === null && kept > 0 && isUnseen(kept - 1)) kept--;
   return {
-    labels: labels.slice(0, points),
-    frames,
+    labels: Array.from({ length: points }, (_, point) => labels[point] ?? `*${point}`),
+    frames: kept,
+    stated,
     rate,
     unit: textsOf(bytes, parameters.get('POINT:UNITS'))[0] ?? 'mm',
     places,

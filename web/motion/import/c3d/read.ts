@@ -5,7 +5,8 @@ import { AppError } from '../../../common/error';
 import { checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource } from '../../retarget/source';
 import type { JointName } from '../../skeleton/skeleton';
-import { lerp, readVec, type Vec3, writeVec, ZERO } from '../../math/vec3';
+import { findUnit, type Unit } from '../../retarget/axes-and-units';
+import { distance, lerp, readVec, type Vec3, writeVec, ZERO } from '../../math/vec3';
 
 const UNITS: Readonly<Record<string, number>> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254 };
 
@@ -40,6 +41,18 @@ function lacking(has: (label: string) => boolean): string[] {
   return missing;
 }
 
+/** The unit that the file states where the body has the size of a person in it, else the one in which it has. */
+function unitOf(name: string, at: (label: string) => Vec3): Unit {
+  const metres = UNITS[name.toLowerCase()];
+  const hips = lerp(at('LASI'), at('RASI'), 0.5);
+  const size = distance(hips, at('LKNE')) + distance(at('LKNE'), at('LANK')) + distance(hips, at('C7'));
+  const { known, ...unit } = findUnit(
+    size,
+    metres === undefined ? null : { name: name.slice(0, 12), metres },
+  );
+  return known ? unit : { name: name.slice(0, 12), metres: metres ?? 0.001 };
+}
+
 /**
  * Reads a C3D file with markers of Plug-in Gait.
  *
@@ -52,19 +65,24 @@ export function readC3d(bytes: Uint8Array, part: number): MotionSource {
   const wanted = new Set([...NEEDED, ...OPTIONAL]);
   const tracksOf = (subject: string): Map<string, Vec3[]> =>
     new Map(
-      file.labels.flatMap((label, marker) => {
-        if (subjectOf(label) !== subject || !wanted.has(markerOf(label))) return [];
-        const track = filled(file, marker);
-        return track ? [[markerOf(label), track] as const] : [];
-      }),
+      file.labels
+        .flatMap((label, marker) => {
+          if (subjectOf(label) !== subject || !wanted.has(markerOf(label))) return [];
+          const track = filled(file, marker);
+          return track ? [[markerOf(label), track] as const] : [];
+        })
+        // The first of several markers of one label is kept.
+        .reverse(),
     );
   const dancers = subjects
     .map((subject) => ({ subject, tracks: tracksOf(subject) }))
     .filter(({ tracks }) => lacking((label) => tracks.has(label)).length === 0);
   const chosen = dancers[part] ?? dancers[0];
   if (!chosen) throw missingMarkers(file, subjects.map(tracksOf));
-  const metres = UNITS[file.unit.toLowerCase()] ?? 0.001;
   const { tracks } = chosen;
+  const unit = unitOf(file.unit, (label) => tracks.get(label)![0]!);
+  const { metres } = unit;
+  const truncated = file.stated !== null && file.stated > file.frames;
   const frames = Array.from({ length: file.frames }, (_, frame) =>
     jointsOfMarkers(
       (label) => tracks.get(label)?.[frame] ?? ZERO,
@@ -79,19 +97,22 @@ export function readC3d(bytes: Uint8Array, part: number): MotionSource {
       writeVec(places, frame * names.length + joint, joints.get(name)!),
     ),
   );
-  return sourceOfPositions(
+  const source = sourceOfPositions(
     { joints: names.map((name) => ({ name, parent: -1, endSite: false })), places },
     {
       format: 'C3D',
       convention: 'Plug-in Gait',
       frameRate: () => checkedRate(file.rate),
       rateAssumed: false,
-      unit: { name: file.unit.slice(0, 12), metres },
+      unit,
       upAxis: 'z',
       parts: dancers.length > 1 ? dancers.map(({ subject }) => subject.slice(0, 80)) : [],
       part: dancers.indexOf(chosen),
     },
   );
+  if (!truncated) return source;
+  const warning = `The file ends after ${file.frames} of its ${file.stated} frames; these are used.`;
+  return { ...source, warnings: [...source.warnings, warning], truncated };
 }
 
 function missingMarkers(file: C3d, subjects: readonly ReadonlyMap<string, unknown>[]): AppError {
