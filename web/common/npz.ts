@@ -18,14 +18,36 @@ export interface StoredArray {
 /** Makes the error of a damaged archive or array from a sentence. */
 export type DamageError = (message: string, cause?: unknown) => Error;
 
-type Reader = (view: DataView, count: number) => Float32Array | Float64Array;
+/** One value at a place; `little` is whether its lowest byte comes first. */
+type Reader = (view: DataView, at: number, little: boolean) => number;
 
+/** A float of two bytes (IEEE 754). */
+function half(bits: number): number {
+  const [exponent, fraction] = [(bits >> 10) & 31, bits & 1023];
+  const size =
+    exponent === 0
+      ? fraction * 2 ** -24
+      : exponent === 31
+        ? fraction > 0
+          ? NaN
+          : Infinity
+        : (1 + fraction / 1024) * 2 ** (exponent - 15);
+  return bits & 0x8000 ? -size : size;
+}
+
+/** By kind and number of bytes, as NumPy names them after the order of bytes. */
 const READERS: Record<string, Reader> = {
-  '<f4': (view, count) => Float32Array.from({ length: count }, (_, i) => view.getFloat32(4 * i, true)),
-  '<f8': (view, count) => Float64Array.from({ length: count }, (_, i) => view.getFloat64(8 * i, true)),
-  '<i4': (view, count) => Float64Array.from({ length: count }, (_, i) => view.getInt32(4 * i, true)),
-  '<i8': (view, count) =>
-    Float64Array.from({ length: count }, (_, i) => Number(view.getBigInt64(8 * i, true))),
+  f2: (view, at, little) => half(view.getUint16(at, little)),
+  f4: (view, at, little) => view.getFloat32(at, little),
+  f8: (view, at, little) => view.getFloat64(at, little),
+  i1: (view, at) => view.getInt8(at),
+  u1: (view, at) => view.getUint8(at),
+  i2: (view, at, little) => view.getInt16(at, little),
+  u2: (view, at, little) => view.getUint16(at, little),
+  i4: (view, at, little) => view.getInt32(at, little),
+  u4: (view, at, little) => view.getUint32(at, little),
+  i8: (view, at, little) => Number(view.getBigInt64(at, little)),
+  u8: (view, at, little) => Number(view.getBigUint64(at, little)),
 };
 
 /** Columns first (Fortran) to rows first, as NumPy writes the result of a transposition. */
@@ -46,8 +68,6 @@ function rowsFirst<T extends NpzArray['data']>(data: T, shape: readonly number[]
   return out;
 }
 
-/** Bytes of one value of each type. */
-const ITEM_BYTES: Record<string, number> = { '<f4': 4, '<f8': 8, '<i4': 4, '<i8': 8 };
 const MAGIC = '\u0093NUMPY';
 
 /** The lengths in a header's shape; null where one is no length. */
@@ -60,8 +80,8 @@ function readShape(header: string): number[] | null {
 }
 
 /**
- * Reads the header of one .npy file. Values that can be read are little-endian float32, float64, int32 or int64, all
- * finite.
+ * Reads the header of one .npy file. Values that can be read are floats of 16 to 64 bits and whole numbers of 8 to 64 bits,
+ * all finite.
  *
  * @param name the array's name in sentences
  * @throws what `damaged` makes, where the header cannot be read
@@ -79,13 +99,15 @@ export function openNpy(bytes: Uint8Array, name: string, damaged: DamageError): 
   if (!shape) throw wrongSize();
   const type = /'descr': '([^']+)'/.exec(header)?.[1] ?? '';
   const readValues = (): NpzArray => {
-    const read = READERS[type];
-    const itemBytes = ITEM_BYTES[type];
-    if (read === undefined || itemBytes === undefined)
+    const [, order = '', kind = '', size = ''] = /^([<>|=])([fiu])(\d)$/.exec(type) ?? [];
+    const read = READERS[`${kind}${size}`];
+    if (read === undefined)
       throw damaged(`The array "${name}" is of a type that is not read here: ${type.slice(0, 24)}.`);
     const count = shape.reduce((product, length) => product * length, 1);
-    if (bytes.length - end !== count * itemBytes) throw wrongSize();
-    const data = read(new DataView(bytes.buffer, bytes.byteOffset + end), count);
+    if (bytes.length - end !== count * Number(size)) throw wrongSize();
+    const values = new DataView(bytes.buffer, bytes.byteOffset + end);
+    const data = kind === 'f' && Number(size) <= 4 ? new Float32Array(count) : new Float64Array(count);
+    for (let i = 0; i < count; i++) data[i] = read(values, i * Number(size), order !== '>');
     if (!data.every((value) => Number.isFinite(value)))
       throw damaged(`The array "${name}" holds a value that is not a finite number.`);
     return { shape, data: header.includes("'fortran_order': True") ? rowsFirst(data, shape) : data };

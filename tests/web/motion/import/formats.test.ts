@@ -179,7 +179,7 @@ describe('arrays and tables of joints', () => {
     };
     const bytes = zipSync({
       'a_valid.npy': ofType('|b1', '(40, 22, 3)', 2640),
-      'fps.npy': ofType('|u1', '()', 1),
+      'fps.npy': ofType('<c8', '()', 8),
       'about.json': strToU8('{}'),
       ...files,
     });

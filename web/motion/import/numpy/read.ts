@@ -1,4 +1,5 @@
 import { sourceOfRotations } from './amass';
+import { changesLengths } from './bone-lengths';
 import { bodyOf, JOINT_COUNTS, sourceOfPositions, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { type DamageError, type NpzArray, openNpy, type StoredArray, unzipArrays } from '../../../common/npz';
@@ -9,7 +10,9 @@ import type { MotionSource } from '../../retarget/source';
 const MAX_BYTES = 256 * 1024 * 1024;
 /** Names of the frame rate, of rotations and of the root's place, as research writes them. */
 const RATES = ['mocap_framerate', 'mocap_frame_rate', 'fps', 'frame_rate', 'framerate'];
-const ROTATIONS = ['poses', 'smpl_poses', 'full_pose', 'fullpose'];
+const ROTATIONS = ['poses', 'smpl_poses', 'full_pose', 'fullpose', 'pose', 'thetas', 'theta'];
+/** Names of rotations of any part of a body: beside the root's place, arrays of such names hold no joints. */
+const OF_ROTATIONS = /pose|theta|orient/i;
 const PLACES = ['trans', 'smpl_trans', 'transl'];
 /** Units of the root's place in a metre, in archives made of AIST++. */
 const SCALING = 'smpl_scaling';
@@ -76,9 +79,42 @@ function rotationShape(array: StoredArray, hasPlaces: boolean): { frames: number
   return width >= BODY_ROTATIONS ? { frames, width } : null;
 }
 
+/**
+ * The rotations of a body, (T, 66 or more): in one array, or in those of the root (T, 3) and of the other joints (T, 63).
+ * Null where there are none.
+ */
+function rotationsIn(arrays: Archive): NpzArray | null {
+  const whole = firstOf(arrays, ROTATIONS);
+  const turns = whole && rotationShape(whole, firstOf(arrays, PLACES) !== null);
+  if (whole && turns) {
+    const { frames, width } = turns;
+    const error = tooLong(frames, Math.min(width, BODY_ROTATIONS));
+    if (error) throw error;
+    return { shape: [frames, width], data: whole.read().data };
+  }
+  const [root, body] = [arrays.get('root_orient'), arrays.get('pose_body')];
+  const frames = root?.shape[0] ?? 0;
+  if (!root || !body || !isShape(root, frames, 3) || !isShape(body, frames, BODY_ROTATIONS - 3)) return null;
+  const error = tooLong(frames, BODY_ROTATIONS);
+  if (error) throw error;
+  const data = new Float64Array(frames * BODY_ROTATIONS);
+  const [first, others] = [root.read().data, body.read().data];
+  for (let frame = 0; frame < frames; frame++) {
+    data.set(first.subarray(3 * frame, 3 * frame + 3), frame * BODY_ROTATIONS);
+    const from = frame * (BODY_ROTATIONS - 3);
+    data.set(others.subarray(from, from + BODY_ROTATIONS - 3), frame * BODY_ROTATIONS + 3);
+  }
+  return { shape: [frames, BODY_ROTATIONS], data };
+}
+
+const isShape = ({ shape }: StoredArray, frames: number, width: number): boolean =>
+  shape.length === 2 && shape[0] === frames && shape[1] === width;
+
 /** Names of the arrays of joints, the leader's first. */
 function dancersIn(arrays: Archive): string[] {
+  const hasPlaces = firstOf(arrays, PLACES) !== null;
   const names = [...arrays]
+    .filter(([name]) => !hasPlaces || !OF_ROTATIONS.test(name))
     .filter(([, array]) => isOfNumbers(array) && jointShape(array))
     .map(([name]) => name);
   return names.sort((a, b) => Number(/leader|lead$/i.test(b)) - Number(/leader|lead$/i.test(a)));
@@ -125,14 +161,15 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const arrays = isArchive
     ? openArchive(bytes)
     : new Map([['joints', openNpy(bytes, name.slice(0, 40), damaged)]]);
-  const rotations = firstOf(arrays, ROTATIONS);
-  const turns = rotations && rotationShape(rotations, firstOf(arrays, PLACES) !== null);
-  if (turns) {
-    const { frames, width } = turns;
-    const error = tooLong(frames, Math.min(width, BODY_ROTATIONS));
-    if (error) throw error;
-    const poses = { shape: [frames, width], data: rotations.read().data };
-    return sourceOfRotations(poses, placesIn(arrays, frames), rateOf(arrays));
+  const poses = rotationsIn(arrays);
+  if (poses) {
+    const frames = poses.shape[0]!;
+    const places = placesIn(arrays, frames);
+    const source = sourceOfRotations(poses, places, rateOf(arrays));
+    const left = places ? null : firstOf(arrays, PLACES);
+    if (!left) return source;
+    const warning = `The body's place is (${left.shape.join(', ')}) for ${frames} frames and was left out.`;
+    return { ...source, warnings: [...source.warnings, warning] };
   }
   const dancers = dancersIn(arrays);
   const chosen = dancers[part] ?? dancers[0];
@@ -141,17 +178,27 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const { frames, count } = jointShape(array)!;
   const error = tooLong(frames, count * 3);
   if (error) throw error;
-  return sourceOfPositions(bodyOf(array.read().data, count)!, {
+  const body = bodyOf(array.read().data, count)!;
+  const doubt = 'Bones change their lengths all the time: the values may be rotations, not places of joints.';
+  return sourceOfPositions(body, {
     format: isArchive ? 'NPZ' : 'NPY',
     ...rateOf(arrays),
     unit: null,
     upAxis: null,
     parts: dancers.length > 1 ? dancers : [],
     part: dancers.indexOf(chosen),
+    warnings: changesLengths(body) ? [doubt] : [],
   });
 }
 
 function noJoints(arrays: Archive): AppError {
+  if (arrays.size > 0 && [...arrays.values()].every(({ type }) => /^\|?O/.test(type))) {
+    return new AppError(
+      'not-motion',
+      'The file holds a pickled Python object, which is not read here.',
+      'Load it in Python and save the arrays in it, such as poses and trans, with numpy.savez.',
+    );
+  }
   const seen = [...arrays]
     .slice(0, 6)
     .map(([name, { shape }]) => `${name.slice(0, 24)} (${shape.join(', ')})`);
