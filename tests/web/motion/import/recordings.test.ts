@@ -63,6 +63,33 @@ describe('AMC with ASF', () => {
     expect(worstMillimetres(file, dance, 4)).toBeLessThan(0.1);
   });
 
+  const changed = (bytes: Uint8Array, change: (text: string) => string): Uint8Array =>
+    new TextEncoder().encode(change(new TextDecoder().decode(bytes)));
+
+  test.each([
+    ['within a number', (text: string) => text.slice(0, text.lastIndexOf(' ') + 1)],
+    [
+      'within the name of a bone',
+      (text: string) => text.slice(0, text.lastIndexOf('\n', text.length - 2) + 3),
+    ],
+    ['between two bones', (text: string) => text.slice(0, text.lastIndexOf('\n', text.length - 2) + 1)],
+  ])('a motion that is cut off %s of its last frame has the whole frames, and says so', async (_, cut) => {
+    const file = await read({}, ['a.amc', changed(amc, cut)], ['a.asf', asf]);
+    expect(file.report.warnings).toEqual([
+      'The file ends in the middle of frame 81; the 80 whole frames are used.',
+    ]);
+    expect(file.clip.frames).toBe(20);
+    expect(worstMillimetres(file, dance, 4)).toBeLessThan(0.1);
+  });
+
+  test.each(['\r\n', '\r'])('lines that end in %j', async (newline) => {
+    const [motion, skeleton] = [amc, asf].map((bytes) =>
+      changed(bytes, (text) => text.replaceAll('\n', newline)),
+    ) as [Uint8Array, Uint8Array];
+    const file = await read({}, ['a.amc', motion], ['a.asf', skeleton]);
+    expect(worstMillimetres(file, dance, 4)).toBeLessThan(0.1);
+  });
+
   test('the skeleton of another person, who has other bones', async () => {
     const other = new TextDecoder().decode(amc).replaceAll('lfemur', 'lthigh');
     const motion = new TextEncoder().encode(other);

@@ -114,7 +114,7 @@ export function readAsf(text: string): Asf {
 function ordered(found: ReadonlyMap<string, Omit<Bone, 'parent'>>, hierarchy: string): Bone[] {
   const places = new Map([['root', 0]]);
   const bones: Bone[] = [{ ...found.get('root')!, parent: -1 }];
-  const lines = hierarchy.split('\n').map((line) => line.trim().split(/\s+/));
+  const lines = hierarchy.split(/\r\n|\r|\n/).map((line) => line.trim().split(/\s+/));
   // Lines come in the order of the tree in nearly all files; passes over them find the others.
   for (let before = -1; bones.length > before;) {
     before = bones.length;
