@@ -25,7 +25,7 @@ function longestStill(frames: readonly number[]): number {
 function followsIk({ bones, switches }: Vmd, side: string, frame: number): boolean {
   const name = `${side}足ＩＫ`;
   const last = switches.findLast((one) => one.bone === name && one.frame <= frame);
-  return last ? last.on && bones.has(name) : bones.has(name);
+  return (last?.on ?? true) && (bones.has(name) || bones.has(`${side}足IK親`));
 }
 
 /** Transforms of all bones from their parents in a frame, and with the feet placed. */
