@@ -18,7 +18,7 @@ from torch import Tensor, nn
 
 from training.checkpoint import copy_first_card, copy_stage1, earlier_training, load_model, save_denoiser
 from training.command_line import run_program
-from training.config import DiffusionConfig
+from training.config import STRIDE, DiffusionConfig
 from training.denoiser.denoiser import Denoiser
 from training.denoiser.windows import Batch, Windows
 from training.diffusion.guidance import clamp_to_range
@@ -60,9 +60,9 @@ def main(options: Options) -> None:
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     teacher = load_model(options.teacher)
     diffusion = student_diffusion(teacher.diffusion, options.music_guidance)
-    duets = read_duets_to_train(options)
-    bank = music_of(options, duets)
     network = teacher.denoiser
+    duets = read_duets_to_train(options, fabric, STRIDE * network.config.block)
+    bank = music_of(options, duets)
     condition = network.config.condition
     clips = duet_clips(options, condition, duets, bank, teacher.hfsq, teacher.frame)
     clips += solo_clips(options, condition, teacher.hfsq, teacher.frame)

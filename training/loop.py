@@ -21,7 +21,7 @@ from torch.utils.tensorboard import SummaryWriter
 
 from training.config import check_latent_frames, check_limits
 from training.data.sources import read_split
-from training.data.splits import Split
+from training.data.splits import Split, summary
 from training.denoiser.clips import Augmentation
 
 Precision = Literal["32-true", "bf16-mixed", "16-mixed"]
@@ -103,10 +103,16 @@ class WindowOptions(LoopOptions):
         check_latent_frames("stride", self.stride)
 
 
-def read_duets_to_train(options: LoopOptions) -> Split:
-    """The options' duets, split by name; with `learn_all` all of them are to train on and none is left to measure."""
+def read_duets_to_train(options: LoopOptions, fabric: Fabric, window: int) -> Split:
+    """The options' duets, split by name; with `learn_all` all of them are to train on and none is left to measure.
+
+    window: frames of a training window. Prints what was read.
+    """
     duets = read_split(options.data, options.val, options.test)
-    return Split(duets.train + duets.val + duets.test, (), ()) if options.learn_all else duets
+    if options.learn_all:
+        duets = Split(duets.train + duets.val + duets.test, (), ())
+    fabric.print(summary(duets, window))
+    return duets
 
 
 def launch(options: LoopOptions) -> Fabric:

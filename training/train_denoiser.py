@@ -13,7 +13,7 @@ from torch import Tensor, nn
 
 from training.checkpoint import earlier_training, load_hfsq, save_denoiser, start_from, write_first_card
 from training.command_line import run_program
-from training.config import DenoiserConfig, DenoiserLossConfig, DiffusionConfig
+from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
 from training.denoiser.clips import Clip, feature_values
 from training.denoiser.condition import condition_dropout
 from training.denoiser.denoiser import Denoiser
@@ -59,7 +59,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     hfsq, frame = load_hfsq(options.out)
-    duets = read_duets_to_train(options)
+    duets = read_duets_to_train(options, fabric, STRIDE * options.denoiser.block)
     bank = music_of(options, duets)
     condition = options.denoiser.condition
     clips = duet_clips(options, condition, duets, bank, hfsq, frame)

@@ -34,7 +34,7 @@ class Options(LoopOptions):
     steps: int = 4000
     batch: int = 48
     window: int = 240
-    """Frames."""
+    """Frames; dances that are shorter are left out."""
     learning_rate: float = 3e-4
     weight_decay: float = 1e-3
     tempos: tuple[float, ...] = (0.9, 1.0, 1.1)
@@ -56,7 +56,7 @@ class Options(LoopOptions):
 def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed, verbose=False)
-    duets = read_duets_to_train(options)
+    duets = read_duets_to_train(options, fabric, options.window)
     clips = read_clips(options, duets)
     windows = Windows(clips, options.window)
     autoencoder = initial_autoencoder(options, clips)

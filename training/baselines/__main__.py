@@ -19,7 +19,7 @@ from training.baselines.method import BaselineConfig, Known, Method, Name, Windo
 from training.baselines.trained import make_method
 from training.checkpoint import load_hfsq, save_weights
 from training.command_line import run_program
-from training.config import ConditionConfig
+from training.config import STRIDE, ConditionConfig
 from training.data.music_pairing import build_music_bank, variants
 from training.denoiser.clips import augmented_clips, feature_values
 from training.denoiser.losses import decoded_windows
@@ -77,14 +77,14 @@ class Training(nn.Module):
 def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed, verbose=False)
-    duets = read_duets_to_train(options)
+    config = BaselineConfig(options.method, options.width, options.depth)
+    duets = read_duets_to_train(options, fabric, STRIDE * config.block)
     hfsq, frame = load_hfsq(options.out)
     wanted = variants(options.augmentation.tempos, options.synths, 0)
     bank = build_music_bank(duets, None, wanted, cache_dir=options.music_cache)
     condition = ConditionConfig()
     clips = augmented_clips(duets.train, bank, hfsq, frame, options.augmentation, condition, options.seed)
     torch.manual_seed(options.seed)
-    config = BaselineConfig(options.method, options.width, options.depth)
     method = make_method(config, hfsq)
     method.condition.set_statistics(*feature_values(clips))
     margin = method.condition.receptive_field

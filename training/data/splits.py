@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
-from training.data.duet import Duet
+from training.data.duet import FPS, Duet
 
 
 @dataclass(frozen=True, eq=False)
@@ -15,6 +15,18 @@ class Split:
     train: tuple[Duet, ...]
     val: tuple[Duet, ...]
     test: tuple[Duet, ...]
+
+
+def summary(duets: Split, window: int) -> str:
+    """What was read, in a line. window: frames of a training window; of what is shorter little or nothing is learnt."""
+    read = (*duets.train, *duets.val, *duets.test)
+    songs = sum(duet.song is not None for duet in duets.train)
+    short = sum(len(duet) < window for duet in duets.train)
+    return (
+        f"{len(read)} duets: {len(duets.train)} to train on, {songs} of them with a song of their own, "
+        f"{short} shorter than a window of {window / FPS:g} s; "
+        f"{len(duets.val)} for validation, {len(duets.test)} for test"
+    )
 
 
 def split(duets: Iterable[Duet], val: Collection[str], test: Collection[str]) -> Split:

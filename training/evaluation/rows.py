@@ -39,10 +39,11 @@ def measure_row(held_out: Sequence[HeldOutDuet], motions: Motions) -> dict[str, 
     exist only for all clips of a seed together, over clips.
     """
     by_duet = {item.duet.name: _measure_duet(item, motions[item.duet.name]) for item in held_out}
-    first = next(iter(by_duet.values()))
-    count = len(first["seeds"])
+    count = len(next(iter(by_duet.values()))["seeds"])
+    # A duet that is too short for the measures of repetition lacks them.
+    keys = dict.fromkeys(key for row in by_duet.values() for key in row["mean"])
     per_seed = [
-        {key: _known_mean([row["seeds"][i][key] for row in by_duet.values()]) for key in first["mean"]}
+        {key: _known_mean([row["seeds"][i].get(key, np.nan) for row in by_duet.values()]) for key in keys}
         for i in range(count)
     ]
     sets = [_measure_set(held_out, motions, i) for i in range(count)]

@@ -21,9 +21,12 @@ def floor_height(motion: np.ndarray) -> float:
     """Height of the floor under a dancer, from planted toes.
 
     motion: (T, 22, 3) metres, y up. In almost every frame of a dance one foot stands, so a low percentile
-    over time of the lower toe is a planted toe, which rests TOE_REST above the floor.
+    over time of the lower toe is a planted toe, which rests TOE_REST above the floor. Frames that are not finite do
+    not count, so that whoever checks the motion afterwards can name them.
     """
-    return float(np.percentile(lower_toe(motion), TOE_PERCENTILE)) - TOE_REST
+    heights = lower_toe(motion)
+    known = heights[np.isfinite(heights)]
+    return float(np.percentile(known, TOE_PERCENTILE)) - TOE_REST if len(known) else 0.0
 
 
 def put_on_floor(motion: np.ndarray) -> np.ndarray:

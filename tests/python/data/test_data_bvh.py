@@ -112,9 +112,21 @@ def test_folder_of_pairs_keeps_the_distance_of_partners(tmp_path: Path) -> None:
     gap = (duet.reactor - duet.leader)[:, wrist, [0, 2]]
     truth = (reactor.positions - leader.positions[:36])[:, wrist, [0, 2]]
     np.testing.assert_allclose(gap, truth, atol=1e-4)
-    (tmp_path / "rumba_reactor.bvh").unlink()
-    with pytest.raises(FileNotFoundError, match=r"no partner rumba_reactor\.bvh"):
-        read_bvh_folder(tmp_path)
+
+
+def test_no_file_of_a_folder_is_passed_over_silently(tmp_path: Path) -> None:
+    """Capitals in endings do not matter, and a dancer without a partner is named."""
+    for name in ("rumba_Leader.BVH", "rumba_reactor.bvh"):
+        write_bvh(tmp_path / name, MadeDancer(frames=8, seed=2), "own", unit=1.0)
+    (tmp_path / "rumba.WAV").write_bytes(b"")
+    (tmp_path / "rumba.mp3").write_bytes(b"")
+    (duet,) = read_bvh_folder(tmp_path)
+    assert (duet.name, duet.song) == ("rumba", tmp_path / "rumba.WAV")
+    for name, partner in (("tango_leader", "tango_reactor"), ("tango_reactor", "tango_leader")):
+        alone = write_bvh(tmp_path / f"{name}.bvh", MadeDancer(frames=8, seed=2), "own", unit=1.0)
+        with pytest.raises(FileNotFoundError, match=rf"{name}\.bvh has no partner {partner}\.bvh"):
+            read_bvh_folder(tmp_path)
+        alone.unlink()
 
 
 def test_a_rest_pose_before_the_dance_is_left_out(tmp_path: Path, dancer: MadeDancer) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from tests.python.support.real_data import real_duets, real_file
 from training.data.duet import Duet
 from training.data.made import made_dancer
 from training.data.npz import read_npz, read_solo
-from training.data.splits import split
+from training.data.splits import Split, split, summary
 from training.motion.floor import TOE_REST, floor_height, put_on_floor
 from training.motion.skeleton import JOINTS
 
@@ -40,6 +41,23 @@ def test_a_duet_of_wrong_shape_type_or_length_is_an_error() -> None:
     broken[7, 3, 1] = np.nan
     with pytest.raises(ValueError, match="reactor of x: 1 frames are not finite, the first is 7"):
         Duet("x", good, broken)
+
+
+def test_a_frame_that_is_not_finite_is_named(tmp_path: Path) -> None:
+    """It alone, not all frames: the floor is found from the others."""
+    duet = made_duet(50, seed=1)
+    duet.reactor[7, TOES[0], 1] = np.nan
+    save(tmp_path / "duets.npz", **{"a/leader": duet.leader, "a/follower": duet.reactor})
+    with pytest.raises(ValueError, match="reactor of a: 1 frames are not finite, the first is 7"):
+        read_npz(tmp_path / "duets.npz")
+
+
+def test_what_was_read_is_said_in_a_line() -> None:
+    song, silent = replace(made_duet(40, 1), song=Path("a.mp3")), made_duet(30, 2)
+    assert summary(Split((song, silent), (made_duet(40, 3),), ()), window=40) == (
+        "3 duets: 2 to train on, 1 of them with a song of their own, 1 shorter than a window of 1.33333 s; "
+        "1 for validation, 0 for test"
+    )
 
 
 def test_npz_maps_the_follower_to_the_reactor_and_puts_floors_at_0(tmp_path: Path) -> None:

@@ -14,9 +14,11 @@ from tests.python.support.held_out import generate_mirrored
 from training.data.duet import Duet, Solo
 from training.evaluation.evaluate import evaluate
 from training.evaluation.limits import ThresholdResult
+from training.evaluation.metrics.repetition import MIN_FRAMES
 from training.evaluation.protocol import COARSE_ALONE, HeldOutDuet, Settings
 from training.evaluation.report.report import draw, write_report
 from training.evaluation.report.report_text import markdown
+from training.evaluation.rows import measure_row
 from training.evaluation.thresholds import check_required
 
 QUICK = Settings(seeds=(0, 1), seam_starts=(0, 60), response_seeds=2, two_sample=False)
@@ -114,6 +116,15 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
     linked = markdown(numbers, "made", drawn, film)
     assert all(p.exists() and f"]({p.name})" in linked for p in drawn)
     assert "](one.webm)" in linked
+
+
+def test_duets_may_be_of_any_length_above_a_clip() -> None:
+    """One is too short for the measures of repetition, whichever comes first."""
+    short, long = (HeldOutDuet(made_duet(frames, 1, str(frames)), None) for frames in (MIN_FRAMES - 1, 300))
+    for held_out in ([short, long], [long, short]):
+        row = measure_row(held_out, {item.duet.name: [item.duet.reactor] for item in held_out})
+        alone = measure_row([long], {"300": [long.duet.reactor]})
+        assert row["mean"]["repeat_share"] == alone["mean"]["repeat_share"]
 
 
 def test_required_thresholds_are_checked(held_out: list[HeldOutDuet], train: list[Duet]):

@@ -15,6 +15,8 @@ from training.data.naming import naming
 from training.motion.floor import put_on_floor
 from training.music.features import SONG_SUFFIXES
 
+_ROLES = ("leader", "reactor")
+
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
     """One dancer: metres, y up, 30 fps, floor at 0, without a rest pose before the dance.
@@ -29,34 +31,45 @@ def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
 
 
 def read_bvh_folder(folder: Path | str, fps: float | None = None) -> list[Duet]:
-    """All duets of a folder, sorted by name, cut to the shorter dancer.
+    """All duets of a folder, sorted by name, cut to the shorter dancer; capitals in `_leader.bvh` and the like do not
+    matter.
 
     Unit and up axis are found for both dancers together, so that their distance stays. fps: overrides
     the frame rate that the files state.
     Raises FileNotFoundError when there is no NAME_leader.bvh or a partner is missing, ValueError for a bad file.
     """
     folder = Path(folder)
-    leaders = sorted(folder.glob("*_leader.bvh"))
-    if not leaders:
+    pairs, songs = _find_pairs(folder), _find_songs(folder)
+    if not pairs:
         raise FileNotFoundError(f"no NAME_leader.bvh in {folder}")
     duets = []
-    for leader_path in leaders:
-        name = leader_path.stem.removesuffix("_leader")
-        reactor_path = folder / f"{name}_reactor.bvh"
-        if not reactor_path.exists():
-            raise FileNotFoundError(f"{leader_path} has no partner {reactor_path.name}")
-        leader, reactor = _read_together([leader_path, reactor_path], fps)
-        songs = [song for suffix in SONG_SUFFIXES if (song := folder / f"{name}{suffix}").exists()]
+    for name, pair in sorted(pairs.items()):
+        for role, other in (_ROLES, _ROLES[::-1]):
+            if role not in pair:
+                raise FileNotFoundError(f"{pair[other]} has no partner {name}_{role}.bvh")
+        leader, reactor = _read_together([pair[role] for role in _ROLES], fps)
         frames = min(len(leader), len(reactor))
         duets.append(
-            Duet(
-                name,
-                put_on_floor(leader[:frames]),
-                put_on_floor(reactor[:frames]),
-                songs[0] if songs else None,
-            )
+            Duet(name, put_on_floor(leader[:frames]), put_on_floor(reactor[:frames]), songs.get(name))
         )
     return duets
+
+
+def _find_pairs(folder: Path) -> dict[str, dict[str, Path]]:
+    """The BVH files of a folder by the name of the duet and by role."""
+    pairs: dict[str, dict[str, Path]] = {}
+    for path in folder.iterdir():
+        name, _, role = path.stem.rpartition("_")
+        if path.suffix.lower() == ".bvh" and role.lower() in _ROLES:
+            pairs.setdefault(name, {})[role.lower()] = path
+    return pairs
+
+
+def _find_songs(folder: Path) -> dict[str, Path]:
+    """The songs of a folder by name; of several with one name the first in the order of SONG_SUFFIXES."""
+    songs = [path for path in folder.iterdir() if path.suffix.lower() in SONG_SUFFIXES]
+    songs.sort(key=lambda path: SONG_SUFFIXES.index(path.suffix.lower()), reverse=True)
+    return {path.stem: path for path in songs}
 
 
 def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
