@@ -274,11 +274,24 @@ class Run(Generic[M]):
         self.logger = Logger(folder, fabric.is_global_zero, self.schedule.step)
 
     def train(self, next_batch: Callable[[np.random.Generator], Any], evaluate: Callable[[], None]) -> None:
-        """Steps until the schedule ends; `evaluate` on rank 0 every so many.
+        """Steps until the schedule ends; `evaluate` on rank 0 every so many. The state is saved then, at the end and on
+        Ctrl-C.
 
-        Random numbers depend on the seed, the rank and the last saved step alone: a training that is resumed draws
-        those that it would have drawn. `next_batch` draws from the generator it is given, the stage from torch's.
+        Random numbers depend on the seed, the rank and the step of the last evaluation alone: a training that goes on
+        from one draws those that it would have drawn. `next_batch` draws from the generator it is given, the stage from
+        torch's.
         """
+        try:
+            self._steps(next_batch, evaluate)
+        except KeyboardInterrupt:
+            # Saving waits for all ranks, and another one may not have been stopped.
+            if self.fabric.world_size > 1:
+                raise
+            self.save()
+            raise SystemExit(f"stopped after step {self.schedule.step}; go on with --resume") from None
+        self.save()
+
+    def _steps(self, next_batch: Callable[[np.random.Generator], Any], evaluate: Callable[[], None]) -> None:
         random = self._seed()
         while self.schedule.progress < 1:
             self._step(next_batch(random))

@@ -99,8 +99,8 @@ def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
     whole, stopped = stage1(data, tmp_path / "whole", steps=4), stage1(data, tmp_path / "stopped", steps=4)
     train_hfsq.main(whole)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, step=3))
-        with pytest.raises(KeyboardInterrupt):
+        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, 3, OSError("no space left")))
+        with pytest.raises(OSError, match="no space left"):
             train_hfsq.main(stopped)
     assert torch.load(stopped.out / "hfsq" / "state.ckpt", weights_only=False)["step"] == 2
     assert max(steps_logged(stopped.out / "hfsq")) == 3
@@ -111,12 +111,28 @@ def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
         assert torch.equal(weights[name], value), name
 
 
-def stop_before(step_of: Callable[..., None], step: int) -> Callable[..., None]:
-    """A training step that is interrupted after `step` of them."""
+def test_no_step_is_lost_by_an_interruption_or_at_the_end(data: Path, tmp_path: Path) -> None:
+    options = stage1(data, tmp_path, steps=4, evaluate_every=100)
+
+    def saved_step() -> int:
+        return torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)["step"]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, 3, KeyboardInterrupt()))
+        with pytest.raises(SystemExit, match="stopped after step 3; go on with --resume"):
+            train_hfsq.main(options)
+    assert saved_step() == 3
+    train_hfsq.main(replace(options, resume=True))
+    assert steps_logged(tmp_path / "hfsq") == [1, 2, 3, 4, 4], "the last row is the measures"
+    assert saved_step() == 4
+
+
+def stop_before(step_of: Callable[..., None], step: int, error: BaseException) -> Callable[..., None]:
+    """A training step that fails with an error after `step` of them."""
 
     def stopping(run: Run, batch: object) -> None:
         if run.schedule.step == step:
-            raise KeyboardInterrupt
+            raise error
         step_of(run, batch)
 
     return stopping
