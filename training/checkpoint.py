@@ -151,33 +151,42 @@ def copy_stage1(source: Path, out: Path) -> None:
             shutil.copy(source / name, out / name)
 
 
-def copy_first_card(source: Path, out: Path) -> None:
-    """Copies the card.json of a checkpoint, if it has one, to be filled in by hand; one that exists is kept."""
-    if (source / "card.json").exists() and not (out / "card.json").exists():
-        shutil.copy(source / "card.json", out)
+MEASURED = ("reference_height", "reactor_height", "unfamiliar_from")
+"""Numbers of a card that come from the training; a person fills in the others."""
 
 
-def write_first_card(
+def copy_card(source: Path, out: Path) -> None:
+    """Copies the card.json of a checkpoint, if any; of one that exists it replaces the measured numbers alone."""
+    if (source / "card.json").exists():
+        card = read_card(source)
+        _update_card(out, card, {name: card[name] for name in MEASURED if name in card})
+
+
+def write_card(
     folder: Path, reference_height: float, unfamiliar_from: float, reactor_height: float | None = None
 ) -> None:
-    """Writes a card.json to be filled in by hand; one that exists is kept.
+    """Writes a card.json to be filled in by hand; of one that exists it replaces the measured numbers alone.
 
     reference_height: metres, the mean `body_height` of the leaders it was trained on. unfamiliar_from: mean
     `ConditionEncoder.unfamiliarity` of a leader from which the page says that the model does not know such a dance.
     reactor_height: metres, the mean `body_height` of the reactors beside those leaders.
     """
-    if (folder / "card.json").exists():
-        return
-    card = {
+    blank = {
         "id": folder.resolve().name,
         "name": folder.resolve().name,
         "licence": "not stated",
         "data_licence": "not stated",
         "attribution": "not stated",
         "notes": [],
-        "reference_height": round(reference_height, 4),
-        "unfamiliar_from": round(unfamiliar_from, 2),
     }
+    measured = {"reference_height": round(reference_height, 4), "unfamiliar_from": round(unfamiliar_from, 2)}
     if reactor_height is not None:
-        card["reactor_height"] = round(reactor_height, 4)
-    write_json(folder / "card.json", card)
+        measured["reactor_height"] = round(reactor_height, 4)
+    _update_card(folder, blank, measured)
+
+
+def _update_card(folder: Path, first: dict, measured: dict) -> None:
+    """Writes the measured numbers into the card of a folder, or into the first one where there is none yet."""
+    card = read_card(folder) if (folder / "card.json").exists() else first
+    kept = {name: value for name, value in card.items() if name not in MEASURED}
+    write_json(folder / "card.json", kept | measured)

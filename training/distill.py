@@ -16,7 +16,7 @@ from pathlib import Path
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import copy_first_card, copy_stage1, earlier_training, load_model, save_denoiser
+from training.checkpoint import copy_card, copy_stage1, earlier_training, load_model, save_denoiser
 from training.command_line import run_program
 from training.config import STRIDE, DiffusionConfig
 from training.denoiser.denoiser import Denoiser
@@ -90,7 +90,7 @@ def main(options: Options) -> None:
             provenance = run.provenance("training.distill", leave_out=())
             save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report} | before)
             copy_stage1(options.teacher, options.out)
-            copy_first_card(options.teacher, options.out)
+            copy_card(options.teacher, options.out)
 
     run.train(lambda random: windows.batch(options.batch, random), finish)
     if fabric.is_global_zero:

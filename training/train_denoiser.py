@@ -11,7 +11,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import earlier_training, load_hfsq, save_denoiser, start_from, write_first_card
+from training.checkpoint import earlier_training, load_hfsq, save_denoiser, start_from, write_card
 from training.command_line import run_program
 from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
 from training.denoiser.clips import Clip, feature_values
@@ -92,7 +92,7 @@ def main(options: Options) -> None:
             provenance |= {"validation": report} | before
             save_denoiser(options.out, averaged, options.diffusion, provenance)
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
-            write_first_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
+            write_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
         hfsq.to(fabric.device)
 
     run.train(lambda random: windows.batch(options.batch, random), finish)

@@ -12,12 +12,15 @@ from torch import nn
 
 from tests.python.support.mutations import damaged_bytes, damaged_text, fuzz
 from training.checkpoint import (
+    copy_card,
     load_denoiser,
+    read_card,
     read_config,
     save_denoiser,
     save_weights,
     solos_seen,
     start_from,
+    write_card,
 )
 from training.config import DenoiserConfig, DiffusionConfig, HfsqConfig
 from training.denoiser.denoiser import Denoiser
@@ -72,6 +75,24 @@ def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) ->
         save_file(changed, tmp_path / "denoiser.safetensors")
         with pytest.raises(ValueError, match=r"denoiser\.safetensors"):
             load_denoiser(tmp_path, hfsq)
+
+
+def test_a_card_keeps_what_a_person_wrote_and_takes_the_numbers_of_the_newest_training(
+    tmp_path: Path,
+) -> None:
+    write_card(tmp_path / "a", 1.4, 1.1, 1.3)
+    path = tmp_path / "a" / "card.json"
+    path.write_text(json.dumps(read_card(tmp_path / "a") | {"name": "Tango", "notes": ["one couple"]}))
+    write_card(tmp_path / "a", 1.5, 1.2, 1.25)
+    numbers = {"reference_height": 1.5, "unfamiliar_from": 1.2, "reactor_height": 1.25}
+    card = read_card(tmp_path / "a")
+    assert card["name"] == "Tango"
+    assert card.items() >= numbers.items()
+    write_card(tmp_path / "b", 1.0, 1.0)
+    copy_card(tmp_path / "a", tmp_path / "b")
+    assert read_card(tmp_path / "b").items() >= ({"name": "b"} | numbers).items()
+    copy_card(tmp_path / "a", tmp_path / "c")
+    assert read_card(tmp_path / "c") == card
 
 
 def test_damaged_config(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ import torch
 from tests.python.support.duets import made_duet
 from tests.python.support.small_training import DENOISER, HFSQ, stage1, stage2, write_duets
 from training import generate, train_denoiser, train_hfsq
-from training.checkpoint import load_denoiser, load_hfsq, load_model, read_card, solos_seen
+from training.checkpoint import MEASURED, load_denoiser, load_hfsq, load_model, read_card, solos_seen
 from training.checkpoints import average
 from training.config import (
     DenoiserConfig,
@@ -210,7 +210,8 @@ def test_tuned_models_are_averaged(data: Path, trained: Path, tmp_path: Path) ->
     (tmp_path / "mean").mkdir()
     (tmp_path / "mean" / "card.json").write_text('{"name": "filled in"}')
     average.main(average.Options((trained, tmp_path / "other"), tmp_path / "mean"))
-    assert read_card(tmp_path / "mean") == {"name": "filled in"}
+    measured = {name: read_card(trained)[name] for name in MEASURED}
+    assert read_card(tmp_path / "mean") == {"name": "filled in"} | measured
     hfsq, _ = load_hfsq(tmp_path / "mean")
     a, b, mean = (
         load_denoiser(run, hfsq)[0].state_dict() for run in (trained, tmp_path / "other", tmp_path / "mean")

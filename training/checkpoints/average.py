@@ -2,8 +2,8 @@
 
     python -m training.checkpoints.average --checkpoints runs/a runs/b --out runs/average
 
-Stage 1 and the card are those of the first checkpoint, but for a card that --out has already; all must have been
-trained with the same stage 1.
+Stage 1 and the card are those of the first checkpoint; of a card that --out has already only the measured numbers are
+replaced. All must have been trained with the same stage 1.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import torch
 from safetensors.torch import load_file
 
 from training.checkpoint import (
-    copy_first_card,
+    copy_card,
     copy_stage1,
     load_denoiser,
     load_hfsq,
@@ -55,7 +55,7 @@ def main(options: Options) -> None:
         "checkpoints": [config["provenance"] for config in configs],
     }
     copy_stage1(first, options.out)
-    copy_first_card(first, options.out)
+    copy_card(first, options.out)
     save_denoiser(options.out, denoiser, diffusion, provenance)
 
 

@@ -24,7 +24,7 @@ from training.checkpoint import (
     read_card,
     save_denoiser,
     save_hfsq,
-    write_first_card,
+    write_card,
 )
 from training.data.sources import read_split
 from training.data.splits import Split
@@ -107,7 +107,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     tiny, checkpoint = tiny_model(), tmp_path / "checkpoint"
     save_hfsq(checkpoint, tiny.hfsq, tiny.frame, {})
     save_denoiser(checkpoint, tiny.denoiser, tiny.diffusion, {})
-    write_first_card(checkpoint, tiny.reference_height, 1.2)
+    write_card(checkpoint, tiny.reference_height, 1.2)
     main(
         Options(
             data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, checkpoint=checkpoint,
