@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from datetime import date
 from typing import Any
 
-from training.config import CONTROLS, FPS, STREAMS, STRIDE, to_json
+from training.config import CONTROLS, FPS, STREAMS, STRIDE, from_json, to_json
 from training.diffusion.decode import RECEPTIVE_FIELD
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
@@ -34,6 +34,13 @@ class Card:
     reference_height: float  # metres, `body_height` of the leaders it was trained on
     unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
     reactor_height: float | None = None  # metres, `body_height` of the reactors beside those leaders
+
+
+def make_card(values: dict[str, Any]) -> Card:
+    """The card of the values of a card.json. Raises ValueError for an unknown or missing one, and notes in one text."""
+    if not isinstance(values.get("notes", []), list):
+        raise ValueError('notes are a list of sentences, ["...", "..."]')
+    return from_json(Card, {"reactor_height": None} | values)
 
 
 def condition_field(model: Model) -> int:

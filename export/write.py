@@ -11,12 +11,13 @@ from pathlib import Path
 
 from export.golden import Scene, reference
 from export.golden import write as write_golden
-from export.manifest import LAYERS, Card, manifest
+from export.manifest import LAYERS, Card, make_card, manifest
 from export.onnx_files import describe, describe_file, graphs, write_onnx
 from export.verify import BLOCKS, verify
 from export.weights import round_convolutions
 from training.checkpoint import load_model, read_card
 from training.command_line import run_program
+from training.data.naming import naming
 from training.diffusion.model import Model
 
 GOLDEN = "golden.npz"
@@ -61,7 +62,8 @@ def write_model(model: Model, card: Card, folder: Path, scene: Scene) -> None:
 
 def main(options: Options) -> None:
     model = load_model(options.checkpoint)
-    card = Card(**read_card(options.checkpoint))
+    with naming(options.checkpoint / "card.json"):
+        card = make_card(read_card(options.checkpoint))
     write_model(model, card, options.out, Scene(frames=480, silent_from=400))
     results = verify(model, options.out, BLOCKS).values()
     worst = {name: max(row[name] for row in results) for name in ("reactor", "int8", "rounding")}

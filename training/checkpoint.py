@@ -134,7 +134,8 @@ def load_model(folder: Path) -> Model:
     """Both stages of a checkpoint, ready to sample."""
     hfsq, frame = load_hfsq(folder)
     denoiser, diffusion = load_denoiser(folder, hfsq)
-    height = read_card(folder)["reference_height"]
+    with naming(folder / "card.json"):
+        height = float(read_card(folder)["reference_height"])
     return Model(hfsq, frame, denoiser.requires_grad_(False), diffusion, height)
 
 

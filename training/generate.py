@@ -19,8 +19,10 @@ import numpy as np
 from training.baselines.trained import load_baseline
 from training.checkpoint import load_model
 from training.command_line import run_program
-from training.config import FPS
+from training.config import FPS, check_limits
+from training.data.bvh.file import FRAME_RATES
 from training.data.bvh.reader import read_bvh
+from training.data.npz import read_npy
 from training.data.sources import read_duets
 from training.diffusion.react import Request, react
 from training.evaluation.report.filmstrip import filmstrip
@@ -34,7 +36,7 @@ STEERING = ("steps", "coarse", "fine", "music_guidance", "variety")
 class Options:
     checkpoint: Path
     leader: Path
-    """A BVH file, or any source of duets (then name the duet)."""
+    """A BVH file, the leader.npy of an earlier dance, or any source of duets (then name the duet)."""
     out: Path
     """Folder for the motions and filmstrips."""
     duet: str | None = None
@@ -52,11 +54,13 @@ class Options:
     """Frame rate of the BVH file where its header is wrong."""
 
     def __post_init__(self) -> None:
-        bvh = self.leader.suffix.lower() == ".bvh"
-        if bvh and self.duet is not None:
-            raise ValueError("--duet names one of several duets; a BVH file holds one dancer")
+        kind = self.leader.suffix.lower()
+        bvh = kind == ".bvh"
+        if self.duet is not None and kind in (".bvh", ".npy"):
+            raise ValueError("--duet names one of several duets; --leader is a file that holds one dancer")
         if not bvh and self.fps is not None:
             raise ValueError("--fps is the frame rate of a BVH file; --leader is none")
+        check_limits(self, fps=FRAME_RATES)
         if self.song is None and self.music_guidance is not None:
             raise ValueError("--music-guidance weighs a song, which was not given: add --song")
         if not self.seeds:
@@ -70,6 +74,8 @@ def read_leader(options: Options) -> np.ndarray:
     """(T, 22, 3) metres, 30 fps."""
     if options.leader.suffix.lower() == ".bvh":
         return read_bvh(options.leader, fps=options.fps).motion
+    if options.leader.suffix.lower() == ".npy":
+        return read_npy(options.leader).motion
     duets = {duet.name: duet for duet in read_duets(options.leader)}
     if options.duet not in duets:
         raise ValueError(f"name one of the duets in {options.leader} with --duet: {', '.join(duets)}")

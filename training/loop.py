@@ -9,7 +9,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any, Generic, Literal, TypeVar
 
@@ -106,11 +106,15 @@ class WindowOptions(LoopOptions):
 def read_duets_to_train(options: LoopOptions, fabric: Fabric, window: int) -> Split:
     """The options' duets, split by name; with `learn_all` all of them are to train on and none is left to measure.
 
-    window: frames of a training window. Prints what was read.
+    window: frames of a training window. Prints what was read. Raises ValueError where none is left to train on.
     """
     duets = read_split(options.data, options.val, options.test)
     if options.learn_all:
         duets = Split(duets.train + duets.val + duets.test, (), ())
+    if not duets.train:
+        raise ValueError(
+            f"nothing is left of {options.data} to train on: name fewer duets with --val and --test, or add --learn-all"
+        )
     fabric.print(summary(duets, window))
     return duets
 
@@ -130,6 +134,15 @@ def fast_precision() -> Precision:
     """bf16 on a GPU and on processors with matrix tiles; without tiles it pays on some processors alone."""
     tiles = torch.cpu._is_amx_tile_supported()
     return "bf16-mixed" if torch.accelerator.is_available() or tiles else "32-true"
+
+
+def flat_options(options: Any, prefix: str = "") -> dict[str, str]:
+    """The options by the names that they have on the command line, `hfsq.groups`, as text."""
+    flat: dict[str, str] = {}
+    for each in fields(options):
+        value, name = getattr(options, each.name), prefix + each.name.replace("_", "-")
+        flat |= flat_options(value, f"{name}.") if is_dataclass(value) else {name: str(value)}
+    return flat
 
 
 @dataclass
@@ -348,6 +361,7 @@ class Run(Generic[M]):
             "optimizer": self.optimizer,
             "ema": self.ema.module.state_dict(),
             "updates": self.ema.updates,
+            "options": flat_options(self.options),
             "step": self.schedule.step,
             "spent": self.schedule.spent,
         }
@@ -357,11 +371,22 @@ class Run(Generic[M]):
             part.replace(self.state)
 
     def load(self) -> None:
-        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved."""
+        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved, and ValueError for a state of
+        another network.
+        """
         if not self.state.exists():
             raise FileNotFoundError(f"{self.state} is missing: there is nothing to go on from with --resume")
         parts = {"model": self.stage, "optimizer": self.optimizer}
-        rest = self.fabric.load(self.state, parts, strict=True)
+        try:
+            rest = self.fabric.load(self.state, parts, strict=True)
+        except RuntimeError as error:
+            before, now = self.fabric.load(self.state).get("options", {}), flat_options(self.options)
+            differ = ", ".join(
+                f"--{key} (it was {before[key]})" for key in before if before[key] != now.get(key)
+            )
+            raise ValueError(
+                f"{self.state} is of another network, so --resume cannot go on with it; these options differ: {differ}"
+            ) from error
         self.ema.module.load_state_dict(rest["ema"], strict=True)
         self.ema.updates = rest["updates"]
         self.schedule.step, self.schedule.spent = rest["step"], rest["spent"]

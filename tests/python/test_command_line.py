@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.python.support.duets import made_duet
 from training.command_line import run_program
 from training.data.splits import split
 from training.generate import Options
@@ -23,8 +24,8 @@ def test_what_the_project_finds_wrong_is_one_sentence(
 ) -> None:
     line = ["generate", "--checkpoint", "a", "--leader", "b.npz", "--out", "c"]
     monkeypatch.setattr(sys, "argv", line)
-    with pytest.raises(SystemExit, match=r"^not among the duets: \['x'\]$"):
-        run_program(lambda options: split([], ["x"], []), Options)
+    with pytest.raises(SystemExit, match=r"^not among the duets: \['x'\]; there are a$"):
+        run_program(lambda options: split([made_duet(4, 1, "a")], ["x"], []), Options)
     with pytest.raises(SystemExit, match=r"^\[Errno 2\] No such file or directory: 'b\.npz'$"):
         run_program(lambda options: np.load(options.leader), Options)
     monkeypatch.setattr(sys, "argv", [*line, "--music-guidance", "3"])
@@ -45,8 +46,9 @@ def test_other_errors_keep_their_traceback(monkeypatch: pytest.MonkeyPatch, erro
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"leader": Path("b.bvh"), "duet": "one"}, "a BVH file holds one dancer"),
+        ({"leader": Path("b.bvh"), "duet": "one"}, "a file that holds one dancer"),
         ({"fps": 30.0}, "--fps is the frame rate of a BVH file"),
+        ({"leader": Path("b.bvh"), "fps": 0.0}, "--fps 0 is not between 5 and 1000"),
         ({"music_guidance": 3.0}, "add --song"),
         ({"seeds": ()}, "give one or more --seeds"),
         ({"coarse": float("nan")}, "finite numbers"),

@@ -35,6 +35,7 @@ from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop import Run, fast_precision
+from training.motion.floor import put_on_floor
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +79,13 @@ def test_a_dance_is_generated_as_asked(data: Path, trained: Path, tmp_path: Path
         reactor = np.load(tmp_path / f"reactor_{seed}.npy")
         assert reactor == pytest.approx(react(load_model(trained), request), abs=1e-6)
         assert (tmp_path / f"reactor_{seed}.png").stat().st_size > 1000
+
+
+def test_the_leader_of_an_earlier_dance_is_read(tmp_path: Path) -> None:
+    motion = put_on_floor(made_dancer(40, 1))
+    np.save(tmp_path / "leader.npy", motion)
+    options = generate.Options(checkpoint=tmp_path, leader=tmp_path / "leader.npy", out=tmp_path)
+    np.testing.assert_allclose(generate.read_leader(options), motion, atol=1e-6)
 
 
 def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -125,6 +133,18 @@ def test_no_step_is_lost_by_an_interruption_or_at_the_end(data: Path, tmp_path: 
     train_hfsq.main(replace(options, resume=True))
     assert steps_logged(tmp_path / "hfsq") == [1, 2, 3, 4, 4], "the last row is the measures"
     assert saved_step() == 4
+
+
+def test_a_training_does_not_go_on_with_another_network(data: Path, tmp_path: Path) -> None:
+    train_hfsq.main(stage1(data, tmp_path))
+    other = stage1(data, tmp_path, resume=True, steps=4, hfsq=replace(HFSQ, groups=4))
+    with pytest.raises(ValueError, match=r"these options differ: .*--hfsq\.groups \(it was 2\)"):
+        train_hfsq.main(other)
+
+
+def test_a_training_with_all_duets_held_out_says_so(data: Path, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"nothing is left of .* add --learn-all"):
+        train_hfsq.main(stage1(data, tmp_path, val=("made_0", "made_1")))
 
 
 def stop_before(step_of: Callable[..., None], step: int, error: BaseException) -> Callable[..., None]:

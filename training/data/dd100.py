@@ -66,8 +66,15 @@ def read_dd100(root: Path | str) -> list[Duet]:
 
 
 def is_test_sequence(name: str) -> bool:
-    """Does the benchmark test on GENRE_CHOREO_TAKE? Every fifth choreography; of Ballet the ninth and tenth."""
-    genre, choreography, _ = name.rsplit("_", 2)
+    """Does the benchmark test on GENRE_CHOREO_TAKE? Every fifth choreography; of Ballet the ninth and tenth.
+
+    Raises ValueError for another name.
+    """
+    genre, choreography, *take = name.rsplit("_", 2) if name.count("_") >= 2 else ("", "", "")
+    if not take or not choreography.isdecimal():
+        raise ValueError(
+            f"{name} is no GENRE_CHOREO_TAKE, by which the benchmark splits: name the duets for test with --test"
+        )
     index = int(choreography)
     return index in (9, 10) if genre == "Ballet" else index % 5 == 0
 

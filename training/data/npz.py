@@ -1,4 +1,5 @@
-"""Readers of npz archives of joint positions: duets as NAME/leader with NAME/follower, solos as NAME."""
+"""Readers of joint positions of numpy: npz archives of duets as NAME/leader with NAME/follower, of solos as NAME, and
+npy files of one dancer."""
 
 from __future__ import annotations
 
@@ -26,6 +27,13 @@ def _check_header(archive: np.lib.npyio.NpzFile, path: Path) -> None:
         raise ValueError(f"{path}: its joints are not the {len(JOINTS)} SMPL joints in SMPL order")
 
 
+def _dancer(name: str, motion: np.ndarray) -> np.ndarray:
+    """A motion (T, 22, 3) with its floor at 0. Raises ValueError for another shape."""
+    if motion.ndim != 3 or motion.shape[1:] != (len(JOINTS), 3):
+        raise ValueError(f"{name}: expected (T, {len(JOINTS)}, 3), got {motion.shape}")
+    return put_on_floor(motion)
+
+
 def read_npz(path: Path | str) -> list[Duet]:
     """Duets of an archive with keys NAME/leader and NAME/follower, (T, 22, 3) metres, y up; sorted by name.
 
@@ -43,7 +51,7 @@ def read_npz(path: Path | str) -> list[Duet]:
             for role in roles:
                 if f"{name}/{role}" not in archive:
                     raise ValueError(f"{path}: {name} has no {role}")
-            leader, reactor = (put_on_floor(archive[f"{name}/{role}"]) for role in roles)
+            leader, reactor = (_dancer(f"{name}/{role}", archive[f"{name}/{role}"]) for role in roles)
             duets.append(Duet(name, leader, reactor))
     return duets
 
@@ -61,4 +69,11 @@ def read_solo(path: Path | str, prefixes: tuple[str, ...] = ("",)) -> list[Solo]
         )
         if not names:
             raise ValueError(f"no dance in it has a name that begins with {' or '.join(prefixes)}")
-        return [Solo(name, put_on_floor(archive[name])) for name in names]
+        return [Solo(name, _dancer(name, archive[name])) for name in names]
+
+
+def read_npy(path: Path | str) -> Solo:
+    """One dancer, (T, 22, 3) metres, y up, 30 fps; the floor is put at 0. Raises ValueError, naming the file."""
+    path = Path(path)
+    with naming(path):
+        return Solo(path.stem, _dancer(path.stem, np.load(path)))

@@ -13,10 +13,19 @@ from training.data.splits import Split, split
 
 
 def read_duets(source: Path | str) -> list[Duet]:
-    """An .npz archive, a DD100 root (it has motion/pos3d), or a folder of NAME_leader.bvh and NAME_reactor.bvh."""
+    """An .npz archive, a DD100 root (it has motion/pos3d), or a folder of NAME_leader.bvh and NAME_reactor.bvh.
+
+    Raises FileNotFoundError, and ValueError for another kind of file.
+    """
     source = Path(source)
+    if not source.exists():
+        raise FileNotFoundError(f"{source} does not exist")
     if source.suffix == ".npz":
         return read_npz(source)
+    if not source.is_dir():
+        raise ValueError(
+            f"{source} holds no duets: they are an .npz archive, a DD100 root or a folder of BVH files"
+        )
     if (source / "motion" / "pos3d").is_dir():
         return read_dd100(source)
     return read_bvh_folder(source)

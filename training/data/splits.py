@@ -42,7 +42,7 @@ def split(duets: Iterable[Duet], val: Collection[str], test: Collection[str]) ->
     if both := set(val) & set(test):
         raise ValueError(f"both validation and test: {sorted(both)}")
     if unknown := (set(val) | set(test)) - set(names):
-        raise ValueError(f"not among the duets: {sorted(unknown)}")
+        raise ValueError(f"not among the duets: {sorted(unknown)}; there are {', '.join(names)}")
     return Split(
         train=tuple(d for d in duets if d.name not in val and d.name not in test),
         val=tuple(d for d in duets if d.name in val),

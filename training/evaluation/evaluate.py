@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from training.data.duet import Duet, Solo
+from training.data.duet import FPS, Duet, Solo
 from training.evaluation.baselines import baselines
 from training.evaluation.controls import measure_controls
 from training.evaluation.guidance import measure_guidance
@@ -72,11 +72,21 @@ def evaluate(
     other dances, without a partner. controlled: further leaders beside whom controls are moved.
     control_defaults: the model's weight of every control, needed where the settings ask for controls.
     guided_at_every_step: the model with the paper's form of guidance, for the settings' grid.
-    Raises ValueError without a held-out duet.
+    Raises ValueError without a held-out duet, where the held-out ones are too short for a FID, and without a duet to
+    learn from.
     """
     settings = settings or Settings()
     if not held_out:
         raise ValueError("no held-out duet to evaluate on")
+    if (count := clip_count([i.duet.reactor for i in held_out])) < 2:
+        raise ValueError(
+            f"the held-out duets have {count} clips of {CLIP_FRAMES / FPS:g} s, one every {HOP_FRAMES / FPS:g} s, and "
+            "a FID needs two: hold out more or longer duets"
+        )
+    if not train:
+        raise ValueError(
+            "all duets are held out, and baselines learn from the others: name fewer with --val and --test"
+        )
     drawn = list(solvers.values())[-1] if solvers else None
     log("generating")
     generated, seconds = generate_motions(generate, held_out, settings.seeds)

@@ -129,6 +129,13 @@ def test_no_file_of_a_folder_is_passed_over_silently(tmp_path: Path) -> None:
         alone.unlink()
 
 
+def test_partners_in_different_units_are_named(tmp_path: Path) -> None:
+    for role, unit in (("leader", 0.01), ("reactor", 1.0)):
+        write_bvh(tmp_path / f"rumba_{role}.bvh", MadeDancer(frames=8, seed=2), "own", unit=unit)
+    with pytest.raises(ValueError, match=r"rumba_leader\.bvh .*rumba_reactor\.bvh .*in one unit"):
+        read_bvh_folder(tmp_path)
+
+
 def test_a_rest_pose_before_the_dance_is_left_out(tmp_path: Path, dancer: MadeDancer) -> None:
     plain = write_bvh(tmp_path / "plain.bvh", dancer, "CMU", unit=0.01)
     begun = tmp_path / "begun.bvh"

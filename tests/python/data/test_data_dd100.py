@@ -62,6 +62,12 @@ def test_split_rule_of_the_benchmark(name: str, test: bool) -> None:
     assert is_test_sequence(name) == test
 
 
+@pytest.mark.parametrize("name", ["duo1", "my_own_take"])
+def test_names_that_the_benchmark_does_not_have_need_a_test_part(name: str) -> None:
+    with pytest.raises(ValueError, match=f"{name} is no GENRE_CHOREO_TAKE.*--test"):
+        is_test_sequence(name)
+
+
 def test_split_takes_validation_from_the_training_part(tmp_path: Path) -> None:
     for index in range(1, 6):
         write(tmp_path, f"Jive_{index:03}_001", 8, seed=index)

@@ -14,6 +14,7 @@ from tests.python.support.real_data import real_duets, real_file
 from training.data.duet import Duet
 from training.data.made import made_dancer
 from training.data.npz import read_npz, read_solo
+from training.data.sources import read_duets
 from training.data.splits import Split, split, summary
 from training.motion.floor import TOE_REST, floor_height, put_on_floor
 from training.motion.skeleton import JOINTS
@@ -50,6 +51,21 @@ def test_a_frame_that_is_not_finite_is_named(tmp_path: Path) -> None:
     save(tmp_path / "duets.npz", **{"a/leader": duet.leader, "a/follower": duet.reactor})
     with pytest.raises(ValueError, match="reactor of a: 1 frames are not finite, the first is 7"):
         read_npz(tmp_path / "duets.npz")
+
+
+def test_an_archive_of_flat_rows_is_refused_by_its_shape(tmp_path: Path) -> None:
+    flat = made_dancer(20, 1).reshape(20, 66)
+    save(tmp_path / "duets.npz", **{"a/leader": flat, "a/follower": flat})
+    with pytest.raises(ValueError, match=r"duets\.npz: a/leader: expected \(T, 22, 3\), got \(20, 66\)"):
+        read_npz(tmp_path / "duets.npz")
+
+
+def test_what_holds_no_duets_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="nowhere does not exist"):
+        read_duets(tmp_path / "nowhere")
+    np.save(tmp_path / "leader.npy", made_dancer(20, 1))
+    with pytest.raises(ValueError, match=r"leader\.npy holds no duets"):
+        read_duets(tmp_path / "leader.npy")
 
 
 def test_what_was_read_is_said_in_a_line() -> None:

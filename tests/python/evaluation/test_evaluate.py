@@ -127,6 +127,17 @@ def test_duets_may_be_of_any_length_above_a_clip() -> None:
         assert row["mean"]["repeat_share"] == alone["mean"]["repeat_share"]
 
 
+def test_what_cannot_be_measured_is_refused_before_anything_is_generated(train: list[Duet]) -> None:
+    def generate(*_: object, **__: object) -> np.ndarray:
+        raise AssertionError("it was generated")
+
+    short, long = ([HeldOutDuet(made_duet(frames, 1), None)] for frames in (150, 200))
+    with pytest.raises(ValueError, match="1 clips of 4 s, one every 2 s, and a FID needs two"):
+        evaluate(generate, short, train)
+    with pytest.raises(ValueError, match="all duets are held out"):
+        evaluate(generate, long, [])
+
+
 def test_required_thresholds_are_checked(held_out: list[HeldOutDuet], train: list[Duet]):
     numbers = evaluate(
         generate_mirrored, held_out, train, replace(QUICK, seeds=(0,), response_seeds=1)

@@ -16,7 +16,7 @@ import pytest
 
 from export import tiny
 from export.golden import reference
-from export.manifest import manifest
+from export.manifest import make_card, manifest
 from export.runtime import Exported, open_model
 from export.verify import tolerance, verify
 from training.data.made import made_dancer
@@ -121,6 +121,20 @@ def test_an_exported_model_is_sampled_by_default_as_the_checkpoint_is() -> None:
 def test_a_default_that_its_control_does_not_reach_is_refused() -> None:
     with pytest.raises(ValueError, match="default 12 of the control music is not between 0 and 10"):
         manifest(with_defaults(music_guidance=12.0), tiny.CARD, {}, {})
+
+
+def test_a_card_that_a_person_filled_in_wrongly_is_refused() -> None:
+    good = {field.name: getattr(tiny.CARD, field.name) for field in fields(tiny.CARD)} | {"notes": ["one"]}
+    assert make_card(good).notes == ("one",)
+    for changes, sentence in (
+        ({"notes": "one note"}, "a list of sentences"),
+        ({"license": "MIT"}, r"unknown keys \['license'\]"),
+    ):
+        with pytest.raises(ValueError, match=sentence):
+            make_card(good | changes)
+    del good["licence"]
+    with pytest.raises(ValueError, match=r"missing keys \['licence'\]"):
+        make_card(good)
 
 
 def test_the_height_of_the_reactors_is_in_the_manifest_where_the_card_has_it() -> None:

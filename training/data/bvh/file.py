@@ -13,6 +13,8 @@ _CHANNELS = ("xposition", "yposition", "zposition", "xrotation", "yrotation", "z
 _MAX_NODES = 1000
 _MAX_VALUES = 10_000_000
 _MAX_VALUE = 1e7
+FRAME_RATES = (5.0, 1000.0)
+"""Least and greatest frames per second of a recording of a dance."""
 _USUAL_RATES = (
     24,
     25,
@@ -104,7 +106,8 @@ def _read_hierarchy(words: list[str], path: Path) -> list[Node]:
 def frame_rate(frame_time: str) -> float:
     """Frames per second from a frame time in seconds as written; 0.0333 means 30, but 0.0333667 is 29.97."""
     seconds = float(frame_time)
-    if not 1e-3 <= seconds <= 0.2:
+    low, high = FRAME_RATES
+    if not 1 / high <= seconds <= 1 / low:
         raise ValueError(f"no recording of a dance has a frame time of {frame_time} seconds")
     last_decimal = 10.0 ** -len(frame_time.partition(".")[2])
     rate = min(_USUAL_RATES, key=lambda usual: abs(1 / usual - seconds))

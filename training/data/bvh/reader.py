@@ -16,6 +16,9 @@ from training.motion.floor import put_on_floor
 from training.music.features import SONG_SUFFIXES
 
 _ROLES = ("leader", "reactor")
+_MOST_DIFFERENCE = (
+    2.0  # of the sizes of two dancers; of metres, inches and centimetres the nearest two are 2.54 apart
+)
 
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:
@@ -84,5 +87,12 @@ def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
         with naming(path):
             bodies.append(read_body(replace(file, values=file.values[max(rests) :]), fps))
     up = find_up(sum((body.upright() / body.size() for body in bodies), start=np.zeros(3)))
-    metres = find_unit(float(np.exp(np.mean([np.log(body.size()) for body in bodies]))))
+    sizes = [body.size() for body in bodies]
+    if max(sizes) > _MOST_DIFFERENCE * min(sizes) > 0:
+        raise ValueError(
+            "the bodies of "
+            + " and ".join(f"{path} ({size:.3g})" for path, size in zip(paths, sizes, strict=True))
+            + " differ too much in size: export both dancers in one unit"
+        )
+    metres = find_unit(float(np.exp(np.mean(np.log(sizes)))))
     return [assemble(body, up, metres) for body in bodies]
