@@ -27,6 +27,8 @@ from export.manifest import quality_rules
 from export.runtime import open_model
 from training.checkpoint import load_model, solos_seen
 from training.command_line import run_program
+from training.config import check_limits
+from training.data.bvh.file import FRAME_RATES
 from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
@@ -49,6 +51,8 @@ class Options:
     """npz archive of duets, a folder of BVH pairs, or a DD100 root."""
     out: Path
     """Folder for metrics.json, report.md, pictures and videos."""
+    fps: float | None = None
+    """Frame rate of the BVH files of --data where their headers are wrong."""
     model: Path | None = None
     """Folder with manifest.json and graphs."""
     checkpoint: Path | None = None
@@ -80,6 +84,7 @@ class Options:
     settings: Settings = field(default_factory=Settings)
 
     def __post_init__(self) -> None:
+        check_limits(self, fps=FRAME_RATES)
         settings, measured = self.settings, self.test if self.measure == "test" else self.val
         wrong = {
             "give --model (a folder with manifest.json), --checkpoint, or both": not (
@@ -195,7 +200,7 @@ def main(options: Options) -> None:
     console = Console()
     if options.threads:
         torch.set_num_threads(options.threads)
-    duets = read_split(options.data, options.val, options.test)
+    duets = read_split(options.data, options.val, options.test, options.fps)
     held_out = paired_duets(options, duets)
     facts: dict[str, Any] = {"data": options.data.name, "split": {"val": options.val, "test": options.test}}
 

@@ -20,6 +20,7 @@ from torch import Tensor, nn
 from torch.utils.tensorboard import SummaryWriter
 
 from training.config import check_latent_frames, check_limits
+from training.data.bvh.file import FRAME_RATES
 from training.data.sources import read_split
 from training.data.splits import Split, summary
 from training.denoiser.clips import Augmentation
@@ -34,6 +35,8 @@ class LoopOptions:
 
     data: Path
     """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""
+    fps: float | None = None
+    """Frame rate of the BVH files of --data where their headers are wrong."""
     out: Path
     """Folder of this run: checkpoints, logs, curves."""
     val: tuple[str, ...]
@@ -75,6 +78,7 @@ class LoopOptions:
             **dict.fromkeys(("learning_rate", "weight_decay", "threads"), (0, math.inf)),
             minutes=(1e-3, math.inf),
             ema_decay=(0, 1),
+            fps=FRAME_RATES,
             seed=(0, 2**20),
         )
         if self.solo is None and self.solo_prefixes != ("",):
@@ -108,7 +112,7 @@ def read_duets_to_train(options: LoopOptions, fabric: Fabric, window: int) -> Sp
 
     window: frames of a training window. Prints what was read. Raises ValueError where none is left to train on.
     """
-    duets = read_split(options.data, options.val, options.test)
+    duets = read_split(options.data, options.val, options.test, options.fps)
     if options.learn_all:
         duets = Split(duets.train + duets.val + duets.test, (), ())
     if not duets.train:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from lightning_fabric import Fabric
 
 from tests.python.support.made_bvh import NAMES, MadeDancer, write_bvh
 from tests.python.support.real_data import real_duets, real_file
+from tests.python.support.small_training import stage1
 from training.data.bvh.body import find_unit
 from training.data.bvh.file import frame_rate, parse_bvh
 from training.data.bvh.reader import read_bvh, read_bvh_folder
 from training.data.bvh.rest_pose import rest_frames
+from training.data.sources import read_split
+from training.loop import read_duets_to_train
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
 
@@ -112,6 +117,18 @@ def test_folder_of_pairs_keeps_the_distance_of_partners(tmp_path: Path) -> None:
     gap = (duet.reactor - duet.leader)[:, wrist, [0, 2]]
     truth = (reactor.positions - leader.positions[:36])[:, wrist, [0, 2]]
     np.testing.assert_allclose(gap, truth, atol=1e-4)
+
+
+def test_a_folder_with_wrong_frame_times_can_be_trained_on(tmp_path: Path) -> None:
+    """By an option of the training, and of nothing but BVH files."""
+    for role in ("leader", "reactor"):
+        write_bvh(tmp_path / f"rumba_{role}.bvh", MadeDancer(frames=40, seed=2), "own", unit=1.0, fps=60)
+    options = stage1(tmp_path, tmp_path / "out", val=("rumba",), test=(), learn_all=True)
+    for fps, frames in ((None, 20), (30.0, 40)):
+        duets = read_duets_to_train(replace(options, fps=fps), Fabric(accelerator="cpu"), window=240)
+        assert [len(duet) for duet in duets.train] == [frames]
+    with pytest.raises(ValueError, match="--fps is the frame rate of BVH files"):
+        read_split(tmp_path / "rumba_leader.bvh", (), (), fps=30.0)
 
 
 def test_no_file_of_a_folder_is_passed_over_silently(tmp_path: Path) -> None:
