@@ -5,6 +5,7 @@ python -m export.verify --checkpoint training/checkpoints/salsa --model web/publ
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from export.runtime import Exported, open_model
 from export.weights import round_convolutions
 from training.checkpoint import load_model
 from training.command_line import run_program
+from training.config import FPS
 from training.diffusion.guidance import blend, layer_gains, per_channel
 from training.diffusion.model import Model
 from training.diffusion.sampler import initial_noise, sample_branches, sample_mean
@@ -87,10 +89,13 @@ def distance(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.linalg.norm(a - b, axis=-1).mean())
 
 
-def verify(model: Model, folder: Path, blocks: tuple[int, ...]) -> dict[int, dict[str, float]]:
+def verify(
+    model: Model, folder: Path, blocks: tuple[int, ...], log: Callable[[str], None] = lambda _: None
+) -> dict[int, dict[str, float]]:
     """Differences for clips of so many blocks, the last one not full: of the graphs in single precision from the
     rounded model, of those with 8-bit products from it (int8), and of the rounded model from the one given (rounding).
-    Raises ValueError beyond the tolerances.
+    log: told of each length before it is verified, since the longest takes minutes. Raises ValueError beyond the
+    tolerances.
     """
     single, int8 = open_model(folder, backend="webgpu"), open_model(folder, backend="wasm")
     rounded = round_convolutions(model)
@@ -98,6 +103,7 @@ def verify(model: Model, folder: Path, blocks: tuple[int, ...]) -> dict[int, dic
     results: dict[int, dict[str, float]] = {}
     for count in blocks:
         frames = latent["stride"] * (count * latent["block"] - latent["block"] // 3)
+        log(f"verifying a dance of {frames / FPS:.0f} s against PyTorch")
         scene = Scene(frames, silent_from=frames * 3 // 4)
         truth = reference(rounded, scene)
         results[count] = {
@@ -116,8 +122,13 @@ def tolerance(name: str) -> float:
     return {"int8": INT8_TOLERANCE, "rounding": ROUNDING_TOLERANCE}.get(name, TOLERANCE)
 
 
+def print_now(line: str) -> None:
+    """Prints a line at once, also where the output is no terminal."""
+    print(line, flush=True)
+
+
 def main(options: Options) -> None:
-    results = verify(load_model(options.checkpoint), options.model, options.blocks)
+    results = verify(load_model(options.checkpoint), options.model, options.blocks, print_now)
     table = Table(title="onnxruntime against PyTorch")
     for column in ("blocks", *next(iter(results.values()))):
         table.add_column(column, justify="right")

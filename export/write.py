@@ -13,7 +13,7 @@ from export.golden import Scene, reference
 from export.golden import write as write_golden
 from export.manifest import LAYERS, Card, make_card, manifest
 from export.onnx_files import describe, describe_file, graphs, write_onnx
-from export.verify import BLOCKS, verify
+from export.verify import BLOCKS, print_now, verify
 from export.weights import round_convolutions
 from training.checkpoint import load_model, read_card
 from training.command_line import run_program
@@ -65,7 +65,7 @@ def main(options: Options) -> None:
     with naming(options.checkpoint / "card.json"):
         card = make_card(read_card(options.checkpoint))
     write_model(model, card, options.out, Scene(frames=480, silent_from=400))
-    results = verify(model, options.out, BLOCKS).values()
+    results = verify(model, options.out, BLOCKS, print_now).values()
     worst = {name: max(row[name] for row in results) for name in ("reactor", "int8", "rounding")}
     size = sum(path.stat().st_size for path in options.out.glob("*.onnx")) / 1e6
     print(
