@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import hashlib
 import json
 import shutil
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 
 from safetensors.torch import load_model as load_weights
 from safetensors.torch import save_file
-from torch import nn
+from torch import Tensor, nn
 
 from training.config import (
     DenoiserConfig,
@@ -35,9 +36,25 @@ def save_weights(folder: Path, name: str, module: nn.Module, config: dict) -> No
     """
     folder.mkdir(parents=True, exist_ok=True)
     write_json(folder / f"{name}.json", config)
+    save_file(_kept_state(module), str(folder / f"{name}.safetensors"))
+
+
+def _kept_state(module: nn.Module) -> dict[str, Tensor]:
+    """The weights as a checkpoint keeps them."""
     trained = {key for key, _ in module.named_parameters()}
     state = {key: value.half() if key in trained else value for key, value in module.state_dict().items()}
-    save_file({key: value.contiguous() for key, value in state.items()}, str(folder / f"{name}.safetensors"))
+    return {key: value.contiguous() for key, value in state.items()}
+
+
+def latents_digest(hfsq: Autoencoder) -> str:
+    """SHA-256 of what makes the latents of a stage 1: all of its weights but the decoders', which may be trained
+    further beside a denoiser (`--keep-latents`).
+    """
+    digest = hashlib.sha256()
+    for key, value in sorted(_kept_state(hfsq).items()):
+        if ".decoder." not in key:
+            digest.update(key.encode() + value.cpu().numpy().tobytes())
+    return digest.hexdigest()
 
 
 def save_hfsq(folder: Path, model: Autoencoder, frame: FrameConfig, provenance: dict) -> None:
@@ -46,9 +63,16 @@ def save_hfsq(folder: Path, model: Autoencoder, frame: FrameConfig, provenance: 
     save_weights(folder, "hfsq", model, config)
 
 
-def save_denoiser(folder: Path, model: Denoiser, diffusion: DiffusionConfig, provenance: dict) -> None:
-    """Writes stage 2. provenance: how it was trained."""
-    config = {"denoiser": to_json(model.config), "diffusion": to_json(diffusion), "provenance": provenance}
+def save_denoiser(
+    folder: Path, hfsq: Autoencoder, model: Denoiser, diffusion: DiffusionConfig, provenance: dict
+) -> None:
+    """Writes stage 2. hfsq: the stage 1 whose latents it was trained on; provenance: how it was trained."""
+    config = {
+        "denoiser": to_json(model.config),
+        "diffusion": to_json(diffusion),
+        "latents": latents_digest(hfsq),
+        "provenance": provenance,
+    }
     save_weights(folder, "denoiser", model, config)
 
 
@@ -121,8 +145,17 @@ def start_from(module: nn.Module, folder: Path, name: str) -> None:
 
 
 def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionConfig]:
-    """The stage-2 model in evaluation mode, not frozen. hfsq: stage 1 of the same checkpoint."""
+    """The stage-2 model in evaluation mode, not frozen. hfsq: stage 1 of the same checkpoint.
+
+    Raises ValueError where the denoiser was trained on latents of another stage 1.
+    """
     config = read_config(folder, "denoiser")
+    # Checkpoints of earlier versions do not say it.
+    if config.get("latents", digest := latents_digest(hfsq)) != digest:
+        raise ValueError(
+            f"{folder / 'denoiser.safetensors'} was trained on another stage 1 than {folder / 'hfsq.safetensors'}, "
+            "which was trained again since: train the denoiser again too, or put the earlier stage 1 back"
+        )
     with naming(folder / "denoiser.json"):
         model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
         diffusion = from_json(DiffusionConfig, config["diffusion"])

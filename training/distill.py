@@ -88,7 +88,8 @@ def main(options: Options) -> None:
             run.logger.write(run.schedule, report)
             run.logger.draw()
             provenance = run.provenance("training.distill", leave_out=())
-            save_denoiser(options.out, averaged, diffusion, provenance | {"validation": report} | before)
+            provenance |= {"validation": report} | before
+            save_denoiser(options.out, teacher.hfsq, averaged, diffusion, provenance)
             copy_stage1(options.teacher, options.out)
             copy_card(options.teacher, options.out)
 

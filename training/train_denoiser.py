@@ -11,7 +11,14 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from training.checkpoint import earlier_training, load_hfsq, save_denoiser, start_from, write_card
+from training.checkpoint import (
+    earlier_training,
+    latents_digest,
+    load_hfsq,
+    save_denoiser,
+    start_from,
+    write_card,
+)
 from training.command_line import run_program
 from training.config import STRIDE, DenoiserConfig, DenoiserLossConfig, DiffusionConfig
 from training.denoiser.clips import Clip, feature_values
@@ -59,6 +66,7 @@ def main(options: Options) -> None:
     fabric = launch(options)
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     hfsq, frame = load_hfsq(options.out)
+    latents = latents_digest(hfsq)
     duets = read_duets_to_train(options, fabric, STRIDE * options.denoiser.block)
     bank = music_of(options, duets)
     condition = options.denoiser.condition
@@ -76,6 +84,12 @@ def main(options: Options) -> None:
     )
     stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
     run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", warmup=200)
+    # The saved state has its own stage 1, which --resume has just loaded.
+    if latents_digest(hfsq) != latents:
+        raise ValueError(
+            f"{run.state} is of another stage 1 than {options.out / 'hfsq.safetensors'}, which was trained again "
+            "since: begin without --resume, or put the earlier stage 1 back"
+        )
     height, reactor_height = (
         float(np.mean([body_height(getattr(d, role)) for d in duets.train])) for role in ("leader", "reactor")
     )
@@ -90,7 +104,7 @@ def main(options: Options) -> None:
             run.logger.draw()
             provenance = run.provenance("training.train_denoiser", leave_out=("denoiser", "diffusion"))
             provenance |= {"validation": report} | before
-            save_denoiser(options.out, averaged, options.diffusion, provenance)
+            save_denoiser(options.out, hfsq, averaged, options.diffusion, provenance)
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
             write_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
         hfsq.to(fabric.device)

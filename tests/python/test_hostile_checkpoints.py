@@ -68,7 +68,7 @@ def test_solos_of_every_training_that_a_checkpoint_comes_from_are_seen(tmp_path:
 def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) -> None:
     hfsq = Autoencoder(HfsqConfig(groups=2, widths=(8, 8, 8), depth=1, refine_width=8))
     config = DenoiserConfig(width=8, depths=(1, 1), mlp=1)
-    save_denoiser(tmp_path, Denoiser(hfsq.latent_width, 2, config), DiffusionConfig(), {})
+    save_denoiser(tmp_path, hfsq, Denoiser(hfsq.latent_width, 2, config), DiffusionConfig(), {})
     assert load_denoiser(tmp_path, hfsq)[0].config == config
     weights = load_file(tmp_path / "denoiser.safetensors")
     for changed in ({**weights, "stranger": torch.zeros(1)}, dict(list(weights.items())[1:])):

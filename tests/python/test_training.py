@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -140,6 +141,22 @@ def test_a_training_does_not_go_on_with_another_network(data: Path, tmp_path: Pa
     other = stage1(data, tmp_path, resume=True, steps=4, hfsq=replace(HFSQ, groups=4))
     with pytest.raises(ValueError, match=r"these options differ: .*--hfsq\.groups \(it was 2\)"):
         train_hfsq.main(other)
+
+
+def test_a_denoiser_does_not_go_with_a_stage_1_that_was_trained_again(
+    data: Path, trained: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "run"
+    shutil.copytree(trained, folder)
+    train_hfsq.main(stage1(data, folder, seed=1))
+    with pytest.raises(ValueError, match=r"denoiser\.safetensors was trained on another stage 1"):
+        load_model(folder)
+    with pytest.raises(ValueError, match=r"state\.ckpt is of another stage 1"):
+        train_denoiser.main(stage2(data, folder, resume=True, steps=4))
+    for name in ("hfsq.json", "hfsq.safetensors"):
+        shutil.copy(trained / name, folder)
+    train_hfsq.main(stage1(data, folder, init=folder, keep_latents=True, seed=1))
+    load_model(folder)
 
 
 def test_a_training_with_all_duets_held_out_says_so(data: Path, tmp_path: Path) -> None:

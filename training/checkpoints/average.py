@@ -56,7 +56,7 @@ def main(options: Options) -> None:
     }
     copy_stage1(first, options.out)
     copy_card(first, options.out)
-    save_denoiser(options.out, denoiser, diffusion, provenance)
+    save_denoiser(options.out, hfsq, denoiser, diffusion, provenance)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ TINY = Path(__file__).parents[2] / "fixtures" / "tiny-model"
 def test_it_times_every_stage_and_leaves_the_scene(tmp_path: Path) -> None:
     model = tiny_model()
     save_hfsq(tmp_path / "checkpoint", model.hfsq, model.frame, {})
-    save_denoiser(tmp_path / "checkpoint", model.denoiser, model.diffusion, {})
+    save_denoiser(tmp_path / "checkpoint", model.hfsq, model.denoiser, model.diffusion, {})
     write_card(tmp_path / "checkpoint", model.reference_height, 1.2)
     out = tmp_path / "out"
     main(Options(tmp_path / "checkpoint", TINY, out, frames=122, threads=1, repeats=1))

@@ -106,7 +106,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     np.savez(tmp_path / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
     tiny, checkpoint = tiny_model(), tmp_path / "checkpoint"
     save_hfsq(checkpoint, tiny.hfsq, tiny.frame, {})
-    save_denoiser(checkpoint, tiny.denoiser, tiny.diffusion, {})
+    save_denoiser(checkpoint, tiny.hfsq, tiny.denoiser, tiny.diffusion, {})
     write_card(checkpoint, tiny.reference_height, 1.2)
     main(
         Options(
