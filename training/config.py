@@ -99,7 +99,7 @@ class ConditionConfig:
     drop_leader: float = 0.1
     drop_music: float = 0.1
     # Augmentation of the leader's features; what it is worth was not separated (docs/experiment-log.md).
-    leader_shift: int = 3  # frames, at most; the leader is early or late in half of the windows
+    leader_shift: int = 3  # frames, at most; the leader is early or late in 43 % of the windows
     leader_blur: float = 6.0  # frames, sigma of a Gaussian over time, which removes the leader's timing
     blurred: float = 0.25  # share of windows with a blurred leader
 

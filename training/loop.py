@@ -52,22 +52,31 @@ class LoopOptions:
     solo_prefixes: tuple[str, ...] = ("",)
     """Names that those solos begin with; all of them when left out."""
     steps: int
+    """Batches to train on."""
     minutes: float | None = None
     """Stop after this time even if the steps are not done; the learning rate follows whichever comes first."""
     batch: int
+    """Windows to a step, on each device."""
     learning_rate: float
+    """The greatest; it rises at first and falls along half a cosine to 2 % of it."""
     weight_decay: float
+    """Of the optimiser; 0 leaves it out."""
     ema_decay: float = 0.998
     """Of the average of the weights that is measured and saved."""
     seed: int = 0
+    """Of all random numbers."""
     devices: int = 1
+    """Processes on one GPU each, or on the CPU where there is none."""
     threads: int = 0
     """CPU threads for torch, 0 leaves its default."""
     precision: Precision | None = None
     """Left out: bf16 where its products are fast, single elsewhere."""
     log_every: int = 50
+    """Steps between printed lines."""
     evaluate_every: int
+    """Steps between measurements on the validation duets, at which the state is saved too."""
     resume: bool = False
+    """Go on with the training in --out from its saved state."""
 
     def __post_init__(self) -> None:
         if not self.val:

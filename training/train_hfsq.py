@@ -34,10 +34,11 @@ class Options(LoopOptions):
     steps: int = 4000
     batch: int = 48
     window: int = 240
-    """Frames; dances that are shorter are left out."""
+    """Frames; dances that are shorter at a tempo are left out there."""
     learning_rate: float = 3e-4
     weight_decay: float = 1e-3
     tempos: tuple[float, ...] = (0.9, 1.0, 1.1)
+    """At which every duet is learnt, in times its own."""
     evaluate_every: int = 500
     hfsq: HfsqConfig = field(default_factory=HfsqConfig)
     frame: FrameConfig = field(default_factory=FrameConfig)

@@ -1,7 +1,8 @@
 """Finds the 22 joints among the nodes of a BVH file, by skeleton convention: the joint names of a family of programs.
 
-The rules are those of the page (web/motion/retarget/conventions.ts and joint-map.ts), without its
-last convention, which tries generic names.
+The rules are those of the page (web/motion/retarget/conventions.ts and joint-map.ts) for the first six of its
+conventions; it reads others too (VRM and Unity, Unreal, Rigify, SOMA, OptiTrack, Rokoko, Xsens, ASF, MMD, generic
+names).
 """
 
 from __future__ import annotations
