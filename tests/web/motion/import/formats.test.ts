@@ -754,6 +754,31 @@ describe('glTF and VRM', () => {
     await expect(read({}, ['a.vrm', vrm])).rejects.toMatchObject({ code: 'no-motion' });
   });
 
+  test('a VRM lends a gesture its legs, and to any VRMA its bones alone', async () => {
+    const vrm = writeGlb(dance, { humanoid: { extension: 'VRMC_vrm', bones: VRM_BONES }, clips: [] });
+    const upper = new Map([...VRM_BONES].filter(([, bone]) => !/Leg|Foot|Toes|Shoulder|neck/.test(bone)));
+    const humanoid = { extension: 'VRMC_vrm_animation', bones: upper };
+    const gesture = writeGlb(dance, { humanoid, restTurn: turned });
+    const file = await read({}, ['a.vrma', gesture], ['a.vrm', vrm]);
+    const whole = await read({}, ['a.vrma', vrma], ['a.vrm', vrm]);
+    expect(file.report.format).toBe('VRMA on a VRM');
+    expect(file.report.estimated).toEqual(whole.report.estimated);
+    const arm = ({ clip }: LeaderFile, frame: number): Vec3 => {
+      const [pelvis, wrist] = [J.pelvis, J.left_wrist].map((joint) =>
+        readVec(clip.positions, frame * JOINT_COUNT + joint),
+      );
+      return sub(wrist!, pelvis!);
+    };
+    // The shoulders' own turns alone are missing.
+    for (const frame of [0, 17, 33]) expect(distance(arm(file, frame), arm(whole, frame))).toBeLessThan(0.05);
+
+    // Nodes that are no bones but have their names, as those that a face is moved by.
+    const named = changedGlb(vrma, ({ nodes, scenes }) => {
+      for (const name of ['head', 'hips']) scenes[0]!.nodes.push(nodes.push({ name }) - 1);
+    });
+    expect(worstMillimetres(await read({}, ['a.vrma', named], ['a.vrm', vrm]), dance)).toBeLessThan(WORST);
+  });
+
   test('a VRM 0, whose body faces backwards, moves as the VRMA', async () => {
     const backwards = {
       ...dance,

@@ -1,7 +1,7 @@
 import type { Gltf } from './container';
 import { humanoidNames } from './humanoid';
 import { posesOf, skeletonOf } from './skeleton';
-import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';
+import { conjugate, IDENTITY, multiply, type Quat, writeQuat } from '../../math/quat';
 import { readVec, scale, sub, type Vec3, writeVec, ZERO } from '../../math/vec3';
 import { worldPose } from '../../retarget/sample';
 import { type LocalPoses, type MotionSource, restOf } from '../../retarget/source';
@@ -13,12 +13,12 @@ interface Humanoid {
   readonly places: readonly Vec3[];
 }
 
-/** The bones that both a body and a motion have, as the body has them, facing +z as the motion does. */
-function humanoidOf(body: Gltf, moved: ReadonlySet<string>): Humanoid {
+/** The bones of a body, facing +z as motions do. */
+function humanoidOf(body: Gltf): Humanoid {
   const bones = humanoidNames(body);
   const { joints, nodes, rest } = skeletonOf(body, bones);
   const { places } = worldPose(joints, posesOf({ joints, nodes, rest }, new Map(), [null]), 0);
-  const isBone = (joint: number): boolean => bones.has(nodes[joint]!) && moved.has(joints[joint]!.name);
+  const isBone = (joint: number): boolean => bones.has(nodes[joint]!);
   const kept = [...joints.keys()].filter(isBone);
   // A body of VRM 0 faces -z.
   const facing = 'VRM' in body.extensions ? -1 : 1;
@@ -38,14 +38,15 @@ function humanoidOf(body: Gltf, moved: ReadonlySet<string>): Humanoid {
 
 /**
  * The motion of a VRMA file on the body of a VRM: rotations relative to the rest pose, in axes of the world, are those of
- * the motion; the hips' way is scaled by the heights of both hips.
+ * the motion; the hips' way is scaled by the heights of both hips. Bones that the motion does not have turn with those
+ * above them.
+ * @param bones the source's joint of every bone of the humanoid, -1 for none
  */
-export function onBody(source: MotionSource, body: Gltf): MotionSource {
-  const index = new Map(source.joints.map(({ name }, joint) => [name, joint]));
-  const { names, parents, places } = humanoidOf(body, new Set(index.keys()));
+export function onBody(source: MotionSource, body: Gltf, bones: ReadonlyMap<string, number>): MotionSource {
+  const { names, parents, places } = humanoidOf(body);
   const hips = names.indexOf('hips');
-  const from = names.map((name) => index.get(name)!);
-  if (hips < 0) return source;
+  const from = names.map((name) => bones.get(name) ?? -1);
+  if (hips < 0 || from[hips]! < 0) return source;
   const rest = worldPose(source.joints, source.rest, 0);
   const height = rest.places[from[hips]!]![1];
   const ratio = height > 0 ? places[hips]![1] / height : 1;
@@ -61,8 +62,11 @@ export function onBody(source: MotionSource, body: Gltf): MotionSource {
     wanted.forEach((_, frame) => {
       const { turns, places: moved } = worldPose(source.joints, poses, frame);
       /** Rotation of a bone from its rest pose, in axes of the world. */
-      const delta = (joint: number): Quat =>
-        multiply(turns[from[joint]!]!, conjugate(rest.turns[from[joint]!]!));
+      const delta = (joint: number): Quat => {
+        const at = from[joint]!;
+        if (at < 0) return parents[joint]! < 0 ? IDENTITY : delta(parents[joint]!);
+        return multiply(turns[at]!, conjugate(rest.turns[at]!));
+      };
       names.forEach((_name, joint) => {
         const parent = parents[joint]!;
         const local = parent < 0 ? delta(joint) : multiply(conjugate(delta(parent)), delta(joint));

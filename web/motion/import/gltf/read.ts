@@ -69,7 +69,12 @@ export function readGltf(files: readonly [FileBytes, ...FileBytes[]], part: numb
       ),
   };
   const body = format === 'VRMA' ? companions.find(({ name }) => /\.vrm$/i.test(name)) : undefined;
-  if (body) return onBody(source, readContainer(body, []).json);
+  if (body) {
+    const bones = [...humanoidNames(json)].map(
+      ([node, name]) => [name, skeleton.nodes.indexOf(node)] as const,
+    );
+    return onBody(source, readContainer(body, []).json, new Map(bones));
+  }
   const moves = (joint: number): boolean => movesNode(tracks, skeleton.nodes[joint]!);
   return clips.length > 1 ? pickFirstDancer(source, moves) : pickDancer(source, part, moves);
 }
