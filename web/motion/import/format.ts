@@ -46,8 +46,8 @@ function isOtherFile(text: string): boolean {
 }
 
 /**
- * Endings of files that belong to another file: of its name, else, where one of them is enough, of its first word, else
- * whatever its name.
+ * Endings of files that belong to another file. Where one of them is enough: that of its name, else of its first word,
+ * else whatever its name. Else all that have not the name of another one.
  */
 const COMPANIONS: readonly { readonly motion: RegExp; readonly companion: RegExp; readonly one: boolean }[] =
   [
@@ -72,9 +72,15 @@ export function groupCompanions<T extends { readonly name: string }>(files: read
     const rule = COMPANIONS.find(({ motion }) => motion.test(file.name));
     const stem = stemOf(file);
     const others = rule ? files.filter((other) => rule.companion.test(other.name)) : [];
-    const named = others.filter((other) => other.name.toLowerCase().startsWith(`${stem}.`));
-    const begun = others.filter((other) => rule?.one && startsWithWord(stem, stemOf(other)));
-    const mine = [named, begun].find((some) => some.length > 0) ?? others;
+    const isNamed = (other: T, after: string): boolean => other.name.toLowerCase().startsWith(`${after}.`);
+    const named = others.filter((other) => isNamed(other, stem));
+    const begun = others.filter((other) => startsWithWord(stem, stemOf(other)));
+    const ofOthers = others.filter((other) =>
+      files.some((one) => one !== file && rule?.motion.test(one.name) && isNamed(other, stemOf(one))),
+    );
+    const mine = rule?.one
+      ? ([named, begun].find((some) => some.length > 0) ?? others)
+      : others.filter((other) => named.includes(other) || !ofOthers.includes(other));
     for (const other of mine) taken.add(other);
     return [file, ...mine];
   });

@@ -597,6 +597,15 @@ describe('glTF and VRM', () => {
     const renamed = await read({}, ['a.gltf', gltf], ['renamed.bin', bin]);
     expect(worstMillimetres(renamed, dance)).toBeLessThan(WORST);
     await expect(read({}, ['a.gltf', gltf])).rejects.toMatchObject({ code: 'missing-file' });
+    await expect(read({}, ['a.gltf', gltf], ['numbers.bin', bin.subarray(0, 99)])).rejects.toMatchObject({
+      code: 'unreadable-file',
+      message: expect.stringMatching(/numbers\.bin has 99 of its \d+ bytes/) as string,
+    });
+    // As programs write addresses, and macOS names of files.
+    const encoded = writeGltf(dance, 'T%C3%A4nzer%281%29.bin');
+    const there: [string, Uint8Array] = ['Ta\u0308nzer(1).bin', encoded.bin];
+    const found = await read({}, ['a.gltf', encoded.gltf], ['other.bin', new Uint8Array(4)], there);
+    expect(worstMillimetres(found, dance)).toBeLessThan(WORST);
   });
 
   test('one of several clips, which is said until one is chosen', async () => {

@@ -113,6 +113,11 @@ describe('AMC with ASF', () => {
     // A glTF may need all of them.
     const buffers = ['dance-2.gltf', 'dance.bin', 'data.bin'].map((name) => ({ name }));
     expect(groupCompanions(buffers)).toEqual([buffers]);
+    const two = ['dance.gltf', 'dance.bin', 'data.bin', 'other.gltf', 'other.bin'].map((name) => ({ name }));
+    expect(groupCompanions(two).map((group) => group.map(({ name }) => name))).toEqual([
+      ['dance.gltf', 'dance.bin', 'data.bin'],
+      ['other.gltf', 'data.bin', 'other.bin'],
+    ]);
   });
 
   test('one without the other is asked for', async () => {

@@ -122,6 +122,15 @@ function dataBytes(uri: string): Uint8Array {
   }
 }
 
+/** A file's name as it is compared: without percent-encoding, umlauts as one character. */
+function plainName(name: string): string {
+  try {
+    return decodeURIComponent(name).normalize();
+  } catch {
+    return name.normalize();
+  }
+}
+
 /**
  * Reads a GLB or glTF file with its buffers.
  *
@@ -145,17 +154,22 @@ export function readContainer(file: Part, companions: readonly Part[]): GltfFile
     throw damagedGltf(`${path.slice(0, 60)} is not as it should be`);
   }
   const json = parsed.output;
+  const external = json.buffers.filter(({ uri }) => uri !== undefined && !uri.startsWith('data:')).length;
   const buffers = json.buffers.map(({ uri, byteLength }, number) => {
     if (uri === undefined) {
       if (binary && number === 0) return binary;
       throw damagedGltf('a buffer is missing');
     }
     if (uri.startsWith('data:')) return dataBytes(uri);
-    const name = uri.split('/').at(-1)!;
+    const name = plainName(uri.split('/').at(-1)!);
     const companion =
-      companions.find((one) => one.name === name || encodeURIComponent(one.name) === name) ??
-      (companions.length === 1 ? companions[0] : undefined);
+      companions.find((one) => plainName(one.name) === name) ??
+      (companions.length === 1 && external === 1 ? companions[0] : undefined);
     if (companion && companion.bytes.length >= byteLength) return companion.bytes;
+    if (companion)
+      throw damagedGltf(
+        `${companion.name.slice(0, 60)} has ${companion.bytes.length} of its ${byteLength} bytes`,
+      );
     throw new AppError(
       'missing-file',
       `The glTF file has its numbers in another file, ${name.slice(0, 60)}.`,
