@@ -162,7 +162,7 @@ test('a generation can be cancelled and repeated', async ({ page }) => {
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
-  await app.chooseLeader(bvh({ frames: 6000, name: 'very long.bvh' }));
+  await app.chooseLeader(bvh({ frames: 17_000, name: 'very long.bvh' }));
   await app.until(({ job }) => job?.stage === 'step');
   await expect(page.getByRole('button', { name: 'Cancel' })).toBeVisible();
   await page.keyboard.press('Escape');

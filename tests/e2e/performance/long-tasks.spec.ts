@@ -1,4 +1,5 @@
 import type { Browser, Page } from '@playwright/test';
+import { bvh } from '../support/files';
 import { App, SHIPPED } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { type Task, tasksOf, TRACED } from '../support/main-thread';
@@ -100,6 +101,12 @@ test('the dancers go on while a reaction is made; without a graphics card the pa
   page,
 }) => {
   const app = await dancing(page);
+  // Long enough for several pictures.
+  await app.drop(bvh({ frames: 900, name: 'long.bvh' }));
+  await app.reaction('long.bvh');
+  await app.settled();
+  await page.keyboard.press('Space');
+  await app.until(({ playback }) => playback.playing && playback.time > 0.2);
   // The page itself looks at every picture: asking from here takes as long as the job.
   await page.evaluate(`
     window.pictures = [];
