@@ -4,7 +4,7 @@ import { readLeaderFile } from '../../../../web/motion/import/read';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import { processorTimer } from '../../support/processor-time';
 import { madeBody, madeBvh, type MadeJoint, MIXAMO } from '../../support/made-bvh';
-import { changedGlb, joinedGlb, writeGlb } from '../../support/motion-files/glb';
+import { changedGlb, joinClips, joinedGlb, writeGlb } from '../../support/motion-files/glb';
 import {
   bvhMotion,
   madeMotion,
@@ -55,13 +55,7 @@ describe.each(ways)('two dancers below one root, %s', (_, rename) => {
   });
 
   test('one clip moves both, who can be chosen', async () => {
-    const together = changedGlb(duet, ({ animations }) => {
-      const [first, second] = animations.splice(0) as [(typeof animations)[0], (typeof animations)[0]];
-      for (const { sampler, target } of second.channels)
-        first.channels.push({ sampler: sampler + first.samplers.length, target });
-      first.samplers.push(...second.samplers);
-      animations.push(first);
-    });
+    const together = changedGlb(duet, joinClips);
     for (const [part, motion] of [dance, other].entries()) {
       const file = await read(together, part);
       expect(worstMillimetres(file, motion)).toBeLessThan(WORST);

@@ -20,7 +20,7 @@ import {
   Y_AXIS,
   ZERO,
 } from '../../../../web/motion/math/vec3';
-import { changedGlb, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
+import { changedGlb, joinClips, joinedGlb, writeGlb, writeGltf } from '../../support/motion-files/glb';
 import { CONVENTIONS } from '../../support/motion-files/conventions';
 import { madeBody, MIXAMO } from '../../support/made-bvh';
 import { worldPose } from '../../../../web/motion/retarget/sample';
@@ -633,13 +633,11 @@ describe('glTF and VRM', () => {
   });
 
   test('the dancers of one clip, in the order of the file', async () => {
-    const bytes = changedGlb(duet, ({ nodes, animations }) => {
-      [dance, other].forEach(({ joints }, i) => (nodes[(i + 1) * joints.length + i]!.name = `dancer ${i}`));
-      const [first, second] = animations.splice(0) as [(typeof animations)[0], (typeof animations)[0]];
-      for (const { sampler, target } of second.channels)
-        first.channels.push({ sampler: sampler + first.samplers.length, target });
-      first.samplers.push(...second.samplers);
-      animations.push(first);
+    const bytes = changedGlb(duet, (json) => {
+      [dance, other].forEach(
+        ({ joints }, i) => (json.nodes[(i + 1) * joints.length + i]!.name = `dancer ${i}`),
+      );
+      joinClips(json);
     });
     for (const [part, motion] of [dance, other].entries()) {
       const file = await read({ part }, ['a.glb', bytes]);

@@ -256,6 +256,15 @@ export function changedGlb(
   return packed(json, bytes);
 }
 
+/** Puts the first two clips of a file into one. */
+export function joinClips({ animations }: GlbJson): void {
+  const [first, second] = animations.splice(0) as [(typeof animations)[0], (typeof animations)[0]];
+  for (const { sampler, target } of second.channels)
+    first.channels.push({ sampler: sampler + first.samplers.length, target });
+  first.samplers.push(...second.samplers);
+  animations.push(first);
+}
+
 /** Two GLB files in one: the nodes and the clips of both, side by side. */
 export function joinedGlb(
   first: Uint8Array<ArrayBuffer>,
