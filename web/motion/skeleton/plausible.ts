@@ -20,17 +20,20 @@ export function checkPlausible({ positions, frames }: MotionClip): void {
       const where = `${SMPL22[joint]!} in frame ${frame + 1}`;
       // Written so that a number that is not finite fails as well.
       if (!(Math.hypot(x, y, z) <= MAX_PLACE))
-        throw implausible(`${where} is more than ${MAX_PLACE} m from the middle of the world`);
+        throw implausible(`${where} is more than ${MAX_PLACE} m from the middle of the world`, frame === 0);
       const reach = Math.hypot(x - at(J.pelvis, 0), y - at(J.pelvis, 1), z - at(J.pelvis, 2));
       if (!(reach <= MAX_REACH)) throw implausible(`${where} is more than ${MAX_REACH} m from the pelvis`);
     }
   }
 }
 
-function implausible(where: string): AppError {
+/** @param isAside whether the dance begins there, as in the scene of a game */
+function implausible(where: string, isAside = false): AppError {
   return new AppError(
     'not-a-body',
-    `No dancer moves like this: ${where}.`,
-    'Check the motion in the program it comes from, remove the wrong frames, and export it again.',
+    isAside ? `The dance is too far aside: ${where}.` : `No dancer moves like this: ${where}.`,
+    isAside
+      ? 'Move the dancer to the middle of the scene in the program it comes from, and export it again.'
+      : 'Check the motion in the program it comes from, remove the wrong frames, and export it again.',
   );
 }

@@ -182,10 +182,17 @@ describe('absurd files', () => {
       { bone: 'センター', frame: 1e9 },
     ]);
     expect(problemOf(() => readVmd(late)).code).toBe('too-long');
-    const far = data.slice();
-    far[66 * 3] = 4000;
-    const archive = writeArchive({ leader: { shape: [4, 22, 3], data: far } });
-    expect(problemOf(() => leaderOf(readNumpy(archive, 'a.npz', 0))).code).toBe('not-a-body');
+    const refused = (far: Float32Array) => {
+      const archive = writeArchive({ leader: { shape: [4, 22, 3], data: far } });
+      return problemOf(() => leaderOf(readNumpy(archive, 'a.npz', 0)));
+    };
+    const away = data.slice();
+    away[66 * 3] = 4000;
+    expect(refused(away).code).toBe('not-a-body');
+    expect(refused(away).hint).toMatch(/wrong frames/);
+    const aside = refused(data.map((value, i) => (i % 3 === 0 ? value + 80 : value)));
+    expect(aside.message).toMatch(/^The dance is too far aside: .* in frame 1 is more than 50 m/);
+    expect(aside.hint).toMatch(/middle of the scene/);
   });
 
   test('markup in names stays text', () => {
