@@ -151,7 +151,7 @@ def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionC
     """
     config = read_config(folder, "denoiser")
     # Checkpoints of earlier versions do not say it.
-    if config.get("latents", digest := latents_digest(hfsq)) != digest:
+    if config.get("latents") not in (None, latents_digest(hfsq)):
         raise ValueError(
             f"{folder / 'denoiser.safetensors'} was trained on another stage 1 than {folder / 'hfsq.safetensors'}, "
             "which was trained again since: train the denoiser again too, or put the earlier stage 1 back"

@@ -96,7 +96,10 @@ const readers = {
 };
 const files = new FileLoader(store, readers, {
   openVideo: (file) => video.open(file),
-  cancel: cancelOtherLeaders,
+  cancel: () => {
+    video.cancel();
+    offered.cancel();
+  },
 });
 const offered = new OfferedLeaders(store, files, new URL('leaders/', document.baseURI));
 const videoTrack = new VideoTrack();
@@ -263,19 +266,11 @@ function openStage(host: HTMLElement): Stage | null {
   }
 }
 
-/** A newer leader has been asked for: one that is not there yet gives way. */
-function cancelOtherLeaders(): void {
-  video.cancel();
-  offered.cancel();
-}
-
 /** A project has its own song and leader, so other files beside it are not read. */
 async function openFiles(chosen: readonly File[]): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
-  if (projectFile) {
-    cancelOtherLeaders();
-    await project.open(projectFile);
-  } else await openGiven(chosen, store, files);
+  if (projectFile) await project.open(projectFile);
+  else await openGiven(chosen, store, files);
 }
 
 async function saveProject(): Promise<void> {

@@ -70,12 +70,12 @@ def is_test_sequence(name: str) -> bool:
 
     Raises ValueError for another name.
     """
-    genre, choreography, *take = name.rsplit("_", 2) if name.count("_") >= 2 else ("", "", "")
-    if not take or not choreography.isdecimal():
+    parts = name.rsplit("_", 2)
+    if len(parts) < 3 or not parts[1].isdecimal():
         raise ValueError(
             f"{name} is no GENRE_CHOREO_TAKE, by which the benchmark splits: name the duets for test with --test"
         )
-    index = int(choreography)
+    genre, index = parts[0], int(parts[1])
     return index in (9, 10) if genre == "Ballet" else index % 5 == 0
 
 

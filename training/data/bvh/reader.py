@@ -16,9 +16,8 @@ from training.motion.floor import put_on_floor
 from training.music.features import SONG_SUFFIXES
 
 _ROLES = ("leader", "reactor")
-_MOST_DIFFERENCE = (
-    2.0  # of the sizes of two dancers; of metres, inches and centimetres the nearest two are 2.54 apart
-)
+_MOST_DIFFERENCE = 2.0
+"""Of the sizes of two dancers; of metres, inches and centimetres the nearest two are 2.54 apart."""
 
 
 def read_bvh(path: Path | str, fps: float | None = None) -> Solo:

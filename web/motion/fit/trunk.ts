@@ -63,7 +63,7 @@ export function trunkRotations(observed: Float64Array): TrunkRotations {
  * The rotations, but the nearer the sides of a part are to each other, the more it turns as in the frames around it.
  *
  * Where a decoder is unsure which way a dancer faces, both hips or both collars are in one place, and when they part
- * again on the other side the trunk would flip within a frame. Here it turns there instead.
+ * again on the other side the trunk would flip within a frame. Here it turns there instead, both parts the same way.
  *
  * @param observed frames x 22 x 3, metres
  * @param offsets of the rest skeleton, 22 x 3 metres
@@ -86,28 +86,29 @@ export function steadyTrunk(
   });
   const whole = steady(withoutSignChanges(middle), surest, deviation);
   return {
-    pelvis: steadyBeside(whole, trunk.pelvis, certainty.pelvis, deviation),
-    chest: steadyBeside(whole, trunk.chest, certainty.chest, deviation),
+    pelvis: steadyAgainst(whole, trunk.pelvis, certainty.pelvis, deviation),
+    chest: steadyAgainst(whole, trunk.chest, certainty.chest, deviation),
     certainty,
   };
 }
 
 /**
- * The rotations of a part, steadied as it turns against the other part, by less than half a turn: where it is uncertain
- * which way round it turned, it turns with the other one, and the spine is not wound up.
+ * The rotations of a part, steadied as it turns against the whole trunk, by less than half a turn: where it is uncertain
+ * which way round it turned, it turns with the other part, and the spine is not wound up.
+ * @param whole rotations of the trunk: those of the part whose sides are farther apart
  */
-function steadyBeside(
-  other: Float64Array,
+function steadyAgainst(
+  whole: Float64Array,
   part: Float64Array,
   certainty: Float64Array,
   deviation: number,
 ): Float64Array {
   const relative = rowsOf(part, (t) => {
-    const turn = multiply(conjugate(readQuat(other, t)), readQuat(part, t));
+    const turn = multiply(conjugate(readQuat(whole, t)), readQuat(part, t));
     return turn[3] < 0 ? negate(turn) : turn;
   });
   const turned = steady(relative, certainty, deviation);
-  return rowsOf(part, (t) => multiply(readQuat(other, t), readQuat(turned, t)));
+  return rowsOf(part, (t) => multiply(readQuat(whole, t), readQuat(turned, t)));
 }
 
 /** One rotation for each of those given. */

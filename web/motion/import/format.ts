@@ -58,6 +58,10 @@ const COMPANIONS: readonly { readonly motion: RegExp; readonly companion: RegExp
 
 const stemOf = ({ name }: { readonly name: string }): string => name.replace(/\.\w+$/, '').toLowerCase();
 
+/** Whether a file has the name of another one, but for its ending. */
+const isNamed = ({ name }: { readonly name: string }, stem: string): boolean =>
+  name.toLowerCase().startsWith(`${stem}.`);
+
 /** Whether a name begins with a whole word: 60_10 with 60, not with 6. */
 const startsWithWord = (name: string, word: string): boolean =>
   name.startsWith(word) && /[^\p{L}\p{N}]/u.test(name.charAt(word.length));
@@ -72,15 +76,13 @@ export function groupCompanions<T extends { readonly name: string }>(files: read
     const rule = COMPANIONS.find(({ motion }) => motion.test(file.name));
     const stem = stemOf(file);
     const others = rule ? files.filter((other) => rule.companion.test(other.name)) : [];
-    const isNamed = (other: T, after: string): boolean => other.name.toLowerCase().startsWith(`${after}.`);
     const named = others.filter((other) => isNamed(other, stem));
     const begun = others.filter((other) => startsWithWord(stem, stemOf(other)));
-    const ofOthers = others.filter((other) =>
-      files.some((one) => one !== file && rule?.motion.test(one.name) && isNamed(other, stemOf(one))),
-    );
+    const isOfOther = (other: T): boolean =>
+      files.some((one) => rule?.motion.test(one.name) && isNamed(other, stemOf(one)));
     const mine = rule?.one
       ? ([named, begun].find((some) => some.length > 0) ?? others)
-      : others.filter((other) => named.includes(other) || !ofOthers.includes(other));
+      : others.filter((other) => isNamed(other, stem) || !isOfOther(other));
     for (const other of mine) taken.add(other);
     return [file, ...mine];
   });

@@ -147,10 +147,11 @@ function isMirrored(tree: Tree, pair: Pair, hips: Vec3, trunk: Vec3): boolean {
   return Math.min(...away) >= MIN_SPREAD_RATIO * Math.max(...away);
 }
 
-/** Length of the limbs of a pair as a share of the trunk. */
-function shareOf(tree: Tree, pair: Pair, legs: Pair, arms: Pair): number {
+/** Lengths of leg and arm as shares of the trunk, by those of a person. */
+function sharesOf(tree: Tree, legs: Pair, arms: Pair): StructuralMap['shares'] {
   const size = distance(middle(tree, arms, 0), middle(tree, legs, 0));
-  return (pair.limbs[0].length + pair.limbs[1].length) / 2 / size;
+  const share = ({ limbs }: Pair): number => (limbs[0].length + limbs[1].length) / 2 / size;
+  return { legs: share(legs) / LEG_SHARE, arms: share(arms) / ARM_SHARE };
 }
 
 /** How unlike a body legs and arms are; null where they can't be one. */
@@ -160,8 +161,7 @@ function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
   const trunk = sub(middle(tree, arms, 0), middle(tree, legs, 0));
   if (!(length(trunk) > 0)) return null;
   if ([legs, arms].some((pair) => !isMirrored(tree, pair, middle(tree, legs, 0), trunk))) return null;
-  const shares = [shareOf(tree, legs, legs, arms) / LEG_SHARE, shareOf(tree, arms, legs, arms) / ARM_SHARE];
-  const errors = shares.map((share) => Math.abs(Math.log(share)));
+  const errors = Object.values(sharesOf(tree, legs, arms)).map((share) => Math.abs(Math.log(share)));
   if (errors.some((error) => !(error <= MAX_SHARE_ERROR))) return null;
   const down = direction(sub(middle(tree, legs, 2), middle(tree, legs, 0)), ZERO);
   // Legs go on from the trunk; a seated rest pose has them level with the floor.
@@ -287,10 +287,6 @@ export function mapByStructure(
   const { neck, head } = neckAndHead(joints, tree, legs, arms);
   if (neck !== undefined) nodes.set('neck', neck);
   if (head !== undefined) nodes.set('head', head);
-  const shares = {
-    legs: shareOf(tree, legs, legs, arms) / LEG_SHARE,
-    arms: shareOf(tree, arms, legs, arms) / ARM_SHARE,
-  };
   const symmetry = Math.min(legs.symmetry, arms.symmetry);
-  return { nodes, sidesCertain, sidesDisputed, shares, symmetry };
+  return { nodes, sidesCertain, sidesDisputed, shares: sharesOf(tree, legs, arms), symmetry };
 }

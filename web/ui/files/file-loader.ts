@@ -95,6 +95,7 @@ export class FileLoader implements Files {
   };
 
   cancel(side: InputKind): void {
+    if (side === 'leader') this.otherLeaders.cancel();
     if (!this.running[side]) return;
     this.running[side].abort();
     this.running[side] = null;

@@ -67,13 +67,9 @@ export class SessionRun {
     return this.#view.element;
   }
 
-  get isRunning(): boolean {
-    return this.#session !== null;
-  }
-
   /** A key that was pressed anywhere on the page; true where it meant something. */
   handleKey(event: KeyboardEvent): boolean {
-    return this.isRunning && this.#view.handleKey(event);
+    return this.#session !== null && this.#view.handleKey(event);
   }
 
   /** Begins with the first pair that is not answered. */
