@@ -12,8 +12,8 @@ const everywhere = towards(
 
 /**
  * One direction of imports: ui sees the clients and motion, export sees view and motion, video sees model and motion,
- * view, model and quality see motion, audio, motion and offline see nobody, common is seen by all, and only main.ts and stage-binding.ts know
- * everyone.
+ * view, model and quality see motion, audio, motion and offline see nobody, common is seen by all, and only main.ts,
+ * study.ts and stage-binding.ts know everyone.
  */
 const directions = {
   common: [
