@@ -9,7 +9,7 @@ const SAMPLE_MS = 200;
  * @property {number} minutes
  * @property {number} song seconds until the song is read
  * @property {number} leader seconds until the leader is read
- * @property {number} dance seconds from there until the partner dances
+ * @property {number} dance seconds from there until the dance is ready
  * @property {number} memory most that the page's processes had meanwhile, MB
  * @property {number} longestTask of the page's thread, milliseconds
  */

@@ -46,7 +46,7 @@ export function appTables({ waits, lengths }) {
     `| sent by the server until then | ${row(({ coldStart }) => `${coldStart.megabytes.toFixed(1)} MB`)} |`,
     `| a moved fader until new frames are drawn, while it plays | ${row(({ slider }) => `${slider.first.toFixed(0)} ms`)} |`,
     `| until the whole new dance is drawn | ${row(({ slider }) => `${slider.whole.toFixed(0)} ms`)} |`,
-    `| one picture meanwhile | ${row(({ slider }) => `${slider.picture.toFixed(0)} ms`)} |`,
+    `| one rendered frame meanwhile | ${row(({ slider }) => `${slider.picture.toFixed(0)} ms`)} |`,
     '',
     '| minutes | song read, s | leader read, s | dance made, s | most memory, MB | longest task, ms |',
     '|---:|---:|---:|---:|---:|---:|',
@@ -71,7 +71,7 @@ function plotLengths(lengths) {
     lines: [{ points: lengths.map((length) => /** @type {const} */ ([length.minutes, valueOf(length)])) }],
   });
   return plot([
-    panel('seconds until the partner dances', ({ song, leader, dance }) => song + leader + dance),
+    panel('seconds until the dance is ready', ({ song, leader, dance }) => song + leader + dance),
     panel('most memory of the page’s processes, MB', ({ memory }) => memory),
   ]);
 }
