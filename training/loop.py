@@ -1,4 +1,4 @@
-"""What both training programs share: options, schedule, EMA of the weights, logging with curves, resumable state."""
+"""What the training programs share: options, schedule, EMA of the weights, logging with curves, resumable state."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ M = TypeVar("M", bound=nn.Module)
 
 @dataclass(frozen=True, kw_only=True)
 class LoopOptions:
-    """The options of both programs."""
+    """Options of every training program."""
 
     data: Path
     """Duets: an npz archive, a DD100 root, or a folder of paired BVH files (see training/data/sources.py)."""

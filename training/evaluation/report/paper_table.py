@@ -12,9 +12,9 @@ ROWS: tuple[tuple[str, str], ...] = (
     (GENERATED, "**generated**"),
     ("solved, foot lock", "as the page draws it"),
     ("no-latent baseline", "no-latent baseline"),
-    ("nearest neighbour", "chance: nearest neighbour"),
-    ("mean pose", "chance: mean pose"),
-    ("mirrored leader", "chance: mirrored leader"),
+    ("nearest neighbour", "baseline: nearest neighbour"),
+    ("mean pose", "baseline: mean pose"),
+    ("mirrored leader", "baseline: mirrored leader"),
 )
 """Rows of an evaluation and how they are called; those that were not measured are left out."""
 COLUMNS: tuple[tuple[str, str, int], ...] = (

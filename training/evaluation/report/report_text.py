@@ -134,8 +134,8 @@ def _per_duet(numbers: Numbers) -> Sections:
 
 def _boundaries_and_responses(numbers: Numbers) -> Sections:
     return [
-        "## Block boundaries",
-        "`ratio` is the boundary jitter ratio: velocity change within two frames of a boundary over the truth's in the "
+        "## Seams between blocks",
+        "`ratio` is the boundary jitter ratio: velocity change within two frames of a seam over the truth's in the "
         "same frames. `own` compares with the motion's own interior. 1 is seamless.",
         _values(numbers["seams"]),
         "## Responses to conditions",

@@ -45,7 +45,7 @@ export interface FootContacts {
 }
 
 /**
- * Which joints of the feet stand, and how fast they move over the floor: `contacts` of training/evaluation/metrics/contact.py.
+ * Which joints of the feet stand, and how fast they move over the floor: `contacts` of training/motion/foot_contact.py.
  * Measured against each joint's own low heights, so neither the floor nor the foot's thickness matters.
  */
 export function footContacts(clip: MotionClip, rule: ContactRule): FootContacts {
