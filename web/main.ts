@@ -249,7 +249,7 @@ function place(id: string): HTMLElement {
   return element;
 }
 
-/** Null, and a problem on the page, where the browser can draw no 3D picture. */
+/** Null, and a problem on the page, where the browser cannot draw the 3D view. */
 function openStage(host: HTMLElement): Stage | null {
   const picture = document.createElement('div');
   picture.className = 'picture';

@@ -205,7 +205,7 @@ test.describe('the model', () => {
     await page.getByRole('button', { name: /^Cancel/ }).click();
     await app.until(({ job }) => !job);
     await page.getByRole('button', { name: 'Generate' }).click();
-    await expectProblem(app, /no sign of life for 60 seconds/, HINT, async () => {
+    await expectProblem(app, /no answer for 60 seconds/, HINT, async () => {
       await page.evaluate('void slowDown()');
       await app.alert.getByRole('button', { name: 'Try again' }).click();
     });

@@ -84,7 +84,7 @@ test('from a song and a leader to a partner that can be steered and downloaded',
   await test.step('so does another seed, and the same seed brings the same reactor back', async () => {
     const seed = await app.read(({ settings }) => settings?.seed);
     const before = await app.reactor();
-    await page.getByRole('button', { name: 'Roll a new seed' }).click();
+    await page.getByRole('button', { name: 'New random seed' }).click();
     await app.until(({ reaction, settings }) => reaction?.inputs.settings.seed === settings?.seed);
     expect(maxDistance(before, await app.reactor())).toBeGreaterThan(0.01);
     await page.getByRole('spinbutton', { name: 'Seed' }).fill(String(seed));

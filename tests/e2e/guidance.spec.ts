@@ -120,7 +120,7 @@ test('the seed is chosen at random, locked and kept, and swapped roles are named
   await app.chooseLeader(bvh({ frames: 90, name: 'mine.bvh' }));
   await app.reaction('mine.bvh');
   const again = page.getByRole('button', { name: 'Generate again' });
-  const dice = page.getByRole('button', { name: 'Roll a new seed' });
+  const dice = page.getByRole('button', { name: 'New random seed' });
   const lock = page.getByRole('button', { name: 'Lock the seed' });
   const made = () => app.read(({ reaction }) => reaction?.inputs.settings.seed ?? null);
   const done = () =>

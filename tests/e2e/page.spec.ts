@@ -25,7 +25,7 @@ for (const [name, width, height] of [
       page.getByRole('slider', { name: 'Coarse guidance' }),
       page.getByRole('slider', { name: 'Fine guidance' }),
       page.getByRole('slider', { name: 'Playhead' }),
-      page.getByRole('button', { name: 'Roll a new seed' }),
+      page.getByRole('button', { name: 'New random seed' }),
       page.getByRole('button', { name: 'Generate' }),
       page.getByRole('button', { name: 'Download', exact: true }),
       page.getByRole('button', { name: /^Leader: mine.bvh/ }),

@@ -81,7 +81,7 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   await page.goto(STUDY);
   await expect(setup).toContainText('The test of Ana is not finished: 1 of 2 pairs.');
   await setup.locator('input[type="file"]').first().setInputFiles(FILES);
-  await setup.getByRole('button', { name: 'Go on with it' }).click();
+  await setup.getByRole('button', { name: 'Continue' }).click();
   await expect(questions.getByRole('heading')).toHaveText('Pair 2 of 2');
   await questions.getByRole('radio', { name: 'A a little' }).first().check();
   for (const key of asked === 3 ? '5' : '55') await page.keyboard.press(key);
@@ -103,7 +103,7 @@ test('the dances of the page are shown without a file, also after a first failur
   await page.goto(STUDY);
   await page.getByRole('button', { name: 'Dances of this page' }).click();
   await page.getByLabel('Pairs, at most').fill('2');
-  await page.getByLabel('Seed of the order').fill('3');
+  await page.getByLabel('Seed for the order').fill('3');
   await page.getByRole('button', { name: 'Start' }).click();
   const questions = page.getByRole('region', { name: 'Questions' });
   const again = questions.getByRole('button', { name: 'Try again' });

@@ -220,7 +220,7 @@ test('everything is restored after a reload, and from a project file after the p
     await page.getByRole('button', { name: 'Project' }).click();
     await page
       .getByRole('dialog', { name: 'Project' })
-      .getByRole('button', { name: /Start afresh/ })
+      .getByRole('button', { name: /Start over/ })
       .click();
     await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeVisible();
     await expect(takes(page)).toHaveCount(0);
@@ -325,5 +325,5 @@ test('a browser without storage is reported, and the page works', async ({ page 
     });
   });
   await withTwoTakes(page);
-  await expect(page.getByRole('list', { name: 'Notes' })).toContainText('keeps nothing');
+  await expect(page.getByRole('list', { name: 'Notes' })).toContainText('saves nothing');
 });

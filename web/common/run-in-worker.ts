@@ -171,7 +171,7 @@ export class WorkerConnection<T extends Tasks> {
     this.#watch = new SilenceWatch(
       patience,
       () => this.#remote.answer(),
-      (seconds) => this.dispose(toError(`no sign of life for ${seconds} seconds`)),
+      (seconds) => this.dispose(toError(`no answer for ${seconds} seconds`)),
     );
     worker.addEventListener('error', (event) => {
       event.preventDefault();

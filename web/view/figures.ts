@@ -60,7 +60,7 @@ export function createFigures(library: BodyLibrary, softwareRendered: boolean): 
       running = true;
       void drawPending()
         // Without its pictures the page works as before.
-        .catch((error: unknown) => console.warn('Figures can not be drawn:', error))
+        .catch((error: unknown) => console.warn('Figures cannot be drawn:', error))
         .finally(() => (running = false));
     },
   };

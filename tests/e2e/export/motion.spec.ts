@@ -37,7 +37,7 @@ test('leader, reactor or both are saved in four formats with their metadata', as
     await page.keyboard.press('ArrowRight');
     await expect(menu).toContainText(`${PREFIX}_both-bvh.zip`);
     await expect(menu.getByRole('button', { name: 'Save video' })).toBeDisabled();
-    await expect(menu).toContainText('A video needs the 3D picture');
+    await expect(menu).toContainText('A video needs the 3D view');
   });
 
   await test.step('GLB: valid, two dancers in one animation', async () => {

@@ -70,14 +70,14 @@ test('of two tabs one keeps the work, and the other says so and can take over', 
   const second = new App(other);
   await second.openWithoutPicture();
   await second.until(({ takes }) => takes.length === 1);
-  const says = (one: Page) => one.getByText('Your work is open in another tab, which keeps it.');
+  const says = (one: Page) => one.getByText('Your work is open in another tab, which saves it.');
   await expect(says(other)).toBeVisible();
   await expect(says(page)).toBeHidden();
 
   // A take of the tab that keeps nothing yet is kept once it takes over, and so is what the first one has made.
   await takeMade(other, 201);
   await takeMade(page, 202);
-  await other.getByRole('button', { name: 'Keep it here instead' }).click();
+  await other.getByRole('button', { name: 'Save in this tab instead' }).click();
   await expect(says(page)).toBeVisible();
   await second.until(({ takes, autosave }) => takes.length === 3 && autosave === 'stored');
   await expect(says(other)).toBeHidden();

@@ -74,7 +74,7 @@ test('with reduced motion nothing but the dance moves, as soon as it is preferre
     await matrix.click();
     await matrix.click();
     await page.getByRole('switch', { name: 'Foot lock' }).click();
-    await page.getByRole('button', { name: 'Roll a new seed' }).click();
+    await page.getByRole('button', { name: 'New random seed' }).click();
     await app.until(({ reaction, job }) => !job && reaction?.label === null);
     await page.getByRole('button', { name: 'Download', exact: true }).click();
     await page.keyboard.press('Escape');

@@ -66,7 +66,7 @@ for (const [width, height] of [
     await measured(() => page.getByRole('slider', { name: 'Coarse guidance' }).fill('0.7'));
     await expectStable('another reaction and its quality', OWN_LIST);
 
-    await measured(() => page.getByRole('button', { name: 'Roll a new seed' }).click());
+    await measured(() => page.getByRole('button', { name: 'New random seed' }).click());
     expect(await app.read(({ takes }) => takes.length)).toBe(3);
     await expectStable('another take and its quality', OWN_LIST);
 

@@ -62,7 +62,7 @@ test('memory stays flat over generations and loads, and takes stay as they are',
   const generate = async (): Promise<void> => {
     generations++;
     if (generations % 5 === 0)
-      await page.getByRole('button', { name: 'Roll a new seed', exact: true }).click();
+      await page.getByRole('button', { name: 'New random seed', exact: true }).click();
     else {
       const [fader, step] = [generations % 4, (generations * 7) % 15];
       const slider = page.getByRole('slider', { name: FADERS[fader]!, exact: true });

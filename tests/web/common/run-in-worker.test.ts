@@ -201,14 +201,14 @@ describe('a worker that falls silent', () => {
     await connection.call('double', { values: Float32Array.of(1) });
     const waiting = connection.call('wait', {});
     worker.silent = true;
-    await expect(waiting).rejects.toThrow('no sign of life for 0.15 seconds');
+    await expect(waiting).rejects.toThrow('no answer for 0.15 seconds');
     expect(connection.ended).toBe(true);
     expect(worker.terminated).toBe(true);
   });
 
   it('before its script has come is given more time', async () => {
     const connection = new WorkerConnection<Tested>(silenced() as unknown as Worker, { patience });
-    await expect(connection.call('wait', {})).rejects.toThrow('no sign of life for 0.3 seconds');
+    await expect(connection.call('wait', {})).rejects.toThrow('no answer for 0.3 seconds');
   });
 
   it('after its call was cancelled ends as well, so that the next call can have a new one', async () => {

@@ -216,8 +216,7 @@ function findByStructure(nodes: readonly SourceJoint[], places: readonly Vec3[])
   if (found === null) return null;
   const doubts = ['Not all joints have known names; the body was found by its shape.'];
   if (!found.sidesCertain) doubts.push('Nothing tells left from right in this file; they may be exchanged.');
-  if (found.sidesDisputed)
-    doubts.push('Names and feet disagree about left and right; the feet were believed.');
+  if (found.sidesDisputed) doubts.push('Names and feet disagree about left and right; the feet were used.');
   for (const [limbs, share] of Object.entries(found.shares)) {
     if (share >= 1 / MAX_SHARE && share <= MAX_SHARE) continue;
     const size = share < 1 ? 'short' : 'long';

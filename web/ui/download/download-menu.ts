@@ -96,7 +96,7 @@ function showButton({ element, ring, symbol }: MenuButton, { reaction, videoProg
     ? `Writing the video, ${Math.round(100 * share)} %`
     : reaction
       ? ''
-      : 'Available once a reactor is on the stage';
+      : 'Available once there is a partner';
   ring.hidden = !videoProgress;
   symbol.toggleAttribute('hidden', videoProgress !== null);
   setVariable(ring, '--part', share);

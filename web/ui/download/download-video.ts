@@ -160,7 +160,7 @@ function createHead(services: Services): {
       share.hidden = running || !(plan && savedVideo(state, plan.container)?.shareable);
       save.disabled = !state.reaction || !plan;
       const size = services.videoSize();
-      setText(about, size ? videoText(plan, state, size) : 'A video needs the 3D picture.');
+      setText(about, size ? videoText(plan, state, size) : 'A video needs the 3D view.');
       const named = fileNameParts(state);
       save.title = named && plan ? videoFileName(named, state.download.size, plan.container) : '';
     },

@@ -40,7 +40,7 @@ function build({ songs, leaders, unused }: GivenFiles, store: Store, services: S
       },
     },
     el('h1', {
-      text: count ? 'Which of these do you want to use?' : 'This is what the files are.',
+      text: count ? 'Which of these do you want to use?' : 'These files were found.',
       attributes: { id: 'given-title' },
     }),
     ...choices('Song', 'song', songs),

@@ -26,7 +26,7 @@ export const mountSeedBox: Mount = (root, store) => {
     },
   });
   takeBackOnEscape(input);
-  const roll = iconButton('icon', 'dice', { label: 'Roll a new seed' }, () => {
+  const roll = iconButton('icon', 'dice', { label: 'New random seed' }, () => {
     apply(store, seedRandomized(randomSeed()));
   });
   const lock = iconButton('icon lock', 'unlock', { label: 'Lock the seed' }, () => {

@@ -3,19 +3,19 @@ import type { Mount } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
 import { watchAll } from '../store/store';
 
-/** Where the work of this tab is not kept although the browser would keep it: why, and what the button offers. */
+/** Where the work of this tab is not saved although the browser would save it: why, and what the button offers. */
 const NOTES: Readonly<Partial<Record<AutosaveStatus, { readonly text: string; readonly button: string }>>> = {
   elsewhere: {
-    text: 'Your work is open in another tab, which keeps it. What you change here is not kept.',
-    button: 'Keep it here instead',
+    text: 'Your work is open in another tab, which saves it. Changes in this tab are not saved.',
+    button: 'Save in this tab instead',
   },
   newer: {
-    text: 'A newer version of this page has kept work here. This older one leaves it as it is, and keeps nothing.',
+    text: 'A newer version of this page has saved work here. This version leaves it unchanged and saves nothing.',
     button: 'Reload',
   },
 };
 
-/** Over the stage: what is being restored, and a note where another tab or version keeps its work instead of this one. */
+/** Over the stage: what is being restored, and a note where another tab or version saves its work instead of this one. */
 export const mountKeptNote: Mount = (root, store, services) => {
   const text = el('span');
   const button = el('button', {

@@ -9,11 +9,11 @@ import { persistenceText } from '../store/selectors';
 import { hasVisitorContent } from './schema';
 
 const HEADINGS: Readonly<Record<AutosaveStatus, string>> = {
-  stored: 'Kept in this browser until you start afresh',
-  full: 'Not all of it is kept: this browser’s space is full',
-  refused: 'This browser keeps nothing for the page',
-  elsewhere: 'Another tab keeps its work; this one is not kept',
-  newer: 'A newer version of the page keeps its work; this one is not kept',
+  stored: 'Saved in this browser until you start over',
+  full: 'Not everything is saved: this browser’s storage is full',
+  refused: 'This browser saves nothing for the page',
+  elsewhere: 'Another tab is saving; this tab is not saved',
+  newer: 'A newer version is saving; this one is not saved',
 };
 
 interface Elements {
@@ -26,7 +26,7 @@ interface Elements {
   readonly clear: HTMLButtonElement;
 }
 
-/** The project menu in the bar: saving and opening everything as one file, and starting afresh. */
+/** The project menu in the bar: saving and opening everything as one file, and starting over. */
 export const mountProjectMenu: Mount = (root, store, services) => {
   const toggle = (): void => {
     apply(store, panelToggled('project'));
@@ -105,7 +105,7 @@ function build(services: Services, toggle: () => void): Elements {
   });
   const clear = entry(
     'remove',
-    'Start afresh',
+    'Start over',
     'Empties the page; undo brings it back until you make a take',
     services.clearProject,
   );

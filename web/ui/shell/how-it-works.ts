@@ -72,7 +72,7 @@ export function howItWorks(): HTMLElement {
       item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
       item('Mixamo', 'download a dance as FBX.'),
       item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),
-      item('This page', 'a reactor downloaded here can be the leader of the next dance.'),
+      item('This page', 'a dance downloaded here can be the leader of the next one.'),
     ),
   );
 }

@@ -7,8 +7,8 @@ import { panelToggled } from '../store/actions/view';
 
 const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Space'], 'Play or pause'],
-  [['←', '→'], 'One frame back or on'],
-  [['Shift ←', 'Shift →'], 'One bar back or on'],
+  [['←', '→'], 'One frame back or forward'],
+  [['Shift ←', 'Shift →'], 'One bar back or forward'],
   [['Home', 'End'], 'Start, end'],
   [['[', ']'], 'Slower, faster'],
   [['← →'], 'On the song lane: move the song by one frame, with Shift by ten'],

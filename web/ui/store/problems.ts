@@ -127,7 +127,7 @@ export function generationProblem(error: unknown): Problem {
   return (
     versionProblem(error) ?? {
       code: explained ? error.code : 'generation-failed',
-      title: explained ? error.message : 'The reactor could not be made.',
+      title: explained ? error.message : 'The partner could not be made.',
       hint: explained ? error.hint : 'Try again; a shorter leader needs less memory.',
       remedy: 'generate',
       refused: null,
@@ -177,12 +177,12 @@ export function savingProblem(error: unknown): Problem {
   );
 }
 
-/** A failure of the 3D picture; everything else goes on working. */
+/** A failure of the 3D view; everything else goes on working. */
 export function stageProblem(error: unknown): Problem {
   const explained = isExplained(error);
   return {
     code: explained ? error.code : 'stage-failed',
-    title: explained ? error.message : 'The 3D picture could not be started.',
+    title: explained ? error.message : 'The 3D view could not be started.',
     hint: explained
       ? error.hint
       : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',

@@ -125,7 +125,7 @@ const AUTOSAVE_NOTES: Readonly<Record<AutosaveStatus, string | null>> = {
     'The space that this browser has for the page is full: what does not fit is lost when the page is closed. ' +
     'Delete takes that you don’t need, or save a project file.',
   refused:
-    'This browser keeps nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
+    'This browser saves nothing for the page: takes are lost when the page is closed. Save a project file to keep them.',
   // These two are over the stage, with what to do about them.
   elsewhere: null,
   newer: null,

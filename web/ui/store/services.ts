@@ -91,7 +91,7 @@ export interface Services {
   readonly cancel: () => void;
   /** Generates three reactions that differ in their seed; where there are three already, three others. */
   readonly makeVariations: () => void;
-  /** Draws a dancer into a canvas, or clears it, as soon as it can; null where the browser can draw no 3D picture. */
+  /** Draws a dancer into a canvas, or clears it, as soon as it can; null where the browser cannot draw the 3D view. */
   readonly drawFigure: ((canvas: HTMLCanvasElement, figure: Figure | null) => void) | null;
   /** Shows the one with this seed on the stage. */
   readonly pickVariation: (seed: number) => void;

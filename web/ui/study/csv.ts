@@ -59,7 +59,7 @@ export function summaryCsv(comparisons: readonly Comparison[]): string {
 function refused(what: string): AppError {
   return new AppError(
     'not-answers',
-    `These are no answers of a study: ${what}.`,
+    `This is not a file of saved answers: ${what}.`,
     'Choose files that this page has saved as “Answers”.',
   );
 }
@@ -80,7 +80,7 @@ export function readAnswers(text: string): Answer[] {
   if (data.length > MAX_LINES) throw refused(`there are more than ${MAX_LINES} lines`);
   return data.map(({ participant, set, duet, left, right, criterion, ...row }, i) => {
     const known = CRITERIA.find(({ id }) => id === criterion)?.id;
-    if (!known) throw refused(`line ${i + 2} asks for something else`);
+    if (!known) throw refused(`line ${i + 2} has an unknown question`);
     const numbers = {
       seed: Number(row.seed),
       pair: Number(row.pair),
@@ -89,7 +89,7 @@ export function readAnswers(text: string): Answer[] {
     };
     const { score } = numbers;
     if (!Object.values(numbers).every(Number.isFinite) || !Number.isInteger(score) || Math.abs(score) > 2)
-      throw refused(`line ${i + 2} has a number that is none of theirs`);
+      throw refused(`line ${i + 2} has a number out of range`);
     return { participant, set, duet, left, right, criterion: known, ...numbers };
   });
 }

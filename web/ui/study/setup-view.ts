@@ -24,7 +24,7 @@ export class SetupView {
   readonly #participant = el('input', { attributes: { type: 'text', maxlength: 60, autocomplete: 'off' } });
   readonly #pairs = el('input', { attributes: { type: 'number', min: 1, max: 200, step: 1 } });
   readonly #seed = el('input', {
-    attributes: { type: 'number', min: 0, max: 2 ** 32 - 1, step: 1, placeholder: 'drawn' },
+    attributes: { type: 'number', min: 0, max: 2 ** 32 - 1, step: 1, placeholder: 'random' },
   });
 
   constructor(private readonly actions: SetupActions) {
@@ -46,7 +46,7 @@ export class SetupView {
       },
       row('Participant', this.#participant),
       row('Pairs, at most', this.#pairs),
-      row('Seed of the order', this.#seed),
+      row('Seed for the order', this.#seed),
       this.#start,
     );
     this.element = el(
@@ -54,7 +54,7 @@ export class SetupView {
       { class: 'setup', attributes: { 'aria-label': 'Setup' } },
       el('h1', { text: 'Which partner dances better?' }),
       el('p', {
-        text: 'You see a leader in blue twice, side by side, with two partners in orange: A on the left, B on the right. The music is the same. Watch as often as you like and answer three questions about each pair. Nothing tells which method made a partner, order and sides are drawn by lot, and the answers stay on this device until you save them.',
+        text: 'You see a leader in blue twice, side by side, with two partners in orange: A on the left, B on the right. The music is the same. Watch as often as you like and answer three questions about each pair. Nothing tells which method made a partner, order and sides are random, and the answers stay on this device until you save them.',
       }),
       this.#kept,
       el('h2', { text: 'Dances' }),
@@ -74,7 +74,7 @@ export class SetupView {
       el('h2', { text: 'Participant' }),
       form,
       el('h2', { text: 'Summary of several participants' }),
-      chooser('Add up saved answers', '.csv', (files) => {
+      chooser('Combine saved answers', '.csv', (files) => {
         this.actions.addAnswers(files);
       }),
     );
@@ -92,8 +92,10 @@ export class SetupView {
     const answered = new Set(kept.answers.map(({ pair }) => pair)).size;
     const text = `The test of ${kept.participant} is not finished: ${answered} of ${kept.pairs.length} pairs.`;
     if (set && contentOf(set) === kept.content)
-      return [el('p', { text }), textButton('btn tint', 'Go on with it', this.actions.resume)];
-    return [el('p', { text: `${text} Choose the same dances to go on; starting another one replaces it.` })];
+      return [el('p', { text }), textButton('btn tint', 'Continue', this.actions.resume)];
+    return [
+      el('p', { text: `${text} Choose the same dances to continue; starting another one replaces it.` }),
+    ];
   }
 }
 

@@ -49,7 +49,7 @@ export function adviceOn(series: Series, flipped: number): string[] {
     advice.push('An arm is often hidden behind the body: its place there is a guess.');
   if (flipped > 0.05 * frames)
     advice.push(
-      `Front and back were hard to tell for ${(flipped / FPS).toFixed(1)} s: clothes of another colour than the wall help.`,
+      `Front and back were hard to tell apart for ${(flipped / FPS).toFixed(1)} s: wear a colour that differs from the wall.`,
     );
   return advice;
 }

@@ -116,7 +116,7 @@ describe('generation', () => {
     expect(store.getState().job).toBeNull();
   });
 
-  it('begins again when starting afresh, which has cancelled it, is undone', async () => {
+  it('begins again when starting over, which has cancelled it, is undone', async () => {
     await begin();
     generation.cancel();
     change.apply(store, projectCleared(small, 3));

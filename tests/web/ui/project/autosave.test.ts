@@ -171,7 +171,7 @@ describe('autosave', () => {
     expect(emptied).toBe(1);
   });
 
-  it('keeps what could not be restored when the visitor undoes starting afresh', async () => {
+  it('keeps what could not be restored when the visitor undoes starting over', async () => {
     made('a');
     await pass(0);
     project.clear();
@@ -245,6 +245,6 @@ describe('autosave', () => {
     made('a');
     await pass(1000);
     expect(store.getState().problem).toBeNull();
-    expect(warnings()[0]?.text).toContain('keeps nothing');
+    expect(warnings()[0]?.text).toContain('saves nothing');
   });
 });

@@ -29,7 +29,7 @@ export function modelOpened(manifest: Manifest, seed: number): Change {
     const fresh = manifestLoaded(manifest, seed)(state);
     const sameRecipe = before !== null && JSON.stringify(before.audio) === JSON.stringify(manifest.audio);
     const lost =
-      state.song && !sameRecipe ? ` It analyses songs in another way: drop ${state.song.name} again.` : '';
+      state.song && !sameRecipe ? ` It analyses songs differently: drop ${state.song.name} again.` : '';
     return {
       ...fresh,
       // The dance on the stage stays, and with it who leads.

@@ -20,7 +20,7 @@ interface Step {
   /** The parts of the state as they were. */
   readonly back: Partial<AppState>;
   readonly edits: readonly Edit[];
-  /** Brings back what starting afresh has removed. */
+  /** Brings back what starting over has removed. */
   readonly cleared?: boolean;
   /** The take that was on the stage; a newer reaction of the same drag may have replaced it since. */
   readonly stage: Take | null;
@@ -100,7 +100,7 @@ function newest(past: readonly Step[], present: AppState): readonly Step[] {
   return past.slice(-countWithin(MAX_BYTES, present, holders));
 }
 
-/** Without the step that would bring back what starting afresh removed: something new has been made since. */
+/** Without the step that would bring back what starting over removed: something new has been made since. */
 export function withoutCleared(history: History): History {
   const isOther = ({ cleared = false }: Step): boolean => !cleared;
   if (history.past.every(isOther) && history.future.every(isOther)) return history;

@@ -96,7 +96,7 @@ describe('the history of undo', () => {
     expect(steps(store)).toBe(20);
   });
 
-  it('after starting afresh has that step alone, until a take is made', () => {
+  it('after starting over has that step alone, until a take is made', () => {
     const store = page();
     change.apply(store, change.leaderLoaded(leader(30)));
     react(store, '1');
