@@ -36,7 +36,11 @@ describe('answers as a table', () => {
     ['an open quote', answersCsv(answers).replace('first"""', 'first'), /line 3 is damaged/],
     ['a score of 3', answersCsv(answers).replace('-2,ours', '3,ours'), /line 2 has a number/],
     ['no number', answersCsv(answers).replace('12.3', 'soon'), /line 2 has a number/],
-    ['another question', answersCsv(answers).replace('naturalness', 'taste'), /line 2 has an unknown question/],
+    [
+      'another question',
+      answersCsv(answers).replace('naturalness', 'taste'),
+      /line 2 has an unknown question/,
+    ],
   ])('%s is refused', (_, text, reason) => {
     expect(() => readAnswers(text)).toThrow(reason);
   });
