@@ -113,6 +113,18 @@ function angleAbout(axis: Vec3, from: Vec3, to: Vec3): number {
   return Math.atan2(dot(cross(from, to), axis), dot(from, to) - dot(from, axis) * dot(to, axis));
 }
 
+/** Cosine and sine of the smallest angle between upper arm and forearm: 25 degrees, the least of the captured dancers. */
+const FOLDED = { cosine: Math.cos((25 * Math.PI) / 180), sine: Math.sin((25 * Math.PI) / 180) };
+
+/** The direction of a forearm; one that is folded farther than elbows fold is opened in the plane across the hinge. */
+function unfolded(lower: Vec3, upper: Vec3, hinge: Vec3): Vec3 {
+  const side = cross(hinge, upper);
+  const [onSide, onHinge] = [dot(lower, side), dot(lower, hinge)];
+  const opened = Math.sqrt(Math.max(0, FOLDED.sine ** 2 - onHinge ** 2));
+  if (dot(lower, upper) > -FOLDED.cosine || Math.abs(onSide) >= opened) return lower;
+  return add(add(scale(upper, -FOLDED.cosine), scale(side, opened)), scale(hinge, onHinge));
+}
+
 /** World rotation of every joint in one frame, given the hinge axes of the four limbs. */
 function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: readonly Vec3[]): Quat[] {
   const turns: Quat[] = [];
@@ -140,8 +152,10 @@ function worldRotations(poses: Poses, frame: number, bones: Bones, hinges: reado
     turns[start] = upper;
     // About the hinge first: a limb that folds onto itself has no shortest rotation, and a forearm would flip there.
     const forward = rotate(upper, readVec(bones.directions, end));
-    const bend = angleAbout(hinges[i]!, forward, direction(sub(at(end), at(middle)), forward));
-    const lower = aimed(multiply(aboutAxis(hinges[i]!, bend), upper), middle, end);
+    const seen = direction(sub(at(end), at(middle)), forward);
+    const towards = toe === null ? unfolded(seen, bone, hinges[i]!) : seen;
+    const bent = multiply(aboutAxis(hinges[i]!, angleAbout(hinges[i]!, forward, towards)), upper);
+    const lower = multiply(between(rotate(bent, readVec(bones.directions, end)), towards), bent);
     turns[middle] = lower;
     turns[end] = toe === null ? lower : aimed(lower, end, toe);
     if (toe !== null) turns[toe] = turns[end];

@@ -12,7 +12,7 @@ import {
 } from '../math/vec3';
 
 /** Weight of the squared change of the twist per frame, where the squared error of a fully bent limb has 1. */
-const SMOOTHNESS_WEIGHT = 0.1;
+const SMOOTHNESS_WEIGHT = 1;
 /** Weight of the anatomical prior; it matters only where the limb stays straight for long. */
 const PRIOR_WEIGHT = 1e-4;
 /** Weight at which an observation moves the running estimate half of the way while the angle is unwrapped. */

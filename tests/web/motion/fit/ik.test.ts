@@ -14,7 +14,7 @@ import {
 } from '../../../../web/motion/math/quat';
 import { J, JOINT_COUNT, MIRROR, PARENTS } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
-import { distance, readVec, sub } from '../../../../web/motion/math/vec3';
+import { direction, distance, dot, readVec, sub, type Vec3 } from '../../../../web/motion/math/vec3';
 import { madeDancer, noisy } from '../../support/made-dancer';
 
 const at = (positions: Float32Array, frame: number, joint: number) =>
@@ -289,8 +289,9 @@ describe('rotations over time', () => {
       const chest = worldRotations(turned, J.spine3);
       expect(fastestTurn({ ...turned, rotations: chest }, J.spine3)).toBeLessThan(45);
       const before = solve(made, made.offsets);
-      const early = 30 * JOINT_COUNT * 3;
-      expect(turned.positions.subarray(0, early)).toEqual(before.positions.subarray(0, early));
+      // A micrometre: twists are smoothed over the whole clip.
+      for (let i = 0; i < 30 * JOINT_COUNT * 3; i++)
+        expect(turned.positions[i]).toBeCloseTo(before.positions[i]!, 6);
     },
   );
 
@@ -348,9 +349,29 @@ describe('rotations over time', () => {
         const [x, y, z, w] = readQuat(solved.rotations, frame * JOINT_COUNT + joint);
         const size = Math.hypot(x, y, z) * Math.sign(w);
         const along = (x * axis[0] + y * axis[1] + z * axis[2]) / size;
-        expect(along).toBeGreaterThan(0.95);
+        expect(along).toBeGreaterThan(0.9);
       }
     }
+  });
+
+  test("elbows fold no farther than people's", () => {
+    const made = madeDancer({ frames: 90, seed: 4, bend: (_, seconds) => 2.6 + 0.5 * Math.sin(3 * seconds) });
+    const solved = solve(made, made.offsets);
+    const fold = (motion: SolvedMotion, frame: number): number => {
+      const [shoulder, elbow, wrist] = [J.left_shoulder, J.left_elbow, J.left_wrist].map((joint) =>
+        readVec(motion.positions, frame * JOINT_COUNT + joint),
+      ) as [Vec3, Vec3, Vec3];
+      const [up, down] = [
+        direction(sub(shoulder, elbow), [0, 1, 0]),
+        direction(sub(wrist, elbow), [0, 1, 0]),
+      ];
+      return (Math.acos(Math.min(1, dot(up, down))) * 180) / Math.PI;
+    };
+    const frames = Array.from({ length: 90 }, (_, frame) => frame);
+    expect(Math.min(...frames.map((frame) => fold(made, frame)))).toBeLessThan(10);
+    expect(Math.min(...frames.map((frame) => fold(solved, frame)))).toBeGreaterThan(24.9);
+    for (const frame of frames)
+      if (fold(made, frame) > 26) expect(fold(solved, frame)).toBeCloseTo(fold(made, frame), 1);
   });
 
   test('a straight leg that is turned out turns at the hip, as its foot shows', () => {
