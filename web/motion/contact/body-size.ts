@@ -18,6 +18,7 @@ import {
   writeVec,
   X_AXIS,
 } from '../math/vec3';
+import { gaussianFilter } from '../math/statistics';
 import { maxLegLength, twoBoneIk } from './two-bone-ik';
 
 /** A limb by its joints; `bends` is 1 where its lower bone bends forwards, as an arm's, and -1 where backwards. */
@@ -41,12 +42,18 @@ const WRISTS = [J.left_wrist, J.right_wrist];
 /** Distance of two wrists up to which they count as joined, and from which they do not, metres. */
 const JOINED = 0.15;
 const APART = 0.45;
+/** Standard deviation of the filter over how far a hand is joined, seconds: hands meet and part within two frames. */
+const JOIN_SMOOTHING = 0.2;
+/** Distance of a wrist from the shoulder, as a share of the arm's length, up to which it moves with the body, and from which it may stay. */
+const FOLDED = 0.25;
+const OPEN = 0.8;
 /** Weight of the side to which a limb bends, where a right angle has 1: it decides only where the limb is straight. */
 const BEND_WEIGHT = 0.05;
 
 /**
- * The same dance by a body of another size. The pelvis stays above its place on the floor and rises with the body; feet stay where they stand and hands that are joined with the partner's stay joined, by two-bone inverse
- * kinematics, as far as the limbs reach. All other bones keep their direction. Pure.
+ * The same dance by a body of another size. The pelvis stays above its place on the floor and rises with the body; feet
+ * stay where they stand and hands that are joined with the partner's stay joined, by two-bone inverse kinematics, as far
+ * as the limbs reach. All other bones keep their direction. Pure.
  *
  * @param clip of a body with constant bone lengths, on a floor at height 0
  * @param factor new size / size, above 0
@@ -56,6 +63,7 @@ const BEND_WEIGHT = 0.05;
 export function resized(clip: MotionClip, factor: number, partner: MotionClip, toeRest: number): MotionClip {
   if (factor === 1) return clip;
   const positions = clip.positions.slice();
+  const joined = ARMS.map(({ end }) => joinedShares(clip, partner, end));
   for (let frame = 0; frame < clip.frames; frame++) {
     const row = frame * JOINT_COUNT;
     const raised = (y: number): number => toeRest + factor * (y - toeRest);
@@ -83,19 +91,33 @@ export function resized(clip: MotionClip, factor: number, partner: MotionClip, t
       put(leg.end, moved.end);
       put(leg.toe, add(moved.end, scale(sub(toe, ankle), factor)));
     }
-    for (const arm of ARMS) {
-      const wrist = before(arm.end);
-      const nearest = Math.min(
-        ...WRISTS.map((other) => distance(wrist, readVec(partner.positions, row + other))),
-      );
-      const joined = 1 - smoothstep((nearest - JOINED) / (APART - JOINED));
-      if (joined === 0) continue;
-      const moved = reach(arm, grown, lerp(grown(arm.end), wrist, joined), forward);
+    ARMS.forEach((arm, side) => {
+      // A folded arm would swing round its shoulder.
+      const share = joined[side]![frame]! * opened(arm, before);
+      if (share === 0) return;
+      const moved = reach(arm, grown, lerp(grown(arm.end), before(arm.end), share), forward);
       put(arm.middle, moved.middle);
       put(arm.end, moved.end);
-    }
+    });
   }
   return { ...clip, positions };
+}
+
+/** How far a wrist is joined with one of the partner's in every frame, 0 to 1. */
+function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Float64Array {
+  const shares = Float64Array.from({ length: clip.frames }, (_, frame) => {
+    const row = frame * JOINT_COUNT;
+    const at = readVec(clip.positions, row + wrist);
+    const gaps = WRISTS.map((other) => distance(at, readVec(partner.positions, row + other)));
+    return 1 - smoothstep((Math.min(...gaps) - JOINED) / (APART - JOINED));
+  });
+  return gaussianFilter(shares, JOIN_SMOOTHING * clip.fps);
+}
+
+/** How far an arm is open, 0 to 1. */
+function opened({ start, middle, end }: Limb, at: (joint: number) => Vec3): number {
+  const whole = distance(at(start), at(middle)) + distance(at(middle), at(end));
+  return smoothstep((distance(at(start), at(end)) / whole - FOLDED) / (OPEN - FOLDED));
 }
 
 /** Middle and end of a limb whose end is brought to `wanted`, or as far on the way there as the limb reaches. */

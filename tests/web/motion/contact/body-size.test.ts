@@ -69,8 +69,10 @@ describe('resized', () => {
     /** How much of its way with the body the right hand makes where the partner's is so far behind it. */
     const share = (metres: number): number => {
       const partner = { ...far, positions: far.positions.slice() };
-      const [x, y, z] = at(clip, 30, J.right_wrist);
-      partner.positions.set([x, y, z - metres], (30 * JOINT_COUNT + J.left_wrist) * 3);
+      for (const frame of frames) {
+        const [x, y, z] = at(clip, frame, J.right_wrist);
+        partner.positions.set([x, y, z - metres], (frame * JOINT_COUNT + J.left_wrist) * 3);
+      }
       const [held, free] = [partner, far].map((other) =>
         at(resized(clip, 1.06, other, TOE_REST), 30, J.right_wrist),
       ) as [Vec3, Vec3];
@@ -81,6 +83,36 @@ describe('resized', () => {
     expect(share(0.3)).toBeCloseTo(0.5, 1);
     expect(share(0.4)).toBeGreaterThan(0.9);
     expect(share(0.5)).toBe(1);
+  });
+
+  it('takes up and lets go a hand over some frames, however fast the other one comes', () => {
+    const partner = { ...far, positions: far.positions.slice() };
+    for (const frame of frames.slice(30))
+      partner.positions.set(at(clip, frame, J.right_wrist), (frame * JOINT_COUNT + J.left_wrist) * 3);
+    const free = resized(clip, 1.2, far, TOE_REST);
+    const other = resized(clip, 1.2, partner, TOE_REST);
+    const moved = frames.map((frame) =>
+      distance(at(other, frame, J.right_wrist), at(free, frame, J.right_wrist)),
+    );
+    const steps = moved.slice(1).map((value, i) => Math.abs(value - moved[i]!));
+    expect(moved[50]).toBeGreaterThan(0.08);
+    expect(Math.max(...steps)).toBeLessThan(0.25 * moved[50]!);
+  });
+
+  it('moves the hand of a folded arm with the body, since the arm would swing round its shoulder', () => {
+    const folded = (angle: number): number => {
+      const bent = madeDancer({ frames: 40, bend: () => angle });
+      const partner = { ...bent, positions: bent.positions.map((value) => value + 10) };
+      for (let frame = 0; frame < 40; frame++)
+        partner.positions.set(at(bent, frame, J.right_wrist), (frame * JOINT_COUNT + J.left_wrist) * 3);
+      const away = { ...bent, positions: bent.positions.map((value) => value + 10) };
+      const [held, free] = [partner, away].map((other) =>
+        at(resized(bent, 1.2, other, TOE_REST), 20, J.right_wrist),
+      ) as [Vec3, Vec3];
+      return distance(held, free);
+    };
+    expect(folded(2.9)).toBe(0);
+    expect(folded(0.6)).toBeGreaterThan(0.04);
   });
 
   it('bends legs that were straight forwards, and stretches none fully to stay where it stood', () => {
