@@ -3,7 +3,9 @@ import { yieldToEvents } from '../../common/yield-to-events';
 import { besidePartner } from '../../motion/contact/beside-partner';
 import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
+import { liftFeet } from '../../motion/contact/floor-clearance';
 import { lockFeet } from '../../motion/contact/foot-lock';
+import { separateLegs } from '../../motion/contact/leg-separation';
 import { solve } from '../../motion/fit/ik';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
@@ -96,7 +98,7 @@ export class Assembler {
 
   /**
    * Gives the dancer their size, fits the body to the joints, moves it out of the other dancer's, limits the root's
-   * speed and brings down who stays off the floor.
+   * speed, brings down who stays off the floor, and keeps legs out of each other and feet out of the floor.
    * @param leader the frames of the loaded dancer that belong to the clip's
    */
   #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {
@@ -111,7 +113,7 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    return besidePartner(solved, leader, quality.penetration);
+    return liftFeet(separateLegs(besidePartner(solved, leader, quality.penetration)));
   }
 }
 

@@ -1,23 +1,10 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
-import { maxLegLength, twoBoneIk } from './two-bone-ik';
+import { bonesAt, LEGS, type LegJoints, shiftFoot } from './shifted-foot';
+import { maxLegLength } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
-import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
-import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
-
-/** Joint indices of a leg. */
-interface LegJoints {
-  readonly hip: number;
-  readonly knee: number;
-  readonly ankle: number;
-  readonly toe: number;
-}
-
-const LEGS: readonly LegJoints[] = [
-  { hip: J.left_hip, knee: J.left_knee, ankle: J.left_ankle, toe: J.left_foot },
-  { hip: J.right_hip, knee: J.right_knee, ankle: J.right_ankle, toe: J.right_foot },
-];
+import { JOINT_COUNT } from '../skeleton/skeleton';
+import { add, type Vec3, writeVec } from '../math/vec3';
 
 /** Shift above which its own weight grows, metres: a foot that would be moved farther is released gradually. */
 const MAX_SHIFT = 0.1;
@@ -32,20 +19,6 @@ interface HoldOptions {
   readonly contacts: (joint: number) => readonly ContactInterval[];
   /** Weight of a slide; without it that of `leastSquaresShift`. */
   readonly weight?: number;
-}
-
-/** The vectors from hip to knee and from knee to ankle, metres. */
-function bonesAt(
-  positions: Float32Array,
-  { hip, knee, ankle }: LegJoints,
-  frame: number,
-): { thigh: Vec3; shin: Vec3 } {
-  const row = frame * JOINT_COUNT;
-  const middle = readVec(positions, row + knee);
-  return {
-    thigh: sub(middle, readVec(positions, row + hip)),
-    shin: sub(readVec(positions, row + ankle), middle),
-  };
 }
 
 /** Where the ankle is from the hip, frames x 3 metres, and how far from it the leg reaches, metres. */
@@ -122,41 +95,9 @@ export function lockFeet(
   for (const joints of LEGS) {
     const { x, z } = shiftOf(motion, joints, hold);
     for (let frame = 0; frame < motion.frames; frame++) {
-      shiftFoot(motion, joints, frame, [x[frame]!, 0, z[frame]!], { rotations, positions });
+      const shift: Vec3 = [x[frame]!, 0, z[frame]!];
+      shiftFoot(motion, joints, frame, { ankle: shift, toe: shift }, { rotations, positions });
     }
   }
   return { ...motion, rotations, positions };
-}
-
-/** Writes one leg of one frame with its foot shifted. */
-function shiftFoot(
-  motion: SolvedMotion,
-  joints: LegJoints,
-  frame: number,
-  shift: Vec3,
-  shifted: Pick<SolvedMotion, 'rotations' | 'positions'>,
-): void {
-  const { hip, knee, ankle, toe } = joints;
-  const row = frame * JOINT_COUNT;
-  const turnOf = (joint: number): Quat => readQuat(motion.rotations, row + joint);
-  const pelvis = turnOf(J.pelvis);
-  const thigh = multiply(pelvis, turnOf(hip));
-  const shin = multiply(thigh, turnOf(knee));
-  const foot = multiply(shin, turnOf(ankle));
-  const start = readVec(motion.positions, row + hip);
-  // In the rest pose knees bend about x.
-  const leg = { hip: start, ...bonesAt(motion.positions, joints, frame), hinge: rotate(thigh, X_AXIS) };
-  const turns = twoBoneIk(leg, add(add(start, add(leg.thigh, leg.shin)), shift));
-  const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
-  const put = (joint: number, parent: Quat, turn: Quat): void =>
-    writeQuat(shifted.rotations, row + joint, multiply(conjugate(parent), turn));
-  put(hip, pelvis, upper);
-  put(knee, upper, lower);
-  put(ankle, lower, foot);
-  const place = (joint: number, from: Vec3, turn: Quat): Vec3 => {
-    const to = add(from, rotate(turn, readVec(motion.offsets, joint)));
-    writeVec(shifted.positions, row + joint, to);
-    return to;
-  };
-  place(toe, place(ankle, place(knee, start, upper), lower), foot);
 }

@@ -2,18 +2,15 @@ import { describe, expect, test } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { lockFeet } from '../../../../web/motion/contact/foot-lock';
 import { leastSquaresShift } from '../../../../web/motion/contact/least-squares-shift';
-import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { type Leg, twoBoneIk } from '../../../../web/motion/contact/two-bone-ik';
 import { contactIntervals } from '../../../../web/motion/contact/foot-contacts';
-import { quatDot, readQuat, rotate } from '../../../../web/motion/math/quat';
-import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
+import { rotate } from '../../../../web/motion/math/quat';
+import { FEET, J } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
-import { add, cross, distance, dot, length, readVec, sub, type Vec3 } from '../../../../web/motion/math/vec3';
+import { add, cross, distance, dot, length, sub, type Vec3 } from '../../../../web/motion/math/vec3';
 import { madeDancer } from '../../support/made-dancer';
+import { at, expectSound, KNEES, LEGS, moves, top } from '../../support/moved-feet';
 import { eased, madeStander } from '../../support/made-stander';
-
-const at = (motion: SolvedMotion, frame: number, joint: number): Vec3 =>
-  readVec(motion.positions, frame * JOINT_COUNT + joint);
 
 /** Speeds over the floor in m/s, from each frame to the next. */
 function slides(motion: SolvedMotion, joint: number): number[] {
@@ -21,11 +18,6 @@ function slides(motion: SolvedMotion, joint: number): number[] {
     const [x, , z] = sub(at(motion, frame + 1, joint), at(motion, frame, joint));
     return Math.hypot(x, z) * motion.fps;
   });
-}
-
-/** How far a joint is moved in each frame, metres. */
-function moves(a: SolvedMotion, b: SolvedMotion, joint: number): number[] {
-  return Array.from({ length: a.frames }, (_, frame) => distance(at(a, frame, joint), at(b, frame, joint)));
 }
 
 /** Largest acceleration of a joint, m/s^2. */
@@ -36,39 +28,6 @@ function jolt(motion: SolvedMotion, joint: number): number {
     most = Math.max(most, length(sub(sub(after, now), sub(now, before))) * motion.fps ** 2);
   }
   return most;
-}
-
-const top = (values: readonly number[]): number => Math.max(...values);
-
-const LEGS = [
-  [J.left_hip, J.left_knee, J.left_ankle],
-  [J.right_hip, J.right_knee, J.right_ankle],
-] as const;
-const KNEES = LEGS.map(([, knee]) => knee);
-
-/** What holds for every locked motion: consistent positions, unit quaternions without sign flips, nothing above the knees moved. */
-function expectSound(free: SolvedMotion, locked: SolvedMotion): void {
-  const again = forwardKinematics(locked.offsets, locked.root, locked.rotations);
-  let apart = 0;
-  let unit = 0;
-  let flips = 0;
-  for (let i = 0; i < locked.frames * JOINT_COUNT; i++) {
-    apart = Math.max(apart, distance(readVec(again, i), readVec(locked.positions, i)));
-    const q = readQuat(locked.rotations, i);
-    unit = Math.max(unit, Math.abs(quatDot(q, q) - 1));
-    if (i >= JOINT_COUNT && quatDot(q, readQuat(locked.rotations, i - JOINT_COUNT)) < 0) flips++;
-  }
-  expect(locked.positions.every(Number.isFinite)).toBe(true);
-  // Drawn joints are those of the exported rotations, and so bones are as long as their offsets.
-  expect(apart).toBeLessThan(1e-5);
-  expect(unit).toBeLessThan(1e-5);
-  expect(flips).toBe(0);
-  expect(locked.offsets).toEqual(free.offsets);
-  expect(locked.root).toEqual(free.root);
-  for (let joint = 0; joint < JOINT_COUNT; joint++) {
-    if (FEET.includes(joint) || KNEES.includes(joint)) continue;
-    expect(top(moves(free, locked, joint))).toBe(0);
-  }
 }
 
 /** Carried to and fro by 5 cm, at up to 0.31 m/s. */
