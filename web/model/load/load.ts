@@ -106,11 +106,13 @@ export async function loadModel(
         onStatus({ kind: 'download', parts });
       },
       onCacheFailure: (reason) => {
+        const name = reason instanceof Error ? reason.name : String(reason);
+        const remedy = name === 'QuotaExceededError' ? 'free some storage' : 'let this site keep data';
         onStatus({
           kind: 'notice',
           code: 'not-cached',
-          message: `The browser could not keep the model (${reason instanceof Error ? reason.name : String(reason)}).`,
-          hint: 'It works, but is downloaded again at the next visit; free some storage to avoid that.',
+          message: `The browser could not keep the model (${name}).`,
+          hint: `It works, but is downloaded again at the next visit; ${remedy} to avoid that.`,
         });
       },
     });

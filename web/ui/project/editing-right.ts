@@ -26,7 +26,7 @@ interface Owner {
 
 /**
  * The right to write what the browser keeps, which one tab of the page has at a time: a Web Lock, which the browser
- * frees when its tab ends in whatever way. Without Web Locks every tab has it.
+ * frees when its tab ends in whatever way. Where there are no Web Locks or the browser forbids them, every tab has it.
  */
 export class EditingRight {
   private release: (() => void) | null = null;
@@ -84,10 +84,11 @@ export class EditingRight {
   /** Resolves with whether the right was got; the lock itself is held until it is given back or taken. */
   private request(options: LockOptions): Promise<boolean> {
     const { locks } = this.means;
-    if (!locks) {
+    const withoutLock = (): true => {
       this.release = () => undefined;
-      return Promise.resolve(true);
-    }
+      return true;
+    };
+    if (!locks) return Promise.resolve(withoutLock());
     return new Promise((resolve) => {
       let release: (() => void) | null = null;
       const held = (lock: Lock | null): Promise<void> | undefined => {
@@ -101,7 +102,9 @@ export class EditingRight {
           resolve(true);
         });
       };
-      locks.request(NAME, options, held).catch(() => {
+      locks.request(NAME, options, held).catch((error: unknown) => {
+        // Locks are forbidden with all that sites keep. No other tab keeps anything then, and writing says why.
+        if (!(error instanceof DOMException && error.name === 'AbortError')) return resolve(withoutLock());
         // Taken by another tab, or not waited for any longer.
         if (release && this.release === release) {
           this.release = null;

@@ -87,11 +87,24 @@ it('a tab that has nothing to write gives way at once', async () => {
   expect(log).toEqual(['work gains']);
 });
 
-it('without Web Locks every tab has it', async () => {
+it.each<[string, TabMeans['locks']]>([
+  ['without Web Locks', undefined],
+  // As Chromium does where the visitor blocks all cookies.
+  [
+    'where they are forbidden',
+    { request: () => Promise.reject(new DOMException('Denied.', 'SecurityError')) },
+  ],
+])('%s every tab has it', async (_, locks) => {
+  const gains: string[] = [];
   const right = new EditingRight(
-    { locks: undefined, channel: undefined },
-    { gained: () => undefined, lost: () => undefined, needed: () => true },
+    { locks, channel: undefined },
+    { gained: () => gains.push('gained'), lost: () => undefined, needed: () => true },
   );
   await right.takeIfFree();
   expect(right.held).toBe(true);
+  right.giveBack();
+  right.wait();
+  await settle();
+  expect(right.held).toBe(true);
+  expect(gains).toEqual(['gained']);
 });
