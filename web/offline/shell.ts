@@ -65,6 +65,8 @@ async function storable(response: Response, needed: Shell['headers']): Promise<R
   const body = await response.arrayBuffer();
   const headers = new Headers(response.headers);
   headers.delete('content-encoding');
+  // A file depends on nothing in its request, and a cache refuses a response that says it depends on everything.
+  headers.delete('vary');
   headers.set('content-length', String(body.byteLength));
   for (const [name, value] of Object.entries(needed)) headers.set(name, value);
   return new Response(body, { headers });

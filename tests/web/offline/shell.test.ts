@@ -18,6 +18,7 @@ function memoryCaches(room = Infinity) {
       all.set(name, files);
       return Promise.resolve({
         put: (address: string, response: Response) => {
+          if (response.headers.get('vary') === '*') return Promise.reject(new TypeError('Vary: *'));
           if (files.size >= room) return Promise.reject(new DOMException('full', 'QuotaExceededError'));
           return Promise.resolve(void files.set(address, response));
         },
@@ -48,7 +49,7 @@ const shell = (version: string): Shell => ({
 });
 
 const server =
-  (build: string): typeof fetch =>
+  (build: string, headers: Readonly<Record<string, string>> = {}): typeof fetch =>
   (address) =>
     Promise.resolve(
       new Response(`${build} ${address as string}`, {
@@ -56,12 +57,17 @@ const server =
           'content-encoding': 'br',
           'content-length': '3',
           'content-security-policy': "default-src 'self'",
+          ...headers,
         },
       }),
     );
 
-async function cached(build = 'one', memory = memoryCaches()) {
-  const scope: ShellScope = { caches: memory.caches, fetch: server(build), base: BASE };
+async function cached(
+  build = 'one',
+  memory = memoryCaches(),
+  headers: Readonly<Record<string, string>> = {},
+) {
+  const scope: ShellScope = { caches: memory.caches, fetch: server(build, headers), base: BASE };
   await cacheShell(shell(build), scope);
   const ask = (path: string, request: Partial<Request> = {}) =>
     matchShell({ url: BASE + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
@@ -83,6 +89,11 @@ describe('the cached app shell', () => {
     expect(response?.headers.get('content-security-policy')).toBe("default-src 'self'");
     expect(response?.headers.get('content-encoding')).toBeNull();
     expect(Number(response?.headers.get('content-length'))).toBe((await response?.text())?.length);
+  });
+
+  it('caches what a server sends with Vary: *', async () => {
+    const { ask } = await cached('one', memoryCaches(), { vary: '*' });
+    expect(await (await ask(''))?.text()).toMatch(/^one/);
   });
 
   it('leaves models, parts of files and other sites to the network', async () => {
