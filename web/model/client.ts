@@ -163,7 +163,7 @@ class WorkerGenerator implements Generator {
       worker.connection.call(
         'generate',
         {
-          source: newSource(worker, { leader, music, role }),
+          source: newSource(worker, { leader, music, role }, signal),
           settings,
           playhead: onPreview && playhead,
         },
@@ -186,7 +186,7 @@ class WorkerGenerator implements Generator {
     return this.#onWorker(signal, (worker) =>
       worker.connection.call(
         'differingSeeds',
-        { source: newSource(worker, { leader, music, role }), settings, seeds },
+        { source: newSource(worker, { leader, music, role }, signal), settings, seeds },
         { signal, onReport: onProgress },
       ),
     );
@@ -260,8 +260,12 @@ class WorkerGenerator implements Generator {
   }
 }
 
-/** What is danced to, or null where the worker has it: a megabyte a minute, copied at every step of a fader otherwise. */
-function newSource(worker: LoadedWorker, source: Source): Source | null {
+/**
+ * What is danced to, or null where the worker has it: a megabyte a minute, copied at every step of a fader otherwise.
+ * @throws the signal's reason: a call that is cancelled before it is made tells the worker nothing
+ */
+function newSource(worker: LoadedWorker, source: Source, signal: AbortSignal | undefined): Source | null {
+  signal?.throwIfAborted();
   const known = worker.source !== null && sameSource(worker.source, source);
   worker.source = source;
   return known ? null : source;
