@@ -1,3 +1,4 @@
+import { inTime } from '../../common/in-time';
 import type { Provider } from './runtime';
 
 export type Preference = 'auto' | Provider;
@@ -16,6 +17,9 @@ export interface Environment {
   readonly crossOriginIsolated: boolean;
   readonly hardwareConcurrency: number;
 }
+
+/** Longest time for WebGPU to find an adapter, milliseconds: a stuck graphics driver may never answer. */
+const ADAPTER_MS = 10_000;
 
 /** More threads gain little on matrices of this size. */
 const MAX_THREADS = 4;
@@ -39,29 +43,32 @@ function wasmThreads(environment: Environment, asked?: number): number {
   return asked ?? Math.max(1, Math.min(environment.hardwareConcurrency - 1, MAX_THREADS));
 }
 
+/** Chromium before 127 has no `info`. */
+type Adapter = Partial<Pick<GPUAdapter, 'info'>>;
+
 /** The adapter, or the reason why there is none worth using. */
 async function probe(
   gpu: Environment['gpu'],
   software: boolean,
-): Promise<{ adapter: GPUAdapter } | { without: string }> {
+): Promise<{ adapter: Adapter } | { without: string }> {
   if (gpu === undefined) return { without: 'this browser has no WebGPU' };
-  let adapter: GPUAdapter | null;
+  let adapter: Adapter | null;
   try {
-    adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
+    adapter = await inTime(gpu.requestAdapter({ powerPreference: 'high-performance' }), ADAPTER_MS);
   } catch (error) {
     return { without: `WebGPU could not be asked for a graphics adapter (${String(error)})` };
   }
   if (adapter === null) return { without: 'WebGPU found no graphics adapter' };
-  if (adapter.info.isFallbackAdapter && !software) {
+  if (adapter.info?.isFallbackAdapter && !software) {
     return { without: 'WebGPU found only a software adapter, which is slower than the processor itself' };
   }
   return { adapter };
 }
 
 /** Name of the hardware, as far as the browser gives it. */
-function describe({ vendor, architecture, description }: GPUAdapterInfo): string {
-  const name = description || [vendor, architecture].filter((part) => part !== '').join(' ');
-  return name === '' ? 'a graphics adapter' : name;
+function describe(info: Adapter['info']): string {
+  const name = info?.description || [info?.vendor, info?.architecture].filter(Boolean).join(' ');
+  return name || 'a graphics adapter';
 }
 
 /**

@@ -137,7 +137,9 @@ export async function loadModel(
     } catch (error) {
       lost = error instanceof AppError && error.code === 'gpu-lost';
       if (error instanceof AppError && !lost) throw error;
-      failure = `The graphs do not run on WebGPU here (${error instanceof Error ? error.message : String(error)})`;
+      // What onnxruntime throws from WebAssembly is a bare number, which tells nobody anything.
+      const why = error instanceof Error ? ` (${error.message})` : '';
+      failure = `The graphs do not run on WebGPU here${why}`;
     }
     if (failure !== undefined) {
       backend = fallBackToWasm(backend, failure);

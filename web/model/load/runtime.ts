@@ -1,5 +1,6 @@
 /** onnxruntime, and which of its builds is loaded. */
 import type * as ort from 'onnxruntime-web/wasm';
+import { inTime } from '../../common/in-time';
 import { loadPart } from '../../common/page-part';
 
 export type Provider = 'webgpu' | 'wasm';
@@ -20,7 +21,7 @@ export async function loadRuntime(
   wasm?: Uint8Array<ArrayBuffer>,
 ): Promise<Runtime> {
   const runtime = await loadPart(() =>
-    inTime(provider === 'wasm' ? import('onnxruntime-web/wasm') : import('onnxruntime-web/webgpu')),
+    inTime(provider === 'wasm' ? import('onnxruntime-web/wasm') : import('onnxruntime-web/webgpu'), START_MS),
   );
   // Read once, when the first graph is opened.
   runtime.env.wasm.initTimeout = START_MS;
@@ -28,16 +29,4 @@ export async function loadRuntime(
   if (wasm) runtime.env.wasm.wasmBinary = wasm.buffer;
   runtime.env.logLevel = 'error';
   return runtime;
-}
-
-async function inTime<T>(work: Promise<T>): Promise<T> {
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const late = new Promise<never>((_, reject) => {
-    timer = setTimeout(() => reject(new Error(`nothing for ${START_MS / 1000} seconds`)), START_MS);
-  });
-  try {
-    return await Promise.race([work, late]);
-  } finally {
-    clearTimeout(timer);
-  }
 }

@@ -1,4 +1,4 @@
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { chooseBackend, fallBackToWasm, type Environment } from '../../../../web/model/load/backend';
 
 /** A machine whose WebGPU finds this adapter. */
@@ -40,6 +40,28 @@ describe('chooseBackend', () => {
     const backend = await chooseBackend('auto', around);
     expect(backend.name).toBe('wasm');
     expect(backend.reason).toMatch(reason);
+  });
+
+  it('takes an adapter of a browser that says nothing about it', async () => {
+    const requestAdapter = () => Promise.resolve({} as GPUAdapter);
+    const backend = await chooseBackend('auto', { ...machine(card), gpu: { requestAdapter } });
+    expect(backend).toMatchObject({ name: 'webgpu', reason: 'WebGPU on a graphics adapter.' });
+  });
+
+  describe('when WebGPU never answers', () => {
+    afterEach(() => vi.useRealTimers());
+
+    it('goes on with the processor', async () => {
+      vi.useFakeTimers();
+      const gpu = { requestAdapter: () => new Promise<never>(() => undefined) };
+      let backend: unknown;
+      void chooseBackend('auto', { ...machine(card), gpu }).then((chosen) => (backend = chosen));
+      await vi.advanceTimersByTimeAsync(10_000);
+      expect(backend).toMatchObject({
+        name: 'wasm',
+        reason: expect.stringMatching(/could not be asked .*nothing for 10 seconds/) as string,
+      });
+    });
   });
 
   it('takes a software adapter only when WebGPU was asked for', async () => {
