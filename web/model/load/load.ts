@@ -12,7 +12,7 @@ import { Pipeline } from '../sample/pipeline';
 import { secondsNow } from '../sample/playhead';
 import type { Provider } from './runtime';
 import { type ModelSession, openSession } from './session';
-import { type ResponseCache, responseCache } from './cache';
+import { responseCache } from './cache';
 
 export interface LoadOptions {
   /** Absolute address of manifest.json; the graphs' paths are relative to it. */
@@ -50,8 +50,8 @@ export interface LoadedModel {
 /** Metres. Single precision on another device differs by rounding, far below this; a broken driver by far more. */
 const GOLDEN_TOLERANCE = 1e-3;
 
-async function fetchManifest(url: string, get: typeof fetch, cache?: ResponseCache): Promise<Manifest> {
-  const bytes = await fetchLatest(url, get, cache);
+/** @param url where it is from. @throws {AppError} */
+function readManifest(bytes: Uint8Array, url: string): Manifest {
   let json: unknown;
   try {
     json = JSON.parse(new TextDecoder().decode(bytes));
@@ -93,7 +93,7 @@ export async function loadModel(
 ): Promise<LoadedModel> {
   const get = folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch);
   const cache = folder ? undefined : responseCache(scope);
-  const manifest = await fetchManifest(manifestUrl, get, cache);
+  const manifest = await fetchLatest(manifestUrl, get, (bytes) => readManifest(bytes, manifestUrl), cache);
   onStatus({ kind: 'manifest', manifest });
   const place = { manifestUrl, folder, scope };
   let backend = await chooseBackend(preference, environment(scope), threads);

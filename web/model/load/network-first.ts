@@ -8,27 +8,32 @@ const TIMEOUT_MS = 4000;
 /**
  * Fetches a file whose newest version is needed, as a manifest's is, which names files that belong together: the
  * server is asked each time, and the last stored copy is used only when it does not respond.
+ * @param parse reads the file; one that it refuses, as a proxy's page in its place, never replaces the stored copy
  * @param timeoutMs milliseconds to wait for the server where a copy is stored
  * @throws {AppError} `model-missing` when the server says so; `download-failed` when there is no copy either
+ * @throws what `parse` throws
  */
-export async function fetchLatest(
+export async function fetchLatest<T>(
   url: string,
   get: typeof fetch,
+  parse: (bytes: Uint8Array<ArrayBuffer>) => T,
   store?: ResponseCache,
   timeoutMs = TIMEOUT_MS,
-): Promise<Uint8Array<ArrayBuffer>> {
+): Promise<T> {
   // A store that fails counts as empty.
   const stored = await store?.get(url).catch(() => undefined);
   let bytes: Uint8Array<ArrayBuffer>;
   try {
     bytes = await body(await fetchFile(url, stored === undefined ? get : begunWithin(get, timeoutMs)), url);
   } catch (error) {
-    if (stored !== undefined && error instanceof AppError && error.code === 'download-failed') return stored;
+    if (stored !== undefined && error instanceof AppError && error.code === 'download-failed')
+      return parse(stored);
     throw error;
   }
+  const parsed = parse(bytes);
   // A full storage is reported for the large files, which come next.
   await store?.put(url, bytes).catch(() => undefined);
-  return bytes;
+  return parsed;
 }
 
 /** A `fetch` whose response has to begin in time; its body may take longer. */

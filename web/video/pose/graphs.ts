@@ -35,8 +35,7 @@ export async function loadPoseGraphs(
   onProgress: (fraction: number) => void,
 ): Promise<PoseGraphs> {
   const get = patientFetch(fetch);
-  const bytes = await fetchLatest(listUrl, get, responseCache(scope));
-  const { detector, landmarks } = readList(bytes);
+  const { detector, landmarks } = await fetchLatest(listUrl, get, readList, responseCache(scope));
   const [runtimeBytes, [detectorBytes, landmarkBytes], { threads }] = await Promise.all([
     downloadRuntime('wasm', scope),
     download(listUrl, [detector, landmarks], {

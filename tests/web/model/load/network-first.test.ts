@@ -3,7 +3,12 @@ import { fetchLatest } from '../../../../web/model/load/network-first';
 import type { ResponseCache } from '../../../../web/model/load/cache';
 
 const URL = 'https://dance.example/models/salsa/manifest.json';
-const text = (bytes: Uint8Array): string => new TextDecoder().decode(bytes);
+/** Reads a file; one that begins with "bad" is none. */
+const text = (bytes: Uint8Array): string => {
+  const read = new TextDecoder().decode(bytes);
+  if (read.startsWith('bad')) throw new Error(read);
+  return read;
+};
 
 function store(kept?: string) {
   const files = new Map<string, Uint8Array<ArrayBuffer>>();
@@ -22,8 +27,8 @@ const status = (code: number) => (): ReturnType<typeof fetch> =>
 describe('the latest version of a file', () => {
   it('is fetched from the server, and replaces the stored copy', async () => {
     const { answers, files } = store('old');
-    const bytes = await fetchLatest(URL, () => Promise.resolve(new Response('new')), answers);
-    expect(text(bytes)).toBe('new');
+    const read = await fetchLatest(URL, () => Promise.resolve(new Response('new')), text, answers);
+    expect(read).toBe('new');
     expect(text(files.get(URL) ?? new Uint8Array())).toBe('new');
   });
 
@@ -31,7 +36,7 @@ describe('the latest version of a file', () => {
     ['is out of reach', offline],
     ['is broken', status(503)],
   ])('is the stored copy while the server %s', async (_, get) => {
-    expect(text(await fetchLatest(URL, get, store('old').answers))).toBe('old');
+    expect(await fetchLatest(URL, get, text, store('old').answers)).toBe('old');
   });
 
   it('is the stored copy when the server does not answer in time', async () => {
@@ -41,7 +46,7 @@ describe('the latest version of a file', () => {
           reject(new DOMException('too late', 'TimeoutError'));
         });
       });
-    expect(text(await fetchLatest(URL, silent, store('old').answers, 20))).toBe('old');
+    expect(await fetchLatest(URL, silent, text, store('old').answers, 20)).toBe('old');
   });
 
   it("is the server's when that answers in time, however slowly the file comes", async () => {
@@ -61,21 +66,29 @@ describe('the latest version of a file', () => {
         ),
       );
     const { answers, files } = store('old');
-    expect(text(await fetchLatest(URL, slow, answers, 20))).toBe('new');
+    expect(await fetchLatest(URL, slow, text, answers, 20)).toBe('new');
     expect(text(files.get(URL) ?? new Uint8Array())).toBe('new');
   });
 
   it('is an error when the server answers that there is no such file', async () => {
-    await expect(fetchLatest(URL, status(404), store('old').answers)).rejects.toMatchObject({
+    await expect(fetchLatest(URL, status(404), text, store('old').answers)).rejects.toMatchObject({
       code: 'model-missing',
     });
   });
 
+  it('does not replace the stored copy when it is unreadable', async () => {
+    const { answers, files } = store('old');
+    const bad = () => Promise.resolve(new Response('bad: quota of the proxy exceeded'));
+    await expect(fetchLatest(URL, bad, text, answers)).rejects.toThrow('quota of the proxy');
+    expect(text(files.get(URL)!)).toBe('old');
+    expect(await fetchLatest(URL, offline, text, answers)).toBe('old');
+  });
+
   it('fails without a server and without a copy', async () => {
-    await expect(fetchLatest(URL, offline, store().answers)).rejects.toMatchObject({
+    await expect(fetchLatest(URL, offline, text, store().answers)).rejects.toMatchObject({
       code: 'download-failed',
     });
-    await expect(fetchLatest(URL, offline)).rejects.toMatchObject({ code: 'download-failed' });
+    await expect(fetchLatest(URL, offline, text)).rejects.toMatchObject({ code: 'download-failed' });
   });
 
   it('is fetched even when the store fails', async () => {
@@ -83,6 +96,6 @@ describe('the latest version of a file', () => {
       get: () => Promise.reject(new DOMException('denied', 'SecurityError')),
       put: () => Promise.reject(new DOMException('full', 'QuotaExceededError')),
     };
-    expect(text(await fetchLatest(URL, () => Promise.resolve(new Response('new')), broken))).toBe('new');
+    expect(await fetchLatest(URL, () => Promise.resolve(new Response('new')), text, broken)).toBe('new');
   });
 });
