@@ -20,7 +20,28 @@ export interface ShellScope {
   readonly base: string;
 }
 
-const cacheName = ({ version }: Shell): string => PREFIX + version;
+/**
+ * How the names of a page's caches begin: pages in several folders of one origin share its caches. The colon, which no
+ * encoded folder has, keeps apart those whose folders begin alike.
+ */
+const prefix = (base: string): string => `${PREFIX}${encodeURIComponent(new URL(base).pathname)}:`;
+
+const cacheName = ({ version }: Shell, { base }: ShellScope): string => prefix(base) + version;
+
+/** The names of all shells of the page in this folder. */
+export async function shellNames({ caches, base }: Omit<ShellScope, 'fetch'>): Promise<string[]> {
+  const index = new URL('index.html', base).href;
+  const names: string[] = [];
+  for (const name of await caches.keys()) {
+    if (!name.startsWith(PREFIX)) continue;
+    // Earlier builds gave no folder: theirs is told by what they hold.
+    const isOwn = name.includes(':')
+      ? name.startsWith(prefix(base))
+      : await caches.match(index, { cacheName: name });
+    if (isOwn) names.push(name);
+  }
+  return names;
+}
 
 /**
  * Caches the files of a build, or none: a page with missing files would be worse than no page. Those that are cached on
@@ -30,7 +51,7 @@ const cacheName = ({ version }: Shell): string => PREFIX + version;
 export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void> {
   try {
     const files = { ...shell.files, ...(await usedBefore(shell, scope)) };
-    const cache = await scope.caches.open(cacheName(shell));
+    const cache = await scope.caches.open(cacheName(shell, scope));
     await Promise.all(
       Object.entries(files).map(async ([path, integrity]) => {
         const address = new URL(path, scope.base).href;
@@ -41,7 +62,7 @@ export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void>
       }),
     );
   } catch (error) {
-    await scope.caches.delete(cacheName(shell)).catch(() => undefined);
+    await scope.caches.delete(cacheName(shell, scope)).catch(() => undefined);
     throw error;
   }
 }
@@ -50,13 +71,11 @@ export async function cacheShell(shell: Shell, scope: ShellScope): Promise<void>
 const withoutHash = (path: string): string => path.replace(/-[\w-]{8}(?=\.\w+$)/, '');
 
 /** The files that are cached on use and were used in an older build, which other caches tell. */
-async function usedBefore({ onUse }: Shell, { caches, base }: ShellScope): Promise<Shell['files']> {
+async function usedBefore({ onUse }: Shell, scope: ShellScope): Promise<Shell['files']> {
   const used = new Set<string>();
-  for (const name of await caches.keys()) {
-    if (!name.startsWith(PREFIX)) continue;
-    for (const { url } of await (await caches.open(name)).keys())
-      used.add(withoutHash(url.slice(base.length)));
-  }
+  for (const name of await shellNames(scope))
+    for (const { url } of await (await scope.caches.open(name)).keys())
+      used.add(withoutHash(url.slice(scope.base.length)));
   return Object.fromEntries(Object.entries(onUse).filter(([path]) => used.has(withoutHash(path))));
 }
 
@@ -73,9 +92,9 @@ async function storable(response: Response, needed: Shell['headers']): Promise<R
 }
 
 /** Deletes the cached shells of other builds. */
-export async function deleteOtherShells(shell: Shell, { caches }: ShellScope): Promise<void> {
-  for (const name of await caches.keys())
-    if (name.startsWith(PREFIX) && name !== cacheName(shell)) await caches.delete(name);
+export async function deleteOtherShells(shell: Shell, scope: ShellScope): Promise<void> {
+  for (const name of await shellNames(scope))
+    if (name !== cacheName(shell, scope)) await scope.caches.delete(name);
 }
 
 /**
@@ -95,7 +114,7 @@ export function matchShell(
   if (!url.href.startsWith(base)) return null;
   const path = url.href.slice(base.length) || 'index.html';
   if (Object.hasOwn(shell.files, path))
-    return caches.match(new URL(path, base).href, { cacheName: cacheName(shell) });
+    return caches.match(new URL(path, base).href, { cacheName: cacheName(shell, scope) });
   if (Object.hasOwn(shell.onUse, path)) return usedNow(path, shell, scope);
   return path.startsWith('assets/') ? caches.match(url.href) : null;
 }
@@ -103,7 +122,7 @@ export function matchShell(
 /** A file that is cached on use: from the cache, or from the server and then into the cache if there is still one. */
 async function usedNow(path: string, shell: Shell, scope: ShellScope): Promise<Response | undefined> {
   const { caches, base } = scope;
-  const name = cacheName(shell);
+  const name = cacheName(shell, scope);
   const address = new URL(path, base).href;
   const cached = await caches.match(address, { cacheName: name });
   // Without a cache the visitor has cleared it, and it stays so.

@@ -1,3 +1,5 @@
+import { shellNames } from './shell';
+
 /** Bytes that the page has cached on this device, by part. */
 export interface StorageUsage {
   readonly page: number;
@@ -5,19 +7,12 @@ export interface StorageUsage {
   readonly model: number;
 }
 
-/** Names of the page's caches; that of the shell ends in its version. */
-const CACHE_NAME = /^reactdance-(shell|runtime|model)(-|$)/;
-
-const PARTS = { shell: 'page', runtime: 'runtime', model: 'model' } as const;
-
 /** Adds up the sizes of the page's caches; null where the browser gives the page no storage. */
 export async function measureStorage(scope: typeof globalThis): Promise<StorageUsage | null> {
   try {
     const usage = { page: 0, runtime: 0, model: 0 };
-    for (const name of await scope.caches.keys()) {
-      const part = partOf(name);
-      if (part) usage[part] += await size(await scope.caches.open(name));
-    }
+    for (const [name, part] of await ownCaches(scope))
+      usage[part] += await size(await scope.caches.open(name));
     return usage;
   } catch {
     return null;
@@ -30,14 +25,27 @@ export async function measureStorage(scope: typeof globalThis): Promise<StorageU
  * @throws when the browser refuses
  */
 export async function clearStorage(scope: typeof globalThis): Promise<void> {
-  for (const name of await scope.caches.keys()) if (partOf(name)) await scope.caches.delete(name);
+  for (const [name] of await ownCaches(scope)) await scope.caches.delete(name);
   const container = scope.navigator.serviceWorker as ServiceWorkerContainer | undefined;
   await (await container?.getRegistration())?.unregister();
 }
 
-function partOf(name: string): keyof StorageUsage | null {
-  const part = CACHE_NAME.exec(name)?.[1];
-  return part === undefined ? null : PARTS[part as keyof typeof PARTS];
+/**
+ * The page's caches by name, with what they hold. Those of runtime and model belong also to pages in other folders of
+ * the origin, which download again what was cleared.
+ */
+async function ownCaches({
+  caches,
+  document,
+}: typeof globalThis): Promise<(readonly [string, keyof StorageUsage])[]> {
+  const present = await caches.keys();
+  const shells = await shellNames({ caches, base: new URL('./', document.baseURI).href });
+  return [
+    ...shells.map((name) => [name, 'page'] as const),
+    ...(['runtime', 'model'] as const)
+      .map((part) => [`reactdance-${part}`, part] as const)
+      .filter(([name]) => present.includes(name)),
+  ];
 }
 
 /** Size of a cache in bytes, from the content-length of its responses: none has to be read. */

@@ -6,38 +6,14 @@ import {
   type Shell,
   type ShellScope,
 } from '../../../web/offline/shell';
+import { clearStorage, measureStorage } from '../../../web/offline/storage-usage';
+import { memoryCaches } from '../support/memory-caches';
 
 const BASE = 'https://dance.example/studio/';
 
-/** A CacheStorage in memory with the methods that the shell uses. @param room files that fit into a cache */
-function memoryCaches(room = Infinity) {
-  const all = new Map<string, Map<string, Response>>();
-  const caches = {
-    open: (name: string) => {
-      const files = all.get(name) ?? new Map<string, Response>();
-      all.set(name, files);
-      return Promise.resolve({
-        put: (address: string, response: Response) => {
-          if (response.headers.get('vary') === '*') return Promise.reject(new TypeError('Vary: *'));
-          if (files.size >= room) return Promise.reject(new DOMException('full', 'QuotaExceededError'));
-          return Promise.resolve(void files.set(address, response));
-        },
-        keys: () => Promise.resolve([...files.keys()].map((url) => ({ url }))),
-      });
-    },
-    match: (address: string, { cacheName }: { cacheName?: string } = {}) =>
-      Promise.resolve(
-        [...all]
-          .filter(([name]) => cacheName === undefined || name === cacheName)
-          .map(([, files]) => files.get(address)?.clone())
-          .find((response) => response !== undefined),
-      ),
-    has: (name: string) => Promise.resolve(all.has(name)),
-    keys: () => Promise.resolve([...all.keys()]),
-    delete: (name: string) => Promise.resolve(all.delete(name)),
-  };
-  return { all, caches: caches as unknown as CacheStorage };
-}
+/** The cache of a build of the page in a folder. */
+const name = (build: string, folder = '/studio/'): string =>
+  `reactdance-shell-${encodeURIComponent(folder)}:${build}`;
 
 const HASHES: Readonly<Record<string, string>> = { one: 'AbC_dE-1', two: 'xYz01234' };
 
@@ -65,12 +41,12 @@ const server =
 async function cached(
   build = 'one',
   memory = memoryCaches(),
-  headers: Readonly<Record<string, string>> = {},
+  { headers, base = BASE }: { headers?: Readonly<Record<string, string>>; base?: string } = {},
 ) {
-  const scope: ShellScope = { caches: memory.caches, fetch: server(build, headers), base: BASE };
+  const scope: ShellScope = { caches: memory.caches, fetch: server(build, headers), base };
   await cacheShell(shell(build), scope);
   const ask = (path: string, request: Partial<Request> = {}) =>
-    matchShell({ url: BASE + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
+    matchShell({ url: base + path, method: 'GET', headers: new Headers(), ...request }, shell(build), scope);
   return { ...memory, scope, ask };
 }
 
@@ -92,7 +68,7 @@ describe('the cached app shell', () => {
   });
 
   it('caches what a server sends with Vary: *', async () => {
-    const { ask } = await cached('one', memoryCaches(), { vary: '*' });
+    const { ask } = await cached('one', memoryCaches(), { headers: { vary: '*' } });
     expect(await (await ask(''))?.text()).toMatch(/^one/);
   });
 
@@ -117,7 +93,7 @@ describe('the cached app shell', () => {
   describe('files that not everybody needs', () => {
     const FBX = 'assets/reader-fbx-AbC_dE-1.js';
     const names = ({ all }: { all: ReadonlyMap<string, ReadonlyMap<string, unknown>> }, build: string) =>
-      [...all.get(`reactdance-shell-${build}`)!.keys()].map((address) => address.slice(BASE.length));
+      [...all.get(name(build))!.keys()].map((address) => address.slice(BASE.length));
 
     it('are fetched when they are used, once', async () => {
       const own = await cached();
@@ -191,5 +167,59 @@ describe('the cached app shell', () => {
     const { ask, all } = await cached();
     all.clear();
     expect(await ask('')).toBeUndefined();
+  });
+
+  describe('beside pages in other folders of the same origin', () => {
+    // The names of the last two begin like that of the page's own folder.
+    const others = ['https://dance.example/', `${BASE}old/`, 'https://dance.example/studio-2/'];
+
+    it('deletes only its own older builds', async () => {
+      const memory = memoryCaches();
+      for (const base of others) await cached('one', memory, { base });
+      await cached('one', memory);
+      const { scope, ask } = await cached('two', memory);
+      await deleteOtherShells(shell('two'), scope);
+      const kept = others.map((base) => name('one', new URL(base).pathname));
+      expect([...memory.all.keys()]).toEqual([...kept, name('two')]);
+      expect(await (await ask(''))?.text()).toBe(`two ${BASE}index.html`);
+    });
+
+    it('is cleared alone, and its runtime and model with it', async () => {
+      const memory = memoryCaches();
+      await cached('one', memory);
+      for (const base of others) await cached('one', memory, { base });
+      for (const name of ['reactdance-model', 'of another page'])
+        await (
+          await memory.caches.open(name)
+        ).put(`${BASE}x`, new Response('', { headers: { 'content-length': '5' } }));
+      const page = { caches: memory.caches, document: { baseURI: `${BASE}index.html?study` }, navigator: {} };
+      const scope = page as unknown as typeof globalThis;
+      const files = [...memory.all.get(name('one'))!.values()];
+      const bytes = files.reduce((sum, { headers }) => sum + Number(headers.get('content-length')), 0);
+      expect(await measureStorage(scope)).toEqual({ page: bytes, runtime: 0, model: 5 });
+      await clearStorage(scope);
+      expect([...memory.all.keys()]).toEqual([
+        ...others.map((base) => name('one', new URL(base).pathname)),
+        'of another page',
+      ]);
+    });
+
+    it('takes over and deletes what earlier builds cached under a name without a folder', async () => {
+      const memory = memoryCaches();
+      const rename = (build: string, base: string): void => {
+        const now = name(build, new URL(base).pathname);
+        memory.all.set(`reactdance-shell-${build}`, memory.all.get(now)!);
+        memory.all.delete(now);
+      };
+      const own = await cached('one', memory);
+      await own.ask('leaders/slow.bvh');
+      rename('one', BASE);
+      await cached('other', memory, { base: others[0]! });
+      rename('other', others[0]!);
+      const { scope } = await cached('two', memory);
+      expect([...memory.all.get(name('two'))!.keys()]).toContain(`${BASE}leaders/slow.bvh`);
+      await deleteOtherShells(shell('two'), scope);
+      expect([...memory.all.keys()]).toEqual(['reactdance-shell-other', name('two')]);
+    });
   });
 });
