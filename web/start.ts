@@ -1,7 +1,10 @@
 /** Starts what the address asks for: the app, or with `?study` the blind test. */
 const wanted = new URLSearchParams(location.search).has('study') ? import('./study') : import('./main');
-wanted.catch((error: unknown) => {
-  console.error(error);
-  document.body.textContent =
-    'A part of this page could not be loaded. Check the connection, then reload the page.';
-});
+wanted.then(
+  () => document.querySelector('.unstarted')?.remove(),
+  (error: unknown) => {
+    console.error(error);
+    document.body.textContent =
+      'A part of this page could not be loaded. Check the connection, then reload the page.';
+  },
+);

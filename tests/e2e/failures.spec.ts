@@ -246,3 +246,16 @@ test('a lost graphics card leaves a sentence on the stage, and the picture comes
     .poll(async () => (await app.warmPixels()).size, { timeout: 30_000 })
     .toBeGreaterThan(0.8 * before.size);
 });
+
+test('a page whose first script does not come says so after a while, and no other one does', async ({
+  page,
+}) => {
+  const help = page.getByText(/check the connection and reload the page/);
+  await page.route('**/assets/index-*.js', (route) => route.abort());
+  await page.goto('/');
+  await expect(help).toBeHidden();
+  await expect(help).toBeVisible();
+  await page.unrouteAll();
+  await new App(page).openWithoutPicture();
+  await expect(help).not.toBeAttached();
+});
