@@ -160,11 +160,11 @@ def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: s
 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        beside, body = write(folder / "beside", leader), folder / "body.json"
-        body.write_text(json.dumps(quality_rules()["penetration"]))
+        beside, rules = write(folder / "beside", leader), folder / "rules.json"
+        rules.write_text(json.dumps(quality_rules()))
         files = [write(folder / str(index), motion) for index, motion in enumerate(motions)]
         subprocess.run(
-            ["node", "tools/solve.mjs", "--beside", beside, "--body", body, *flags, *files],
+            ["node", "tools/solve.mjs", "--beside", beside, "--rules", rules, *flags, *files],
             cwd=ROOT,
             check=True,
             capture_output=True,

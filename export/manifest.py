@@ -11,12 +11,13 @@ from training.diffusion.decode import RECEPTIVE_FIELD
 from training.diffusion.model import Model
 from training.diffusion.schedule import alphas_cumprod
 from training.evaluation.metrics import beats, contact, penetration, seams
+from training.evaluation.out_of_distribution import GLIDE_RATIO, GLIDE_REACH, GLIDE_SPEED
 from training.motion import foot_contact
 from training.motion.floor import TOE_PERCENTILE, TOE_REST
 from training.motion.skeleton import FEET, JOINTS, LOWER, PARENTS, UPPER
 from training.music.recipe import AudioRecipe
 
-FORMAT, VERSION = "reactdance-model", 7
+FORMAT, VERSION = "reactdance-model", 8
 LAYERS = ("coarse", "fine")
 ROLES = ("reactor", "leader")
 
@@ -67,6 +68,7 @@ def quality_rules() -> dict[str, Any]:
         },
         "beats": {"smoothing": beats.SMOOTHING, "tolerance": beats.TOLERANCE},
         "seams": {"radius": seams.RADIUS, "clear": seams.CLEAR, "paper_radius": seams.PAPER_RADIUS},
+        "glide": {"ratio": GLIDE_RATIO, "reach": GLIDE_REACH, "free_speed": GLIDE_SPEED},
     }
 
 

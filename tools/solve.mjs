@@ -1,12 +1,12 @@
 /**
  * Solves joint positions as the page does, so that other programs can measure what is drawn and exported.
  *
- *     node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] motion.f32 [motion.f32 ...]
+ *     node tools/solve.mjs [--beside leader.f32 --rules rules.json] [--foot-lock] motion.f32 [motion.f32 ...]
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
  * form, and its fit error printed in millimetres. With --beside collisions with the leader are avoided, the root's
- * speed is limited and who stays off the floor is brought down; body.json has the capsules of both bodies (quality.penetration of a manifest). With --foot-lock
- * feet in contact do not slide, as with the page's setting of that name.
+ * speed is limited and who stays off the floor is brought down; rules.json is the `quality` of a manifest.
+ * With --foot-lock feet in contact do not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
@@ -15,14 +15,14 @@ import { loadWeb } from './load-web.mjs';
 const { values, positionals } = parseArgs({
   options: {
     beside: { type: 'string' },
-    body: { type: 'string' },
+    rules: { type: 'string' },
     'foot-lock': { type: 'boolean', default: false },
   },
   allowPositionals: true,
 });
-if (positionals.length === 0 || (values.beside === undefined) !== (values.body === undefined)) {
+if (positionals.length === 0 || (values.beside === undefined) !== (values.rules === undefined)) {
   console.error(
-    'Usage: node tools/solve.mjs [--beside leader.f32 --body body.json] [--foot-lock] motion.f32 [motion.f32 ...]',
+    'Usage: node tools/solve.mjs [--beside leader.f32 --rules rules.json] [--foot-lock] motion.f32 [motion.f32 ...]',
   );
   process.exit(2);
 }
@@ -45,7 +45,7 @@ const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
 const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
 const leader = values.beside === undefined ? null : read(values.beside);
-const body = values.body === undefined ? null : JSON.parse(readFileSync(values.body, 'utf8'));
+const rules = values.rules === undefined ? null : JSON.parse(readFileSync(values.rules, 'utf8'));
 for (const file of positionals) {
   const clip = read(file);
   let motion = solve(clip);
@@ -54,7 +54,7 @@ for (const file of positionals) {
       console.error(`${values.beside} has ${leader.frames} frames, ${file} has ${clip.frames}.`);
       process.exit(2);
     }
-    motion = besidePartner(motion, leader, body);
+    motion = besidePartner(motion, leader, rules);
   }
   if (values['foot-lock']) motion = lockFeet(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));

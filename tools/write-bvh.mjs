@@ -4,8 +4,8 @@
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
  * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` avoids collisions with the `leader`
- * beside it, keeps to a speed of the root and is brought down to the floor; manifest.json is the model's, which has the
- * capsules of the bodies.
+ * beside it, keeps to a speed of the root and is brought down to the floor; manifest.json is the model's, whose `quality`
+ * has the rules of it.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -41,7 +41,7 @@ await mkdir(folder, { recursive: true });
 for (const name of arrays.keys()) {
   const solved = solve(clip(name));
   const beside = name === 'reactor' && arrays.has('leader');
-  const motion = beside ? besidePartner(solved, clip('leader'), quality.penetration) : solved;
+  const motion = beside ? besidePartner(solved, clip('leader'), quality) : solved;
   await writeFile(path.join(folder, `${name}.bvh`), writeBvh(motion));
   console.log(`${name}.bvh: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(1)} mm`);
 }

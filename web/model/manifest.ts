@@ -73,6 +73,11 @@ const quality = v.object({
   }),
   beats: v.object({ smoothing: around, tolerance: around }),
   seams: v.object({ radius: around, clear: around, paper_radius: around }),
+  glide: v.object({
+    ratio: v.pipe(positive, v.minValue(1), v.maxValue(100)),
+    reach: v.pipe(positive, v.maxValue(10)),
+    free_speed: speed,
+  }),
 });
 
 const names = v.pipe(
@@ -84,7 +89,7 @@ const names = v.pipe(
 
 const schema = v.object({
   format: v.literal('reactdance-model'),
-  version: v.literal(7),
+  version: v.literal(8),
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),

@@ -1,5 +1,6 @@
 import type { BodyRule } from '../motion/contact/capsules';
 import type { ContactRule } from '../motion/contact/foot-contacts';
+import type { GlideRule } from '../motion/contact/root-speed';
 
 /**
  * The constants of the measures, the same as in training/evaluation/metrics. They come from Python through the manifest (its
@@ -25,6 +26,7 @@ export interface Rules {
     /** The same window as the paper has it, frames. */
     readonly paper_radius: number;
   };
+  readonly glide: GlideRule;
 }
 
 /** What is measured: two motions of equal length, the music's beats and the block length. */

@@ -17,7 +17,7 @@ const smallBody = (): number[][] => SMPL22.map((_, joint) => [0, joint === 0 ? 0
 export function smallJson() {
   return {
     format: 'reactdance-model',
-    version: 7,
+    version: 8,
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
@@ -99,6 +99,7 @@ export function smallJson() {
       },
       beats: { smoothing: 5, tolerance: 3 },
       seams: { radius: 2, clear: 8, paper_radius: 30 },
+      glide: { ratio: 1.5, reach: 0.5, free_speed: 1.5 },
     },
     graphs: {
       condition: graph(

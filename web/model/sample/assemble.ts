@@ -3,9 +3,7 @@ import { yieldToEvents } from '../../common/yield-to-events';
 import { besidePartner } from '../../motion/contact/beside-partner';
 import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
-import { liftFeet } from '../../motion/contact/floor-clearance';
 import { lockFeet } from '../../motion/contact/foot-lock';
-import { separateLegs } from '../../motion/contact/leg-separation';
 import { solve } from '../../motion/fit/ik';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
@@ -113,7 +111,7 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    return liftFeet(separateLegs(besidePartner(solved, leader, quality.penetration)));
+    return besidePartner(solved, leader, quality);
   }
 }
 

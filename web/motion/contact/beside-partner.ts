@@ -1,19 +1,24 @@
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { bringDown } from './bring-down';
+import type { BodyRule } from './capsules';
 import { avoidCollisions } from './collision-avoidance';
-import { limitRootSpeed } from './root-speed';
+import { liftFeet } from './floor-clearance';
+import { separateLegs } from './leg-separation';
+import { type GlideRule, limitRootSpeed } from './root-speed';
 
 /**
  * What a dancer keeps to beside a partner: moved out of the partner's body, no faster over the floor than dancers go,
- * and brought down where they stay off the floor. Pure.
+ * brought down where they stay off the floor, with legs out of each other and feet out of the floor. Pure.
  *
  * @param partner of the same frames and rate
- * @param bodies capsules of both bodies
+ * @param rules capsules of both bodies, and how fast a root may be
  */
 export function besidePartner(
   motion: SolvedMotion,
   partner: MotionClip,
-  bodies: Parameters<typeof avoidCollisions>[2],
+  rules: { readonly penetration: BodyRule; readonly glide: GlideRule },
 ): SolvedMotion {
-  return bringDown(limitRootSpeed(avoidCollisions(motion, partner, bodies), partner));
+  const apart = avoidCollisions(motion, partner, rules.penetration);
+  const down = bringDown(limitRootSpeed(apart, partner, rules.glide));
+  return liftFeet(separateLegs(down));
 }

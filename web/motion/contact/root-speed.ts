@@ -2,17 +2,20 @@ import { windowMaximum } from '../math/statistics';
 import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 
-/** A dancer's root may be this much faster than the partner's. */
-const SPEED_RATIO = 1.5;
-/** Speed that every root may have, metres a second. */
-const FREE_SPEED = 1.5;
-/** Time to each side within which the partner's greatest speed counts, seconds. */
-const REACH = 0.5;
+/** How fast a root may be beside a partner, the same as in training/evaluation/out_of_distribution.py. */
+export interface GlideRule {
+  /** By how much it may be faster than the partner's. */
+  readonly ratio: number;
+  /** Time to each side within which the partner's greatest speed counts, seconds. */
+  readonly reach: number;
+  /** Speed that every root may have, metres a second. */
+  readonly free_speed: number;
+}
 
 /**
  * Slows a dancer down who would glide over the floor: a place that is told from the partner's heading swings far when
- * an unfamiliar partner turns fast. The root keeps to `SPEED_RATIO` times the partner's speed or `FREE_SPEED`, whichever
- * is more; a motion within that is returned as it is. Pure.
+ * an unfamiliar partner turns fast. The root keeps to `ratio` times the partner's speed or `free_speed`, whichever is
+ * more; a motion within that is returned as it is. Pure.
  *
  * The path is followed forwards and backwards, never faster than allowed, and the mean of both is taken: it begins to
  * move as early as it arrives late.
@@ -20,8 +23,8 @@ const REACH = 0.5;
  * @param motion the dancer who is slowed down
  * @param partner of the same frames and rate
  */
-export function limitRootSpeed(motion: SolvedMotion, partner: MotionClip): SolvedMotion {
-  const limits = stepLimits(partner);
+export function limitRootSpeed(motion: SolvedMotion, partner: MotionClip, rule: GlideRule): SolvedMotion {
+  const limits = stepLimits(partner, rule);
   const path = levelPath(motion);
   const there = followed(path, limits);
   const back = followed(path.toReversed(), limits.toReversed()).toReversed();
@@ -42,11 +45,11 @@ function levelPath({ positions, frames }: Pick<MotionClip, 'positions' | 'frames
 }
 
 /** How far a root may move from each frame to the next, metres; frames - 1 numbers. */
-function stepLimits(partner: MotionClip): Float64Array {
+function stepLimits(partner: MotionClip, { ratio, reach, free_speed }: GlideRule): Float64Array {
   const path = levelPath(partner);
   const steps = Float64Array.from(path.slice(1), ([x, z], t) => Math.hypot(x - path[t]![0], z - path[t]![1]));
-  const greatest = windowMaximum(steps, Math.round(REACH * partner.fps));
-  return greatest.map((step) => Math.max(FREE_SPEED / partner.fps, SPEED_RATIO * step));
+  const greatest = windowMaximum(steps, Math.round(reach * partner.fps));
+  return greatest.map((step) => Math.max(free_speed / partner.fps, ratio * step));
 }
 
 /** A path that follows another one in steps that are not longer than the limits. */

@@ -78,7 +78,7 @@ test('beside a partner a dancer keeps out of their body, glides no faster than d
   const partner = dancer(still);
   // Off the floor all the time, and two metres away within a fifth of a second.
   const wild = moved(dancer(still.map(() => 0.1)), (t) => 0.05 + 2 * Math.min(1, Math.max(0, (t - 57) / 6)));
-  const kept = besidePartner(wild, partner, small.quality.penetration);
+  const kept = besidePartner(wild, partner, small.quality);
   expect(toeOf(kept, 60)).toBeCloseTo(0.045, 3);
   expect(kept.root[0]! ** 2 + kept.root[2]! ** 2).toBeGreaterThan(0.15 ** 2);
   const steps = Array.from({ length: 119 }, (_, t) =>

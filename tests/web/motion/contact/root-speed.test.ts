@@ -4,6 +4,7 @@ import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 
 const FPS = 30;
+const RULE = { ratio: 1.5, reach: 0.5, free_speed: 1.5 };
 
 /** A dancer of 22 joints above each other whose root is at these places along x. */
 function dancer(xs: readonly number[]): SolvedMotion {
@@ -31,12 +32,12 @@ function speeds({ root, frames }: SolvedMotion): number[] {
 describe('the limit of the root speed', () => {
   it('returns a motion within it as it is', () => {
     const motion = dancer(line(90, 1.4));
-    expect(limitRootSpeed(motion, dancer(line(90, 0)))).toBe(motion);
+    expect(limitRootSpeed(motion, dancer(line(90, 0)), RULE)).toBe(motion);
   });
 
   it('slows a leap of two metres in 0.2 s beside a standing partner down to 1.5 m/s, around its middle', () => {
     const xs = Array.from({ length: 120 }, (_, t) => 2 * Math.min(1, Math.max(0, (t - 57) / 6)));
-    const slowed = limitRootSpeed(dancer(xs), dancer(line(120, 0)));
+    const slowed = limitRootSpeed(dancer(xs), dancer(line(120, 0)), RULE);
     expect(Math.max(...speeds(slowed))).toBeLessThan(1.501);
     expect(slowed.root[0]).toBe(0);
     expect(slowed.root.at(-3)).toBeCloseTo(2, 5);
@@ -47,7 +48,7 @@ describe('the limit of the root speed', () => {
 
   it('lets the root be half as fast again as the partner within half a second', () => {
     const partner = dancer(line(120, 2));
-    const slowed = limitRootSpeed(dancer(line(120, 4)), partner);
+    const slowed = limitRootSpeed(dancer(line(120, 4)), partner, RULE);
     expect(Math.max(...speeds(slowed))).toBeCloseTo(3, 3);
   });
 
@@ -57,7 +58,7 @@ describe('the limit of the root speed', () => {
       Array.from({ length: 150 }, (_, t) => (4 / FPS) * Math.min(10, Math.max(0, t - from)));
     const [soon, late] = [dash(32), dash(80)].map(dancer) as [SolvedMotion, SolvedMotion];
     const partner = dancer(dash(20));
-    expect(limitRootSpeed(soon, partner)).toBe(soon);
-    expect(Math.max(...speeds(limitRootSpeed(late, partner)))).toBeLessThan(1.501);
+    expect(limitRootSpeed(soon, partner, RULE)).toBe(soon);
+    expect(Math.max(...speeds(limitRootSpeed(late, partner, RULE)))).toBeLessThan(1.501);
   });
 });
