@@ -67,7 +67,7 @@ def quality_rules() -> dict[str, Any]:
             "deep": penetration.DEEP,
         },
         "beats": {"smoothing": beats.SMOOTHING, "tolerance": beats.TOLERANCE},
-        "seams": {"radius": seams.RADIUS, "clear": seams.CLEAR, "paper_radius": seams.PAPER_RADIUS},
+        "seams": {"radius": seams.RADIUS, "clear": seams.CLEAR},
         "glide": {"ratio": GLIDE_RATIO, "reach": GLIDE_REACH, "free_speed": GLIDE_SPEED},
     }
 

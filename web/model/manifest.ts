@@ -72,7 +72,7 @@ const quality = v.object({
     deep: bodyPart,
   }),
   beats: v.object({ smoothing: around, tolerance: around }),
-  seams: v.object({ radius: around, clear: around, paper_radius: around }),
+  seams: v.object({ radius: around, clear: around }),
   glide: v.object({
     ratio: v.pipe(positive, v.minValue(1), v.maxValue(100)),
     reach: v.pipe(positive, v.maxValue(10)),

@@ -16,10 +16,6 @@ export interface BeatAlignment {
   readonly music: Alignment;
   /** With the leader's motion beats: `forward` of `bed` in Python. */
   readonly leader: Alignment;
-  /** The leader's with the reactor's: `backward` of `bed`. */
-  readonly backward: Alignment;
-  readonly leaderBeats: number;
-  readonly reactorBeats: number;
 }
 
 /** The score of `beatScores` by the whole frames to the nearest beat, computed once for all shifts. */
@@ -120,9 +116,6 @@ export function measureBeats(duet: Duet, rules: Rules): Measure<BeatAlignment> {
   const whole: BeatAlignment = {
     music: alignment(music, reactor, frames, tolerance),
     leader: alignment(leader, reactor, frames, tolerance),
-    backward: alignment(reactor, leader, frames, tolerance),
-    leaderBeats: leader.length,
-    reactorBeats: reactor.length,
   };
   const judge = (kind: MomentKind, reference: readonly number[], as: Alignment) => {
     const local = localScore(reference, beatScores(reference, reactor, tolerance), frames, fps);

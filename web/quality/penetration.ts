@@ -15,9 +15,6 @@ import type { Duet, Rules } from './rules';
 export interface Closeness {
   /** Share of frames with an overlap that is deeper than a touch: `ipr_capsules`. */
   readonly overlapShare: number;
-  /** Percentiles of the overlap over all frames, metres. */
-  readonly depthP50: number;
-  readonly depthP95: number;
   /** Deepest overlap, metres. */
   readonly deepest: number;
   /** Smallest distance between the roots, metres. */
@@ -55,8 +52,6 @@ export function measureCloseness(duet: Duet, rules: Rules): Measure<Closeness> {
   return {
     whole: {
       overlapShare: depth.filter((overlap) => overlap > deep).length / duet.frames,
-      depthP50: percentile(depth, 50),
-      depthP95: percentile(depth, 95),
       deepest: percentile(depth, 100),
       closest: percentile(roots, 0),
     },

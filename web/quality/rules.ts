@@ -23,8 +23,6 @@ export interface Rules {
     readonly radius: number;
     /** Frames around a seam that are not counted as the motion's interior. */
     readonly clear: number;
-    /** The same window as the paper has it, frames. */
-    readonly paper_radius: number;
   };
   readonly glide: GlideRule;
 }

@@ -7,8 +7,6 @@ export interface SeamJitter {
   readonly seams: number;
   /** |dv| at the seams over that of the rest of the motion: `against_interior` of training/evaluation/metrics/seams.py. */
   readonly ratio: number;
-  /** Mean |dv| within the paper's wide window, mm per frame^2: `paper_jitter` in Python. */
-  readonly paperJitter: number;
 }
 
 /**
@@ -65,7 +63,7 @@ const SCALE: Scale = { fine: 0.5, limit: LIMIT, bad: 2 * LIMIT };
 
 /** Jitter of the reactor at the seams of its blocks. */
 export function measureSeams(duet: Duet, rules: Rules): Measure<SeamJitter> {
-  const { radius, clear, paper_radius } = rules.seams;
+  const { radius, clear } = rules.seams;
   const change = velocityChange(duet.reactor, duet.frames);
   const seams = boundaries(duet.frames, duet.block);
   const inside = meanWhere(change, seams, (distance) => distance > clear);
@@ -79,11 +77,7 @@ export function measureSeams(duet: Duet, rules: Rules): Measure<SeamJitter> {
     return { kind: 'seam', frame: seam, value, severity: judged };
   });
   return {
-    whole: {
-      seams: seams.length,
-      ratio: jitterRatio(seams),
-      paperJitter: meanWhere(change, seams, (distance) => distance <= paper_radius),
-    },
+    whole: { seams: seams.length, ratio: jitterRatio(seams) },
     rows: [row],
     worst: worstOf(moments),
   };

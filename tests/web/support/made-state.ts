@@ -52,8 +52,6 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
       estimated: [],
       retargeted: [],
       sourceFps: 60,
-      sourceFrames: frames * 2,
-      sourceDuration: frames / 30,
       unit: 'centimetres',
       upAxis: 'y',
       warnings,

@@ -98,7 +98,7 @@ export function smallJson() {
         deep: 0.01,
       },
       beats: { smoothing: 5, tolerance: 3 },
-      seams: { radius: 2, clear: 8, paper_radius: 30 },
+      seams: { radius: 2, clear: 8 },
       glide: { ratio: 1.5, reach: 0.5, free_speed: 1.5 },
     },
     graphs: {

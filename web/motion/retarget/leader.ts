@@ -52,10 +52,6 @@ export interface LeaderReport {
   readonly retargeted: readonly JointName[];
   /** Frame rate that was used: the file's, or the one given. */
   readonly sourceFps: number;
-  /** Frames of the file that were used. */
-  readonly sourceFrames: number;
-  /** Seconds at `sourceFps`. */
-  readonly sourceDuration: number;
   readonly unit: string;
   /** 'y' or 'z', rarely another axis with its sign. */
   readonly upAxis: AxisName;
@@ -270,8 +266,6 @@ export function leaderOf(
     estimated,
     retargeted: map.spine.length > 0 ? estimated.filter((name) => TRUNK_JOINTS.includes(name)) : [],
     sourceFps: fps,
-    sourceFrames: source.frames,
-    sourceDuration: source.frames / fps,
     unit: unit.name,
     upAxis: up,
     floor,

@@ -450,8 +450,9 @@ describe('FBX', () => {
     ['none', { timeMode: 0 }, 30],
   ])('keys that are far apart are read at the frame rate of the settings: %s', async (_, options, fps) => {
     const sparse = madeMotion({ fps: 2, frames: 9 });
-    const { report } = await read({}, ['a.fbx', writeFbxBinary(sparse, options)]);
-    expect(report).toMatchObject({ sourceFps: fps, sourceFrames: 4 * fps + 1 });
+    const { clip, report } = await read({}, ['a.fbx', writeFbxBinary(sparse, options)]);
+    expect(report.sourceFps).toBe(fps);
+    expect(clip.frames).toBe(4 * 30 + 1);
   });
 
   test('objects that are no joints are read as such where a file has nothing else', async () => {
@@ -542,7 +543,8 @@ describe('glTF and VRM', () => {
   test('at 60 frames per second', async () => {
     const fast = madeMotion({ fps: 60, frames: 81 });
     const file = await read({}, ['a.glb', writeGlb(fast)]);
-    expect(file.report).toMatchObject({ sourceFps: 60, sourceFrames: 81 });
+    expect(file.report.sourceFps).toBe(60);
+    expect(file.clip.frames).toBe(41);
     expect(worstMillimetres(file, fast, 2)).toBeLessThan(WORST);
   });
 
@@ -565,7 +567,8 @@ describe('glTF and VRM', () => {
   test('steps hold every key until the next one', async () => {
     const slow = madeMotion({ fps: 15, frames: 20 });
     const { clip, report } = await read({}, ['a.glb', writeGlb(slow, { interpolation: 'STEP' })]);
-    expect(report).toMatchObject({ sourceFps: 30, sourceFrames: 39 });
+    expect(report.sourceFps).toBe(30);
+    expect(clip.frames).toBe(39);
     const frame = (at: number): Float32Array =>
       clip.positions.subarray(at * JOINT_COUNT * 3, (at + 1) * JOINT_COUNT * 3);
     expect(frame(11)).toEqual(frame(10));

@@ -85,7 +85,6 @@ describe('cut off', () => {
     const { clip, report } = leaderBvh(upTo(7) + rest);
     expect(report.warnings).toEqual([`The file ends ${where} of 12; the 7 whole frames are used.`]);
     expect(clip.frames).toBe(7);
-    expect(clip.frames).toBe(report.sourceFrames);
     const whole = leaderBvh(upTo(7).replace('Frames: 12', 'Frames: 7'));
     expect(whole.report.warnings).toEqual([]);
     expect(clip.positions).toEqual(whole.clip.positions);

