@@ -119,7 +119,6 @@ def manifest(
             "train_steps": diffusion.train_steps,
             "alphas_cumprod": [float(f"{a:.10g}") for a in alphas_cumprod(diffusion)],
             "sampler": "ddim",
-            "schedule": diffusion.schedule,
             "prediction": "x0",
             "clamp": "quantiser range",
             "last_time": diffusion.last_time,

@@ -131,10 +131,9 @@ class DenoiserConfig:
 
 @dataclass(frozen=True)
 class DiffusionConfig:
-    """Noise schedule, sampling and what follows decoding; see training/diffusion."""
+    """Length of the noise schedule, sampling and what follows decoding; see training/diffusion."""
 
     train_steps: int = 1000
-    schedule: Literal["cosine"] = "cosine"
     steps: int = 10
     last_time: float = 0.1  # share of train_steps at which the last step predicts
     # In Python alone: a model with one of these two is not exported.

@@ -135,7 +135,6 @@ const schema = v.object({
     train_steps: count,
     /** The signal's share of variance after each of the train_steps noising steps. */
     alphas_cumprod: v.pipe(v.array(v.pipe(v.number(), v.minValue(0), v.maxValue(1))), v.minLength(1)),
-    schedule: v.string(),
     prediction: v.literal('x0'),
     /** What predictions are clamped to (static thresholding); part of the step graph. */
     clamp: v.string(),

@@ -48,7 +48,6 @@ export function smallJson() {
     diffusion: {
       train_steps: 1000,
       alphas_cumprod: Array.from({ length: 1000 }, (_, t) => Math.cos(((t + 1) / 1001) * (Math.PI / 2)) ** 2),
-      schedule: 'cosine',
       prediction: 'x0',
       clamp: 'quantiser range',
       sampler: 'ddim',
