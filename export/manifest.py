@@ -33,15 +33,15 @@ class Card:
     attribution: str
     notes: tuple[str, ...]
     reference_height: float  # metres, `body_height` of the leaders it was trained on
+    reactor_height: float  # metres, `body_height` of the reactors beside those leaders
     unfamiliar_from: float  # mean unfamiliarity of a leader from which the model does not know such a dance
-    reactor_height: float | None = None  # metres, `body_height` of the reactors beside those leaders
 
 
 def make_card(values: dict[str, Any]) -> Card:
     """The card of the values of a card.json. Raises ValueError for an unknown or missing one, and notes in one text."""
     if not isinstance(values.get("notes", []), list):
         raise ValueError('notes are a list of sentences, ["...", "..."]')
-    return from_json(Card, {"reactor_height": None} | values)
+    return from_json(Card, values)
 
 
 def condition_field(model: Model) -> int:
@@ -101,7 +101,7 @@ def manifest(
                 role: [[round(value, 5) for value in offset] for offset in body.tolist()]
                 for role, body in zip(ROLES, model.denoiser.bodies, strict=True)
             },
-            **({} if card.reactor_height is None else {"reactor_height": round(card.reactor_height, 4)}),
+            "reactor_height": round(card.reactor_height, 4),
             "floor": {"toe_rest": TOE_REST, "percentile": TOE_PERCENTILE},
         },
         "fps": FPS,

@@ -31,6 +31,7 @@ CARD = Card(
     attribution="Made by the project for its tests.",
     notes=("Untrained. Its motion means nothing.",),
     reference_height=1.5,
+    reactor_height=1.43,
     unfamiliar_from=10.0,
 )
 

@@ -150,15 +150,15 @@ def load_denoiser(folder: Path, hfsq: Autoencoder) -> tuple[Denoiser, DiffusionC
     Raises ValueError where the denoiser was trained on latents of another stage 1.
     """
     config = read_config(folder, "denoiser")
-    # Checkpoints of earlier versions do not say it.
-    if config.get("latents") not in (None, latents_digest(hfsq)):
+    with naming(folder / "denoiser.json"):
+        latents = config["latents"]
+        model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
+        diffusion = from_json(DiffusionConfig, config["diffusion"])
+    if latents != latents_digest(hfsq):
         raise ValueError(
             f"{folder / 'denoiser.safetensors'} was trained on another stage 1 than {folder / 'hfsq.safetensors'}, "
             "which was trained again since: train the denoiser again too, or put the earlier stage 1 back"
         )
-    with naming(folder / "denoiser.json"):
-        model = Denoiser(hfsq.latent_width, hfsq.layers, from_json(DenoiserConfig, config["denoiser"]))
-        diffusion = from_json(DiffusionConfig, config["diffusion"])
     start_from(model, folder, "denoiser")
     return model.eval(), diffusion
 
@@ -196,14 +196,12 @@ def copy_card(source: Path, out: Path) -> None:
         _update_card(out, card, {name: card[name] for name in MEASURED if name in card})
 
 
-def write_card(
-    folder: Path, reference_height: float, unfamiliar_from: float, reactor_height: float | None = None
-) -> None:
+def write_card(folder: Path, reference_height: float, reactor_height: float, unfamiliar_from: float) -> None:
     """Writes a card.json to be filled in by hand; of one that exists it replaces the measured numbers alone.
 
-    reference_height: metres, the mean `body_height` of the leaders it was trained on. unfamiliar_from: mean
-    `ConditionEncoder.unfamiliarity` of a leader from which the page says that the model does not know such a dance.
-    reactor_height: metres, the mean `body_height` of the reactors beside those leaders.
+    reference_height and reactor_height: metres, the mean `body_height` of the leaders it was trained on and of the
+    reactors beside them. unfamiliar_from: mean `ConditionEncoder.unfamiliarity` of a leader from which the page says
+    that the model does not know such a dance.
     """
     blank = {
         "id": folder.resolve().name,
@@ -213,9 +211,11 @@ def write_card(
         "attribution": "not stated",
         "notes": [],
     }
-    measured = {"reference_height": round(reference_height, 4), "unfamiliar_from": round(unfamiliar_from, 2)}
-    if reactor_height is not None:
-        measured["reactor_height"] = round(reactor_height, 4)
+    measured = {
+        "reference_height": round(reference_height, 4),
+        "reactor_height": round(reactor_height, 4),
+        "unfamiliar_from": round(unfamiliar_from, 2),
+    }
     _update_card(folder, blank, measured)
 
 

@@ -191,11 +191,8 @@ def to_json(config: Any) -> dict[str, Any]:
 
 
 def from_json(cls: type, values: dict[str, Any]) -> Any:
-    """Inverse of `to_json`. Raises ValueError for an unknown or missing key; what checkpoints of a time before a field
-    existed were is in `_BEFORE`.
-    """
+    """Inverse of `to_json`. Raises ValueError for an unknown or missing key."""
     fields = {f.name: f for f in dataclasses.fields(cls)}
-    values = _BEFORE.get(cls.__name__, {}) | values
     unknown = set(values) - set(fields)
     missing = set(fields) - set(values)
     if unknown or missing:
@@ -212,7 +209,6 @@ def from_json(cls: type, values: dict[str, Any]) -> Any:
     return cls(**out)
 
 
-_BEFORE: dict[str, dict[str, Any]] = {"DenoiserConfig": {"mask": "causal", "positions": "periodic"}}
 _NESTED: dict[tuple[str, str], type] = {
     ("HfsqConfig", "masking"): MaskingConfig,
     ("DenoiserConfig", "condition"): ConditionConfig,

@@ -106,7 +106,7 @@ def main(options: Options) -> None:
             provenance |= {"validation": report} | before
             save_denoiser(options.out, hfsq, averaged, options.diffusion, provenance)
             known = max(float(model.unfamiliarity(at_height(d.leader, height)).mean()) for d in duets.train)
-            write_card(options.out, height, UNFAMILIAR_RATIO * known, reactor_height)
+            write_card(options.out, height, reactor_height, UNFAMILIAR_RATIO * known)
         hfsq.to(fabric.device)
 
     run.train(lambda random: windows.batch(options.batch, random), finish)

@@ -80,15 +80,15 @@ def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) ->
 def test_a_card_keeps_what_a_person_wrote_and_takes_the_numbers_of_the_newest_training(
     tmp_path: Path,
 ) -> None:
-    write_card(tmp_path / "a", 1.4, 1.1, 1.3)
+    write_card(tmp_path / "a", 1.4, 1.3, 1.1)
     path = tmp_path / "a" / "card.json"
     path.write_text(json.dumps(read_card(tmp_path / "a") | {"name": "Tango", "notes": ["one couple"]}))
-    write_card(tmp_path / "a", 1.5, 1.2, 1.25)
+    write_card(tmp_path / "a", 1.5, 1.25, 1.2)
     numbers = {"reference_height": 1.5, "unfamiliar_from": 1.2, "reactor_height": 1.25}
     card = read_card(tmp_path / "a")
     assert card["name"] == "Tango"
     assert card.items() >= numbers.items()
-    write_card(tmp_path / "b", 1.0, 1.0)
+    write_card(tmp_path / "b", 1.0, 1.0, 1.0)
     copy_card(tmp_path / "a", tmp_path / "b")
     assert read_card(tmp_path / "b").items() >= ({"name": "b"} | numbers).items()
     copy_card(tmp_path / "a", tmp_path / "c")

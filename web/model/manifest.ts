@@ -106,8 +106,8 @@ const schema = v.object({
     reference_height: height,
     /** Rest offsets from the parent joint in a T-pose, metres at that height, of the dancer whom each role generates. */
     bodies: v.object({ reactor: body, leader: body }),
-    /** Metres; body height of the reactors of the training beside leaders of that height. Left out, it is as decoded. */
-    reactor_height: v.optional(height),
+    /** Metres; body height of the reactors of the training beside leaders of that height. */
+    reactor_height: height,
     /** See FLOOR in motion/retarget/axes-and-units.ts. */
     floor: v.object({ toe_rest: v.number(), percentile: v.number() }),
   }),

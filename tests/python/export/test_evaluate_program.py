@@ -107,7 +107,7 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     tiny, checkpoint = tiny_model(), tmp_path / "checkpoint"
     save_hfsq(checkpoint, tiny.hfsq, tiny.frame, {})
     save_denoiser(checkpoint, tiny.hfsq, tiny.denoiser, tiny.diffusion, {})
-    write_card(checkpoint, tiny.reference_height, 1.2)
+    write_card(checkpoint, tiny.reference_height, 1.4, 1.2)
     main(
         Options(
             data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, checkpoint=checkpoint,

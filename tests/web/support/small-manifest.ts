@@ -31,6 +31,7 @@ export function smallJson() {
       lower: [1],
       feet: [7],
       reference_height: 1.5,
+      reactor_height: 1.4,
       bodies: { reactor: smallBody(), leader: smallBody() },
       floor: { ...FLOOR } as { toe_rest: number; percentile: number },
     },

@@ -20,7 +20,6 @@ export function bodyFactor(
   // What is under the toes and above the head keeps its size.
   const fixed = SOLE + CROWN;
   if (height !== undefined) return (height - fixed) / (standingHeight(offsets) - fixed);
-  if (reactor_height === undefined) return 1;
   const proportion = reactor_height / reference_height;
   const wanted = (reference_height / scale) * (role === 'leader' ? 1 / proportion : proportion);
   return wanted / bodyHeight({ fps: FPS, frames: 1, positions: restPositions(offsets) });

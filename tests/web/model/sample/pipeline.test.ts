@@ -11,6 +11,7 @@ import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { lockFeet } from '../../../../web/motion/contact/foot-lock';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
+import { readVec } from '../../../../web/motion/math/vec3';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { scaled } from '../../support/made-dancer';
@@ -371,12 +372,25 @@ describe('Pipeline', () => {
 
   it.each(['reactor', 'leader'] as const)('gives a %s the body of that role', async (role) => {
     const { manifest, session } = model;
-    const skeleton = { ...manifest.skeleton, reactor_height: undefined };
+    // The leader's body with longer upper arms, not only of another size than the reactor's.
+    const bodies = {
+      reactor: manifest.skeleton.bodies.reactor,
+      leader: manifest.skeleton.bodies.reactor.map((offset, joint) =>
+        joint === J.left_elbow || joint === J.right_elbow ? offset.map((value) => 1.5 * value) : offset,
+      ),
+    };
+    const skeleton = { ...manifest.skeleton, bodies };
     const plain = request(20, { role });
     const { motion } = await new Pipeline({ ...manifest, skeleton }, session, () => 0).generate(plain);
-    const size = bodyHeight(plain.leader) / skeleton.reference_height;
-    const body = skeleton.bodies[role].flat().map((value) => value * size);
-    expect(maxDifference(motion.offsets, body)).toBeLessThan(1e-5);
+    const thigh = (offsets: Float32Array): number => Math.hypot(...readVec(offsets, J.left_knee));
+    const body = Float32Array.from(bodies[role].flat());
+    const size = thigh(motion.offsets) / thigh(body);
+    expect(
+      maxDifference(
+        motion.offsets,
+        body.map((value) => value * size),
+      ),
+    ).toBeLessThan(1e-5);
   });
 
   it('refuses latents of another dance, and stops decoding when it is cancelled', async () => {
