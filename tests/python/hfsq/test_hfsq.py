@@ -235,6 +235,18 @@ def test_the_latent_loss_pulls_the_encoder_and_with_beta_the_codes(beta: float) 
         assert (up is not None and bool(up.any())) is (beta > 0)
 
 
+def test_the_residual_cascade_is_equation_1() -> None:
+    torch.manual_seed(0)
+    q = Hfsq(HfsqConfig(groups=2, layers=3, scales=(0.5, 0.25, 0.1)))
+    v = 0.4 * torch.randn(4, 10, q.width)
+    codes, residual = q(v), v.unflatten(-1, (2, -1))
+    for r, s in enumerate(q.scales):
+        z = fsq(torch.einsum("nlgw,gwd->nlgd", residual / s, q.down[r]), q.levels)
+        assert torch.allclose(codes[:, :, r], z.flatten(-2))
+        residual = residual - s * torch.einsum("nlgd,gdw->nlgw", z, q.up[r])
+    assert torch.allclose(residual.flatten(-2), v - q.combine(codes), atol=1e-5)
+
+
 def test_scales_must_match_layers() -> None:
     with pytest.raises(ValueError, match="3 residual layers need 3 scales"):
         Hfsq(HfsqConfig(layers=3))
