@@ -9,6 +9,7 @@ import { registerServiceWorker } from './offline/register';
 import { clearStorage, measureStorage } from './offline/storage-usage';
 import { measureDance } from './quality/client';
 import { bindStage, openCamera, leaveRoomForControls, withPartRead } from './stage-binding';
+import { createOffscreenStage } from './view/offscreen-stage';
 import { createFigures } from './view/figures';
 import { mountLostNote } from './view/lost-note';
 import { createStage, type Stage } from './view/stage';
@@ -170,11 +171,11 @@ const services: Services = {
   },
   frameBoth: () => stage?.frameBoth(),
   ...createDownloads(store, {
-    openVideoStage: stage && ((size) => openCamera(stage, store, size)),
+    openVideoStage: stage && ((size) => openCamera(stage, store, size, createOffscreenStage)),
     openBesideVideo: () => {
       const shown = videoTrack.video;
       return stage && shown
-        ? (size) => openBeside(size, shown, (half) => openCamera(stage, store, half))
+        ? (size) => openBeside(size, shown, (half) => openCamera(stage, store, half, createOffscreenStage))
         : null;
     },
     stageSize: () => stage?.pictureSize() ?? null,

@@ -8,7 +8,7 @@ import type { AppState } from './ui/store/state';
 import { type Store, watch, watchAll, type Watched } from './ui/store/store';
 import { isReading } from './ui/store/selectors';
 import { showOther } from './ui/takes/other-dancer';
-import { createOffscreenStage } from './view/offscreen-stage';
+import type { createOffscreenStage } from './view/offscreen-stage';
 import type { PictureSize, Stage } from './view/stage';
 
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
@@ -162,8 +162,13 @@ export function leaveRoomForControls(stage: Stage, store: Store): () => void {
  * Opens an offscreen stage for a video: it shows the finished dance that `from` shows now, from its start, and does not
  * follow later changes.
  */
-export async function openCamera(from: Stage, store: Store, size: PictureSize): Promise<VideoStage> {
-  const stage = createOffscreenStage(from, size);
+export async function openCamera(
+  from: Stage,
+  store: Store,
+  size: PictureSize,
+  createStage: typeof createOffscreenStage,
+): Promise<VideoStage> {
+  const stage = createStage(from, size);
   try {
     // A preview is half of the old dance and half of the new one.
     const finished = { ...store.getState(), preview: null };

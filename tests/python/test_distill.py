@@ -88,6 +88,26 @@ def test_frames_that_no_dance_fills_do_not_count(tiny: Model, batch: Batch) -> N
     assert loss.isfinite()
 
 
+def test_the_song_part_is_weighted_by_the_constant_and_is_of_what_the_song_changes(
+    tiny: Model, batch: Batch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """MUSIC_WEIGHT times the mean square of the error with the song less that without it."""
+    stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion)
+    n = len(batch.latents)
+    # A student that says zero: its errors are what the teacher samples.
+    monkeypatch.setattr(distill, "predict", lambda network, x, *rest: torch.zeros_like(x))
+    wanted = torch.randn(3 * n, *batch.latents.shape[1:])
+    monkeypatch.setattr(stage, "_sample_teacher", lambda *given: wanted)
+    _, parts = stage(batch)
+    mean = distill.WeightedSquares(batch.valid, 2)
+    assert float(parts["music"]) == pytest.approx(
+        distill.MUSIC_WEIGHT * float(mean(wanted[:n] - wanted[n : 2 * n])), rel=1e-5
+    )
+    assert float(parts["conditions"]) == pytest.approx(
+        float(mean(wanted[n : 2 * n] - wanted[2 * n :])), rel=1e-5
+    )
+
+
 def test_the_loss_falls_and_the_condition_stays(tiny: Model, batch: Batch) -> None:
     student = copy.deepcopy(tiny.denoiser).requires_grad_(True)
     student.condition.requires_grad_(False)

@@ -11,9 +11,6 @@ import { playbackSet } from '../../web/ui/store/actions/view';
 import * as change from './support/actions';
 import { uniformGuidance, leader, still } from './support/made-state';
 
-// A stage for a video has a canvas of its own, which Node has not.
-vi.mock('../../web/view/offscreen-stage', () => ({ createOffscreenStage: (stage: Stage) => stage }));
-
 let bindStage: typeof binding.bindStage;
 let openCamera: typeof binding.openCamera;
 let withPartRead: typeof binding.withPartRead;
@@ -103,6 +100,8 @@ it('saves the finished dance as a video while a part of the next one is on the s
   store.setState({ leader: dancer, settings, reaction, preview, footLock: false });
   const drawn: Dancers[] = [];
   const stage = stageThatCalls((shown) => drawn.push(shown));
-  await openCamera(stage, store, { width: 640, height: 360 });
+  // A stage for a video has a canvas of its own, which Node has not: the stage itself takes its place.
+  const same = (from: Stage) => from as ReturnType<Parameters<typeof openCamera>[3]>;
+  await openCamera(stage, store, { width: 640, height: 360 }, same);
   expect(drawn[0]?.reactor).toBe(reaction.motion);
 });

@@ -393,6 +393,18 @@ describe('what does not fit', () => {
       [2, 1],
       /1 motion, 1 take\./,
     ],
+    [
+      'a motion whose root is not at its pelvis',
+      () =>
+        changed((files) => {
+          const motion = Float32Array.from(new Float32Array(files['takes/2.f32']!.slice().buffer));
+          // After the offsets of 22 joints comes the root.
+          motion[22 * 3]! += 0.1;
+          files['takes/2.f32'] = new Uint8Array(motion.buffer);
+        }),
+      [3, 1],
+      /1 motion, 1 take\./,
+    ],
     ['no song', () => changed((files) => delete files['songs/1-descarga.mp3']), [3, 2, 1], /1 song\./],
   ])('%s is left out and said', async (_, make, numbers, words) => {
     const { project, losses } = readProject(await make());

@@ -4,7 +4,7 @@ import * as shift from '../../../../web/ui/store/song-shift';
 import * as change from '../../../../web/ui/store/actions/timeline';
 import { readyInputs, sameInputs } from '../../../../web/ui/store/selectors';
 import { small } from '../../support/small-manifest';
-import { leader, song } from '../../support/made-state';
+import { leader, rhythm, song } from '../../support/made-state';
 
 describe('timeline changes', () => {
   let page: store.Store;
@@ -122,7 +122,15 @@ describe('timeline changes', () => {
     expect(shift.shiftAdvice(now())).toMatchObject({
       better: null,
       summary: 'timing fits',
-      reason: expect.stringMatching(/the best within two seconds/) as string,
+      reason: expect.stringMatching(/, the best within two seconds\. Drag/) as string,
+    });
+    // Beats of another tempo: some shift is best, as one of any has to be.
+    const other = song(10);
+    const beats = Array.from({ length: 23 }, (_, beat) => 0.1 + 0.43 * beat);
+    does(store.songLoaded({ ...other, data: { ...other.data, rhythm: rhythm(beats) } }));
+    expect(shift.shiftAdvice(now())).toMatchObject({
+      better: null,
+      reason: expect.stringMatching(/s (later|earlier), a difference that may be chance\. Drag/) as string,
     });
   });
 });
