@@ -93,7 +93,8 @@ const schema = v.object({
   id: v.pipe(v.string(), v.minLength(1)),
   name: v.string(),
   created: v.string(),
-  licence: v.record(v.string(), v.string()),
+  /** Of the weights, and of the motion that they were trained on. */
+  licence: v.object({ weights: v.string(), data: v.string() }),
   attribution: v.string(),
   notes: v.array(v.string()),
   skeleton: v.object({

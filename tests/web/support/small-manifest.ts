@@ -21,7 +21,7 @@ export function smallJson() {
     id: 'small',
     name: 'Small',
     created: '2026-01-01',
-    licence: { weights: 'MIT' },
+    licence: { weights: 'MIT', data: 'none' },
     attribution: 'nobody',
     notes: [] as string[],
     skeleton: {

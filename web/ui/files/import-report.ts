@@ -213,9 +213,18 @@ function modelFacts(manifest: Manifest, reason: string | null): HTMLElement[] {
     group('', 'Model'),
     ...fact('Name', manifest.name),
     ...(reason === null ? [] : fact('Runs on', reason)),
-    ...fact('From', manifest.attribution),
-    ...manifest.notes.flatMap((note) => fact('Note', note)),
+    ...aboutModel(manifest).flatMap(([name, text]) => fact(name, text)),
     ...fact('Software', licencesLink()),
+  ];
+}
+
+/** What the card of a model says of its rights, its origin and its limits: names and texts. */
+export function aboutModel({ licence, attribution, notes }: Manifest): [name: string, text: string][] {
+  return [
+    ['Licence', licence.weights],
+    ['Data', licence.data],
+    ['From', attribution],
+    ...notes.map((note): [string, string] => ['Note', note]),
   ];
 }
 
