@@ -4,9 +4,9 @@
  *     node tools/solve.mjs [--beside leader.f32 --rules rules.json] [--foot-lock] motion.f32 [motion.f32 ...]
  *
  * The .f32 files are raw little-endian float32, frames x 22 x 3, metres, 30 fps; each motion is replaced by its solved
- * form, and its fit error printed in millimetres. With --beside collisions with the leader are avoided, the root's
- * speed is limited and who stays off the floor is brought down; rules.json is the `quality` of a manifest.
- * With --foot-lock feet in contact do not slide, as with the page's setting of that name.
+ * form, and its fit error printed in millimetres. With --beside the dancer keeps to what the page lets a partner do
+ * (web/motion/contact/beside-partner.ts); rules.json is the `quality` of a manifest. With --foot-lock feet in contact do
+ * not slide, as with the page's setting of that name.
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';

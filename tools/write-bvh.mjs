@@ -3,9 +3,9 @@
  *
  *     node tools/write-bvh.mjs motions.npz manifest.json folder
  *
- * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` avoids collisions with the `leader`
- * beside it, keeps to a speed of the root and is brought down to the floor; manifest.json is the model's, whose `quality`
- * has the rules of it.
+ * motions.npz holds motions by NAME, (T, 22, 3) float32 metres at 30 fps. A `reactor` with a `leader` keeps to what the
+ * page lets a partner do (web/motion/contact/beside-partner.ts); manifest.json is the model's, whose `quality` has the
+ * rules of it.
  */
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
