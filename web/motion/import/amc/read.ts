@@ -6,6 +6,7 @@ import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
 import { checkedRate } from '../../retarget/frame-rate';
 import type { LocalPoses, MotionSource, SourceJoint } from '../../retarget/source';
+import { linesOf } from '../lines';
 
 /** Frames per second of the CMU library, which an AMC does not state. */
 const USUAL_RATE = 120;
@@ -18,7 +19,7 @@ type Frames = ReadonlyMap<string, readonly number[]>[];
 function framesOf(text: string, bones: readonly Bone[]): Frames {
   const channels = new Map(bones.map((bone) => [bone.name, bone.channels.length]));
   const frames: Map<string, readonly number[]>[] = [];
-  const lines = text.trimEnd().split(/\r\n|\r|\n/);
+  const lines = linesOf(text.trimEnd());
   lines.forEach((line, number) => {
     const words = line.trim().split(/\s+/);
     const [name = ''] = words;

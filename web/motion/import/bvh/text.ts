@@ -1,6 +1,7 @@
 import { readFrames } from './frames';
 import { type BvhNode, readHierarchy } from './hierarchy';
 import { HINT_EXPORT_AGAIN } from './number';
+import { linesOf } from '../lines';
 import { AppError } from '../../../common/error';
 
 /** A BVH file in which every number has been checked. */
@@ -35,10 +36,10 @@ function headerEntry(
  * frames are used.
  *
  * @throws {AppError} `empty-file`, `not-bvh`, `truncated`, `bad-hierarchy`, `bad-number`, `wrong-columns`,
- *   or `too-few-frames`, naming the line, and the joint where there is one
+ *   `too-few-frames` or `too-long`, naming the line, and the joint where there is one
  */
 export function parseBvhText(text: string): BvhFile {
-  const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\r|\n/);
+  const lines = linesOf(text.replace(/^\uFEFF/, ''));
   const start = lines.findIndex((line) => line.trim() !== '');
   if (start < 0) {
     throw new AppError('empty-file', 'The motion file is empty.', 'Choose a BVH file with a dance in it.');

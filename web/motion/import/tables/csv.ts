@@ -3,6 +3,7 @@ import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
 import { PARENTS, SMPL22 } from '../../skeleton/skeleton';
+import { linesOf } from '../lines';
 
 const SEPARATOR = /[,;\t]/;
 /** `leader_left_hip_x`, `left_hip.x` or `LeftHip X`: the dancer if there is one, the joint, and the axis. */
@@ -99,7 +100,7 @@ function badCell(frame: number, cell: string, title: string): AppError {
  * @throws {AppError} `not-motion`, `bad-number`, `too-long`, `too-few-frames` or `bad-frame-time`
  */
 export function readCsv(text: string, part: number): MotionSource {
-  const lines = text.split(/\r\n|\r|\n/);
+  const lines = linesOf(text);
   const comments = lines.filter((line) => line.startsWith('#'));
   const rows = lines.filter((line) => line.trim() !== '' && !line.startsWith('#'));
   const separator = SEPARATOR.exec(rows[0] ?? '')?.[0] ?? ',';

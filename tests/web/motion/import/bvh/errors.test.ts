@@ -47,6 +47,11 @@ describe('what is no BVH file', () => {
   );
 });
 
+test('blank lines without end: those after the motion are left out, others are refused', () => {
+  expect(leaderBvh(good + '\n'.repeat(2e7)).clip.frames).toBe(12);
+  expectFailure(`HIERARCHY${'\n'.repeat(6e6)}}`, 'too-long', 'more than 5 million lines');
+});
+
 describe('cut off', () => {
   test('at any character, it gives an error or the complete frames', () => {
     const starts = lines.map((_, i) => lines.slice(0, i).join('\n').length + 1);
