@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import type { Manifest } from '../../model/client';
+import { type Manifest, patientFetch } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
 import {
@@ -10,7 +10,7 @@ import {
   type Reaction,
   type Settings,
 } from '../store/reaction';
-import { demoChanged } from '../store/actions/files';
+import { demoChanged, readingSet } from '../store/actions/files';
 import { reactionAdded } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
@@ -61,13 +61,16 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
   try {
     const demo = v.parse(schema, await (await get('demo.json', folder)).json());
     const { reactor } = demo;
-    const [songFile, leaderBytes, reactorBytes] = await Promise.all([
-      get(demo.song.file, folder).then((response) => response.blob()),
+    // The couple does not wait for the song, and is there without it where it can't be had.
+    const songFile = get(demo.song.file, folder)
+      .then((response) => response.blob())
+      .catch(() => null);
+    const [leaderBytes, reactorBytes] = await Promise.all([
       get(demo.leader.file, folder).then(bytesOf),
       reactor ? get(reactor.file, folder).then(bytesOf) : null,
     ]);
     if (isUntouched(store)) {
-      const songLoading = files.openSong(songFile, demo.song.name, demo.song.label);
+      const songLoading = openSong(store, files, songFile, demo);
       const leader = await files.openLeader({
         name: demo.leader.name,
         label: demo.leader.label,
@@ -75,7 +78,9 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
         options: {},
       });
       if (leader && store.getState().leader === leader) apply(store, playbackSet({ time: demo.poster }));
-      apply(store, demoChanged('ready'));
+      const songThere = songFile.then(() => {
+        apply(store, demoChanged('ready'));
+      });
       if (reactor && reactorBytes && leader) {
         const motion = await readers.readReactor(reactorBytes);
         await showReaction(
@@ -85,7 +90,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
           readers,
         );
       }
-      await songLoading;
+      await Promise.all([songLoading, songThere]);
     }
     apply(store, demoChanged('ready'));
   } catch {
@@ -143,9 +148,26 @@ function isUntouched(store: Store): boolean {
   return !song && !leader && !reading.song && !reading.leader && !restoring;
 }
 
+/** Puts the demo's song on the page when it comes; null where it does not, or the visitor has opened something by then. */
+async function openSong(
+  store: Store,
+  files: Files,
+  coming: Promise<Blob | null>,
+  { song: { name, label }, leader }: v.InferOutput<typeof schema>,
+): Promise<LoadedSong | null> {
+  const reading = { name, fraction: 0 };
+  apply(store, readingSet('song', reading));
+  const file = await coming;
+  const now = store.getState();
+  if (now.reading.song !== reading) return null;
+  apply(store, readingSet('song', null));
+  const isOwn = now.leader !== null && now.leader.label !== leader.label;
+  return file && !isOwn ? files.openSong(file, name, label) : null;
+}
+
 /** A file of the demo. A server of single-page apps answers with a page where a file is missing. */
 async function get(file: string, folder: URL): Promise<Response> {
-  const response = await fetch(new URL(file, folder));
+  const response = await patientFetch(fetch)(new URL(file, folder));
   const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
   if (!response.ok || isPage) throw new Error(`The demo has no ${file}.`);
   return response;

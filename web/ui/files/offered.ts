@@ -1,3 +1,5 @@
+import { patientFetch } from '../../model/client';
+import { readingSet } from '../store/actions/files';
 import { problemShown } from '../store/actions/notices';
 import { offeredProblem } from '../store/problems';
 import type { Files } from '../store/services';
@@ -20,8 +22,8 @@ export const OFFERED_LEADERS: readonly OfferedLeader[] = [
 
 /** Opens leaders that ship with the page, as if the visitor had given their files. */
 export class OfferedLeaders {
-  /** Ends the download of the one that was asked for last. */
-  #loading = new AbortController();
+  /** Ends the download of the one that was asked for last; null while there is none. */
+  #loading: AbortController | null = null;
 
   /** @param folder where their files are */
   constructor(
@@ -35,17 +37,22 @@ export class OfferedLeaders {
     this.cancel();
     const { signal } = (this.#loading = new AbortController());
     const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
+    apply(this.store, readingSet('leader', { name, fraction: 0 }));
     let content: Blob;
     try {
-      const response = await fetch(new URL(file, this.folder), { signal });
+      const response = await patientFetch(fetch)(new URL(file, this.folder), { signal });
       // A server of single-page apps answers with a page where a file is missing.
       const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
       if (!response.ok || isPage) throw new Error(`The server answered ${response.status}.`);
       content = await response.blob();
+      if (signal.aborted) return;
     } catch {
-      if (!signal.aborted) apply(this.store, problemShown(offeredProblem(name)));
+      if (signal.aborted) return;
+      this.cancel();
+      apply(this.store, problemShown(offeredProblem(name)));
       return;
     }
+    this.cancel();
     const ending = file.replace(/^[^.]*/, '');
     const type = ending === '.webm' ? 'video/webm' : '';
     await this.files.open([new File([content], `${name.replace(/^A /, '')}${ending}`, { type })]);
@@ -53,6 +60,9 @@ export class OfferedLeaders {
 
   /** A newer leader has been asked for: one that is still being downloaded is not to take its place. */
   cancel(): void {
+    if (!this.#loading) return;
     this.#loading.abort();
+    this.#loading = null;
+    apply(this.store, readingSet('leader', null));
   }
 }

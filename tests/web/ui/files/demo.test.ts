@@ -11,17 +11,26 @@ describe('the demo’s ready-made reaction', () => {
   /** After the dancers are shown, and before the song is read. */
   type Act = (store: change.Store) => void;
 
-  /** Loads a demo whose reaction was made by the model with this id; the visitor does something meanwhile. */
-  const load = async (model: string, act: Act = () => undefined): Promise<change.Store> => {
+  /**
+   * Loads a demo whose reaction was made by the model with this id; the visitor does something meanwhile.
+   * @param songAnswer where it is given, the song's download ends only after that, well or not
+   */
+  const load = async (
+    model: string,
+    act: Act = () => undefined,
+    songAnswer: boolean | null = null,
+  ): Promise<change.Store> => {
     const store = change.createAppStore('dark');
     change.apply(store, change.manifestLoaded(small, 7));
     const reactor = { file: 'reactor', label: 'demo reaction', model, settings };
     const demo = JSON.stringify({ song: named('song'), leader: named('leader'), reactor });
-    vi.stubGlobal('fetch', ({ pathname }: URL) =>
-      Promise.resolve(new Response(pathname.endsWith('.json') ? demo : 'content')),
-    );
     let goOn = (): void => undefined;
     const held = new Promise<void>((resolve) => (goOn = resolve));
+    vi.stubGlobal('fetch', async ({ pathname }: URL) => {
+      if (pathname.endsWith('/song') && songAnswer !== null) await held;
+      const status = pathname.endsWith('/song') && songAnswer === false ? 503 : 200;
+      return new Response(pathname.endsWith('.json') ? demo : 'content', { status });
+    });
     const readers = {
       loadSong: () => held.then(() => songData(1)),
       readLeader: () => Promise.resolve({ file: leaderFile(30), motion: still(30) }),
@@ -34,7 +43,7 @@ describe('the demo’s ready-made reaction', () => {
       new URL('https://page.example/demo/'),
       { readReactor: () => Promise.resolve(still(30)), manifest: readers.manifest },
     );
-    await vi.waitUntil(() => store.getState().demo === 'ready');
+    await vi.waitUntil(() => store.getState().leader !== null);
     await new Promise((resolve) => setTimeout(resolve, 20));
     act(store);
     goOn();
@@ -67,6 +76,35 @@ describe('the demo’s ready-made reaction', () => {
       takes: [],
       settings: { seed: 7, music: small.guidance.music.default },
     });
+  });
+
+  it('shows the couple while its song is still on its way, or cannot be had', async () => {
+    const store = await load(
+      small.id,
+      ({ getState }) => {
+        const { reaction, reading, demo } = getState();
+        expect([reaction?.label, reading.song?.name, demo]).toEqual(['demo reaction', 'song', 'loading']);
+      },
+      false,
+    );
+    expect(store.getState()).toMatchObject({
+      demo: 'ready',
+      reading: { song: null },
+      song: null,
+      reaction: { label: 'demo reaction', model: { id: small.id } },
+    });
+  });
+
+  it('keeps its song from a visitor who has brought a leader before it came', async () => {
+    const store = await load(
+      small.id,
+      (page) => {
+        const own = { ...page.getState().leader!, name: 'own', label: null };
+        change.apply(page, change.leaderLoaded(own));
+      },
+      true,
+    );
+    expect(store.getState()).toMatchObject({ leader: { name: 'own' }, song: null, reading: { song: null } });
   });
 
   it('does not come back in the other role when the roles are swapped while its song is read', async () => {

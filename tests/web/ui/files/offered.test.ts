@@ -26,17 +26,43 @@ it('the leader that was clicked last is opened, also where an older download end
   };
   const offered = new OfferedLeaders(store, { open }, new URL('https://page.example/leaders/'));
   const slow = offered.open('slow.bvh');
+  expect(store.getState().reading.leader?.name).toBe('Slow');
   const quick = offered.open('quick.bvh');
   answers.get('/leaders/quick.bvh')!();
   await quick;
   answers.get('/leaders/slow.bvh')!();
   await slow;
+  expect(store.getState().reading.leader).toBeNull();
   expect(opened).toEqual(['Quick.bvh']);
 
   const playful = offered.open('playful.bvh');
   offered.cancel();
+  expect(store.getState().reading.leader).toBeNull();
   answers.get('/leaders/playful.bvh')!();
   await playful;
   expect(opened).toEqual(['Quick.bvh']);
   expect(store.getState().problem).toBeNull();
+});
+
+it('a download of which nothing arrives for half a minute is given up, and its name no longer says that it is read', async () => {
+  vi.useFakeTimers();
+  vi.stubGlobal('fetch', (_: URL, { signal }: { readonly signal: AbortSignal }) => {
+    return new Promise((_, reject) => {
+      signal.addEventListener('abort', () => {
+        reject(signal.reason as Error);
+      });
+    });
+  });
+  const store = change.createAppStore('dark');
+  const open = vi.fn(() => Promise.resolve());
+  const offered = new OfferedLeaders(store, { open }, new URL('https://page.example/leaders/'));
+  const opening = offered.open('slow.bvh');
+  await vi.advanceTimersByTimeAsync(31_000);
+  vi.useRealTimers();
+  await opening;
+  expect(open).not.toHaveBeenCalled();
+  expect(store.getState()).toMatchObject({
+    problem: { code: 'page-part-missing' },
+    reading: { leader: null },
+  });
 });
