@@ -21,6 +21,11 @@ async function bytesOf(file: File): Promise<FileBytes> {
   return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
 }
 
+/** A source that is in memory. */
+function given(source: LeaderSource): () => Promise<LeaderSource> {
+  return () => Promise.resolve(source);
+}
+
 /** What else makes leaders: videos, and the files that ship with the page, which are downloaded first. */
 interface OtherLeaders {
   readonly openVideo: (file: File) => Promise<void>;
@@ -76,7 +81,7 @@ export class FileLoader implements Files {
   }
 
   openLeader(source: LeaderSource): Promise<LoadedLeader | null> {
-    return this.runLeader(source, (leader) => {
+    return this.runLeader(source.name, given(source), (leader) => {
       if (this.isSuperseded('leader', source.label)) this.endReading('leader');
       else this.putLeader(leader);
     });
@@ -84,7 +89,7 @@ export class FileLoader implements Files {
 
   rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
     this.otherLeaders.cancel();
-    return this.runLeader({ name, label, files, options }, (read) => {
+    return this.runLeader(name, given({ name, label, files, options }), (read) => {
       this.putLeader(read);
     });
   }
@@ -110,7 +115,7 @@ export class FileLoader implements Files {
   }
 
   readLeader(source: LeaderSource): Promise<LoadedLeader | null> {
-    return this.runLeader(source, () => {
+    return this.runLeader(source.name, given(source), () => {
       this.endReading('leader');
     });
   }
@@ -142,10 +147,17 @@ export class FileLoader implements Files {
 
   /** The first visit ends when the reading begins, so that nothing found of an earlier one cannot begin it again. */
   private async openLeaderFiles(parts: readonly File[]): Promise<void> {
-    const files = await Promise.all(parts.map(bytesOf));
     apply(this.store, firstVisitEnded());
     this.otherLeaders.cancel();
-    await this.openLeader({ name: files[0]!.name, label: null, files, options: {} });
+    const { name } = parts[0]!;
+    // Read as a part of the task: a newer file is not to wait for the bytes of a large one, nor to be replaced by it.
+    const source = async (): Promise<LeaderSource> => {
+      const files = await Promise.all(parts.map(bytesOf));
+      return { name, label: null, files, options: {} };
+    };
+    await this.runLeader(name, source, (leader) => {
+      this.putLeader(leader);
+    });
   }
 
   private runSong(
@@ -169,17 +181,22 @@ export class FileLoader implements Files {
     return this.run({ side: 'song', name, read, done });
   }
 
+  /** @param source the leader's bytes and options, asked for when the reading begins */
   private runLeader(
-    source: LeaderSource,
+    name: string,
+    source: () => Promise<LeaderSource>,
     done: (leader: LoadedLeader) => void,
   ): Promise<LoadedLeader | null> {
-    const { name, files, options } = source;
+    let known: LeaderSource | null = null;
     const read = async (signal: AbortSignal): Promise<LoadedLeader> => {
+      known = await source();
+      signal.throwIfAborted();
+      const { files, options } = known;
       const { file, motion } = await this.readers.readLeader({ files, options }, signal);
-      return { ...source, file, motion };
+      return { ...known, file, motion };
     };
     const refused = (): void => {
-      apply(this.store, leaderRefused(source));
+      if (known) apply(this.store, leaderRefused(known));
     };
     return this.run({ side: 'leader', name, read, done, refused });
   }

@@ -162,7 +162,10 @@ describe('reading files', () => {
         });
       });
     const first = files.openLeader(source('first.bvh', '1234'));
+    await Promise.resolve();
     const second = files.openLeader(source('second.bvh', '12'));
+    await Promise.resolve();
+    expect(answers).toHaveLength(2);
     answers[1]?.();
     await second;
     answers[0]?.();
@@ -174,11 +177,25 @@ describe('reading files', () => {
     let fail: (error: Error) => void = () => undefined;
     readers.readLeader = () => new Promise((_, reject) => (fail = reject));
     const first = files.openLeader(source('first.bvh'));
+    await Promise.resolve();
     readers.readLeader = () => Promise.resolve({ file: leaderFile(3), motion: still(3) });
     await files.openLeader(source('second.bvh'));
     fail(new Error('too late'));
-    await first;
+    expect(await first).toBeNull();
     expect(store.getState()).toMatchObject({ problem: null, leader: { name: 'second.bvh' } });
+  });
+
+  it('a large file whose bytes come late does not replace a newer one', async () => {
+    let arrive = (): void => undefined;
+    const large = file('large.bvh', BVH);
+    const bytes = large.arrayBuffer();
+    large.arrayBuffer = () => new Promise((resolve) => (arrive = () => resolve(bytes)));
+    const first = files.open([large]);
+    await vi.waitFor(() => expect(store.getState().reading.leader?.name).toBe('large.bvh'));
+    await files.open([file('newer.bvh', BVH)]);
+    arrive();
+    await first;
+    expect(store.getState()).toMatchObject({ leader: { name: 'newer.bvh' }, reading: { leader: null } });
   });
 
   it('progress that comes after the result is ignored', async () => {
