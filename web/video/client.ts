@@ -12,7 +12,7 @@ import type { ReadReport, VideoMotion, VideoTasks } from './worker';
 export { BONES, DEFAULT_FOCAL };
 export type { Observations, Point, ReadReport, VideoMotion, WorldOptions };
 
-/** Reads one video in a worker of its own. */
+/** Reads one video in a worker of its own, which is replaced after a crash. */
 export interface VideoReader {
   /**
    * What is seen in all pictures of a video.
@@ -43,17 +43,27 @@ function crashed(reason: string): AppError {
 }
 
 export function createVideoReader(): VideoReader {
-  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'video' });
-  const connection = new WorkerConnection<VideoTasks>(worker, { toError: crashed });
+  let connection = connect();
+  let disposed = false;
+  const current = (): WorkerConnection<VideoTasks> => {
+    if (connection.ended && !disposed) connection = connect();
+    return connection;
+  };
   const graphs = new URL('models/pose/pose.json', document.baseURI).href;
   return {
     read: (file, pick, options, signal, onReport) =>
-      connection.call('read', { file, graphs, pick, options }, { signal, onReport }),
-    solve: (observations, options, signal) => connection.call('solve', { observations, options }, { signal }),
+      current().call('read', { file, graphs, pick, options }, { signal, onReport }),
+    solve: (observations, options, signal) => current().call('solve', { observations, options }, { signal }),
     dispose: () => {
+      disposed = true;
       connection.dispose();
     },
   };
+}
+
+function connect(): WorkerConnection<VideoTasks> {
+  const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'video' });
+  return new WorkerConnection<VideoTasks>(worker, { toError: crashed });
 }
 
 /** The pictures of a video in order, for drawing them beside something else. */
@@ -61,7 +71,7 @@ export interface Pictures {
   readonly width: number;
   readonly height: number;
   /**
-   * Draws the picture that is shown at a moment, seconds from the first picture; `draw` is not called where it is still
+   * Draws the picture that is shown at a moment, seconds of the video; `draw` is not called where it is still
    * the one that was drawn last. Moments ascend.
    */
   drawAt(seconds: number, draw: (picture: Picture) => void): Promise<void>;
