@@ -26,6 +26,8 @@ export type ErrorCode =
   | 'not-a-video'
   | 'sound-only'
   | 'video-codec'
+  | 'video-insecure'
+  | 'video-damaged'
   | 'video-too-long'
   | 'video-too-short'
   | 'video-black'

@@ -1,5 +1,12 @@
 /** Decodes the pictures of a video with their exact times. The only module that reads videos with mediabunny. */
-import { ALL_FORMATS, BlobSource, Input, type InputVideoTrack, VideoSampleSink } from 'mediabunny';
+import {
+  ALL_FORMATS,
+  BlobSource,
+  Input,
+  type InputTrack,
+  type InputVideoTrack,
+  VideoSampleSink,
+} from 'mediabunny';
 import { AppError } from '../common/error';
 import { type Picture, pictureOf } from './pose/picture';
 
@@ -10,15 +17,19 @@ const TOLERANCE = 0.25 / MAX_RATE;
 /** Longest video, seconds. */
 export const MAX_DURATION = 600;
 
+/** A video that is open. Its times are the file's own, seconds, as a <video> element counts them. */
 export interface VideoFile {
-  /** Seconds. */
-  readonly duration: number;
+  /** Time of the first picture: sound may begin before it. */
+  readonly start: number;
+  /** When the last picture ends. */
+  readonly end: number;
   readonly width: number;
   readonly height: number;
-  readonly hasSound: boolean;
+  /** When its sound begins, as the browser decodes it; null where it has none. */
+  readonly soundStart: number | null;
   /**
    * The pictures between two moments in order, at most 30 a second. Each is valid until the next one is asked for.
-   * @param from first moment, seconds from the first picture; `to`: last one
+   * @throws {AppError} `video-damaged` where a picture can't be decoded
    */
   pictures(from: number, to: number): AsyncGenerator<{ readonly time: number; readonly picture: Picture }>;
   /** Ends decoding. */
@@ -27,21 +38,23 @@ export interface VideoFile {
 
 /**
  * Opens a video.
- * @throws {AppError} `not-a-video`, `sound-only`, `video-codec`, `video-too-long`
+ * @throws {AppError} `not-a-video`, `sound-only`, `video-insecure`, `video-codec`, `video-too-long`
  */
 export async function openVideo(file: Blob): Promise<VideoFile> {
   const input = new Input({ formats: ALL_FORMATS, source: new BlobSource(file) });
   try {
     const track = await videoTrack(input);
-    const start = await track.getFirstTimestamp();
-    const duration = (await track.computeDuration()) - start;
-    if (duration > MAX_DURATION) throw tooLong(duration);
+    const start = await shownFrom(track);
+    const end = await track.computeDuration();
+    if (end - start > MAX_DURATION) throw tooLong(end - start);
+    const sound = await input.getPrimaryAudioTrack();
     return {
-      duration,
+      start,
+      end,
       width: await track.getDisplayWidth(),
       height: await track.getDisplayHeight(),
-      hasSound: (await input.getPrimaryAudioTrack()) !== null,
-      pictures: (from, to) => pictures(track, start, from, to),
+      soundStart: sound && (await shownFrom(sound)),
+      pictures: (from, to) => pictures(track, from, to),
       close: () => {
         input.dispose();
       },
@@ -50,6 +63,11 @@ export async function openVideo(file: Blob): Promise<VideoFile> {
     input.dispose();
     throw error;
   }
+}
+
+/** When a track begins to be played. What was cut off without a loss is still in the file, at times below 0. */
+async function shownFrom(track: InputTrack): Promise<number> {
+  return Math.max(0, await track.getFirstTimestamp());
 }
 
 async function videoTrack(input: Input): Promise<InputVideoTrack> {
@@ -65,6 +83,13 @@ async function videoTrack(input: Input): Promise<InputVideoTrack> {
       'sound-only',
       'This file holds sound and no pictures.',
       'Choose a video of a dancer, or use the file as the song.',
+    );
+  }
+  if (!('VideoDecoder' in globalThis) && !isSecureContext) {
+    throw new AppError(
+      'video-insecure',
+      'Videos can be read over https or on localhost only.',
+      'Open this page at an address that begins with https, or choose a motion file.',
     );
   }
   if (!(await track.canDecode().catch(() => false))) {
@@ -90,20 +115,24 @@ export function pictureChoice(): (time: number) => boolean {
 
 async function* pictures(
   track: InputVideoTrack,
-  start: number,
   from: number,
   to: number,
 ): AsyncGenerator<{ readonly time: number; readonly picture: Picture }> {
   const sink = new VideoSampleSink(track);
   const isRead = pictureChoice();
-  for await (const sample of sink.samples(start + from, start + to)) {
-    try {
-      const time = sample.timestamp - start;
-      if (!isRead(time)) continue;
-      yield { time, picture: pictureOf(sample) };
-    } finally {
-      sample.close();
+  let time = Math.max(0, from);
+  try {
+    for await (const sample of sink.samples(time, to)) {
+      try {
+        time = sample.timestamp;
+        if (time < 0 || !isRead(time)) continue;
+        yield { time, picture: pictureOf(sample) };
+      } finally {
+        sample.close();
+      }
     }
+  } catch (cause) {
+    throw damaged(time, cause);
   }
 }
 
@@ -113,6 +142,15 @@ function notAVideo(options?: ErrorOptions): AppError {
     'This file holds no video that could be read.',
     'Convert it to MP4, or choose another MP4, MOV, WebM or MKV file.',
     options,
+  );
+}
+
+function damaged(time: number, cause: unknown): AppError {
+  return new AppError(
+    'video-damaged',
+    `The video cannot be decoded after ${Math.max(0, time).toFixed(1)} s: it is damaged there.`,
+    'Copy or download it again, or cut out a part that plays, then choose that.',
+    { cause },
   );
 }
 

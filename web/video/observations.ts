@@ -6,7 +6,7 @@ export interface Observations {
   /** Size of the pictures, pixels. */
   readonly width: number;
   readonly height: number;
-  /** Seconds from the first picture, ascending. */
+  /** Seconds of the video, ascending. */
   readonly times: Float64Array;
   /** Presence of the person, 0 where they are not seen: their other numbers are 0 then. */
   readonly presence: Float32Array;

@@ -23,16 +23,17 @@ export interface ReadRequest {
   readonly options: Omit<WorldOptions, 'trim'>;
 }
 
-/** What happens while a video is being read. */
+/** What happens while a video is being read; times as in `VideoFile`. */
 export type ReadReport =
   /** Share of the networks that is downloaded, 0 to 1. */
   | { readonly kind: 'networks'; readonly fraction: number }
   | {
       readonly kind: 'opened';
-      readonly duration: number;
+      readonly start: number;
+      readonly end: number;
       readonly width: number;
       readonly height: number;
-      readonly hasSound: boolean;
+      readonly soundStart: number | null;
     }
   /** Several people, of whom one can be picked: about where each is, left, top, right and bottom in pixels. */
   | {
@@ -87,8 +88,8 @@ async function read(
 ): Promise<Observations> {
   const video = await openVideo(file);
   try {
-    const { duration, width, height, hasSound } = video;
-    void report({ kind: 'opened', duration, width, height, hasSound });
+    const { start, end, width, height, soundStart } = video;
+    void report({ kind: 'opened', start, end, width, height, soundStart });
     const graphs = await loadPoseGraphs(list, globalThis, (fraction) => {
       void report({ kind: 'networks', fraction });
     });
@@ -96,9 +97,9 @@ async function read(
     const recorder = new Recorder(width, height);
     const thumbnails = new Shrinker(width / height, THUMBNAIL_HEIGHT);
     const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
-    const isThumbnail = thumbnailTimes(duration);
+    const isThumbnail = thumbnailTimes(end - start);
     let reported = 0;
-    let nextPart = PART.first;
+    let nextPart = start + PART.first;
     // Who was picked is not asked about again.
     let asked = pick !== null;
     for await (const { time, picture } of video.pictures(0, Infinity)) {
@@ -116,7 +117,7 @@ async function read(
         void report({ kind: 'picture', time, landmarks, image: shown.of(picture) });
       }
       if (time >= nextPart) {
-        nextPart *= PART.growth;
+        nextPart = start + PART.growth * (nextPart - start);
         const motion = motionSoFar(recorder.observations(), options);
         if (motion) void report({ kind: 'part', motion });
       }

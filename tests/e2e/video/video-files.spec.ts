@@ -28,6 +28,7 @@ async function refusedVideos(browser: Browser): Promise<Readonly<Record<string, 
         content.writeUInt32BE(720 * timescale, 12 + 8 * entry);
     }),
     'not-a-video': mp4.subarray(0, 40),
+    'video-damaged': patched(mp4, 'mdat', (content) => content.fill(0xff)),
   };
   await studio.close();
   return refused;
@@ -51,6 +52,43 @@ test('a video that cannot be a leader is a sentence, and the leader stays', asyn
     await page.keyboard.press('Escape');
     await expect(app.alert).toBeHidden();
   }
+});
+
+test('a video in which the sound begins first stays in step with it, and is shown in step', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const format = { container: 'webm', sound: true, begin: 1 } as const;
+  const buffer = Buffer.from(await studio.call('film', 'walking', SHOT, 2, format), 'base64');
+  await studio.close();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'late.webm', mimeType: 'video/webm', buffer });
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
+  await panel.getByRole('button', { name: 'Use its sound as the song' }).click();
+  await app.until(({ song, reading }) => song?.name === 'late.webm' && !reading.song);
+  // A second of it is over when the dance begins.
+  await app.until(({ shift }) => Math.abs(shift + 30) <= 3);
+  const video = panel.locator('video');
+  await expect.poll(() => video.evaluate((one: HTMLVideoElement) => one.currentTime)).toBeCloseTo(1, 1);
+  // The part that is used is given in the video's own time, and stays when the video is read again.
+  await panel.getByText('Correct the motion').click();
+  await expect(panel.getByLabel('Use from')).toHaveValue('1');
+  await expect(panel.getByLabel('Use to')).toHaveValue('3');
+});
+
+test('what was cut off a video without a loss is not danced', async ({ browser }) => {
+  const studio = await openStudio(browser);
+  const seen = async (begin: number) =>
+    studio.call('read', await studio.call('film', 'walking', SHOT, 2, { container: 'mp4', begin }));
+  const [all, rest] = [await seen(0), await seen(-0.5)];
+  await studio.close();
+  expect(all.times).toHaveLength(24);
+  expect(rest.times).toHaveLength(18);
+  expect(rest.times[0]).toBeCloseTo(0, 3);
 });
 
 test('rotated pictures, MOV and uneven times at up to 120 pictures a second are read', async ({

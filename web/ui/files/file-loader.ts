@@ -99,6 +99,11 @@ export class FileLoader implements Files {
     this.retry[kind]?.();
   };
 
+  fail(error: unknown, side: InputKind, name: string, again: () => void): void {
+    this.retry[side] = again;
+    apply(this.store, problemShown(fileProblem(error, side, name)));
+  }
+
   cancel(side: InputKind): void {
     if (side === 'leader') this.otherLeaders.cancel();
     if (!this.running[side]) return;
@@ -226,9 +231,8 @@ export class FileLoader implements Files {
       if (controller.signal.aborted || isAbort(error)) return null;
       running[side] = null;
       this.endReading(side);
-      this.retry[side] = () => void this.run(task);
       refused?.();
-      apply(store, problemShown(fileProblem(error, side, name)));
+      this.fail(error, side, name, () => void this.run(task));
       return null;
     }
   }

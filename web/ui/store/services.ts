@@ -39,6 +39,8 @@ export interface Files {
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;
+  /** Says that a song or leader could not be read; `again` is what trying again does where the page has failed. */
+  readonly fail: (error: unknown, side: InputKind, name: string, again: () => void) => void;
   /** Ends the reading of a song or leader that is no longer wanted. */
   readonly cancel: (side: InputKind) => void;
   /** Reads a leader again that was loaded or refused, with other options. */

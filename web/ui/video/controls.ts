@@ -3,10 +3,15 @@ import { el } from '../widgets/dom';
 
 export interface Controls {
   readonly root: HTMLElement;
-  /** @param seconds length of the video */
-  readonly setDuration: (seconds: number) => void;
+  /** @param span all of the video, seconds; a part of it that was chosen stays when the video is read again */
+  readonly setSpan: (span: Span) => void;
   /** @param camera where it was, as the motion has it */
   readonly setCamera: (camera: VideoMotion['camera']) => void;
+}
+
+interface Span {
+  readonly start: number;
+  readonly end: number;
 }
 
 /** Time after the last change before the motion is made anew. */
@@ -17,14 +22,14 @@ const FOCAL = { min: 0.3, max: 6 };
 
 /** Corrections of a motion from a video: height of the dancer, distance of the camera, and the part that is used. */
 export function createControls(change: (options: Partial<WorldOptions>) => void): Controls {
-  let duration = 0;
+  let all: Span | null = null;
   let camera: VideoMotion['camera'] | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
   const later = (): void => {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const [from, to] = [start.valueAsNumber, end.valueAsNumber];
-      const trim = from > 0 || to < duration ? { start: from, end: to } : null;
+      const trim = all && (from > all.start || to < all.end) ? { start: from, end: to } : null;
       const tall = height.valueAsNumber / 100;
       const focal = focalFor(distance.valueAsNumber);
       if ([from, to, tall, focal].every(Number.isFinite) && from < to) change({ height: tall, focal, trim });
@@ -55,9 +60,11 @@ export function createControls(change: (options: Partial<WorldOptions>) => void)
   );
   return {
     root,
-    setDuration: (seconds) => {
-      duration = Math.ceil(seconds * 10) / 10;
-      end.value = String(duration);
+    setSpan: (span) => {
+      if (all) return;
+      all = { start: Math.floor(span.start * 10) / 10, end: Math.ceil(span.end * 10) / 10 };
+      start.value = String(all.start);
+      end.value = String(all.end);
     },
     setCamera: (found) => {
       camera = found;

@@ -1,8 +1,6 @@
+import { loadPart } from '../../common/page-part';
 import type { Files, Services } from '../store/services';
 import type { Store } from '../store/store';
-import { apply } from '../store/store';
-import { problemShown } from '../store/actions/notices';
-import { fileProblem } from '../store/problems';
 import type { VideoTrack } from './video-lane';
 import type { VideoLeader } from './video-leader';
 
@@ -23,34 +21,41 @@ export interface VideoFeature {
  */
 export function createVideoFeature(
   store: Store,
-  files: () => Pick<Files, 'openLeader' | 'openSong'>,
+  files: () => Pick<Files, 'openLeader' | 'openSong' | 'fail'>,
   host: () => HTMLElement,
   playback: Pick<Services, 'seek' | 'togglePlay'>,
   track: VideoTrack,
 ): VideoFeature {
   let leader: VideoLeader | null = null;
+  /** Aborted when a newer leader has been asked for, also while what reads videos is still being loaded. */
+  let asked = new AbortController();
   const load = async (): Promise<VideoLeader> => {
-    if (leader) return leader;
-    const module = await import('./video-leader');
-    return (leader ??= new module.VideoLeader(store, files(), host(), track));
+    const { VideoLeader } = await loadPart(() => import('./video-leader'));
+    return (leader ??= new VideoLeader(store, files(), host(), track));
   };
-  return {
-    open: async (file) => {
-      try {
-        await (await load()).open(file, false);
-      } catch (error) {
-        apply(store, problemShown(fileProblem(error, 'leader', file.name)));
-      }
-    },
-    cancel: () => leader?.cancel(),
-    record: async () => {
-      try {
-        const [videoLeader, { recordCamera }] = await Promise.all([load(), import('./camera-dialog')]);
-        const file = await recordCamera(host(), store, playback);
-        if (file) await videoLeader.open(file, store.getState().song !== null);
-      } catch (error) {
-        apply(store, problemShown(fileProblem(error, 'leader', 'The camera')));
-      }
-    },
+  const cancel = (): void => {
+    asked.abort();
+    leader?.cancel();
   };
+  const open = async (file: File, songStart: number | null = null): Promise<void> => {
+    cancel();
+    const { signal } = (asked = new AbortController());
+    try {
+      const videoLeader = await load();
+      if (!signal.aborted) await videoLeader.open(file, songStart);
+    } catch (error) {
+      if (!signal.aborted) files().fail(error, 'leader', file.name, () => void open(file, songStart));
+    }
+  };
+  const record = async (): Promise<void> => {
+    try {
+      const { recordCamera } = await loadPart(() => import('./camera-dialog'));
+      const file = await recordCamera(host(), store, playback);
+      // The song plays from the moment at which the recording begins.
+      if (file) await open(file, store.getState().song ? 0 : null);
+    } catch (error) {
+      files().fail(error, 'leader', 'The camera', () => void record());
+    }
+  };
+  return { open, cancel, record };
 }

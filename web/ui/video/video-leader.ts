@@ -11,11 +11,10 @@ import {
 import { AppError } from '../../common/error';
 import { readLeader } from '../../motion/client';
 import { FPS } from '../../motion/skeleton/clip';
-import { problemShown } from '../store/actions/notices';
 import { shiftSet } from '../store/actions/timeline';
 import { stageCovered } from '../store/actions/view';
 import { firstVisitEnded } from '../store/actions/files';
-import { fileProblem, isAbort } from '../store/problems';
+import { isAbort } from '../store/problems';
 import type { LeaderSource } from '../store/reaction';
 import type { Files } from '../store/services';
 import { apply, watch, watchAll, type Store } from '../store/store';
@@ -35,8 +34,10 @@ interface Session {
   readonly ended: AbortController;
   /** The video whose dancer is the leader until this one has been read; it is shown again if that fails. */
   before: Session | null;
-  /** Whether the song starts with the video: it played while that was recorded, or is its sound. */
-  songOfVideo: boolean;
+  /** When the video's sound begins, seconds of the video; null where it has none. */
+  soundStart: number | null;
+  /** The same of the page's song; null where that is neither the sound nor played while the video was recorded. */
+  songStart: number | null;
   observations: Observations | null;
   options: WorldOptions;
   motion: VideoMotion | null;
@@ -54,15 +55,15 @@ export class VideoLeader {
 
   constructor(
     private readonly store: Store,
-    private readonly files: Pick<Files, 'openLeader' | 'openSong'>,
+    private readonly files: Pick<Files, 'openLeader' | 'openSong' | 'fail'>,
     private readonly host: HTMLElement,
     private readonly track: VideoTrack,
   ) {
     this.#part = new PartPlayer(store);
   }
 
-  /** @param songOfVideo whether the page's song played while the video was recorded */
-  async open(file: File, songOfVideo: boolean): Promise<void> {
+  /** @param songStart when the page's song begins in the video, seconds; null where it was not recorded to it */
+  async open(file: File, songStart: number | null): Promise<void> {
     const { store } = this;
     const before = this.#putAside();
     apply(store, firstVisitEnded());
@@ -72,7 +73,8 @@ export class VideoLeader {
       reader: createVideoReader(),
       ended,
       before,
-      songOfVideo,
+      soundStart: null,
+      songStart,
       observations: null,
       options: { height: DEFAULT_HEIGHT, focal: DEFAULT_FOCAL, trim: null },
       motion: null,
@@ -123,18 +125,20 @@ export class VideoLeader {
           part.abort();
           part = new AbortController();
           void this.#showPart(session, report.motion, AbortSignal.any([signal, part.signal]));
-        } else panel.showReport(report);
+        } else {
+          if (report.kind === 'opened') session.soundStart = report.soundStart;
+          panel.showReport(report);
+        }
       };
       const observations = await reader.read(file, pick, session.options, signal, onReport);
-      session.observations = observations;
       session.thumbnails = thumbnails;
-      await this.#solve(session, session.options);
+      await this.#solve(session, session.options, observations);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
-      this.#endReading(session);
-      if (error instanceof AppError && error.code === 'sound-only')
+      if (error instanceof AppError && error.code === 'sound-only') {
+        this.#endReading(session);
         await this.files.openSong(file, file.name, null);
-      else apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+      } else this.#fail(session, error, () => void this.#read(session, pick));
     } finally {
       if (this.#reading === reading) this.#reading = null;
     }
@@ -151,29 +155,40 @@ export class VideoLeader {
   }
 
   /** Makes the motion with these options and puts it on the page as the leader. */
-  async #solve(session: Session, options: WorldOptions): Promise<void> {
-    const { observations, reader, file, panel, ended, motion: before } = session;
+  async #solve(session: Session, options: WorldOptions, observations = session.observations): Promise<void> {
+    const { store } = this;
+    const { reader, file, ended, motion: before } = session;
     session.options = options;
     if (!observations) return;
     try {
       const motion = await reader.solve(observations, options, ended.signal);
       // A newer choice is being computed.
       if (session.options !== options) return;
+      session.observations = observations;
       session.motion = motion;
-      panel.showMotion(observations, motion);
-      this.#showLane(session);
-      const { shift } = this.store.getState();
+      this.#showRead(session);
+      const { shift } = store.getState();
       await this.files.openLeader(sourceOf(file, motion.bvh));
       if (session.before) this.#end(session.before);
-      const moved = before ? shift + (before.start - motion.start) * FPS : -motion.start * FPS;
-      if (before ? shift !== 0 || session.songOfVideo : session.songOfVideo)
-        apply(this.store, shiftSet(moved));
+      if (before && (shift !== 0 || session.songStart !== null))
+        apply(store, shiftSet(shift + (before.start - motion.start) * FPS));
+      else this.#alignSong(session);
     } catch (error) {
       if (ended.signal.aborted || isAbort(error)) return;
-      apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
+      this.#fail(session, error, () => void this.#solve(session, options, observations));
     } finally {
       this.#part.end();
     }
+  }
+
+  /** Goes back to what was there before and says why; a video that closes by that is opened anew to try again. */
+  #fail(session: Session, error: unknown, again: () => void): void {
+    const { file, songStart, ended } = session;
+    this.#endReading(session);
+    this.files.fail(error, 'leader', file.name, () => {
+      if (ended.signal.aborted) void this.open(file, songStart);
+      else again();
+    });
   }
 
   /** The video on the timeline, as far as it is read. */
@@ -185,9 +200,14 @@ export class VideoLeader {
   async #useSound(session: Session): Promise<void> {
     const song = await this.files.openSong(session.file, session.file.name, null);
     if (!song) return;
-    session.songOfVideo = true;
+    session.songStart = session.soundStart;
     session.panel.showSoundUsed();
-    if (session.motion) apply(this.store, shiftSet(-session.motion.start * FPS));
+    this.#alignSong(session);
+  }
+
+  /** Starts a song that belongs to the video at its moment of the dance. */
+  #alignSong({ songStart, motion }: Session): void {
+    if (songStart !== null && motion) apply(this.store, shiftSet((songStart - motion.start) * FPS));
   }
 
   /** Keeps the video in step with the dance; closes it when another leader takes the place of its dancer. */
@@ -229,7 +249,7 @@ export class VideoLeader {
     this.#part.end();
     const { before } = session;
     this.#session = before;
-    if (!before || !this.#showAgain(before)) this.track.set(null);
+    if (!before || !this.#showRead(before)) this.track.set(null);
   }
 
   #cancelReading(session: Session): void {
@@ -239,15 +259,17 @@ export class VideoLeader {
 
   /** After a reading that brought nothing: shows the person who was followed before; the video closes if there is none. */
   #endReading(session: Session): void {
-    if (this.#showAgain(session)) this.#part.end();
+    if (this.#showRead(session)) this.#part.end();
     else this.#end(session);
   }
 
-  /** Shows what was read of a video before; false where nothing was. */
-  #showAgain(session: Session): boolean {
+  /** Shows what was read of a video; false where nothing was. */
+  #showRead(session: Session): boolean {
     const { observations, motion, panel } = session;
     if (!observations || !motion) return false;
     panel.showMotion(observations, motion);
+    // The moment that is shown may stay the same, and nothing would move the video there.
+    panel.showTime(this.store.getState().playback, motion.start);
     this.#showLane(session);
     return true;
   }

@@ -34,7 +34,7 @@ export class VideoPanel {
   readonly #advice = el('ul', { class: 'notes', attributes: { 'aria-label': 'What to film better' } });
   readonly #controls: Controls;
   readonly #giveBackFocus = rememberFocus();
-  #duration = 0;
+  #span = { start: 0, end: 0 };
   #begun = 0;
   #part = 0;
   #hasSound = false;
@@ -87,10 +87,10 @@ export class VideoPanel {
   showReport(report: Exclude<ReadReport, { kind: 'thumbnail' | 'part' }>): void {
     switch (report.kind) {
       case 'opened':
-        this.#duration = report.duration;
-        this.#hasSound = report.hasSound;
+        this.#span = report;
+        this.#hasSound = report.soundStart !== null;
         this.#picture.setSize(report.width, report.height);
-        this.#controls.setDuration(report.duration);
+        this.#controls.setSpan(report);
         return;
       case 'networks':
         setText(this.#status, `Loading what finds the dancer, ${Math.round(100 * report.fraction)} %`);
@@ -109,11 +109,13 @@ export class VideoPanel {
   #showProgress(time: number): void {
     const now = performance.now();
     if (this.#begun === 0) this.#begun = now;
-    const share = this.#duration > 0 ? Math.min(1, time / this.#duration) : 0;
+    const { start, end } = this.#span;
+    const [read, all] = [time - start, end - start];
+    const share = all > 0 ? Math.min(1, read / all) : 0;
     this.#progress(share);
     if (this.#picture.choosing) return;
     const left = share > 0.02 ? ((now - this.#begun) / 1000) * (1 / share - 1) : null;
-    const seen = `${time.toFixed(0)} of ${this.#duration.toFixed(0)} s`;
+    const seen = `${read.toFixed(0)} of ${all.toFixed(0)} s`;
     const progress = left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`;
     setText(
       this.#status,

@@ -55,6 +55,8 @@ export interface VideoFormat {
   readonly uneven?: boolean;
   /** Whether a knock is heard every half second. */
   readonly sound?: boolean;
+  /** Time of the first picture, seconds; the sound begins at 0. What is before 0 is cut off in MP4, and still there. */
+  readonly begin?: number;
 }
 
 const CONTAINERS = {
@@ -78,7 +80,7 @@ export async function written(
     readonly rotation?: Rotation;
     readonly bitrate?: number;
   },
-  { container, uneven = false, sound = false }: VideoFormat,
+  { container, uneven = false, sound = false, begin = 0 }: VideoFormat,
 ): Promise<Blob> {
   const target = new BufferTarget();
   const output = new Output({ format: CONTAINERS[container](), target });
@@ -91,13 +93,13 @@ export async function written(
   const knocks = new AudioBufferSource({ codec: 'opus', bitrate: 64_000 });
   if (sound) output.addAudioTrack(knocks);
   await output.start();
-  if (sound) await knocks.add(knocking(seconds));
+  if (sound) await knocks.add(knocking(begin + seconds));
   const frames = Math.round(seconds * fps);
   const moment = (frame: number): number =>
     (frame + (uneven && frame > 0 && frame < frames ? 0.4 * Math.sin(1.7 * frame) : 0)) / fps;
   for (let frame = 0; frame < frames; frame++) {
     draw(moment(frame));
-    await source.add(moment(frame), moment(frame + 1) - moment(frame));
+    await source.add(begin + moment(frame), moment(frame + 1) - moment(frame));
   }
   await output.finalize();
   return new Blob([target.buffer!], { type: `video/${container === 'mov' ? 'quicktime' : container}` });

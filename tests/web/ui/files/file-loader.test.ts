@@ -138,6 +138,17 @@ describe('reading files', () => {
     await vi.waitFor(() => expect(store.getState().leader?.name).toBe('good.bvh'));
   });
 
+  it('what failed last is read again, also where another part of the page reads it', async () => {
+    readers.readLeader = () => Promise.reject(new AppError('bad-number', 'Line 3.', 'Export it again.'));
+    await files.open([file('older.bvh', BVH)]);
+    change.apply(store, change.problemClosed());
+    const again = vi.fn();
+    files.fail(new AppError('worker-crashed', 'The video stopped.', 'Try again.'), 'leader', 'a.mov', again);
+    expect(store.getState().problem).toMatchObject({ remedy: 'read-again', refused: { name: 'a.mov' } });
+    files.readAgain('leader');
+    expect(again).toHaveBeenCalledOnce();
+  });
+
   it.each([
     ['empty.bvh', '', 'empty-file'],
     ['tax.pdf', '%PDF', 'unknown-file'],
