@@ -1,5 +1,5 @@
 import { J, JOINT_COUNT, PARENTS } from '../../motion/skeleton/skeleton';
-import type { Vec3 } from './field';
+import type { Vec3 } from '../../motion/math/vec3';
 
 /** Joints of the pose in which the body is meshed and bound: an A-pose instead of the skeleton's T-pose. */
 export interface BindPose {

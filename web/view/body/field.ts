@@ -3,8 +3,7 @@
  * Distances are in metres, negative inside. Solids with elliptic sections give a bound that is exact at the surface
  * and of the right order around it, which is what the mesher needs.
  */
-
-export type Vec3 = readonly [x: number, y: number, z: number];
+import { cross, direction, length, sub, type Vec3 } from '../../motion/math/vec3';
 
 /** Distance from a point to a surface. */
 export type Field = (x: number, y: number, z: number) => number;
@@ -21,18 +20,8 @@ export interface Station {
   readonly shift?: number;
 }
 
-export const sub = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-export const add = (a: Vec3, b: Vec3): Vec3 => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-export const scale = (a: Vec3, s: number): Vec3 => [a[0] * s, a[1] * s, a[2] * s];
-export const mix = (a: Vec3, b: Vec3, t: number): Vec3 => add(a, scale(sub(b, a), t));
-export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const length = (a: Vec3): number => Math.hypot(a[0], a[1], a[2]);
-export const cross = (a: Vec3, b: Vec3): Vec3 => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
-export const unit = (a: Vec3): Vec3 => scale(a, 1 / (length(a) || 1));
+/** Unit vector along `a`; of no length where `a` has none. */
+export const unit = (a: Vec3): Vec3 => direction(a, a);
 
 const clamp01 = (t: number): number => (t < 0 ? 0 : t > 1 ? 1 : t);
 /** 0 below `from`, 1 above `to`, between them the cubic 3t² - 2t³. */

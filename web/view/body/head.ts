@@ -1,6 +1,7 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { boneSegment, gradual } from './bone-segment';
-import { add, ellipsoid, limb, scale, smoothCut, smoothUnion, type Vec3 } from './field';
+import { add, scale, type Vec3 } from '../../motion/math/vec3';
+import { ellipsoid, limb, smoothCut, smoothUnion } from './field';
 import { ball, halfBuildScale, movedBy, type BodyPlan, type Part } from './part';
 
 const SIDEWAYS: Vec3 = [1, 0, 0];

@@ -1,15 +1,5 @@
-import {
-  ellipsoid,
-  limb,
-  length,
-  smoothUnion,
-  mix,
-  sub,
-  type Field,
-  type LimbShape,
-  type Station,
-  type Vec3,
-} from './field';
+import { length, lerp, sub, type Vec3 } from '../../motion/math/vec3';
+import { ellipsoid, limb, smoothUnion, type Field, type LimbShape, type Station } from './field';
 
 /** Build of a dancer: roles differ in breadth, never in sex. */
 export interface Build {
@@ -64,7 +54,7 @@ export const limbPart = (shape: LimbShape, blend: Blend, weights: Part['weights'
   field: limb(shape),
   bounds: [
     {
-      centre: mix(shape.from, shape.to, 0.5),
+      centre: lerp(shape.from, shape.to, 0.5),
       radius:
         length(sub(shape.to, shape.from)) / 2 +
         Math.max(...shape.stations.map((s) => Math.max(s.wide, s.deep ?? 0) + Math.abs(s.shift ?? 0))),

@@ -1,7 +1,8 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { shoulderCentre } from './arm';
 import { blendWeights, boneSegment, gradual, jointOf } from './bone-segment';
-import { add, length, scale, smoothstep, sub, type Vec3 } from './field';
+import { add, length, scale, sub, type Vec3 } from '../../motion/math/vec3';
+import { smoothstep } from './field';
 import { limbPart, scaledToBuild, type BodyPlan, type Part, type Side } from './part';
 
 /**

@@ -11,6 +11,7 @@ import { pickDancer, pickFirstDancer } from '../../retarget/dancers';
 import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
 import { ALL_UNITS, type AxisName } from '../../retarget/axes-and-units';
 import type { LocalPoses, MotionSource } from '../../retarget/source';
+import { keyBefore } from '../../math/key-before';
 
 /** Ticks of FBX in a second. */
 const TICKS = 46_186_158_000;
@@ -47,17 +48,13 @@ function orderedModels({ models, parents }: FbxScene): Model[] {
 
 /** The value of a curve at a time in ticks, linear between its keys.  */
 function valueAt({ times, values }: Curve, time: number): number {
-  let [low, high] = [0, times.length - 1];
-  if (time <= times[low]!) return values[low]!;
-  if (time >= times[high]!) return values[high]!;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (times[middle]! <= time) low = middle;
-    else high = middle;
-  }
-  const span = times[high]! - times[low]!;
-  const share = span > 0 ? (time - times[low]!) / span : 0;
-  return values[low]! + (values[high]! - values[low]!) * share;
+  const last = times.length - 1;
+  if (time <= times[0]!) return values[0]!;
+  if (time >= times[last]!) return values[last]!;
+  const key = keyBefore(times, time);
+  const span = times[key + 1]! - times[key]!;
+  const share = span > 0 ? (time - times[key]!) / span : 0;
+  return values[key]! + (values[key + 1]! - values[key]!) * share;
 }
 
 interface Timing {

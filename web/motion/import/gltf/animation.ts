@@ -2,6 +2,7 @@ import { readAccessor } from './accessor';
 import { damagedGltf, type Gltf, type GltfFile } from './container';
 import { ASSUMED_FPS, nearestRate } from '../../retarget/frame-rate';
 import { normaliseQuat, type Quat, slerp } from '../../math/quat';
+import { keyBefore } from '../../math/key-before';
 
 /** Values of one property of a node over time. */
 interface Track {
@@ -74,14 +75,11 @@ export function valueAt(track: Track, time: number): number[] {
   };
   // The middle of the three values of a key of a cubic spline; the others are its tangents.
   const value = (key: number): number[] => row(key, 1);
-  let [low, high] = [0, times.length - 1];
-  if (time <= times[low]!) return value(low);
-  if (time >= times[high]!) return value(high);
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (times[middle]! <= time) low = middle;
-    else high = middle;
-  }
+  const last = times.length - 1;
+  if (time <= times[0]!) return value(0);
+  if (time >= times[last]!) return value(last);
+  const low = keyBefore(times, time);
+  const high = low + 1;
   const span = times[high]! - times[low]!;
   const t = span > 0 ? (time - times[low]!) / span : 0;
   if (interpolation === 'STEP') return value(times[high]! - time < TIME_ROUNDING ? high : low);
