@@ -58,8 +58,9 @@ class Options:
     checkpoint: Path | None = None
     """Folder with hfsq and denoiser weights."""
     val: tuple[str, ...] = ()
+    """Names of the duets that chose the model; DD100 has its own."""
     test: tuple[str, ...] = ()
-    """Names of duets that chose the model and of those that were kept for the end; DD100 has its own."""
+    """Names of the duets that were kept for the end; DD100 has its own."""
     measure: Literal["test", "val"] = "test"
     """Which of the two to measure: choose models by val, report on test."""
     songs: Path | None = None

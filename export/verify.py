@@ -42,8 +42,11 @@ BLOCKS = (1, 2, 9, 75)
 @dataclass(frozen=True)
 class Options:
     checkpoint: Path
+    """Folder with hfsq and denoiser weights, which the model was exported from."""
     model: Path
+    """Folder of the exported model."""
     blocks: tuple[int, ...] = BLOCKS
+    """Lengths of the dances that are compared, in blocks."""
 
 
 def differences(truth: dict[str, np.ndarray], exported: Exported, scene: Scene) -> dict[str, float]:

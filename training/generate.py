@@ -29,23 +29,29 @@ from training.evaluation.report.filmstrip import filmstrip
 from training.music.features import features, load_audio
 from training.music.recipe import AudioRecipe
 
-STEERING = ("steps", "coarse", "fine", "music_guidance", "variety")
+SAMPLING_OPTIONS = ("steps", "coarse", "fine", "music_guidance", "variety")
 
 
 @dataclass(frozen=True)
 class Options:
     checkpoint: Path
+    """Folder of a checkpoint."""
     leader: Path
     """A BVH file, the leader.npy of an earlier dance, or any source of duets (then name the duet)."""
     out: Path
     """Folder for the motions and filmstrips."""
     duet: str | None = None
+    """Name of the duet whose leader is taken, where --leader holds several."""
     song: Path | None = None
+    """An audio file; without one the dance has no music."""
     seeds: tuple[int, ...] = (1204,)
+    """One dance is made of each."""
     steps: int | None = None
+    """How often the denoiser predicts; the model's default when left out."""
     coarse: float | None = None
     """Guidance of the coarse layer, Eq. 9's s; the model's default when left out."""
     fine: float | None = None
+    """Guidance of the fine layer; the model's default when left out."""
     music_guidance: float | None = None
     """Guidance weight of the music; the model's default when left out."""
     variety: float | None = None
@@ -92,7 +98,7 @@ def load_generator(options: Options) -> Generate:
     Raises ValueError for a weight that the checkpoint would ignore, and FileNotFoundError.
     """
     if (options.checkpoint / "baseline.json").exists():
-        given = [name for name in STEERING if getattr(options, name) is not None]
+        given = [name for name in SAMPLING_OPTIONS if getattr(options, name) is not None]
         if given:
             flags = ", ".join(f"--{name.replace('_', '-')}" for name in given)
             raise ValueError(

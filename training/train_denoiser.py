@@ -1,4 +1,4 @@
-"""Stage 2: train the denoiser on the latents of a frozen HFSQ (paper 3.3 to 3.5).
+"""Trains stage 2, the denoiser, on the latents of a frozen HFSQ (paper 3.3 to 3.5).
 
 python -m training.train_denoiser --data my-duets --val duo_3 --test duo_5 --out runs/mine
 """

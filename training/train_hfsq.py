@@ -1,4 +1,4 @@
-"""Stage 1: train the HFSQ autoencoder (paper 3.2).
+"""Trains stage 1, the HFSQ autoencoder (paper 3.2).
 
 python -m training.train_hfsq --data my-duets --val duo_3 --test duo_5 --out runs/mine
 """

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -32,6 +34,22 @@ def test_what_the_project_finds_wrong_is_one_sentence(
     with pytest.raises(SystemExit):
         run_program(lambda options: None, Options)
     assert "--music-guidance weighs a song" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("module", "words"),
+    [
+        ("training.train_hfsq", "Trains stage 1, the HFSQ autoencoder"),
+        ("training.experiments", "Repeat a table"),
+    ],
+)
+def test_help_begins_with_a_call_that_runs_and_says_what_the_program_does(module: str, words: str) -> None:
+    call = [sys.executable, "-m", module, "--help"]
+    said = subprocess.run(
+        call, check=True, capture_output=True, text=True, env=os.environ | {"COLUMNS": "120"}
+    ).stdout
+    assert f"usage: python -m {module} " in said
+    assert words in said
 
 
 @pytest.mark.parametrize("error", [ValueError, RuntimeError, TypeError])

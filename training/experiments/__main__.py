@@ -41,8 +41,9 @@ class Options:
     data: Path
     """npz archive of duets, a folder of BVH pairs, or a DD100 root."""
     val: tuple[str, ...]
+    """Names of duets that are neither trained on nor measured."""
     test: tuple[str, ...]
-    """Names of duets that are never trained on; those of --test are measured."""
+    """Names of the duets that are measured, and never trained on."""
     out: Path = Path("runs/experiments")
     """Folder of trainings, measurements and tables."""
     checkpoint: Path | None = None

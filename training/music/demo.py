@@ -149,8 +149,6 @@ def demo_song(tempo: Tempo, cycles: int, seed: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Options:
-    """The demo song."""
-
     out: Path = field(default=Path("web/public/demo/song.mp3"))
     bpm: float = 164.0
     cycles: int = 11

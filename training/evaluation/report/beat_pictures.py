@@ -65,8 +65,6 @@ def draw(duet: Duet, tempo: Tempo, path: Path) -> None:
 
 @dataclass(frozen=True)
 class Options:
-    """Pictures of foot plants against beats."""
-
     duets: Path
     val: tuple[str, ...] = ()
     test: tuple[str, ...] = ()
