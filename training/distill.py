@@ -25,7 +25,8 @@ from training.diffusion.guidance import clamp_to_range
 from training.diffusion.model import Model
 from training.diffusion.sampler import extrapolated_ddim
 from training.diffusion.schedule import Step, alphas_cumprod, ddim_steps
-from training.loop import Run, launch, read_duets_to_train
+from training.loop.options import read_duets_to_train
+from training.loop.run import Run, launch
 from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
 
 LAYER_WEIGHTS = (1.0, 0.5)

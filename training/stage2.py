@@ -16,7 +16,7 @@ from training.diffusion.model import Model
 from training.diffusion.react import Request, react
 from training.evaluation.metrics import mean_report, quick_report
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import WindowOptions
+from training.loop.options import WindowOptions
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -31,7 +31,8 @@ from training.diffusion.model import Model
 from training.diffusion.react import at_height
 from training.diffusion.schedule import add_noise, alphas_cumprod, ddim_steps, stratified_timesteps
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import Run, launch, read_duets_to_train
+from training.loop.options import read_duets_to_train
+from training.loop.run import Run, launch
 from training.motion.skeleton import body_height
 from training.stage2 import ClipOptions, duet_clips, music_of, solo_clips, validate
 

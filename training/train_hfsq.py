@@ -22,7 +22,8 @@ from training.hfsq.losses import stage1_loss
 from training.hfsq.reconstruct import reconstruct
 from training.hfsq.statistics import bins_used, set_input_statistics, set_latent_statistics
 from training.hfsq.windows import Clip, Streams, Windows, training_clips
-from training.loop import LoopOptions, Run, launch, read_duets_to_train
+from training.loop.options import LoopOptions, read_duets_to_train
+from training.loop.run import Run, launch
 
 
 @dataclass(frozen=True, kw_only=True)

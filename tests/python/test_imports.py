@@ -20,6 +20,7 @@ ALLOWED = {
     "diffusion": {"motion", "music", "hfsq", "denoiser"},
     "evaluation": {"motion", "music", "data", "hfsq", "checkpoint"},
     "checkpoints": {"checkpoint"},
+    "loop": {"data", "denoiser"},
     "baselines": {"motion", "music", "data", "hfsq", "denoiser", "diffusion", "checkpoint", "loop"},
     "experiments": {"data", "hfsq", "diffusion", "evaluation", "baselines", "checkpoint"},
 }

@@ -35,7 +35,7 @@ from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
 from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
-from training.loop import Run, fast_precision
+from training.loop.run import Run, fast_precision
 from training.motion.floor import put_on_floor
 
 

@@ -25,7 +25,8 @@ from training.denoiser.clips import augmented_clips, feature_values
 from training.denoiser.losses import decoded_windows
 from training.denoiser.windows import Batch, Windows
 from training.hfsq.autoencoder import Autoencoder
-from training.loop import Run, WindowOptions, launch, read_duets_to_train
+from training.loop.options import WindowOptions, read_duets_to_train
+from training.loop.run import Run, launch
 from training.motion.skeleton import body_height
 
 

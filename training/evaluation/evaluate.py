@@ -76,27 +76,11 @@ def evaluate(
     learn from.
     """
     settings = settings or Settings()
-    if not held_out:
-        raise ValueError("no held-out duet to evaluate on")
-    if (count := clip_count([i.duet.reactor for i in held_out])) < 2:
-        raise ValueError(
-            f"the held-out duets have {count} clips of {CLIP_FRAMES / FPS:g} s, one every {HOP_FRAMES / FPS:g} s, and "
-            "a FID needs two: hold out more or longer duets"
-        )
-    if not train:
-        raise ValueError(
-            "all duets are held out, and baselines learn from the others: name fewer with --val and --test"
-        )
+    _check_duets(held_out, train)
     drawn = list(solvers.values())[-1] if solvers else None
     log("generating")
     generated, seconds = generate_motions(generate, held_out, settings.seeds)
-    rows: dict[str, Motions] = {TRUTH: {i.duet.name: [i.duet.reactor] for i in held_out}}
-    rows |= dict(given or {}) | {GENERATED: generated}
-    for name, solve in (solvers or {}).items():
-        log(name)
-        rows[name] = {i.duet.name: solve(generated[i.duet.name], i.duet.leader) for i in held_out}
-    log("baselines")
-    rows |= baselines(held_out, train)
+    rows = _rows(held_out, train, dict(given or {}) | {GENERATED: generated}, solvers or {}, log)
 
     numbers: dict[str, Any] = {
         "trials": {i.duet.name: len(i.duet) for i in held_out},
@@ -142,6 +126,39 @@ def evaluate(
     seed = settings.seeds[0]
     coarse = {i.duet.name: [generate(i.duet.leader, i.music, seed, guidance=(0.0, -1.0))] for i in held_out}
     return Evaluation(numbers, {**rows, COARSE_ALONE: coarse}, swapped, dances)
+
+
+def _check_duets(held_out: Sequence[HeldOutDuet], train: Sequence[Duet]) -> None:
+    """Raises ValueError where there is too little to measure on or to learn from, see `evaluate`."""
+    if not held_out:
+        raise ValueError("no held-out duet to evaluate on")
+    if (count := clip_count([i.duet.reactor for i in held_out])) < 2:
+        raise ValueError(
+            f"the held-out duets have {count} clips of {CLIP_FRAMES / FPS:g} s, one every {HOP_FRAMES / FPS:g} s, and "
+            "a FID needs two: hold out more or longer duets"
+        )
+    if not train:
+        raise ValueError(
+            "all duets are held out, and baselines learn from the others: name fewer with --val and --test"
+        )
+
+
+def _rows(
+    held_out: Sequence[HeldOutDuet],
+    train: Sequence[Duet],
+    made: Mapping[str, Motions],
+    solvers: Mapping[str, Solver],
+    log: Log,
+) -> dict[str, Motions]:
+    """Motions of every row of the report: the truth, those that were made, the generated ones as each solver draws
+    them, and the baselines.
+    """
+    rows: dict[str, Motions] = {TRUTH: {i.duet.name: [i.duet.reactor] for i in held_out}, **made}
+    for name, solve in solvers.items():
+        log(name)
+        rows[name] = {i.duet.name: solve(made[GENERATED][i.duet.name], i.duet.leader) for i in held_out}
+    log("baselines")
+    return rows | baselines(held_out, train)
 
 
 def _probes(

@@ -17,7 +17,7 @@ from training.data.bvh.file import frame_rate, parse_bvh
 from training.data.bvh.reader import read_bvh, read_bvh_folder
 from training.data.bvh.rest_pose import rest_frames
 from training.data.sources import read_split
-from training.loop import read_duets_to_train
+from training.loop.options import read_duets_to_train
 from training.motion.floor import put_on_floor
 from training.motion.skeleton import JOINTS
 
