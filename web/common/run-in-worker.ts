@@ -5,7 +5,7 @@
 import { type Endpoint, expose, proxy, releaseProxy, type Remote, transfer, wrap } from 'comlink';
 import { AppError } from './error';
 import { explainedByVersion, pagePartMissing } from './page-part';
-import { type Patience, SilenceWatch } from './silence-watch';
+import { type Timeouts, Watchdog } from './watchdog';
 
 export interface TaskContext<Report> {
   /** Aborted when the page cancels this call. */
@@ -113,10 +113,10 @@ function handOver<T>(value: T): T {
 }
 
 /**
- * How long a worker with work may give no sign of life. No task holds its thread for more than three seconds without a
+ * How long a worker with work may be silent. No task holds its thread for more than three seconds without a
  * report (opening a graph is the longest), so this leaves room for machines that are twenty times slower.
  */
-const PATIENCE: Patience = { first: 60, next: 60 };
+const WORKER_TIMEOUTS: Timeouts = { first: 60, next: 60 };
 
 /**
  * Hands the reports of a call on until it ends. The port that they come through may outlive the call, so it holds
@@ -144,7 +144,7 @@ class Reports {
 interface ConnectionOptions {
   /** Makes the error of a crash, given its reason in the browser's words. */
   readonly toError?: ((reason: string) => Error) | undefined;
-  readonly patience?: Patience | undefined;
+  readonly timeouts?: Timeouts | undefined;
 }
 
 /** A worker that answers many calls, until it crashes, falls silent or is disposed of. */
@@ -159,17 +159,17 @@ export class WorkerConnection<T extends Tasks> {
   #calls = 0;
   /** Calls that the worker has not answered, cancelled ones among them. */
   #unanswered = 0;
-  readonly #watch: SilenceWatch;
+  readonly #watchdog: Watchdog;
 
   constructor(
     worker: Worker,
-    { toError = (reason) => new Error(reason), patience = PATIENCE }: ConnectionOptions = {},
+    { toError = (reason) => new Error(reason), timeouts = WORKER_TIMEOUTS }: ConnectionOptions = {},
   ) {
     this.#worker = worker;
     this.#remote = wrap<TaskRunner>(worker);
     this.#toError = toError;
-    this.#watch = new SilenceWatch(
-      patience,
+    this.#watchdog = new Watchdog(
+      timeouts,
       () => this.#remote.answer(),
       (seconds) => this.dispose(toError(`no answer for ${seconds} seconds`)),
     );
@@ -200,7 +200,7 @@ export class WorkerConnection<T extends Tasks> {
     signal?.throwIfAborted();
     if (this.#end) throw this.#end;
     const id = ++this.#calls;
-    const reports = new Reports(this.#watch.hear, onReport as ((report: unknown) => unknown) | undefined);
+    const reports = new Reports(this.#watchdog.reset, onReport as ((report: unknown) => unknown) | undefined);
     const report = proxy(reports.take);
     let cancel: () => void = () => undefined;
     let fail: (error: Error) => void = () => undefined;
@@ -230,10 +230,10 @@ export class WorkerConnection<T extends Tasks> {
   /** Expects signs of life until the worker has answered, also where a cancelled call is no longer waited for. */
   #watchUntil(call: Promise<unknown>): void {
     this.#unanswered++;
-    this.#watch.start();
+    this.#watchdog.start();
     const answered = (): void => {
-      this.#watch.hear();
-      if (--this.#unanswered === 0) this.#watch.stop();
+      this.#watchdog.reset();
+      if (--this.#unanswered === 0) this.#watchdog.stop();
     };
     call.then(answered, answered);
   }
@@ -254,7 +254,7 @@ export class WorkerConnection<T extends Tasks> {
 
   /** Ends the worker; calls under way are rejected with `reason`. */
   dispose(reason: Error = new DOMException('The worker was ended.', 'AbortError')): void {
-    this.#watch.stop();
+    this.#watchdog.stop();
     // Comlink's registry of proxies holds the worker, whose listeners hold the proxy: it would never be collected.
     if (!this.#end) this.#remote[releaseProxy]();
     this.#end ??= reason;

@@ -192,12 +192,12 @@ describe('a connection to a worker', () => {
 });
 
 describe('a worker that falls silent', () => {
-  const patience = { first: 0.3, next: 0.15 };
+  const timeouts = { first: 0.3, next: 0.15 };
   const silenced = (): LocalWorker => Object.assign(new LocalWorker(), { silent: true });
 
   it('in the middle of a task ends, and the call fails with the time waited', async () => {
     const worker = new LocalWorker();
-    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { timeouts });
     await connection.call('double', { values: Float32Array.of(1) });
     const waiting = connection.call('wait', {});
     worker.silent = true;
@@ -207,13 +207,13 @@ describe('a worker that falls silent', () => {
   });
 
   it('before its script has come is given more time', async () => {
-    const connection = new WorkerConnection<Tested>(silenced() as unknown as Worker, { patience });
+    const connection = new WorkerConnection<Tested>(silenced() as unknown as Worker, { timeouts });
     await expect(connection.call('wait', {})).rejects.toThrow('no answer for 0.3 seconds');
   });
 
   it('after its call was cancelled ends as well, so that the next call can have a new one', async () => {
     const worker = new LocalWorker();
-    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { timeouts });
     const controller = new AbortController();
     const waiting = connection.call('wait', {}, { signal: controller.signal });
     worker.silent = true;
@@ -224,10 +224,10 @@ describe('a worker that falls silent', () => {
   });
 
   /** Three times the wait. */
-  const longTime = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 3000 * patience.first));
+  const longTime = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 3000 * timeouts.first));
 
   it('is not one that takes long but lets messages in', async () => {
-    const connection = new WorkerConnection<Tested>(open(), { patience });
+    const connection = new WorkerConnection<Tested>(open(), { timeouts });
     const controller = new AbortController();
     const waiting = connection.call('wait', {}, { signal: controller.signal });
     await longTime();
@@ -238,7 +238,7 @@ describe('a worker that falls silent', () => {
 
   it('is not one that has nothing to do', async () => {
     const worker = new LocalWorker();
-    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { patience });
+    const connection = new WorkerConnection<Tested>(worker as unknown as Worker, { timeouts });
     await connection.call('count', { to: 1 });
     worker.silent = true;
     await longTime();

@@ -15,7 +15,7 @@ import { isFull, isNewer, type ProjectStorage } from './storage';
 /** Time between two attempts after a failure: space may have been freed in another tab. */
 const RETRY_MS = 20_000;
 /** Time in which a tab that has nothing to write gives way to this one. */
-const PATIENCE_MS = 500;
+const DEBOUNCE_MS = 500;
 
 interface Callbacks {
   /**
@@ -186,7 +186,7 @@ export class Autosave {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
       if (!this.right.held) this.report('elsewhere');
-    }, PATIENCE_MS);
+    }, DEBOUNCE_MS);
   }
 
   /** This tab has got the right to write after another one had it. */

@@ -18,7 +18,7 @@ const MAX_OFFSET_DIFFERENCE = 0.01;
 const MAX_CACHED_BODIES = 8;
 
 /** Meshing takes a third of a second; a worker that says nothing for this long is not waited for, seconds. */
-const PATIENCE = { first: 20, next: 10 };
+const BODY_TIMEOUTS = { first: 20, next: 10 };
 
 interface CachedBody {
   readonly offsets: Float32Array;
@@ -45,7 +45,7 @@ export function createBodyLibrary(): BodyLibrary {
     if (!connection || connection.ended)
       connection = new WorkerConnection(
         new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bodies' }),
-        { patience: PATIENCE },
+        { timeouts: BODY_TIMEOUTS },
       );
     return connection.call('build', { offsets, build });
   }
