@@ -1,6 +1,6 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
-import { download, type DownloadOptions, folderFetch, type ModelFolder, patientFetch } from './download';
+import { download, type DownloadOptions, folderFetch, type ModelFolder, fetchWithTimeout } from './download';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
 import type { Provider } from './runtime';
 import { fileStore, type CachedPart } from './cache';
@@ -22,7 +22,7 @@ export async function downloadRuntime(
   options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure'> = {},
 ): Promise<Uint8Array<ArrayBuffer>> {
   const [runtime] = await download(scope.location.href, [RUNTIME[provider]], {
-    fetch: patientFetch(fetch),
+    fetch: fetchWithTimeout(fetch),
     store: fileStore(scope, 'runtime', 'onnxruntime'),
     // A GPU that fails its check falls back to the processor at each visit, so files of both providers stay cached.
     alsoKeep: Object.values(RUNTIME).map(({ sha256 }) => sha256),
@@ -71,7 +71,7 @@ export function downloadFiles(
   options: Pick<DownloadOptions, 'onProgress' | 'onCacheFailure'> = {},
 ): Promise<Uint8Array<ArrayBuffer>[]> {
   return download(manifestUrl, files, {
-    fetch: folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch),
+    fetch: folder ? folderFetch(folder, manifestUrl) : fetchWithTimeout(fetch),
     store: folder ? undefined : fileStore(scope, 'model', manifest.id),
     alsoKeep: filesOf(manifest).map(({ sha256 }) => sha256),
     ...options,

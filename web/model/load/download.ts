@@ -43,7 +43,7 @@ const STALL_MS = 30_000;
  * connection may stay open without a word for ever.
  * @throws {AppError} `download-failed`, from the request or from the body's stream
  */
-export function patientFetch(get: typeof fetch, stallMs = STALL_MS): typeof fetch {
+export function fetchWithTimeout(get: typeof fetch, stallMs = STALL_MS): typeof fetch {
   return async (address, options) => {
     const request = new AbortController();
     let stop = (error: AppError): void => request.abort(error);

@@ -1,7 +1,7 @@
 import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
 import { AppError } from '../../common/error';
 import { goldenError, readGolden } from './golden';
-import { folderFetch, type ModelFolder, patientFetch } from './download';
+import { folderFetch, type ModelFolder, fetchWithTimeout } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { downloadFiles, type DownloadPart, downloadParts } from './assets';
@@ -91,7 +91,7 @@ export async function loadModel(
   scope: typeof globalThis,
   onStatus: (status: Status) => unknown,
 ): Promise<LoadedModel> {
-  const get = folder ? folderFetch(folder, manifestUrl) : patientFetch(fetch);
+  const get = folder ? folderFetch(folder, manifestUrl) : fetchWithTimeout(fetch);
   const cache = folder ? undefined : responseCache(scope);
   const manifest = await fetchLatest(manifestUrl, get, (bytes) => readManifest(bytes, manifestUrl), cache);
   onStatus({ kind: 'manifest', manifest });

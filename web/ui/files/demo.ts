@@ -1,5 +1,5 @@
 import * as v from 'valibot';
-import { type Manifest, patientFetch } from '../../model/client';
+import { type Manifest, fetchWithTimeout } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
 import {
@@ -167,7 +167,7 @@ async function openSong(
 
 /** A file of the demo. A server of single-page apps answers with a page where a file is missing. */
 async function get(file: string, folder: URL): Promise<Response> {
-  const response = await patientFetch(fetch)(new URL(file, folder));
+  const response = await fetchWithTimeout(fetch)(new URL(file, folder));
   const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
   if (!response.ok || isPage) throw new Error(`The demo has no ${file}.`);
   return response;

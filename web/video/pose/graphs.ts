@@ -5,7 +5,7 @@ import { AppError } from '../../common/error';
 import { downloadRuntime } from '../../model/load/assets';
 import { chooseBackend, environment } from '../../model/load/backend';
 import { fileStore, responseCache } from '../../model/load/cache';
-import { download, patientFetch } from '../../model/load/download';
+import { download, fetchWithTimeout } from '../../model/load/download';
 import { fetchLatest } from '../../model/load/network-first';
 import { loadRuntime } from '../../model/load/runtime';
 import { DETECTOR_SIDE } from './detector';
@@ -34,7 +34,7 @@ export async function loadPoseGraphs(
   scope: typeof globalThis,
   onProgress: (fraction: number) => void,
 ): Promise<PoseGraphs> {
-  const get = patientFetch(fetch);
+  const get = fetchWithTimeout(fetch);
   const { detector, landmarks } = await fetchLatest(listUrl, get, readList, responseCache(scope));
   const [runtimeBytes, [detectorBytes, landmarkBytes], { threads }] = await Promise.all([
     downloadRuntime('wasm', scope),

@@ -1,6 +1,6 @@
 import { createHash } from 'node:crypto';
 import { describe, expect, it } from 'vitest';
-import { download, type FileStore, patientFetch } from '../../../../web/model/load/download';
+import { download, type FileStore, fetchWithTimeout } from '../../../../web/model/load/download';
 import { AppError } from '../../../../web/common/error';
 
 const BASE = 'https://dance.example/models/salsa/manifest.json';
@@ -183,7 +183,7 @@ describe('a download that stalls', () => {
     ['in the middle of its body', slow([0, 0], false)],
   ])('%s is given up with a sentence', async (_, get) => {
     const files = [listed('step.onnx', 'xxx')];
-    await expect(download(BASE, files, { fetch: patientFetch(get, STALL_MS) })).rejects.toMatchObject({
+    await expect(download(BASE, files, { fetch: fetchWithTimeout(get, STALL_MS) })).rejects.toMatchObject({
       code: 'download-failed',
       message: expect.stringMatching(
         /^Nothing of the file .*step\.onnx has arrived for 0\.04 seconds/,
@@ -194,12 +194,12 @@ describe('a download that stalls', () => {
   it('is not one that is slow but goes on', async () => {
     const waits = Array.from({ length: 8 }, () => STALL_MS / 4);
     const files = [listed('step.onnx', 'x'.repeat(waits.length))];
-    const get = patientFetch(slow(waits, true), STALL_MS);
+    const get = fetchWithTimeout(slow(waits, true), STALL_MS);
     expect((await download(BASE, files, { fetch: get }))[0]).toHaveLength(waits.length);
   });
 
   it('leaves the signal of the caller in force', async () => {
-    const get = patientFetch(silent, 10_000);
+    const get = fetchWithTimeout(silent, 10_000);
     await expect(get('x', { signal: AbortSignal.timeout(10) })).rejects.toMatchObject({
       name: 'TimeoutError',
     });
