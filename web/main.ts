@@ -38,7 +38,7 @@ import { mountProgress } from './ui/generation/progress';
 import { VariationMaker } from './ui/generation/variations';
 import { mountGuidance } from './ui/guidance/guidance';
 import { tabMeans } from './ui/project/editing-right';
-import { mountKeptNote } from './ui/project/kept-note';
+import { mountAutosaveNote } from './ui/project/autosave-note';
 import { Project } from './ui/project/project';
 import { ProjectDatabase } from './ui/project/storage';
 import { createQuality } from './ui/quality/quality';
@@ -208,7 +208,7 @@ for (const mount of [
   mountProgress,
   mountToast,
   mountNewVersion,
-  mountKeptNote,
+  mountAutosaveNote,
   mountProblemDialog,
   mountGivenDialog,
   mountDropTarget,

@@ -16,7 +16,7 @@ const NOTES: Readonly<Partial<Record<AutosaveStatus, { readonly text: string; re
 };
 
 /** Over the stage: what is being restored, and a note where another tab or version saves its work instead of this one. */
-export const mountKeptNote: Mount = (root, store, services) => {
+export const mountAutosaveNote: Mount = (root, store, services) => {
   const text = el('span');
   const button = el('button', {
     class: 'btn tint',
