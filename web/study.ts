@@ -7,7 +7,7 @@ import { saveFile } from './ui/download/save-and-share';
 import { readParameters } from './ui/files/parameters';
 import { systemTheme } from './ui/shell/theme';
 import { builtInSet } from './ui/study/built-in-set';
-import { KeptSession } from './ui/study/session';
+import { SavedSession } from './ui/study/session';
 import { Study } from './ui/study/study';
 import { mountLostNote } from './view/lost-note';
 import { createStage, type Stage } from './view/stage';
@@ -79,7 +79,7 @@ const study = new Study({
       loadSong: (file, audio) => loadSong(file, audio),
       generator: () => generator(onStatus),
     }),
-  storage: new KeptSession(() => localStorage),
+  storage: new SavedSession(() => localStorage),
   saveFile,
   seed: () => crypto.getRandomValues(new Uint32Array(1))[0]!,
   now: () => performance.now(),

@@ -4,14 +4,14 @@ import { criteriaFor, type Criterion } from './answers';
 import { PairPlayer, type ShownPair, type StudyStage } from './pair-player';
 import { PairView } from './pair-view';
 import type { Pair } from './plan';
-import { answersTo, firstOpen, type KeptSession, type Session, withAnswer } from './session';
+import { answersTo, firstOpen, type SavedSession, type Session, withAnswer } from './session';
 import type { StudySet } from './set';
 
 /** What a session needs of the page. */
 export interface SessionServices {
   readonly stage: StudyStage | null;
   readonly player: Player;
-  readonly storage: KeptSession;
+  readonly storage: SavedSession;
   /** Milliseconds. */
   readonly now: () => number;
 }

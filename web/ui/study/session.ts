@@ -75,7 +75,7 @@ export function firstOpen(session: Session, questions: (pair: Pair) => number): 
 }
 
 /** Keeps a session on this device. Without storage it holds as long as the page is open. */
-export class KeptSession {
+export class SavedSession {
   constructor(private readonly storage: () => Store) {}
 
   /** The session that was not finished, or null; what is kept and is no session is left out. */

@@ -3,7 +3,7 @@ import {
   answersTo,
   firstOpen,
   type Session,
-  KeptSession,
+  SavedSession,
   withAnswer,
 } from '../../../../web/ui/study/session';
 
@@ -61,8 +61,8 @@ describe('a participant’s session', () => {
   test('is kept until it is forgotten', () => {
     const storage = memory();
     const session = withAnswer(empty, 0, 'interaction', 1, 2.5);
-    expect(new KeptSession(() => storage).write(session)).toBe(true);
-    const kept = new KeptSession(() => storage);
+    expect(new SavedSession(() => storage).write(session)).toBe(true);
+    const kept = new SavedSession(() => storage);
     expect(kept.read()).toEqual(session);
     kept.forget();
     expect(kept.read()).toBeNull();
@@ -73,12 +73,12 @@ describe('a participant’s session', () => {
     (text) => {
       const storage = memory();
       storage.all.set('reactdance-study', text);
-      expect(new KeptSession(() => storage).read()).toBeNull();
+      expect(new SavedSession(() => storage).read()).toBeNull();
     },
   );
 
   test('says where it can’t be kept', () => {
-    const forbidden = new KeptSession(() => {
+    const forbidden = new SavedSession(() => {
       throw new DOMException('forbidden', 'SecurityError');
     });
     expect(forbidden.write(empty)).toBe(false);
