@@ -37,7 +37,7 @@ import { mountOptions } from './ui/generation/options';
 import { mountProgress } from './ui/generation/progress';
 import { VariationMaker } from './ui/generation/variations';
 import { mountGuidance } from './ui/guidance/guidance';
-import { tabMeans } from './ui/project/editing-right';
+import { tabLockApis } from './ui/project/tab-lock';
 import { mountAutosaveNote } from './ui/project/autosave-note';
 import { Project } from './ui/project/project';
 import { ProjectDatabase } from './ui/project/storage';
@@ -114,7 +114,7 @@ const video = createVideoFeature(
 const project = new Project(store, files, readers, {
   stage: () => stage,
   storage: new ProjectDatabase(),
-  tabs: tabMeans(globalThis),
+  tabs: tabLockApis(globalThis),
   persistence: navigator.storage,
 });
 // The browser reads while the page is built.

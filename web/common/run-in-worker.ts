@@ -124,15 +124,15 @@ const WORKER_TIMEOUTS: Timeouts = { first: 60, next: 60 };
  */
 class Reports {
   #onReport: ((report: unknown) => unknown) | undefined;
-  readonly #hear: () => void;
+  readonly #resetWatchdog: () => void;
 
-  constructor(hear: () => void, onReport: ((report: unknown) => unknown) | undefined) {
-    this.#hear = hear;
+  constructor(resetWatchdog: () => void, onReport: ((report: unknown) => unknown) | undefined) {
+    this.#resetWatchdog = resetWatchdog;
     this.#onReport = onReport;
   }
 
   readonly take: Reporter = async (report) => {
-    this.#hear();
+    this.#resetWatchdog();
     await this.#onReport?.(report);
   };
 

@@ -14,7 +14,7 @@ const CHECKS = 30;
  * sleeps or the browser slows the page down, the silence does not grow.
  */
 export class Watchdog {
-  readonly #timeouts: Patience;
+  readonly #timeouts: Timeouts;
   readonly #ask: () => Promise<unknown>;
   readonly #onSilent: (seconds: number) => void;
   #timer: ReturnType<typeof setInterval> | undefined;

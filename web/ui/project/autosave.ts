@@ -7,7 +7,7 @@ import { apply, type Store } from '../store/store';
 import { problemShown } from '../store/actions/notices';
 import { currentInputs } from '../store/take';
 import { autosaveChanged } from '../store/actions/project';
-import { EditingRight, type TabMeans } from './editing-right';
+import { TabLock, type TabLockApis } from './tab-lock';
 import type { FoundProject } from './records';
 import { hasVisitorContent, storedProject } from './schema';
 import { isFull, isNewer, type ProjectStorage } from './storage';
@@ -15,7 +15,7 @@ import { isFull, isNewer, type ProjectStorage } from './storage';
 /** Time between two attempts after a failure: space may have been freed in another tab. */
 const RETRY_MS = 20_000;
 /** Time in which a tab that has nothing to write gives way to this one. */
-const DEBOUNCE_MS = 500;
+const GIVE_WAY_MS = 500;
 
 interface Callbacks {
   /**
@@ -36,7 +36,7 @@ interface Callbacks {
 export class Autosave {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private unsubscribe = (): void => undefined;
-  private readonly right: EditingRight;
+  private readonly lock: TabLock;
   /** The parts of the state that were written last, or are being written. */
   private seen: readonly unknown[] = [];
   private synced: readonly Take[] = [];
@@ -54,10 +54,10 @@ export class Autosave {
   constructor(
     private readonly store: Store,
     private readonly storage: ProjectStorage,
-    tabs: TabMeans,
+    tabs: TabLockApis,
     private readonly callbacks: Callbacks,
   ) {
-    this.right = new EditingRight(tabs, {
+    this.lock = new TabLock(tabs, {
       gained: () => void this.goOn(),
       lost: this.wait,
       needed: () => this.anythingStored || hasVisitorContent(store.getState()),
@@ -68,12 +68,12 @@ export class Autosave {
   /** What an earlier visit stored, unchecked; null when there is nothing or the browser gives no storage. */
   async read(): Promise<FoundProject | null> {
     try {
-      await this.right.takeIfFree();
+      await this.lock.takeIfFree();
       const found = await this.storage.read();
       if (found) {
         this.anythingStored = this.hasFitted = true;
         // Restoring may take seconds; who reads meanwhile that the work is open elsewhere changes nothing in vain.
-        if (!this.right.held) this.sayElsewhere();
+        if (!this.lock.held) this.sayElsewhere();
       }
       return found;
     } catch (error) {
@@ -107,13 +107,13 @@ export class Autosave {
 
   /** Writes from here, no longer from the tab that does. */
   takeOver(): Promise<void> {
-    return this.right.takeOver();
+    return this.lock.takeOver();
   }
 
   dispose(): void {
     clearTimeout(this.timer);
     this.unsubscribe();
-    this.right.dispose();
+    this.lock.dispose();
     globalThis.document?.removeEventListener('visibilitychange', this.writeWhenHidden);
   }
 
@@ -129,7 +129,7 @@ export class Autosave {
     if (!this.mayWrite) return;
     const state = this.store.getState();
     this.seen = storedParts(state);
-    if (!this.right.held) {
+    if (!this.lock.held) {
       if (hasVisitorContent(state)) this.wait();
     } else if (this.busy) this.changed = true;
     else void this.save(leaving);
@@ -143,7 +143,7 @@ export class Autosave {
       if (!leaving) await yieldToPage();
       this.changed = false;
       await this.saveNow(this.store.getState());
-    } while (this.changed && this.right.held);
+    } while (this.changed && this.lock.held);
     this.busy = false;
   }
 
@@ -178,15 +178,15 @@ export class Autosave {
 
   /** Waits for the right to write; says so unless the tab that has it gives way at once. */
   private readonly wait = (): void => {
-    this.right.wait();
+    this.lock.wait();
     this.sayElsewhere();
   };
 
   private sayElsewhere(): void {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
-      if (!this.right.held) this.report('elsewhere');
-    }, DEBOUNCE_MS);
+      if (!this.lock.held) this.report('elsewhere');
+    }, GIVE_WAY_MS);
   }
 
   /** This tab has got the right to write after another one had it. */

@@ -22,7 +22,7 @@ import {
 } from '../store/actions/project';
 import { askPersistence, isPersistent, type Persistence } from '../../offline/persistence';
 import { Autosave } from './autosave';
-import type { TabMeans } from './editing-right';
+import type { TabLockApis } from './tab-lock';
 import { checked } from './records';
 import { assignId, loadedParts, storedProject } from './schema';
 import { readProject, writeProject } from './project-file';
@@ -43,7 +43,7 @@ export interface ProjectMeans {
   /** Null where there is none. */
   readonly stage: () => ProjectStage | null;
   readonly storage: ProjectStorage;
-  readonly tabs: TabMeans;
+  readonly tabs: TabLockApis;
   readonly persistence: Persistence;
 }
 

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { yieldToPage } from '../../../../web/common/yield-to-events';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
-import type { TabMeans } from '../../../../web/ui/project/editing-right';
+import type { TabLockApis } from '../../../../web/ui/project/tab-lock';
 import type { FoundProject } from '../../../../web/ui/project/records';
 import { storedProject, type StoredProject } from '../../../../web/ui/project/schema';
 import { Project } from '../../../../web/ui/project/project';
@@ -20,7 +20,7 @@ const noVideos = { openVideo: () => Promise.resolve(), cancel: () => undefined }
 interface Browser {
   /** What an earlier visit has stored. */
   readonly found: FoundProject | null;
-  readonly tabs: TabMeans;
+  readonly tabs: TabLockApis;
   readonly readers: FileReaders;
 }
 
@@ -222,7 +222,7 @@ describe('autosave', () => {
     const taken = { request: (...[, , held]: Parameters<LockManager['request']>) => held(null) };
     await visit(9, {
       found: storedProject(store.getState()),
-      tabs: { locks: taken as TabMeans['locks'], channel: undefined },
+      tabs: { locks: taken as TabLockApis['locks'], channel: undefined },
       readers: { ...readers, manifest: () => new Promise(() => undefined) },
     });
     expect(store.getState().restoring).not.toBeNull();

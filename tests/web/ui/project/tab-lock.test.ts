@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { EditingRight, type TabMeans } from '../../../../web/ui/project/editing-right';
+import { TabLock, type TabLockApis } from '../../../../web/ui/project/tab-lock';
 
 /** Web Locks of several tabs, as far as one lock needs them. */
 class OneLock {
@@ -36,7 +36,7 @@ function tabs(names: readonly string[], needed: Set<string>) {
   const listeners: { readonly of: string; readonly hear: () => void }[] = [];
   const log: string[] = [];
   const all = names.map((name) => {
-    const means: TabMeans = {
+    const means: TabLockApis = {
       locks: lock,
       channel: {
         postMessage: () => {
@@ -46,7 +46,7 @@ function tabs(names: readonly string[], needed: Set<string>) {
         close: () => undefined,
       } as unknown as BroadcastChannel,
     };
-    return new EditingRight(means, {
+    return new TabLock(means, {
       gained: () => log.push(`${name} gains`),
       lost: () => log.push(`${name} loses`),
       needed: () => needed.has(name),
@@ -87,7 +87,7 @@ it('a tab that has nothing to write gives way at once', async () => {
   expect(log).toEqual(['work gains']);
 });
 
-it.each<[string, TabMeans['locks']]>([
+it.each<[string, TabLockApis['locks']]>([
   ['without Web Locks', undefined],
   // As Chromium does where the visitor blocks all cookies.
   [
@@ -96,7 +96,7 @@ it.each<[string, TabMeans['locks']]>([
   ],
 ])('%s every tab has it', async (_, locks) => {
   const gains: string[] = [];
-  const right = new EditingRight(
+  const right = new TabLock(
     { locks, channel: undefined },
     { gained: () => gains.push('gained'), lost: () => undefined, needed: () => true },
   );

@@ -2,13 +2,13 @@
 const NAME = 'reactdance.project';
 
 /** The parts of Web Locks and BroadcastChannel that are needed; both are missing on insecure origins. */
-export interface TabMeans {
+export interface TabLockApis {
   readonly locks: Pick<LockManager, 'request'> | undefined;
   readonly channel: Pick<BroadcastChannel, 'postMessage' | 'addEventListener' | 'close'> | undefined;
 }
 
 /** What this browser has of them. */
-export function tabMeans({ navigator, BroadcastChannel }: typeof globalThis): TabMeans {
+export function tabLockApis({ navigator, BroadcastChannel }: typeof globalThis): TabLockApis {
   return {
     locks: navigator.locks,
     channel: (BroadcastChannel as typeof BroadcastChannel | undefined) && new BroadcastChannel(NAME),
@@ -28,12 +28,12 @@ interface Owner {
  * The right to write what the browser keeps, which one tab of the page has at a time: a Web Lock, which the browser
  * frees when its tab ends in whatever way. Where there are no Web Locks or the browser forbids them, every tab has it.
  */
-export class EditingRight {
+export class TabLock {
   private release: (() => void) | null = null;
   private waiting: AbortController | null = null;
 
   constructor(
-    private readonly means: TabMeans,
+    private readonly means: TabLockApis,
     private readonly owner: Owner,
   ) {
     means.channel?.addEventListener('message', () => {
