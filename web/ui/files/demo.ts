@@ -10,8 +10,8 @@ import {
   type Reaction,
   type Settings,
 } from '../store/reaction';
-import { demoChanged, readingSet } from '../store/actions/files';
-import { reactionAdded } from '../store/actions/reaction';
+import { demoChanged, leaderLoaded, readingSet } from '../store/actions/files';
+import { reactionAdded, reactionCompleted } from '../store/actions/reaction';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { playbackSet } from '../store/actions/view';
@@ -65,32 +65,31 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
     const songFile = get(demo.song.file, folder)
       .then((response) => response.blob())
       .catch(() => null);
-    const [leaderBytes, reactorBytes] = await Promise.all([
+    const [leaderBytes, motion] = await Promise.all([
       get(demo.leader.file, folder).then(bytesOf),
-      reactor ? get(reactor.file, folder).then(bytesOf) : null,
+      reactor ? get(reactor.file, folder).then(bytesOf).then(readers.readReactor) : null,
     ]);
     if (isUntouched(store)) {
       const songLoading = openSong(store, files, songFile, demo);
-      const leader = await files.openLeader({
+      const leader = await files.readLeader({
         name: demo.leader.name,
         label: demo.leader.label,
         files: [{ name: demo.leader.name, bytes: leaderBytes }],
         options: {},
       });
-      if (leader && store.getState().leader === leader) apply(store, playbackSet({ time: demo.poster }));
-      const songThere = songFile.then(() => {
-        apply(store, demoChanged('ready'));
-      });
-      if (reactor && reactorBytes && leader) {
-        const motion = await readers.readReactor(reactorBytes);
-        await showReaction(
-          store,
-          { ...reactor, motion, leader, settings: { ...reactor.settings, height: null } },
-          songLoading,
-          readers,
-        );
+      let showing: Promise<void> | null = null;
+      if (leader && !store.getState().leader) {
+        apply(store, withoutUndo(leaderLoaded(leader)));
+        apply(store, playbackSet({ time: demo.poster }));
+        // In the same task as its leader, or the page would begin to make a reaction of its own.
+        if (reactor && motion) {
+          const settings = { ...reactor.settings, height: null };
+          showing = showReaction(store, { ...reactor, motion, leader, settings }, songLoading, readers);
+        }
       }
-      await Promise.all([songLoading, songThere]);
+      await songFile;
+      apply(store, demoChanged('ready'));
+      await Promise.all([showing, songLoading]);
     }
     apply(store, demoChanged('ready'));
   } catch {
@@ -100,8 +99,8 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
 }
 
 /**
- * Shows the ready-made reaction at once, and again with its model and song when those are there. Another model makes one
- * itself, with its own settings.
+ * Shows the ready-made reaction at once, and completes it with its model and song when those are there. Another model
+ * makes one itself, with its own settings.
  */
 async function showReaction(
   store: Store,
@@ -125,18 +124,14 @@ async function showReaction(
     label,
     seconds: null,
   });
-  const { leader: present, manifest: known } = store.getState();
-  if (present !== leader || (known && isOfOther(known))) return;
+  const { manifest: known } = store.getState();
+  if (known && isOfOther(known)) return;
   apply(store, reactionAdded(shown(null)));
   const manifest = await readers.manifest();
   if (isOfOther(manifest)) return;
-  const model = modelIdentity(manifest);
   if (store.getState().leader === leader) apply(store, withoutUndo(settingsSet(settings)));
-  const song = await songLoading;
-  const now = store.getState();
-  // The visitor may have swapped the roles.
-  if (now.leader === leader && now.settings?.role === settings.role)
-    apply(store, reactionAdded(shown(song, model)));
+  // The visitor may have another leader by now: the take has its song all the same.
+  apply(store, reactionCompleted(shown(await songLoading, modelIdentity(manifest))));
 }
 
 async function bytesOf(response: Response): Promise<Uint8Array> {

@@ -24,7 +24,7 @@ export function newStamp(): TakeStamp {
   return { id: `${at.toString(36)}-${Math.random().toString(36).slice(2, 8)}`, at };
 }
 
-/** The takes after a reaction has been generated or loaded. It is one of four things, tested in this order. */
+/** The takes after a reaction has been generated or loaded. It is one of three things, tested in this order. */
 export function withReaction(
   state: AppState,
   reaction: Reaction,
@@ -49,11 +49,7 @@ export function withReaction(
     toast,
   });
 
-  // 1. The motion of a take with other inputs, as when the demo's song is read after its dancers.
-  const sameMotion = takes.find((take) => take.reaction.motion === reaction.motion);
-  if (sameMotion) return keep({ ...sameMotion, reaction });
-
-  // 2. The same inputs as a take's: the model generates the same motion, so it is that take again. A drag that came
+  // 1. The same inputs as a take's: the model generates the same motion, so it is that take again. A drag that came
   // there leaves nothing of its own.
   const sameInput = takes.find((take) => isSameAgain(take.reaction, reaction));
   if (sameInput) {
@@ -63,18 +59,19 @@ export function withReaction(
     return { ...kept, takes: kept.takes.filter(({ id }) => id !== before.id), drag: dragged(null) };
   }
 
-  // 3. The next reaction of a drag or of keys replaces the one before.
+  // 2. The next reaction of a drag or of keys replaces the one before.
   if (before && sameDance && isReplaceable(before, state, stamp.at))
     return keep({ ...before, createdAt: stamp.at, reaction });
 
-  // 4. A new take. The page's own reactions have a label and need no number.
+  // 3. A new take. The page's own reactions have a label and need no number.
   const number = reaction.label === null ? takesMade + 1 : 0;
   const take: Take = { id: stamp.id, number, name: null, starred: false, createdAt: stamp.at, reaction };
   const oldest = tooOld(withTake(takes, take), [take.id, state.other]);
   return {
     takes: withTake(takes, take).filter((one) => !oldest.includes(one)),
     takesMade: Math.max(takesMade, number),
-    history: reaction.label === null ? withoutCleared(history) : history,
+    // Nobody has asked for a reaction that comes on a first visit, so it is no reason to lose what can be undone.
+    history: reaction.label === null && !state.firstVisit ? withoutCleared(history) : history,
     drag: dragged(take.id),
     toast: oldest.length > 0 ? removedText(oldest) : toast,
   };

@@ -95,13 +95,14 @@ describe('a new reaction', () => {
     expect(page.titles).toEqual(['Take 1', 'Demo reaction']);
   });
 
-  it('is the same take when the same motion comes with other inputs', () => {
+  it('is completed by its song, on the stage and in the list', () => {
     const before = page.arrive({ label: 'demo reaction' });
     page.do(withoutUndo(change.songLoaded(song(10))));
-    const inputs = { ...before.inputs, song: page.state.song };
-    page.do(change.reactionAdded({ ...before, inputs }, { id: 'later', at: page.now }));
+    const complete = { ...before, inputs: { ...before.inputs, song: page.state.song } };
+    page.do(change.reactionCompleted(complete));
     expect(page.titles).toEqual(['Demo reaction']);
-    expect(takeOnStage(page.state)?.reaction.inputs.song).toBe(page.state.song);
+    expect(takeOnStage(page.state)?.reaction).toBe(complete);
+    expect(page.state.history.past).toEqual([]);
   });
 
   it('is the same take when the inputs are the same', () => {

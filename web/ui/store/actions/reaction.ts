@@ -19,6 +19,15 @@ export function reactionAdded(reaction: Reaction, stamp: TakeStamp = newStamp())
   return (state) => ({ ...withReaction(state, reaction, stamp), reaction, job: null, preview: null });
 }
 
+/** The reaction with this motion was shown before its song or its model was there: now it has them, wherever it is. */
+export function reactionCompleted(reaction: Reaction): Change {
+  return ({ takes, reaction: shown, history }) => ({
+    takes: takes.map((take) => (take.reaction.motion === reaction.motion ? { ...take, reaction } : take)),
+    reaction: shown?.motion === reaction.motion ? reaction : shown,
+    history,
+  });
+}
+
 export function footLockSet(footLock: boolean): Change {
   return () => ({ footLock });
 }

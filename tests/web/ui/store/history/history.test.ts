@@ -4,7 +4,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
 import * as change from '../../../support/actions';
 import { projectCleared } from '../../../../../web/ui/store/actions/project';
-import { redone, undone } from '../../../../../web/ui/store/history/history';
+import { redone, undone, withoutUndo } from '../../../../../web/ui/store/history/history';
 import { currentInputs } from '../../../../../web/ui/store/take';
 import { leader, still } from '../../../support/made-state';
 import { small } from '../../../support/small-manifest';
@@ -107,10 +107,22 @@ describe('the history of undo', () => {
     expect(store.getState().takes).toHaveLength(1);
     change.apply(store, redone());
     expect(store.getState().takes).toHaveLength(0);
+    change.apply(store, change.firstVisitEnded());
     change.apply(store, change.leaderLoaded(leader(60)));
     react(store, '2');
     change.apply(store, undone());
     change.apply(store, undone());
     expect(store.getState().takes.map(({ id }) => id)).toEqual(['2']);
+  });
+
+  it('after starting afresh brings all back although the page has made a reaction by itself', () => {
+    const store = page();
+    change.apply(store, change.leaderLoaded(leader(30)));
+    react(store, '1');
+    change.apply(store, projectCleared(small, 3));
+    change.apply(store, withoutUndo(change.leaderLoaded(leader(60))));
+    react(store, '2');
+    change.apply(store, undone());
+    expect(store.getState().takes.map(({ id }) => id)).toEqual(['1']);
   });
 });
