@@ -90,12 +90,31 @@ test('files are compared by keyboard, a reload loses nothing, and the answers co
   const result = page.getByRole('region', { name: 'Result' });
   await expect(result.getByRole('row')).toHaveCount(2);
   await expect(result.getByRole('rowheader')).toHaveText('ours over edge');
-  const answers = (await saved(page, 'Save answers (CSV)')).trim().split('\r\n');
-  expect(answers).toHaveLength(1 + 5);
-  expect(answers[1]).toMatch(/^Ana,files,\d+,1,(walk|turn),(ours,edge|edge,ours),naturalness,-2,/);
   const summary = (await saved(page, 'Save summary (CSV)')).trim().split('\r\n');
   expect(summary).toHaveLength(1 + 3);
   expect(summary[1]).toMatch(/^ours,edge,naturalness,2,/);
+
+  // The next participant takes nothing away from the one before.
+  await result.getByRole('button', { name: 'Next participant' }).click();
+  await expect(setup).toContainText('The answers of Ana are not saved yet.');
+  const start = setup.getByRole('button', { name: 'Start', exact: true });
+  await start.click();
+  await expect(setup).toContainText('A new test replaces the answers of Ana, which are not saved yet.');
+  const table = await saved(page, 'Save answers (CSV)');
+  const answers = table.trim().split('\r\n');
+  expect(answers).toHaveLength(1 + 5);
+  expect(answers[1]).toMatch(/^Ana,files,\d+,1,(walk|turn),(ours,edge|edge,ours),naturalness,-2,/);
+  await expect(setup).not.toContainText('Ana');
+  await start.click();
+  await expect(questions.getByRole('heading')).toHaveText('Pair 1 of 2');
+
+  // The same file twice is one participant.
+  await page.goto(STUDY);
+  const file = (name: string): TestFile => ({ name, mimeType: 'text/csv', buffer: Buffer.from(table) });
+  await setup.locator('input[accept=".csv"]').setInputFiles([file('a.csv'), file('b.csv')]);
+  await expect(result).toContainText('5 answers of 1 participant.');
+  await expect(result).toContainText('5 more were there twice and count once.');
+  expect(await saved(page, 'Save answers (CSV)')).toBe(table);
 });
 
 test('the dances of the page are shown without a file, also after a first failure', async ({ page }) => {
@@ -106,6 +125,7 @@ test('the dances of the page are shown without a file, also after a first failur
   await page.getByLabel('Seed for the order').fill('3');
   await page.getByRole('button', { name: 'Start' }).click();
   const questions = page.getByRole('region', { name: 'Questions' });
+  await expect(questions.getByRole('slider', { name: 'Time' })).toHaveValue('0');
   const again = questions.getByRole('button', { name: 'Try again' });
   await expect(again).toBeVisible({ timeout: 60_000 });
   // What was not seen is not answered.

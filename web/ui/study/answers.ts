@@ -44,3 +44,8 @@ export function criteriaFor(hasMusic: boolean): readonly (typeof CRITERIA)[numbe
 export function preferred({ score, left, right }: Answer): string | null {
   return score === 0 ? null : score < 0 ? left : right;
 }
+
+/** The answers without those that are there again, the same in all, as when a file is chosen twice. */
+export function withoutRepeats(answers: readonly Answer[]): Answer[] {
+  return [...new Map(answers.map((answer) => [JSON.stringify(answer), answer])).values()];
+}

@@ -84,6 +84,11 @@ export class PairView {
     this.#waiting.hidden = waiting === null;
     this.#retry.hidden = !failed;
     this.#play.disabled = this.#slider.disabled = !isReady;
+    if (!isReady) {
+      // Without a value a slider stands in its middle.
+      this.#slider.value = '0';
+      setText(this.#clock, '');
+    }
     if (isNew) {
       this.#questions.replaceChildren(...criteria.map((criterion) => this.#question(criterion)));
       this.#heading.focus();

@@ -10,9 +10,13 @@ interface ResultActions {
   readonly again: () => void;
 }
 
-/** The end: how often each method was preferred, with intervals, and the files to save. */
+/**
+ * The end: how often each method was preferred, with intervals, and the files to save.
+ * @param repeated how many more answers were left out because they are among these
+ */
 export function resultView(
   answers: readonly Answer[],
+  repeated: number,
   reference: string | null,
   actions: ResultActions,
 ): HTMLElement {
@@ -25,6 +29,7 @@ export function resultView(
     el('p', {
       text: `${answers.length} answers of ${participants} ${participants === 1 ? 'participant' : 'participants'}. A share is that of the answers that prefer the first method, “no difference” counting half; in brackets the 95 % interval of Wilson, which takes the answers as independent.`,
     }),
+    repeated > 0 ? el('p', { text: `${repeated} more were there twice and count once.` }) : null,
     table(comparisons),
     el(
       'div',

@@ -174,7 +174,10 @@ export class SessionRun {
     this.#showPair(null, false);
   }
 
-  #finish(session: Session): void {
+  #finish(answered: Session): void {
+    const session = { ...answered, finished: true };
+    // It has been said before where nothing can be kept.
+    this.services.storage.write(session);
     this.#session = null;
     this.#shown = null;
     this.events.onEnd(session);

@@ -29,6 +29,7 @@ const schema = v.object({
       seconds: v.number(),
     }),
   ),
+  finished: v.optional(v.boolean(), false),
 });
 
 /** One participant's study, as it is kept. */
@@ -39,6 +40,8 @@ export interface Session {
   readonly seed: number;
   readonly pairs: readonly Pair[];
   readonly answers: readonly Answer[];
+  /** The last pair was left with all questions answered. */
+  readonly finished: boolean;
 }
 
 /** The part of localStorage that is needed. */
@@ -76,10 +79,14 @@ export function firstOpen(session: Session, questions: (pair: Pair) => number): 
 
 /** Keeps a session on this device. Without storage it holds as long as the page is open. */
 export class SavedSession {
+  /** The session that the storage has refused. */
+  #refused: Session | null = null;
+
   constructor(private readonly storage: () => Store) {}
 
-  /** The session that was not finished, or null; what is kept and is no session is left out. */
+  /** The session whose answers are not saved, or null; what is kept and is no session is left out. */
   read(): Session | null {
+    if (this.#refused) return this.#refused;
     try {
       const result = v.safeParse(schema, JSON.parse(this.storage().getItem(KEY) ?? 'null'));
       return result.success ? result.output : null;
@@ -92,13 +99,16 @@ export class SavedSession {
   write(session: Session): boolean {
     try {
       this.storage().setItem(KEY, JSON.stringify(session));
+      this.#refused = null;
       return true;
     } catch {
+      this.#refused = session;
       return false;
     }
   }
 
   forget(): void {
+    this.#refused = null;
     try {
       this.storage().removeItem(KEY);
     } catch {

@@ -12,6 +12,8 @@ interface SetupActions {
   readonly start: (choice: { participant: string; pairs: number; seed: number | null }) => void;
   /** Goes on with the session that was kept. */
   readonly resume: () => void;
+  /** Saves the answers of the session that was kept, which is kept no longer. */
+  readonly save: (kept: Session) => void;
   readonly addAnswers: (files: readonly File[]) => void;
 }
 
@@ -88,7 +90,31 @@ export class SetupView {
     this.#kept.hidden = kept === null;
   }
 
+  /** Shows that a new test would replace answers that are not saved. */
+  askBeforeReplacing(kept: Session, start: () => void): void {
+    const save = this.#saveButton(kept);
+    this.#kept.replaceChildren(
+      el('p', { text: `A new test replaces the answers of ${kept.participant}, which are not saved yet.` }),
+      save,
+      ' ',
+      textButton('btn ghost', 'Start without saving them', start),
+    );
+    // It is above the form, out of sight on a small screen.
+    save.focus();
+  }
+
+  #saveButton(kept: Session): HTMLButtonElement {
+    return textButton('btn tint', 'Save answers (CSV)', () => {
+      this.actions.save(kept);
+    });
+  }
+
   #keptParts(kept: Session, set: StudySet | null): HTMLElement[] {
+    if (kept.finished)
+      return [
+        el('p', { text: `The answers of ${kept.participant} are not saved yet.` }),
+        this.#saveButton(kept),
+      ];
     const answered = new Set(kept.answers.map(({ pair }) => pair)).size;
     const text = `The test of ${kept.participant} is not finished: ${answered} of ${kept.pairs.length} pairs.`;
     if (set && contentOf(set) === kept.content)

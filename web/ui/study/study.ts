@@ -2,7 +2,7 @@ import { AppError } from '../../common/error';
 import type { LeaderRequest } from '../../motion/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { el } from '../widgets/dom';
-import type { Answer } from './answers';
+import { type Answer, withoutRepeats } from './answers';
 import { answersCsv, readAnswers, summaryCsv } from './csv';
 import { setOfFiles } from './file-set';
 import { makePlan } from './plan';
@@ -48,6 +48,11 @@ export class Study {
       resume: () => {
         const kept = services.storage.read();
         if (kept) this.#open(kept);
+      },
+      save: (kept) => {
+        this.#save(answersCsv(kept.answers), 'answers', kept.participant);
+        this.services.storage.forget();
+        this.#showSetup();
       },
       addAnswers: (files) => void this.#addUp(files),
     });
@@ -119,14 +124,20 @@ export class Study {
     const set = this.#set;
     if (!set) return;
     const drawn = seed ?? this.services.seed();
-    this.#open({
-      participant,
-      set: set.name,
-      content: contentOf(set),
-      seed: drawn,
-      pairs: makePlan(set.duets, set.reference, pairs, drawn),
-      answers: [],
-    });
+    const start = (): void => {
+      this.#open({
+        participant,
+        set: set.name,
+        content: contentOf(set),
+        seed: drawn,
+        pairs: makePlan(set.duets, set.reference, pairs, drawn),
+        answers: [],
+        finished: false,
+      });
+    };
+    const kept = this.services.storage.read();
+    if (kept && kept.answers.length > 0) this.#setup.askBeforeReplacing(kept, start);
+    else start();
   }
 
   #open(session: Session): void {
@@ -135,19 +146,27 @@ export class Study {
     this.#run.start(session, this.#set);
   }
 
-  #showResult(answers: readonly Answer[], content: string, reference: string | null, whose: string): void {
-    const save = (text: string, what: string): void => {
-      const name = `study-${what}-${whose.replace(/[^\p{L}\p{N}-]+/gu, '_')}.csv`;
-      this.services.saveFile(new Blob([text], { type: 'text/csv' }), name);
-    };
-    const element = resultView(answers, reference, {
+  #save(text: string, what: string, whose: string): void {
+    const name = `study-${what}-${whose.replace(/[^\p{L}\p{N}-]+/gu, '_')}.csv`;
+    this.services.saveFile(new Blob([text], { type: 'text/csv' }), name);
+  }
+
+  /** @param repeated answers that were left out because they are there already */
+  #showResult(
+    answers: readonly Answer[],
+    content: string,
+    reference: string | null,
+    whose: string,
+    repeated = 0,
+  ): void {
+    const element = resultView(answers, repeated, reference, {
       saveAnswers: () => {
-        save(answersCsv(answers), 'answers');
+        this.#save(answersCsv(answers), 'answers', whose);
         // Only what is saved is no longer kept here.
         if (this.services.storage.read()?.content === content) this.services.storage.forget();
       },
       saveSummary: () => {
-        save(summaryCsv(summarise(answers, reference)), 'summary');
+        this.#save(summaryCsv(summarise(answers, reference)), 'summary', whose);
       },
       again: () => {
         this.#showSetup();
@@ -162,9 +181,10 @@ export class Study {
     this.#alert.hidden = true;
     try {
       const all = await Promise.all(files.map(async (file) => readAnswers(await file.text())));
-      const answers = all.flat();
+      const answers = withoutRepeats(all.flat());
+      const repeated = all.flat().length - answers.length;
       const methods = answers.flatMap(({ left, right }) => [left, right]);
-      this.#showResult(answers, '', methods.includes(OURS) ? OURS : null, 'all');
+      this.#showResult(answers, '', methods.includes(OURS) ? OURS : null, 'all', repeated);
     } catch (error) {
       this.#fail(error);
     }

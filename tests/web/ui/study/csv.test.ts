@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import type { Answer } from '../../../../web/ui/study/answers';
+import { type Answer, withoutRepeats } from '../../../../web/ui/study/answers';
 import { answersCsv, readAnswers, summaryCsv } from '../../../../web/ui/study/csv';
 import { summarise } from '../../../../web/ui/study/summary';
 
@@ -57,6 +57,12 @@ describe('answers as a table', () => {
       }
     }
   });
+});
+
+test('answers of a file that is chosen twice count once, and those of other participants all', () => {
+  const other = { ...answers[0]!, seconds: 12.4 };
+  const read = [...readAnswers(answersCsv(answers)), ...readAnswers(answersCsv([...answers, other]))];
+  expect(withoutRepeats(read)).toEqual([...answers, other]);
 });
 
 test('the summary as a table', () => {

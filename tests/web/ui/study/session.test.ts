@@ -17,6 +17,7 @@ const empty: Session = {
     { duet: 'slow', left: 'mirror', right: 'ours' },
   ],
   answers: [],
+  finished: false,
 };
 
 function memory(): Pick<Storage, 'getItem' | 'setItem' | 'removeItem'> & { all: Map<string, string> } {
@@ -68,6 +69,13 @@ describe('a participant’s session', () => {
     expect(kept.read()).toBeNull();
   });
 
+  test('is not finished where an earlier version of the page has kept it', () => {
+    const storage = memory();
+    const { finished, ...earlier } = empty;
+    storage.all.set('reactdance-study', JSON.stringify(earlier));
+    expect(new KeptSession(() => storage).read()).toEqual({ ...earlier, finished });
+  });
+
   test.each(['no JSON', '{"participant":1}', '[]', JSON.stringify({ ...empty, seed: 0.5 })])(
     'is not read from %j',
     (text) => {
@@ -81,8 +89,11 @@ describe('a participant’s session', () => {
     const forbidden = new SavedSession(() => {
       throw new DOMException('forbidden', 'SecurityError');
     });
-    expect(forbidden.write(empty)).toBe(false);
     expect(forbidden.read()).toBeNull();
+    expect(forbidden.write(empty)).toBe(false);
+    // It is there as long as the page is open.
+    expect(forbidden.read()).toBe(empty);
     forbidden.forget();
+    expect(forbidden.read()).toBeNull();
   });
 });
