@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { leaderBvh } from '../web/support/leader-bvh';
-import { bvhText } from './support/files';
+import { bvh, bvhText } from './support/files';
 import { App, maxDistance, meanSpeed, SHIPPED } from './support/app-page';
 import { expect, test } from './support/fixtures';
 import { serveDemo } from './support/made-demo';
@@ -51,6 +51,20 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
     await page.keyboard.press('Escape');
     await lock.click();
   }
+});
+
+test('while a new leader waits for its partner, the lane shows no curve of the one before', async ({
+  page,
+}) => {
+  await serveDemo(page, { guidance: {}, music: 1.5, variety: 1, seed: 77, role: 'reactor' });
+  // The model never comes.
+  await page.route('**/models/tiny/*.onnx', () => undefined);
+  const app = new App(page);
+  await app.openWithoutPicture();
+  const lane = (name: RegExp) => page.getByRole('region', { name: 'Timeline' }).getByRole('img', { name });
+  await expect(lane(/^Reactor speed/).locator('canvas')).toBeVisible();
+  await app.drop(bvh({ frames: 60, name: 'mine.bvh' }));
+  await expect(lane(/^No reactor yet/).locator('canvas')).toBeHidden();
 });
 
 test('a ready-made reaction plays before the model is loaded, and is not generated again', async ({

@@ -63,6 +63,8 @@ export function createMotionLane(role: Role, className: string, under: HTMLEleme
       setText(message, text);
     },
     draw: (motion, { scale, musicBeats, tolerance, top, stale }) => {
+      // Chromium may go on showing what was drawn on a canvas that is only emptied.
+      canvas.hidden = motion === null;
       const on = surface(canvas);
       if (!motion) {
         root.setAttribute('aria-label', role === 'leader' ? 'No leader' : 'No reactor yet');

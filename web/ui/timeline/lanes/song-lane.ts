@@ -86,8 +86,10 @@ function createWaveform(): {
       setText(note, state.reading.song ? 'Reading the song' : 'No song: silence');
       const label = song ? `Waveform of ${song.name}, ${picture.beats.times.length} beats` : 'No song';
       root.setAttribute('aria-label', label);
-      if (song && picture.scale.to > picture.scale.from) drawSong(song, state, picture);
-      else for (const each of [canvas, playedCanvas]) surface(each);
+      const isDrawn = song !== null && picture.scale.to > picture.scale.from;
+      // Chromium may go on showing what was drawn on a canvas that is only emptied.
+      canvas.hidden = playedCanvas.hidden = !isDrawn;
+      if (isDrawn) drawSong(song, state, picture);
     },
     showPlayed: (time, scale) => {
       const share = scale.width > 0 ? Math.min(1, Math.max(0, scale.x(time) / scale.width)) : 0;
