@@ -135,6 +135,15 @@ test('takes are named, starred, compared at the same playhead, deleted and resto
     await expect(takes(page)).toHaveCount(1);
     await page.getByRole('button', { name: 'Undo', exact: true }).click();
     await expect(takes(page)).toHaveCount(2);
+    // The second click of a double click is where the next take has moved to.
+    await takes(page).first().hover();
+    await takes(page)
+      .first()
+      .getByRole('button', { name: /^Delete/ })
+      .dblclick();
+    await expect(takes(page)).toHaveCount(1);
+    await page.keyboard.press('Control+z');
+    await expect(takes(page)).toHaveCount(2);
   });
 
   await test.step('a take’s line shows its differences, and the tooltip of a disabled letter the reason', async () => {

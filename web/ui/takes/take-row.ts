@@ -44,8 +44,9 @@ export function createTakeRow(store: Store, id: string): TakeRow {
   );
   const details = el('small');
   const rename = iconButton('icon', 'rename', {}, name.edit);
-  const remove = iconButton('icon', 'remove', {}, () => {
-    apply(store, takeDeleted(id));
+  const remove = iconButton('icon', 'remove', {}, ({ detail }) => {
+    // After the first click of a double click the next take is under the pointer.
+    if (detail < 2) apply(store, takeDeleted(id));
   });
   const letters = createLetterButtons(store, id);
   const root = el(

@@ -6,7 +6,7 @@ export function iconButton(
   className: string,
   name: IconName,
   { label, title }: { readonly label?: string; readonly title?: string },
-  onClick: () => void,
+  onClick: (event: MouseEvent) => void,
 ): HTMLButtonElement {
   return el(
     'button',
