@@ -171,9 +171,13 @@ function madeText(list: readonly Variation[]): string {
   return `${list.filter(({ reaction }) => reaction).length} of ${VARIATION_COUNT} reactions made.`;
 }
 
-/** The variations; without any, the reaction on the stage in the first card. */
-function cardContents({ variations, reaction }: AppState): readonly Variation[] {
-  if (variations) return variations.list;
+/** The variations; where none is made or being made, the reaction on the stage in the first card. */
+export function cardContents({
+  variations,
+  reaction,
+}: Pick<AppState, 'variations' | 'reaction'>): readonly Variation[] {
+  if (variations && (variations.making || variations.list.some((one) => one.reaction)))
+    return variations.list;
   const none = { seed: null, reaction: null, fraction: 0 };
   const first = reaction ? { seed: reaction.inputs.settings.seed, reaction, fraction: 1 } : none;
   return [first, none, none];
