@@ -39,10 +39,10 @@ const FADERS: readonly Moved[] = [
     name: 'Music',
     label: 'Music guidance',
     hint: 'How much the song shapes the dance',
-    shown: ({ settings, manifest, song }) => ({
+    shown: ({ settings, manifest, song, reading, restoring }) => ({
       range: settings && manifest && song ? manifest.guidance.music : null,
       value: settings?.music ?? 0,
-      note: settings && !song ? 'no song' : null,
+      note: settings && !song && !reading.song && !restoring ? 'no song' : null,
     }),
     set: musicSet,
     reset: musicReset,

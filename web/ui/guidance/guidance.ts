@@ -3,6 +3,7 @@ import { el, combineDisposers } from '../widgets/dom';
 import { createFaders } from './faders';
 import { mountMatrix } from './matrix';
 import { mountPresetMenu } from './preset-menu';
+import { isReading } from '../store/selectors';
 import type { Mount } from '../store/services';
 import { dragBegun, dragEnded, guidanceReset } from '../store/actions/settings';
 import { apply, type Store, watchAll } from '../store/store';
@@ -37,7 +38,10 @@ export const mountGuidance: Mount = (root, store, services) => {
   return combineDisposers(
     watchAll(
       store,
-      (state) => [state.settings, state.manifest, state.song !== null, state.job !== null],
+      (state) => [
+        ...[state.settings, state.manifest, state.song !== null, state.job !== null],
+        ...[...isReading(state), state.restoring !== null],
+      ],
       (state) => {
         reset.disabled = !state.settings;
         faders.show(state);
