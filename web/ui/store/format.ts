@@ -6,9 +6,9 @@ export function clockTime(seconds: number, tenths = true): string {
   return tenths ? `${minutes}:${rest}.${total % 10}` : `${minutes}:${rest}`;
 }
 
-/** `0:35`, a length rounded to whole seconds. */
+/** `0:34`, a length as the clock shows it: below ten seconds with tenths. */
 export function duration(seconds: number): string {
-  return clockTime(Math.round(seconds), false);
+  return clockTime(seconds, seconds < 10);
 }
 
 /** `24.6 of 38.4 MB`; without a known total only what came so far. */

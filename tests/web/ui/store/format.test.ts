@@ -23,9 +23,11 @@ describe('formatted numbers', () => {
     expect(clockTime(69 / 30)).toBe('0:02.3');
   });
 
-  it('rounds lengths', () => {
-    expect(duration(34.96)).toBe('0:35');
-    expect(duration(59.6)).toBe('1:00');
+  it('says of a length what the clock says, with tenths where it is short', () => {
+    expect(duration(34.96)).toBe('0:34');
+    expect(duration(7.5)).toBe('0:07.5');
+    expect(duration(0.3)).toBe('0:00.3');
+    expect(duration(125.5)).toBe('2:05');
   });
 
   it('writes bytes', () => {
