@@ -1,3 +1,4 @@
+import type { SolvedMotion } from '../motion/skeleton/clip';
 import { JOINT_COUNT } from '../motion/skeleton/skeleton';
 import { writeBvh } from '../motion/bvh/write';
 import { type Dance, firstMotion, type MotionFormat, subsampled } from './dance';
@@ -10,8 +11,6 @@ const SAMPLE_FRAMES = 40;
 const ZIP_RATIO = 0.37;
 /** Bytes of a mannequin in a GLB: about 7,300 vertices and 14,500 triangles. */
 const BODY_BYTES = 590_000;
-/** Number of joints without rotations of their own, which have no tracks: head, wrists, balls of the feet. */
-const STATIC_JOINTS = 5;
 
 /** Estimated size of a file before it is written, bytes. */
 export function estimateBytes(format: MotionFormat, dance: Dance): number {
@@ -29,9 +28,21 @@ export function estimateBytes(format: MotionFormat, dance: Dance): number {
       return dance.dancers.length > 1 ? sum * ZIP_RATIO : sum;
     }
     case 'glb':
-      // A rotation of each joint and a position of the root, each with its time.
-      return dance.dancers.length * (BODY_BYTES + frames * 4 * (5 * (JOINT_COUNT - STATIC_JOINTS) + 4));
+      // A rotation of each joint that turns and a position of the root, each with its time.
+      return dance.dancers
+        .map(({ motion }) => BODY_BYTES + frames * 4 * (5 * turningJoints(motion) + 4))
+        .reduce((total, bytes) => total + bytes, 0);
   }
+}
+
+/** How many joints turn at all: a generated dancer has no turns of its own in head, wrists and balls of the feet. */
+function turningJoints({ rotations }: SolvedMotion): number {
+  const frameSize = JOINT_COUNT * 4;
+  const turning = new Set<number>();
+  rotations.forEach((value, at) => {
+    if (value !== rotations[at % frameSize]) turning.add(Math.floor((at % frameSize) / 4));
+  });
+  return turning.size;
 }
 
 /** Size of a text that grows linearly with the number of frames, extrapolated from two short ones. */

@@ -61,6 +61,17 @@ test.each([60, 930])('the size of %i frames is estimated before they are written
   expect(Math.abs(estimateBytes('glb', long) / byteLength - 1)).toBeLessThan(0.05);
 });
 
+test('the size counts the turns of head and wrists where a dancer has them, as a leader from a file', async () => {
+  const long = madeDance(930, 'leader');
+  const [leader] = long.dancers;
+  const rotations = leader!.motion.rotations.map((value, at) =>
+    at % 4 === 0 ? value + 1e-3 * Math.sin(at) : value,
+  );
+  const turning = { ...long, dancers: [{ ...leader!, motion: { ...leader!.motion, rotations } }] };
+  const { byteLength } = await writeGlb(turning, 'dark', bodies);
+  expect(Math.abs(estimateBytes('glb', turning) / byteLength - 1)).toBeLessThan(0.05);
+});
+
 test('the skin is bound in the rest pose of the BVH, with the soles on the floor', async () => {
   const { scene } = await new GLTFLoader().parseAsync(await writeGlb(dance, 'dark', bodies), '');
   for (const { role, motion } of dance.dancers) {
