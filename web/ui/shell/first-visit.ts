@@ -43,10 +43,9 @@ export const mountFirstVisit: Mount = (root, store, services) => {
         'leader',
         'Leader',
         'a video of one dancer, or a motion file',
-        'Choose a file',
         cameraButton(services),
       ),
-      fileChoice(services, 'song', 'Song', 'mp3, wav, flac and others', 'Choose a song'),
+      fileChoice(services, 'song', 'Song', 'mp3, wav, flac and others'),
     ),
     offered,
     el(
@@ -133,9 +132,13 @@ function fileChoice(
   side: InputKind,
   name: string,
   kinds: string,
-  ask: string,
   more: HTMLElement | null = null,
 ): HTMLElement {
+  // A small screen has no room for the word Leader above it.
+  const what =
+    side === 'song'
+      ? ['song']
+      : [el('span', { class: 'titled', text: 'file' }), el('span', { class: 'untitled', text: 'dancer' })];
   return el(
     'div',
     {},
@@ -144,16 +147,19 @@ function fileChoice(
     el(
       'div',
       { class: 'choices' },
-      el('button', {
-        class: 'btn tint',
-        text: ask,
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            services.choose(side);
+      el(
+        'button',
+        {
+          class: 'btn tint',
+          attributes: { type: 'button' },
+          on: {
+            click: () => {
+              services.choose(side);
+            },
           },
         },
-      }),
+        el('span', { text: 'Choose a ' }, ...what),
+      ),
       more,
     ),
   );
