@@ -1,3 +1,4 @@
+import { madeBody, madeBvh, MIXAMO } from '../../web/support/made-bvh';
 import { truncatedBvh } from '../support/files';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
@@ -19,3 +20,25 @@ test('a truncated leader file is read up to its last complete frame, without its
   );
   await expect(notes).toContainText('The first frame is a rest pose and is left out.');
 });
+
+for (const [width, height] of [
+  [1280, 720],
+  [390, 844],
+] as const)
+  test(`a leader of a wrong frame rate is read again at half of it on one click, ${width} pixels wide`, async ({
+    page,
+  }) => {
+    await page.setViewportSize({ width, height });
+    const app = new App(page);
+    await app.openWithoutPicture();
+    const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 400, swing: 25 });
+    const hurried = text.replace(/(?<=Frame Time: ).*/, '0.0083333');
+    await app.drop({ name: 'hurried.bvh', mimeType: '', buffer: Buffer.from(hurried) });
+    const button = page.getByRole('button', { name: 'Leader too fast? Read it at 60 fps' });
+    await expect(button).toBeInViewport({ ratio: 1 });
+    // The whole text is seen.
+    expect(await button.evaluate((one) => one.scrollWidth - one.clientWidth)).toBe(0);
+    await button.click();
+    await app.until(({ leader }) => leader?.file.report.sourceFps === 60);
+    await expect(page.getByRole('button', { name: /^Leader too fast/ })).toBeHidden();
+  });

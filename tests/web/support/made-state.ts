@@ -54,6 +54,7 @@ export function leaderFile(frames: number, warnings: string[] = [], remarks: str
       sourceFps: 60,
       unit: 'centimetres',
       upAxis: 'y',
+      halfRate: null,
       warnings,
       remarks,
     } as unknown as LeaderFile['report'],

@@ -14,7 +14,7 @@ import { type ImportOptions, type RememberedJoints, skeletonFingerprint } from '
 import { FPS, type MotionClip } from '../skeleton/clip';
 import { OWN_CONVENTION } from '../bvh/names';
 import { AppError } from '../../common/error';
-import { checkedRate } from './frame-rate';
+import { checkedRate, nearestRate } from './frame-rate';
 import { type JointMap, mapJoints, type MappedBy, TRUNK_JOINTS, withSidesExchanged } from './joint-map';
 import { restFrames } from './t-pose';
 import { checkPlausible } from '../skeleton/plausible';
@@ -57,6 +57,8 @@ export interface LeaderReport {
   readonly upAxis: AxisName;
   /** Height in the file of the floor that was put at 0, metres. */
   readonly floor: number;
+  /** Half of `sourceFps`, where the dancer moves faster than people do and the rate is that of the file; else null. */
+  readonly halfRate: number | null;
   /** Sentences about what may be wrong. */
   readonly warnings: readonly string[];
   /** Sentences about changes to the motion that are no problem. */
@@ -189,12 +191,9 @@ function sizeDoubt(unit: string, size: number): string {
 /** Mean of the cosines by which feet point backwards, from which on left and right are exchanged. */
 const FEET_BACKWARDS = -0.3;
 
-/** Sentences about what may be wrong with the clip. */
-function motionWarnings(clip: MotionClip, fps: number): string[] {
-  if (clip.frames <= FPS || medianAcceleration(clip) <= MAX_ACCELERATION) return [];
-  return [
-    `The dancer moves faster than people do. If the dance looks hurried, the frame rate of the file (${Number(fps.toFixed(2))}) is wrong: set half of it.`,
-  ];
+/** Whether the dancer moves faster than people do. */
+function isHurried(clip: MotionClip): boolean {
+  return clip.frames > FPS && medianAcceleration(clip) > MAX_ACCELERATION;
 }
 
 /**
@@ -248,7 +247,11 @@ export function leaderOf(
   if (!unit.known) warnings.push('No unit gives this body the size of a person; it was scaled to one.');
   if (unit.doubt) warnings.push(unit.doubt);
   // The frame rate of a file that `writeBvh` wrote is right.
-  if (!own) warnings.push(...motionWarnings(clip, fps));
+  const hurried = !own && isHurried(clip);
+  if (hurried)
+    warnings.push(
+      `The dancer moves faster than people do. If the dance looks hurried, the frame rate of the file (${Number(fps.toFixed(2))}) is wrong: set half of it.`,
+    );
   warnings.push(...map.doubts);
   const remarks = rest > 0 ? [restPoseRemark(rest)] : [];
   if (source.rateAssumed && options.fps === undefined)
@@ -269,6 +272,7 @@ export function leaderOf(
     unit: unit.name,
     upAxis: up,
     floor,
+    halfRate: hurried && options.fps === undefined ? (nearestRate(fps / 2) ?? fps / 2) : null,
     warnings,
     remarks,
   };

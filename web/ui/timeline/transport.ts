@@ -1,6 +1,6 @@
 import { iconButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
-import { clockTime } from '../store/format';
+import { clockTime, rate } from '../store/format';
 import { icon } from '../widgets/icons';
 import { isReading, danceDuration, firstNote } from '../store/selectors';
 import type { Mount, Services } from '../store/services';
@@ -35,6 +35,7 @@ export const mountTransport: Mount = (root, store, services) => {
   const speed = createSpeedMenu(store);
   const loop = createLoopButton(store);
   const note = el('span', { class: 'file-note' });
+  const halfRate = createHalfRateButton(store, services);
   const zoom = createZoomControl(store);
   const line = el(
     'div',
@@ -48,6 +49,7 @@ export const mountTransport: Mount = (root, store, services) => {
     loop.element,
     el('span', { class: 'grow' }),
     note,
+    halfRate.element,
     zoom.root,
   );
   root.append(line);
@@ -74,19 +76,48 @@ export const mountTransport: Mount = (root, store, services) => {
         showNote(note, state);
       },
     ),
-    ...[play, clock, count, speed, loop, zoom].map(({ dispose }) => dispose),
+    ...[play, clock, count, speed, loop, halfRate, zoom].map(({ dispose }) => dispose),
     () => {
       line.remove();
     },
   );
 };
 
-/** What is worth knowing about the files, in one sentence. */
+/** What is worth knowing about the files, in one sentence; nothing where the button for the frame rate has its place. */
 function showNote(element: HTMLElement, state: AppState): void {
+  element.hidden = halfRateOf(state) !== null;
   const note = firstNote(state);
   setText(element, note?.text ?? '');
   element.title = element.textContent;
   element.classList.toggle('warning', note?.isWarning ?? false);
+}
+
+/** Half the frame rate that the leader's file states, where that may be the right one. */
+function halfRateOf({ leader }: AppState): number | null {
+  return leader?.file.report.halfRate ?? null;
+}
+
+/** Reads the leader again at half the frame rate, where the dancer moves faster than people do. */
+function createHalfRateButton(store: Store, { rereadLeader }: Services): Control<HTMLButtonElement> {
+  const element = el('button', {
+    class: 'half-rate',
+    attributes: {
+      type: 'button',
+      title: 'The leader moves faster than people do: the frame rate of the file may be wrong',
+    },
+    on: {
+      click: () => {
+        const { leader } = store.getState();
+        const fps = halfRateOf(store.getState());
+        if (leader && fps !== null) rereadLeader(leader, { ...leader.options, fps });
+      },
+    },
+  });
+  const dispose = watch(store, halfRateOf, (fps) => {
+    element.hidden = fps === null;
+    setText(element, fps === null ? '' : `Leader too fast? Read it at ${rate(fps)} fps`);
+  });
+  return { element, dispose };
 }
 
 function createPlayButton(store: Store, { togglePlay }: Services): Control<HTMLButtonElement> {

@@ -215,8 +215,14 @@ describe('time', () => {
 
   test('a dance at a multiple of its speed raises a warning', () => {
     const { text } = madeBvh({ joints: madeBody(MIXAMO), frames: 400, swing: 25 });
-    expect(leaderBvh(text).report.warnings).toEqual([]);
-    expect(leaderBvh(text, { fps: 120 }).report.warnings.join()).toMatch(/frame rate of the file \(120\)/);
+    expect(leaderBvh(text).report).toMatchObject({ warnings: [], halfRate: null });
+    const hurried = leaderBvh(text.replace(/(?<=Frame Time: ).*/, '0.008333')).report;
+    expect(hurried.warnings.join()).toMatch(/frame rate of the file \(120\)/);
+    expect(hurried.halfRate).toBe(60);
+    // Whoever has set the rate is not asked to set another one.
+    const set = leaderBvh(text, { fps: 120 }).report;
+    expect(set.warnings.join()).toMatch(/frame rate of the file \(120\)/);
+    expect(set.halfRate).toBeNull();
   });
 });
 
