@@ -93,7 +93,7 @@ export function projectOpened(content: Partial<AppState>): Change {
 }
 
 /**
- * The page is emptied, as if it were opened for the first time; undo brings everything back until a take is made.
+ * The page is emptied, as if it were opened for the first time; undo brings everything back until the visitor makes a take.
  */
 export function projectCleared(manifest: Manifest | null, seed: number): Change {
   return (state) =>
