@@ -73,7 +73,7 @@ describe('a participant’s session', () => {
     const storage = memory();
     const { finished, ...earlier } = empty;
     storage.all.set('reactdance-study', JSON.stringify(earlier));
-    expect(new KeptSession(() => storage).read()).toEqual({ ...earlier, finished });
+    expect(new SavedSession(() => storage).read()).toEqual({ ...earlier, finished });
   });
 
   test.each(['no JSON', '{"participant":1}', '[]', JSON.stringify({ ...empty, seed: 0.5 })])(
