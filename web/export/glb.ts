@@ -26,7 +26,7 @@ import type { Dance } from './dance';
 /**
  * The dance as binary glTF: for each dancer a skinned mannequin in the theme's colour of its role, bones named as in
  * our BVH, and one animation of both with a key on every frame where something moves. Metres, y up, seconds. What the
- * stage adds to the motion (turns of head and hands) is left out.
+ * stage adds to the motion (turns of head and hands to the partner) is left out.
  *
  * @param bodies makes the mannequins; the caller disposes of it.
  */

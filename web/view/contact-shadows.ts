@@ -1,3 +1,4 @@
+import { smoothstep } from '../motion/math/vec3';
 import {
   DynamicDrawUsage,
   InstancedBufferAttribute,
@@ -7,7 +8,6 @@ import {
   ShaderMaterial,
   Vector3,
 } from 'three';
-import { smoothstep } from './body/field';
 import { ballHeight, FEET, footMatrix, heelHeight } from './dancer/foot-placement';
 import { MAX_FIGURES, type Figure } from './overlays/overlay';
 import type { Look } from './theme';

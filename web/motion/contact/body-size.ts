@@ -13,6 +13,7 @@ import {
   perpendicular,
   readVec,
   scale,
+  smoothstep,
   sub,
   type Vec3,
   writeVec,
@@ -109,7 +110,7 @@ function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Flo
     const row = frame * JOINT_COUNT;
     const at = readVec(clip.positions, row + wrist);
     const gaps = WRISTS.map((other) => distance(at, readVec(partner.positions, row + other)));
-    return 1 - smoothstep((Math.min(...gaps) - JOINED) / (APART - JOINED));
+    return 1 - smoothstep(JOINED, APART, Math.min(...gaps));
   });
   return gaussianFilter(shares, JOIN_SMOOTHING * clip.fps);
 }
@@ -117,7 +118,7 @@ function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Flo
 /** How far an arm is open, 0 to 1. */
 function opened({ start, middle, end }: Limb, at: (joint: number) => Vec3): number {
   const whole = distance(at(start), at(middle)) + distance(at(middle), at(end));
-  return smoothstep((distance(at(start), at(end)) / whole - FOLDED) / (OPEN - FOLDED));
+  return smoothstep(FOLDED, OPEN, distance(at(start), at(end)) / whole);
 }
 
 /** Middle and end of a limb whose end is brought to `wanted`, or as far on the way there as the limb reaches. */
@@ -150,9 +151,4 @@ function within(centre: Vec3, from: Vec3, to: Vec3, radius: number): Vec3 {
   const c = (dot(start, start) - radius * radius) / a;
   const s = Math.sqrt(Math.max(0, b * b - c)) - b;
   return add(from, scale(way, Math.min(1, Math.max(0, s))));
-}
-
-function smoothstep(t: number): number {
-  const x = Math.min(1, Math.max(0, t));
-  return x * x * (3 - 2 * x);
 }

@@ -70,3 +70,9 @@ export function anyPerpendicular(axis: Vec3): Vec3 {
   const helper = Math.abs(axis[0]) < 0.6 ? X_AXIS : Z_AXIS;
   return perpendicular(helper, axis, Y_AXIS);
 }
+
+/** 0 below `from`, 1 above `to`, between them the cubic 3t² - 2t³. */
+export function smoothstep(from: number, to: number, value: number): number {
+  const t = Math.min(1, Math.max(0, (value - from) / (to - from)));
+  return t * t * (3 - 2 * t);
+}

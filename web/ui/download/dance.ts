@@ -1,4 +1,5 @@
 import { atFrameRate, type Dance } from '../../export/client';
+import { withLevelHead } from '../../motion/skeleton/level-head';
 import { generatedRole, otherRole } from '../store/roles';
 import { type FileNameParts, videoFileName } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
@@ -54,7 +55,9 @@ export function chosenDance(state: AppState): Dance | null {
   const loaded = { role: otherRole(settings.role), motion: leader.motion };
   const dancers: Dance['dancers'] = made.role === 'reactor' ? [loaded, made] : [made, loaded];
   const dance: Dance = {
-    dancers: who === 'both' ? dancers : dancers.filter(({ role }) => role === who),
+    dancers: dancers
+      .filter(({ role }) => who === 'both' || role === who)
+      .map(({ role, motion }) => ({ role, motion: withLevelHead(motion) })),
     about: {
       song: song?.name ?? null,
       leader: leader.name,

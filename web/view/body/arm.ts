@@ -1,6 +1,6 @@
 import { alongBone, blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
-import { add, scale, sub, type Vec3 } from '../../motion/math/vec3';
-import { smoothstep, unit } from './field';
+import { add, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { unit } from './field';
 import {
   halfBuildScale,
   limbPart,

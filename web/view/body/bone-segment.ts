@@ -1,6 +1,6 @@
 import { J, type JointName } from '../../motion/skeleton/skeleton';
-import { length, sub, type Vec3 } from '../../motion/math/vec3';
-import { smoothstep, unit, type Field, type LimbShape } from './field';
+import { length, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { unit, type Field, type LimbShape } from './field';
 import { limbPart, scaledToBuild, type Blend, type Build, type Part, type Side, type Weights } from './part';
 
 type PairedJoint<Name = JointName> = Name extends `left_${infer Joint}` ? Joint : never;

@@ -24,11 +24,6 @@ export interface Station {
 export const unit = (a: Vec3): Vec3 => direction(a, a);
 
 const clamp01 = (t: number): number => (t < 0 ? 0 : t > 1 ? 1 : t);
-/** 0 below `from`, 1 above `to`, between them the cubic 3t² - 2t³. */
-export const smoothstep = (from: number, to: number, value: number): number => {
-  const t = clamp01((value - from) / (to - from));
-  return t * t * (3 - 2 * t);
-};
 
 /** Smooth union of two distances over the width `k` (polynomial smooth minimum, Quilez 2013). */
 export function smoothUnion(a: number, b: number, k: number): number {

@@ -1,8 +1,8 @@
 import { SOLE } from '../../motion/skeleton/kinematics';
 import { J } from '../../motion/skeleton/skeleton';
 import { blendWeights, boneSegment, gradual, hinge, jointOf } from './bone-segment';
-import { add, dot, length, scale, sub, type Vec3 } from '../../motion/math/vec3';
-import { smoothUnion, smoothstep, unit } from './field';
+import { add, dot, length, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
+import { smoothUnion, unit } from './field';
 import { ball, limbPart, type BodyPlan, type Part, type Side } from './part';
 
 /** Width over which the edge of the sole is rounded, metres. */

@@ -1,7 +1,8 @@
+import { smoothstep } from '../../motion/math/vec3';
 import { J } from '../../motion/skeleton/skeleton';
 import { anatomy } from './anatomy';
 import { bindPose } from './bind-pose';
-import { smoothUnion, smoothstep } from './field';
+import { smoothUnion } from './field';
 import { shapesNear, type Build, type Shape } from './part';
 import { skinTo, type Skin } from './skin';
 import { surfaceNets, triangulate, type Grid, type Net } from './surface-nets';

@@ -1,8 +1,7 @@
 import { J } from '../../motion/skeleton/skeleton';
 import { shoulderCentre } from './arm';
 import { blendWeights, boneSegment, gradual, jointOf } from './bone-segment';
-import { add, length, scale, sub, type Vec3 } from '../../motion/math/vec3';
-import { smoothstep } from './field';
+import { add, length, scale, sub, type Vec3, smoothstep } from '../../motion/math/vec3';
 import { limbPart, scaledToBuild, type BodyPlan, type Part, type Side } from './part';
 
 /**

@@ -1,6 +1,6 @@
+import { smoothstep } from '../../motion/math/vec3';
 import { FPS, type MotionClip } from '../../motion/skeleton/clip';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
-import { smoothstep } from '../body/field';
 
 /** Heading of a camera that sees both dancers at a moment, radians about y; half a turn more sees them as well. */
 export type HeadingPlan = (seconds: number) => number;

@@ -1,6 +1,7 @@
+import { smoothstep } from '../../motion/math/vec3';
 import { Quaternion, Vector3 } from 'three';
+import { levelled, limited } from '../../motion/skeleton/level-head';
 import { J } from '../../motion/skeleton/skeleton';
-import { smoothstep } from '../body/field';
 import type { Rig } from './rig';
 
 /**
@@ -9,9 +10,6 @@ import type { Rig } from './rig';
  * the motion has it.
  */
 
-/** Share of a small tilt of the head against the horizon that is taken back, and the greatest angle, radians. */
-const LEVEL_SHARE = 0.85;
-const MAX_LEVEL = 0.6;
 /** Shares of the angles to the partner by which a head turns, and its greatest angles, radians. */
 const YAW_SHARE = 0.55;
 const PITCH_SHARE = 0.25;
@@ -42,28 +40,11 @@ const worldToParent = (rig: Rig, joint: number): Quaternion => {
   return parent.getWorldQuaternion(frame).invert();
 };
 
-/** An angle's share as long as it is small, and never more than `max`. */
-const limited = (angle: number, max: number): number => max * Math.tanh(angle / max);
-
-/**
- * Holds the head of a posed rig level: the fit turns it with the chest, so that whoever leans back would look at the
- * ceiling.
- */
+/** Holds the head of a posed rig level. */
 export function levelHead(rig: Rig): void {
   const head = rig.bones[J.head]!;
   head.getWorldQuaternion(worldTurn);
-  direction.set(0, 0, 1).applyQuaternion(worldTurn);
-  const across = Math.hypot(direction.x, direction.z);
-  // Rotation from the head as it is to the same heading without pitch and roll.
-  turn.setFromAxisAngle(UP, Math.atan2(direction.x, direction.z)).multiply(frame.copy(worldTurn).invert());
-  if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
-  const sine = Math.hypot(turn.x, turn.y, turn.z);
-  if (sine < 1e-6) return;
-  const tilt = 2 * Math.atan2(sine, turn.w);
-  // A head that looks straight up or down has no heading.
-  const angle = limited(LEVEL_SHARE * tilt, MAX_LEVEL) * smoothstep(0.2, 0.6, across);
-  direction.set(turn.x, turn.y, turn.z).divideScalar(sine);
-  worldTurn.premultiply(turn.setFromAxisAngle(direction, angle));
+  worldTurn.fromArray(levelled([worldTurn.x, worldTurn.y, worldTurn.z, worldTurn.w]));
   head.quaternion.multiplyQuaternions(worldToParent(rig, J.head), worldTurn);
   head.updateMatrixWorld(true);
 }

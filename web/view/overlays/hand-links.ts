@@ -1,3 +1,4 @@
+import { smoothstep } from '../../motion/math/vec3';
 import {
   Color,
   DynamicDrawUsage,
@@ -7,7 +8,6 @@ import {
   Matrix4,
   MeshBasicMaterial,
 } from 'three';
-import { smoothstep } from '../body/field';
 import { nearHandPairs, MAX_HAND_PAIRS, type HandPair } from './hand-pairs';
 import { createRibbons } from './ribbons';
 import type { Overlay } from './overlay';

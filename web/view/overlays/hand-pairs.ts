@@ -1,5 +1,5 @@
+import { smoothstep } from '../../motion/math/vec3';
 import { J } from '../../motion/skeleton/skeleton';
-import { smoothstep } from '../body/field';
 
 /** Distance of two wrists up to which their link is fully visible, and from which on there is none, metres. */
 const FULL = 0.5;

@@ -14,7 +14,9 @@ import { modelIdentity, type Role } from '../../../../web/ui/store/reaction';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
 import { leader, still } from '../../support/made-state';
+import { madeDancer } from '../../support/made-dancer';
 import { small } from '../../support/small-manifest';
+import { withLevelHead } from '../../../../web/motion/skeleton/level-head';
 
 describe('what is downloaded', () => {
   let store: change.Store;
@@ -28,7 +30,7 @@ describe('what is downloaded', () => {
   const written = (): string[] => {
     const state = store.getState();
     return chosenDance(state)!.dancers.map(({ role, motion }) =>
-      motion === state.leader?.motion ? role : `generated ${role}`,
+      motion.root === state.leader?.motion.root ? role : `generated ${role}`,
     );
   };
   const choose = (role: Role | 'both'): void => {
@@ -70,6 +72,17 @@ describe('what is downloaded', () => {
     expect([written(), chosenRole(store.getState())]).toEqual([['reactor'], 'reactor']);
     choose('both');
     expect(written()).toEqual(['generated leader', 'reactor']);
+  });
+
+  it('has the head level, as it is drawn', () => {
+    const leaning = madeDancer({ frames: 60 });
+    const { leader: loaded } = store.getState();
+    change.apply(store, change.leaderLoaded({ ...loaded!, motion: leaning }));
+    react('2');
+    choose('leader');
+    const [dancer] = chosenDance(store.getState())!.dancers;
+    expect(dancer!.motion.rotations).toEqual(withLevelHead(leaning).rotations);
+    expect(dancer!.motion.rotations).not.toEqual(leaning.rotations);
   });
 
   it('as a video was saved while it is on the stage as it was then', () => {
