@@ -6,7 +6,7 @@ import { conjugate, multiply, type Quat, writeQuat } from '../../math/quat';
 import { type Vec3, writeVec } from '../../math/vec3';
 import { checkedRate } from '../../retarget/frame-rate';
 import type { LocalPoses, MotionSource, SourceJoint } from '../../retarget/source';
-import { linesOf } from '../lines';
+import { linesOf } from '../../../common/lines';
 
 /** Frames per second of the CMU library, which an AMC does not state. */
 const USUAL_RATE = 120;

@@ -1,7 +1,7 @@
 import { readFrames } from './frames';
 import { type BvhNode, readHierarchy } from './hierarchy';
 import { HINT_EXPORT_AGAIN } from './number';
-import { linesOf } from '../lines';
+import { linesOf } from '../../../common/lines';
 import { AppError } from '../../../common/error';
 
 /** A BVH file in which every number has been checked. */

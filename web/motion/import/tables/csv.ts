@@ -3,7 +3,7 @@ import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
 import { PARENTS, SMPL22 } from '../../skeleton/skeleton';
-import { linesOf } from '../lines';
+import { linesOf } from '../../../common/lines';
 
 const SEPARATOR = /[,;\t]/;
 /** `leader_left_hip_x`, `left_hip.x` or `LeftHip X`: the dancer if there is one, the joint, and the axis. */

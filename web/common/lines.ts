@@ -1,4 +1,4 @@
-import { AppError } from '../../common/error';
+import { AppError } from './error';
 
 /** Largest number of lines: those of ten minutes of AMC, which has one for each bone of each frame, twice. */
 const MAX_LINES = 5e6;
