@@ -62,7 +62,7 @@ def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
     free, solved = (solve_with_node([inside], motion + np.array([x, 0, 0], np.float32))[0] for x in (3, 0))
     aside = solved - free
     assert np.median(overlap_depth(motion, inside)) > 0.1
-    assert np.abs(aside[..., 1]).max() == 0
+    assert np.abs(aside[..., 1]).max() < 1e-6  # legs are computed again from where they are
     assert 0.05 < np.linalg.norm(aside, axis=-1).max() < 0.64
     trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
     assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
