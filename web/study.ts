@@ -1,6 +1,7 @@
 /** Assembles the blind test, which `?study` opens in the place of the app. */
 import { AudioPlayer, loadSong } from './audio/client';
 import { AppError } from './common/error';
+import { fetchShipped } from './common/fetch';
 import { createGenerator, type Generator } from './model/client';
 import { readLeader } from './motion/client';
 import { saveFile } from './ui/download/save-and-share';
@@ -40,15 +41,16 @@ function generator(onStatus: (text: string) => void): Promise<Generator> {
 
 /** A file of the page. @throws {AppError} `page-part-missing` */
 async function ownFile(path: string): Promise<Blob> {
-  const response = await fetch(new URL(path, document.baseURI)).catch(() => null);
-  // A server of single-page apps answers with a page where a file is missing.
-  const isPage = response?.headers.get('content-type')?.includes('text/html') ?? false;
-  if (response?.ok && !isPage) return response.blob();
-  throw new AppError(
-    'page-part-missing',
-    `${path} of this page could not be loaded.`,
-    'Check the connection, then try again.',
-  );
+  try {
+    return await (await fetchShipped(new URL(path, document.baseURI))).blob();
+  } catch (cause) {
+    throw new AppError(
+      'page-part-missing',
+      `${path} of this page could not be loaded.`,
+      'Check the connection, then try again.',
+      { cause },
+    );
+  }
 }
 
 function openStage(): Stage | null {

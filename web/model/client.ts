@@ -2,7 +2,7 @@ import { AppError } from '../common/error';
 import { newerVersion } from '../common/page-part';
 import { WorkerConnection } from '../common/run-in-worker';
 import type { Backend, Preference } from './load/backend';
-import { type ModelFolder, fetchWithTimeout } from './load/download';
+import type { ModelFolder } from './load/download';
 import {
   type CoarseRequest,
   type GenerateRequest,
@@ -26,7 +26,6 @@ import type {
 import type { Progress } from './progress';
 import type { Loaded, ModelTasks } from './worker';
 
-export { fetchWithTimeout };
 export type {
   Backend,
   CoarseRequest,

@@ -1,6 +1,7 @@
 import processor from 'onnxruntime-web/ort-wasm-simd-threaded.wasm?manifest-entry';
 import gpu from 'onnxruntime-web/ort-wasm-simd-threaded.asyncify.wasm?manifest-entry';
-import { download, type DownloadOptions, folderFetch, type ModelFolder, fetchWithTimeout } from './download';
+import { fetchWithTimeout } from '../../common/fetch';
+import { download, type DownloadOptions, folderFetch, type ModelFolder } from './download';
 import { GRAPHS, type GraphName, type Manifest, type ManifestFile } from '../manifest';
 import type { Provider } from './runtime';
 import { fileStore, type CachedPart } from './cache';

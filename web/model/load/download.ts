@@ -35,59 +35,6 @@ async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | undefine
   return Array.from(digest, (byte) => byte.toString(16).padStart(2, '0')).join('');
 }
 
-/** Longest time without a byte before a download is given up, milliseconds. */
-const STALL_MS = 30_000;
-
-/**
- * A `fetch` that gives up when nothing arrives for a time, before the response or in the middle of its body: a
- * connection may stay open without a word for ever.
- * @throws {AppError} `download-failed`, from the request or from the body's stream
- */
-export function fetchWithTimeout(get: typeof fetch, stallMs = STALL_MS): typeof fetch {
-  return async (address, options) => {
-    const request = new AbortController();
-    let stop = (error: AppError): void => request.abort(error);
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    const wait = (): void => {
-      clearTimeout(timer);
-      timer = setTimeout(() => stop(stalled(address, stallMs)), stallMs);
-    };
-    const watched = new TransformStream<Uint8Array, Uint8Array>({
-      start: (body) => {
-        stop = (error) => {
-          body.error(error);
-          request.abort(error);
-        };
-      },
-      transform: (part, body) => {
-        wait();
-        body.enqueue(part);
-      },
-      flush: () => clearTimeout(timer),
-    });
-    wait();
-    try {
-      const signals = options?.signal ? [options.signal, request.signal] : [request.signal];
-      const response = await get(address, { ...options, signal: AbortSignal.any(signals) });
-      if (response.body) return new Response(response.body.pipeThrough(watched), response);
-      clearTimeout(timer);
-      return response;
-    } catch (error) {
-      clearTimeout(timer);
-      throw error;
-    }
-  };
-}
-
-function stalled(address: Parameters<typeof fetch>[0], stallMs: number): AppError {
-  const url = address instanceof Request ? address.url : String(address);
-  return new AppError(
-    'download-failed',
-    `Nothing of the file ${url} has arrived for ${stallMs / 1000} seconds.`,
-    'Check the connection, then try again.',
-  );
-}
-
 /**
  * Fetch something that must not be a page: servers of single-page apps answer a missing file with 200 and HTML.
  * @throws {AppError} `model-missing` or `download-failed`

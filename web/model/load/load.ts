@@ -1,7 +1,8 @@
 import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
 import { AppError } from '../../common/error';
 import { goldenError, readGolden } from './golden';
-import { folderFetch, type ModelFolder, fetchWithTimeout } from './download';
+import { fetchWithTimeout } from '../../common/fetch';
+import { folderFetch, type ModelFolder } from './download';
 import { fetchLatest } from './network-first';
 import { type Manifest, parseManifest } from '../manifest';
 import { downloadFiles, type DownloadPart, downloadParts } from './assets';

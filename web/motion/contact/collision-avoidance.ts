@@ -1,7 +1,7 @@
 import { type BodyRule, capsuleBody, candidatePairs, penetrationDepth, shiftedDepths } from './capsules';
 import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { type LevelShift, SHIFT_COLUMNS, SHIFTS, viterbiPath } from './viterbi-path';
-import { gaussianFilter } from '../math/statistics';
+import { gaussianFilter, type Run, runsOf } from '../math/statistics';
 import type { JointName } from '../skeleton/skeleton';
 
 /** Joints that end the bones of the arms. Partners hold each other, so arms may overlap. */
@@ -16,16 +16,11 @@ const SMOOTHING = 0.2;
 const SMOOTHING_SAMPLES = Math.round(SMOOTHING / SAMPLE_INTERVAL);
 
 /** Runs of samples no farther than `margin` samples from an overlap, `to` excluded. */
-function runsAround(overlaps: readonly boolean[], margin: number): { from: number; to: number }[] {
-  const runs: { from: number; to: number }[] = [];
-  overlaps.forEach((overlap, sample) => {
-    if (!overlap) return;
-    const [from, to] = [Math.max(0, sample - margin), Math.min(overlaps.length, sample + margin + 1)];
-    const last = runs.at(-1);
-    if (last && from <= last.to) last.to = to;
-    else runs.push({ from, to });
-  });
-  return runs;
+function runsAround(overlaps: readonly boolean[], margin: number): Run[] {
+  return runsOf(overlaps, 2 * margin + 1).map(({ from, to }) => ({
+    from: Math.max(0, from - margin),
+    to: Math.min(overlaps.length, to + margin),
+  }));
 }
 
 /**

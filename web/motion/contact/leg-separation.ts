@@ -1,6 +1,6 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { segmentDistance } from '../math/segments';
-import { gaussianFilter } from '../math/statistics';
+import { gaussianFilter, runsOf } from '../math/statistics';
 import type { Vec3 } from '../math/vec3';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import { LEGS, type LegJoints, shiftFoot } from './shifted-foot';
@@ -45,18 +45,6 @@ function distanceBetween(left: Float64Array, i: number, right: Float64Array, j: 
   );
 }
 
-/** The runs of frames in which the legs are too near, `to` excluded. */
-function encounters(left: Float64Array, right: Float64Array, pause: number): { from: number; to: number }[] {
-  const runs: { from: number; to: number }[] = [];
-  for (let frame = 0; frame < left.length / WIDTH; frame++) {
-    if (distanceBetween(left, frame * WIDTH, right, frame * WIDTH) >= LEAST) continue;
-    const last = runs.at(-1);
-    if (last && frame - last.to < pause) last.to = frame + 1;
-    else runs.push({ from: frame, to: frame + 1 });
-  }
-  return runs;
-}
-
 /** The smallest of the shifts of the right foot that keeps the legs apart in these frames; the best where none does. */
 function separation(left: Float64Array, right: Float64Array): { x: number; z: number } {
   const shifted = right.slice();
@@ -90,7 +78,11 @@ function separation(left: Float64Array, right: Float64Array): { x: number; z: nu
 export function separateLegs(motion: SolvedMotion): SolvedMotion {
   const { frames, fps } = motion;
   const [left, right] = LEGS.map((leg) => lowerLeg(motion, leg)) as [Float64Array, Float64Array];
-  const runs = encounters(left, right, PAUSE * fps);
+  const near = Array.from(
+    { length: frames },
+    (_, frame) => distanceBetween(left, frame * WIDTH, right, frame * WIDTH) < LEAST,
+  );
+  const runs = runsOf(near, PAUSE * fps);
   if (runs.length === 0) return motion;
   const [x, z] = [new Float64Array(frames), new Float64Array(frames)];
   const hold = Math.round(HOLD * fps);

@@ -86,3 +86,21 @@ export function windowMinimum(values: Float64Array, reach: number): Float64Array
     reach,
   ).map((value) => -value);
 }
+
+/** Samples from `from` on, `to` excluded. */
+export interface Run {
+  readonly from: number;
+  readonly to: number;
+}
+
+/** The runs in which flags are set; those with fewer than `pause` samples between them are one. */
+export function runsOf(flags: readonly boolean[], pause: number): Run[] {
+  const runs: { from: number; to: number }[] = [];
+  flags.forEach((flag, sample) => {
+    if (!flag) return;
+    const last = runs.at(-1);
+    if (last && sample - last.to < pause) last.to = sample + 1;
+    else runs.push({ from: sample, to: sample + 1 });
+  });
+  return runs;
+}

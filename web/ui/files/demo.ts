@@ -1,5 +1,6 @@
 import * as v from 'valibot';
-import { type Manifest, fetchWithTimeout } from '../../model/client';
+import { fetchShipped } from '../../common/fetch';
+import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
 import {
@@ -59,15 +60,15 @@ interface DemoReaders {
  */
 export async function loadDemo(store: Store, files: Files, folder: URL, readers: DemoReaders): Promise<void> {
   try {
-    const demo = v.parse(schema, await (await get('demo.json', folder)).json());
+    const demo = v.parse(schema, await (await fetchShipped(new URL('demo.json', folder))).json());
     const { reactor } = demo;
     // The couple does not wait for the song, and is there without it where it can't be had.
-    const songFile = get(demo.song.file, folder)
+    const songFile = fetchShipped(new URL(demo.song.file, folder))
       .then((response) => response.blob())
       .catch(() => null);
     const [leaderBytes, motion] = await Promise.all([
-      get(demo.leader.file, folder).then(bytesOf),
-      reactor ? get(reactor.file, folder).then(bytesOf).then(readers.readReactor) : null,
+      fetchShipped(new URL(demo.leader.file, folder)).then(bytesOf),
+      reactor ? fetchShipped(new URL(reactor.file, folder)).then(bytesOf).then(readers.readReactor) : null,
     ]);
     if (isUntouched(store)) {
       const songLoading = openSong(store, files, songFile, demo);
@@ -158,12 +159,4 @@ async function openSong(
   apply(store, readingSet('song', null));
   const isOwn = now.leader !== null && now.leader.label !== leader.label;
   return file && !isOwn ? files.openSong(file, name, label) : null;
-}
-
-/** A file of the demo. A server of single-page apps answers with a page where a file is missing. */
-async function get(file: string, folder: URL): Promise<Response> {
-  const response = await fetchWithTimeout(fetch)(new URL(file, folder));
-  const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
-  if (!response.ok || isPage) throw new Error(`The demo has no ${file}.`);
-  return response;
 }

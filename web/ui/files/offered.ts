@@ -1,4 +1,4 @@
-import { fetchWithTimeout } from '../../model/client';
+import { fetchShipped } from '../../common/fetch';
 import { readingSet } from '../store/actions/files';
 import { problemShown } from '../store/actions/notices';
 import { offeredProblem } from '../store/problems';
@@ -40,11 +40,7 @@ export class OfferedLeaders {
     apply(this.store, readingSet('leader', { name, fraction: 0 }));
     let content: Blob;
     try {
-      const response = await fetchWithTimeout(fetch)(new URL(file, this.folder), { signal });
-      // A server of single-page apps answers with a page where a file is missing.
-      const isPage = response.headers.get('content-type')?.includes('text/html') ?? false;
-      if (!response.ok || isPage) throw new Error(`The server answered ${response.status}.`);
-      content = await response.blob();
+      content = await (await fetchShipped(new URL(file, this.folder), signal)).blob();
       if (signal.aborted) return;
     } catch {
       if (signal.aborted) return;

@@ -103,16 +103,10 @@ function createGenerateButton(store: Store, services: Services): Controls {
 
 /** Makes three variations, or cancels them while they are being made. */
 function createVariationsButton(store: Store, services: Services): Controls {
-  const button = el('button', {
-    class: 'btn tint',
-    attributes: { type: 'button' },
-    on: {
-      click: ({ detail }) => {
-        if (!store.getState().variations?.making) services.makeVariations();
-        // The second click of a double click is no wish to stop.
-        else if (detail < 2) services.cancel();
-      },
-    },
+  const button = textButton('btn tint', '', ({ detail }) => {
+    if (!store.getState().variations?.making) services.makeVariations();
+    // The second click of a double click is no wish to stop.
+    else if (detail < 2) services.cancel();
   });
   return {
     elements: [button],

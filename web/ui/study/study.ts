@@ -181,8 +181,9 @@ export class Study {
     this.#alert.hidden = true;
     try {
       const all = await Promise.all(files.map(async (file) => readAnswers(await file.text())));
-      const answers = withoutRepeats(all.flat());
-      const repeated = all.flat().length - answers.length;
+      const given = all.flat();
+      const answers = withoutRepeats(given);
+      const repeated = given.length - answers.length;
       const methods = answers.flatMap(({ left, right }) => [left, right]);
       this.#showResult(answers, '', methods.includes(OURS) ? OURS : null, 'all', repeated);
     } catch (error) {

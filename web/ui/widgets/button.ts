@@ -16,6 +16,10 @@ export function iconButton(
 }
 
 /** A button that shows words. */
-export function textButton(className: string, text: string, onClick: () => void): HTMLButtonElement {
+export function textButton(
+  className: string,
+  text: string,
+  onClick: (event: MouseEvent) => void,
+): HTMLButtonElement {
   return el('button', { class: className, text, attributes: { type: 'button' }, on: { click: onClick } });
 }

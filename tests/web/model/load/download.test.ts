@@ -1,6 +1,7 @@
 import { createHash } from 'node:crypto';
 import { describe, expect, it } from 'vitest';
-import { download, type FileStore, fetchWithTimeout } from '../../../../web/model/load/download';
+import { fetchWithTimeout } from '../../../../web/common/fetch';
+import { download, type FileStore } from '../../../../web/model/load/download';
 import { AppError } from '../../../../web/common/error';
 
 const BASE = 'https://dance.example/models/salsa/manifest.json';
