@@ -12,8 +12,8 @@ export interface Couple {
   readonly radius: number;
   /** Highest joint, metres. */
   readonly height: number;
-  /** Distance of the eye from the middle at which every joint is below the upper edge, from any side, metres. */
-  readonly tallDistance: number;
+  /** Distance of the eye from the middle at which every joint is between the upper and the lower edge, from any side, metres. */
+  readonly uprightDistance: number;
   /** Heading from which both are seen side by side, the leader on the right. */
   readonly sideHeading: number;
 }
@@ -28,6 +28,10 @@ export const MAX_DISTANCE = 10;
 /** Room beside the outermost and above the highest joint: half a hand, a skull, and air, metres. */
 const MARGIN = 0.22;
 const HEADROOM = 0.22;
+/** Room below the lowest joint: a sole and air, metres. */
+const FOOTROOM = 0.08;
+/** By how much the eye looks down in views from the side, as a share of the distance. */
+const DOWN = (EYE_HEIGHT - TARGET_HEIGHT) / BASE_DISTANCE;
 /** Half the height of the picture, at a distance of 1. */
 const TANGENT = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
 /** Size of a pixel on a dancer from which on the low level of detail looks like the full one, metres. */
@@ -47,8 +51,8 @@ export function measureCouple(
   beside: readonly Float32Array[] = [],
 ): Couple {
   const [first, second] = dancers;
-  if (first === undefined) return { x: 0, z: 0, radius: 0.5, height: 0, tallDistance: 0, sideHeading: 0 };
-  let [x, z, radius, height, tallDistance] = [0, 0, 0, 0, 0];
+  if (first === undefined) return { x: 0, z: 0, radius: 0.5, height: 0, uprightDistance: 0, sideHeading: 0 };
+  let [x, z, radius, height, uprightDistance] = [0, 0, 0, 0, 0];
   for (const joints of dancers) {
     x += joints[0]! / dancers.length;
     z += joints[2]! / dancers.length;
@@ -58,20 +62,22 @@ export function measureCouple(
       const [away, above] = [Math.hypot(joints[j]! - x, joints[j + 2]! - z), joints[j + 1]!];
       radius = Math.max(radius, away);
       height = Math.max(height, above);
-      // Whoever is nearer to the eye than the middle looks taller.
-      tallDistance = Math.max(tallDistance, (above + HEADROOM - TARGET_HEIGHT) / TANGENT + away);
+      // Whoever is nearer to the eye than the middle looks taller, and their feet are seen farther down.
+      const below = TARGET_HEIGHT + FOOTROOM - above + away * DOWN;
+      const half = Math.max(above + HEADROOM - TARGET_HEIGHT, below);
+      uprightDistance = Math.max(uprightDistance, half / TANGENT + away);
     }
   const sideHeading =
     second === undefined
       ? headingOf(first) + THREE_QUARTERS
       : Math.atan2(second[2]! - first[2]!, first[0]! - second[0]!);
-  return { x, z, radius, height, tallDistance, sideHeading };
+  return { x, z, radius, height, uprightDistance, sideHeading };
 }
 
 /** Distance at which a couple fills the picture as it should, from any side, or the greatest that the camera takes. */
-export function fitDistance({ radius, tallDistance }: Couple, aspect: number): number {
+export function fitDistance({ radius, uprightDistance }: Couple, aspect: number): number {
   const perspective = Math.hypot(1, 1 / (TANGENT * aspect));
-  return Math.min(MAX_DISTANCE, Math.max(BASE_DISTANCE, tallDistance, (radius + MARGIN) * perspective));
+  return Math.min(MAX_DISTANCE, Math.max(BASE_DISTANCE, uprightDistance, (radius + MARGIN) * perspective));
 }
 
 /**
@@ -100,7 +106,7 @@ export function shotOf(view: View, couple: Couple, aspect: number, heading: numb
         target,
         distance,
         heading,
-        elevation: Math.asin((EYE_HEIGHT - TARGET_HEIGHT) / BASE_DISTANCE),
+        elevation: Math.asin(DOWN),
       };
     case 'side':
       return { target, distance, heading: couple.sideHeading, elevation: 0.02 };

@@ -46,7 +46,7 @@ describe('framing', () => {
     expect(couple.radius).toBeLessThan(1.6);
   });
 
-  it('keeps both dancers inside the picture, wide or narrow, heads too, from any side, as far as it goes back', () => {
+  it('keeps both dancers inside the picture, wide or narrow, heads and feet too, from any side, as far as it goes back', () => {
     const tangent = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     for (const aspect of [0.5, 1, 1.8])
       for (const apart of [0.4, 1, 2.2])
@@ -67,6 +67,8 @@ describe('framing', () => {
                 const across = x * Math.cos(heading) - z * Math.sin(heading);
                 // A skull is higher than its joint.
                 if (j === 3 * J.head) expect((up + 0.2) / depth / tangent).toBeLessThan(1);
+                // So is a sole below its own, here the lowest.
+                if (j === 0) expect((up - 0.05) / depth / tangent).toBeGreaterThan(-1);
                 expect(Math.abs(across) / depth / tangent / aspect).toBeLessThan(1);
               }
           }
