@@ -135,9 +135,11 @@ test('of several people the largest is followed, and another one who is clicked'
     panel.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
       const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
       let [sum, count] = [0, 0];
-      for (let i = 3; i < data.length; i += 4)
-        if (data[i]! > 0) {
-          sum += ((i - 3) / 4) % canvas.width;
+      // Yellow on the left of the body, blue on the right.
+      const lines = [0xffd166, 0x4cc9f0];
+      for (let i = 0; i < data.length; i += 4)
+        if (lines.includes((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!)) {
+          sum += (i / 4) % canvas.width;
           count++;
         }
       return sum / count / canvas.width;

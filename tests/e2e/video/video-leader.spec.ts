@@ -74,6 +74,17 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   expect(reactor.length / 66).toBeGreaterThan(135);
   expect(reactor.every(Number.isFinite)).toBe(true);
 
+  // Under the skeleton is the picture of the same moment, whatever the browser shows of a video that stands still.
+  const opacity = () =>
+    panel
+      .locator('canvas')
+      .evaluate((canvas: HTMLCanvasElement) => canvas.getContext('2d')!.getImageData(0, 0, 1, 1).data[3]);
+  await expect.poll(opacity).toBe(255);
+  await page.keyboard.press('Space');
+  await expect.poll(opacity, 'the video itself is seen while it plays').toBe(0);
+  await page.keyboard.press('Space');
+  await expect.poll(opacity).toBe(255);
+
   // By keyboard too.
   await panel.getByText('Correct the motion').press('Space');
   await expect(panel.getByLabel('Height of the dancer')).toBeVisible();

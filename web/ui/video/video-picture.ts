@@ -57,9 +57,10 @@ export class VideoPicture {
     this.#video.addEventListener('error', () => {
       this.#video.hidden = true;
     });
-    this.#video.addEventListener('timeupdate', () => {
-      if (this.#observations) this.#drawAt(this.#video.currentTime);
-    });
+    for (const moved of ['timeupdate', 'seeked'])
+      this.#video.addEventListener(moved, () => {
+        if (this.#observations) this.#drawAt(this.#video.currentTime);
+      });
     this.#skeleton.addEventListener('change', () => {
       this.#drawAt(this.#video.currentTime);
     });
@@ -173,7 +174,15 @@ export class VideoPicture {
     }
     const size = image.length / Math.max(1, times.length);
     const seen = this.#skeleton.checked && presence[low]! > 0;
-    drawSkeleton(this.#canvas, seen ? image.subarray(low * size, (low + 1) * size) : null);
+    drawSkeleton(this.#canvas, seen ? image.subarray(low * size, (low + 1) * size) : null, this.#still());
+  }
+
+  /** The video where it stands still: Chromium may go on showing the picture from before it was moved while paused. */
+  #still(): HTMLVideoElement | null {
+    const { paused, seeking, readyState, hidden } = this.#video;
+    return paused && !seeking && !hidden && readyState >= HTMLMediaElement.HAVE_CURRENT_DATA
+      ? this.#video
+      : null;
   }
 
   dispose(): void {
