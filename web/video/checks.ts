@@ -3,6 +3,7 @@ import { median } from '../motion/math/statistics';
 import type { Observations } from './observations';
 import { LANDMARK_COUNT } from './pose/landmarks';
 import { L } from './world/landmark-names';
+import { rowsSeen } from './world/series';
 
 /** Mean brightness below which a picture counts as black. */
 const BLACK = 0.03;
@@ -16,8 +17,8 @@ const MIN_SECONDS = 1;
  * @throws {AppError} `video-black`, `no-person`, `video-too-short`, `half-a-body`
  */
 export function checkSeen(observations: Observations): void {
-  const { times, presence } = observations;
-  const rows = [...presence.keys()].filter((row) => presence[row]! > 0);
+  const { times } = observations;
+  const rows = rowsSeen(observations);
   if (rows.length === 0) {
     if (observations.brightest < BLACK)
       throw new AppError(

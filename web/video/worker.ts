@@ -103,7 +103,7 @@ async function read(
     // Who was picked is not asked about again.
     let asked = pick !== null;
     for await (const { time, picture } of video.pictures(0, Infinity)) {
-      const tracked = await tracker.next(picture);
+      const tracked = await tracker.next(picture, time);
       recorder.add(time, tracked);
       if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
       if (!asked && tracked.persons && tracked.persons.length > 0) {

@@ -8,6 +8,13 @@ import type { Region } from './region';
 const MIN_PRESENCE = 0.5;
 /** While nobody is seen the detector, which takes as long as three poses, looks at every third picture. */
 const DETECT_EVERY = 3;
+/** A sighting shorter than this may be of nobody, such as of a bush: it does not say where the person is, seconds. */
+export const MIN_SIGHTING = 0.3;
+/**
+ * How far from where they were lost a person may be found, in sides of their region (about 2.4 m): at once, and more a
+ * second. Otherwise whoever else is in the picture would be followed.
+ */
+const REACH = { atOnce: 0.5, perSecond: 1 };
 /** A region smaller than this share of the picture's longer side holds nobody whose pose could be seen. */
 const MIN_REGION = 0.06;
 
@@ -27,6 +34,13 @@ export interface Tracked {
   readonly brightness: number | null;
 }
 
+/** Where and when a person was seen. */
+export interface Sighting {
+  readonly region: Region;
+  /** Seconds of the video. */
+  readonly time: number;
+}
+
 /**
  * Follows one person through the pictures of a video: the detector finds them, then each picture's landmarks say where
  * to look in the next one. Who was lost is looked for near the place where they were seen last.
@@ -34,29 +48,32 @@ export interface Tracked {
 export class PersonTracker {
   readonly #cropper = new Cropper();
   #region: Region | null = null;
-  #last: Point | null;
+  /** When the sighting that lasts began. */
+  #since = 0;
+  #last: Sighting | null = null;
   #undetected = 0;
 
   /** @param pick where the person stands who is to be followed; null takes the largest */
   constructor(
     private readonly graphs: PoseGraphs,
-    pick: Point | null,
-  ) {
-    this.#last = pick;
-  }
+    private readonly pick: Point | null,
+  ) {}
 
-  async next(picture: Picture): Promise<Tracked> {
-    if (this.#region) return { ...(await this.#see(picture, this.#region)), persons: null, brightness: null };
+  /** @param time of the picture, seconds of the video */
+  async next(picture: Picture, time: number): Promise<Tracked> {
+    if (this.#region)
+      return { ...(await this.#see(picture, time, this.#region)), persons: null, brightness: null };
     if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons: null, brightness: null };
     const { input, toPicture, brightness } = this.#cropper.detectorInput(picture);
     const { boxes, scores } = await this.graphs.detect(input);
     const persons = personsOf(boxes, scores, toPicture);
-    const found = nearest(persons, this.#last);
-    const seen = found ? await this.#see(picture, found.region) : { landmarks: null };
+    const found = this.#last ? sameAsLast(persons, this.#last, time) : nearest(persons, this.pick);
+    this.#since = time;
+    const seen = found ? await this.#see(picture, time, found.region) : { landmarks: null };
     return { ...seen, persons, brightness };
   }
 
-  async #see(picture: Picture, region: Region): Promise<Pick<Tracked, 'landmarks'>> {
+  async #see(picture: Picture, time: number, region: Region): Promise<Pick<Tracked, 'landmarks'>> {
     const landmarks = landmarksOf(
       await this.graphs.landmarks(this.#cropper.landmarkInput(picture, region)),
       region,
@@ -66,17 +83,29 @@ export class PersonTracker {
     this.#region = seen ? next : null;
     if (!seen) return { landmarks: null };
     this.#undetected = 0;
-    this.#last = next;
+    if (time - this.#since >= MIN_SIGHTING) this.#last = { region: next, time };
     return { landmarks };
   }
+}
+
+/** The person nearest to where one was seen last, if they can have come so far. */
+export function sameAsLast(
+  persons: readonly Person[],
+  { region, time }: Sighting,
+  now: number,
+): Person | undefined {
+  const reach = region.size * (REACH.atOnce + REACH.perSecond * (now - time));
+  const found = nearest(persons, region);
+  return found && distance(found.region, region) <= reach ? found : undefined;
 }
 
 /** The person nearest to a point, or the largest without one. */
 function nearest(persons: readonly Person[], point: Point | null): Person | undefined {
   if (!point) return persons[0];
-  const distance = ({ region }: Person): number => Math.hypot(region.x - point.x, region.y - point.y);
-  return [...persons].sort((a, b) => distance(a) - distance(b))[0];
+  return [...persons].sort((a, b) => distance(a.region, point) - distance(b.region, point))[0];
 }
+
+const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 function isInside({ x, y, size }: Region, { width, height }: Picture): boolean {
   return (

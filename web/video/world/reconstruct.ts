@@ -17,7 +17,7 @@ import { jointsOf } from './joints';
 import { oneEuro } from './one-euro';
 import { placeLegs } from './legs';
 import { holdRoot } from './root-hold';
-import { type Series, seriesOf } from './series';
+import { type Part, type Series, seriesOf } from './series';
 import { stancesOf } from './stance';
 
 /** What the visitor can correct. */
@@ -27,7 +27,7 @@ export interface WorldOptions {
   /** Focal length, relative to the longer side of the pictures. */
   readonly focal: number;
   /** Part of the video, seconds; null is all of it. */
-  readonly trim: { readonly start: number; readonly end: number } | null;
+  readonly trim: Part | null;
 }
 
 export interface Reconstruction {

@@ -1,9 +1,16 @@
 import { FPS } from '../../motion/skeleton/clip';
 import type { Observations } from '../observations';
 import { LANDMARK_COUNT } from '../pose/landmarks';
+import { MIN_SIGHTING } from '../pose/tracker';
 
 /** Longest time without the person that is bridged without a word, seconds. */
 export const MAX_BRIDGE = 0.5;
+
+/** A part of a video, seconds. */
+export interface Part {
+  readonly start: number;
+  readonly end: number;
+}
 
 /** A span in which the person was not seen, seconds from the first frame. */
 export interface Gap {
@@ -33,18 +40,33 @@ export interface Series {
 }
 
 /**
+ * The pictures in which the person is seen, without those of short sightings far from all others in time: there something
+ * else was taken for a person. A person who is never seen for longer keeps them all.
+ * @param trim part of the video to take, seconds; null takes all of it
+ * @returns rows of the observations, ascending
+ */
+export function rowsSeen({ times, presence }: Observations, trim: Part | null = null): readonly number[] {
+  const rows = [...presence.keys()].filter(
+    (row) => presence[row]! > 0 && (!trim || (times[row]! >= trim.start && times[row]! <= trim.end)),
+  );
+  const sightings: number[][] = [];
+  for (const row of rows) {
+    const last = sightings.at(-1);
+    if (last && times[row]! - times[last.at(-1)!]! <= MAX_BRIDGE) last.push(row);
+    else sightings.push([row]);
+  }
+  const long = sightings.filter((rows) => times[rows.at(-1)!]! - times[rows[0]!]! >= MIN_SIGHTING);
+  return long.length > 0 ? long.flat() : rows;
+}
+
+/**
  * Resamples observations to 30 fps by linear interpolation between the pictures in which the person is seen.
  * @param trim part of the video to take, seconds; null takes all of it
  * @returns null when the person is in fewer than two pictures
  */
-export function seriesOf(
-  observations: Observations,
-  trim: { readonly start: number; readonly end: number } | null = null,
-): Series | null {
-  const { times, presence, width, height } = observations;
-  const rows = [...presence.keys()].filter(
-    (row) => presence[row]! > 0 && (!trim || (times[row]! >= trim.start && times[row]! <= trim.end)),
-  );
+export function seriesOf(observations: Observations, trim: Part | null = null): Series | null {
+  const { times, width, height } = observations;
+  const rows = rowsSeen(observations, trim);
   const [first, last] = [rows[0], rows.at(-1)];
   if (first === undefined || last === undefined || times[last]! - times[first]! < 1 / FPS) return null;
   const start = times[first]!;

@@ -54,7 +54,7 @@ const page = {
     const recorder = new Recorder(video.width, video.height);
     const begin = performance.now();
     for await (const { time, picture } of video.pictures(0, Infinity))
-      recorder.add(time, await tracker.next(picture));
+      recorder.add(time, await tracker.next(picture, time));
     const seconds = (performance.now() - begin) / 1000;
     video.close();
     const o = recorder.observations();
