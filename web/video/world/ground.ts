@@ -29,6 +29,10 @@ const LEVEL: Vec3 = [0, -1, 0];
 const SOLE_DEVIATION = 2.5 / 360;
 /** Weight of the body's own upright against the floor: metres of spread over the floor at which both count the same. */
 const BODY_SPREAD = 0.2;
+/** How much lower than the other the foot is that carries the weight, metres. */
+const FOOT_HEIGHT = 0.06;
+/** Times that the standing foot and what is up are found, each from the other. */
+const PASSES = 3;
 
 /**
  * The floor from the soles that stand on it and from the body, which is upright on average. The farther the soles
@@ -52,16 +56,29 @@ export function groundOf({ series, world, stances, focal }: DepthCues, depth: Fl
   return { up, height: -dot(mean, up) };
 }
 
-/** The mean direction from the feet to the shoulders. */
+/**
+ * The mean direction from the standing foot to the middle of the trunk: who stands on one leg or leans keeps their weight
+ * over that foot, and not in the middle of both.
+ */
 export function uprightOf(world: Float64Array, frames: number): Vec3 {
-  let sum: Vec3 = ZERO;
-  for (let frame = 0; frame < frames; frame++) {
-    const middle = (a: number, b: number): Vec3 =>
-      lerp(readVec(world, frame * LANDMARK_COUNT + a), readVec(world, frame * LANDMARK_COUNT + b), 0.5);
-    const feet = middle(L.left_ankle, L.right_ankle);
-    sum = add(sum, direction(sub(middle(L.left_shoulder, L.right_shoulder), feet), LEVEL));
+  let up = LEVEL;
+  // Which foot is lower depends on what is up.
+  for (let pass = 0; pass < PASSES; pass++) {
+    let sum: Vec3 = ZERO;
+    for (let frame = 0; frame < frames; frame++) {
+      const at = (landmark: number): Vec3 => readVec(world, frame * LANDMARK_COUNT + landmark);
+      const trunk = lerp(
+        lerp(at(L.left_hip), at(L.right_hip), 0.5),
+        lerp(at(L.left_shoulder), at(L.right_shoulder), 0.5),
+        0.5,
+      );
+      const [left, right] = [at(L.left_ankle), at(L.right_ankle)];
+      const rightStands = 1 / (1 + Math.exp((dot(right, up) - dot(left, up)) / FOOT_HEIGHT));
+      sum = add(sum, direction(sub(trunk, lerp(left, right, rightStands)), up));
+    }
+    up = direction(sum, up);
   }
-  return direction(sum, LEVEL);
+  return up;
 }
 
 /**

@@ -1,7 +1,9 @@
-/** Motions that are known to the millimetre, for videos. */
+/** Motions that are known, for videos: our own to the millimetre, that of a person to a few centimetres. */
 import { solve } from '../../../../web/motion/fit/ik';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
+import { JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import slow from '../../../../web/public/leaders/slow.bvh?raw';
+import person from '../../../fixtures/video/person.json';
 import salsa from '../../../fixtures/video/salsa.bvh?raw';
 import { leaderBvh } from '../leader-bvh';
 import type { MotionName } from './shots';
@@ -17,6 +19,12 @@ export function motionOf(name: MotionName): SolvedMotion {
       return walker({ seconds: 6, turn: 0.45, distance: 0 });
     case 'spinning':
       return walker({ seconds: 4, turn: 0.9, distance: 0 });
+    case 'balancing':
+      return solve({
+        fps: person.fps,
+        frames: person.millimetres.length / (3 * JOINT_COUNT),
+        positions: Float32Array.from(person.millimetres, (value) => value / 1000),
+      });
     case 'walking':
       return walker({ seconds: 6, turn: 0, distance: 1.4 });
   }

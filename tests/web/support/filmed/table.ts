@@ -1,6 +1,6 @@
 /** The table of docs/leader-from-video.md. */
 import { type Accuracy, accuracyOf, travels } from './accuracy';
-import { FILMED, type FilmedMotion } from './shots';
+import { FILMED, type FilmedMotion, PERSON } from './shots';
 
 const HEAD = '| motion | camera, m | pose, mm | place | path | heading | planted feet, m/s |';
 const RULE = '|---|---:|---:|---:|---:|---:|---:|';
@@ -23,7 +23,9 @@ export function tableRow(filmed: FilmedMotion, found: Accuracy): string {
 
 /** Made of the recordings. */
 export function accuracyTable(): string {
-  return [HEAD, RULE, ...FILMED.map((filmed) => tableRow(filmed, accuracyOf(filmed)))].join('\n');
+  return [HEAD, RULE, ...[...FILMED, ...PERSON].map((filmed) => tableRow(filmed, accuracyOf(filmed)))].join(
+    '\n',
+  );
 }
 
 /** The document with another table. @throws when it has none */
