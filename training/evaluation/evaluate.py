@@ -34,7 +34,7 @@ from training.evaluation.protocol import (
     fit_length,
 )
 from training.evaluation.role_swap import measure_role_swap
-from training.evaluation.rows import generate_motions, measure_row, measure_two_sample
+from training.evaluation.rows import generate_motions, measure_other_dances, measure_row, measure_two_sample
 
 Log = Callable[[str], None]
 
@@ -96,6 +96,7 @@ def evaluate(
     for name, motions in rows.items():
         log(f"measuring {name}")
         numbers["rows"][name] = measure_row(held_out, motions)
+    numbers["other_dances"] = measure_other_dances(held_out, train)
     frames = float(np.mean([len(i.duet) for i in held_out]))
     numbers["seconds"] = {"mean": float(np.mean(seconds)), "frames": frames}
     numbers |= _probes(generate, held_out, rows, settings, log)

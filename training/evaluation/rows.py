@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from training.evaluation.metrics.duet import duet_metrics, set_metrics
+from training.data.duet import Duet
+from training.evaluation.metrics.duet import clip_count, duet_metrics, fid_of_other_dances, set_metrics
 from training.evaluation.metrics.modes import MODES
 from training.evaluation.metrics.twosample import truth_against_truth, two_sample_accuracy
 from training.evaluation.protocol import TRUTH, HeldOutDuet, Motions, ReactorGenerator
@@ -84,6 +85,17 @@ def _measure_set(
                 label = name if name.endswith("_cd") else f"{name} {mode}"
                 result[label] = (value.value, value.low, value.high)
     return result
+
+
+def measure_other_dances(held_out: Sequence[HeldOutDuet], train: Sequence[Duet]) -> dict[str, list[float]]:
+    """FID of the training dances as captured against the held-out ones: value, lower and upper limit by its name.
+    Empty where they have fewer than two clips.
+    """
+    if clip_count([duet.reactor for duet in train]) < 2:
+        return {}
+    true = [(item.duet.leader, item.duet.reactor) for item in held_out]
+    others = fid_of_other_dances(true, [(duet.leader, duet.reactor) for duet in train])
+    return {name: [value.value, value.low, value.high] for name, value in others.items()}
 
 
 def bootstrap_interval(values: Sequence[float]) -> tuple[float, float]:

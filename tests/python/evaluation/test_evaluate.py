@@ -71,6 +71,9 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
         "unseen": ["martial_1", "martial_2"],
     }
     assert numbers["role_swap"]["generated"]["mean"]["mpjpe_mm"] > 0
+    others = numbers["other_dances"]
+    assert list(others) == ["fid_k", "fid_g", "fid_cd"]
+    assert all(low <= value <= high for value, low, high in others.values())
     # Drawn without the fine layer, not measured: this generator has none.
     assert np.array_equal(result.motions[COARSE_ALONE]["one"][0], result.motions["generated"]["one"][0])
     told = numbers["two_sample"]

@@ -24,7 +24,7 @@ from training.evaluation.metrics.errors import (
     root_error,
     root_error_by_distance,
 )
-from training.evaluation.metrics.frechet import Interval, clips, div, fid
+from training.evaluation.metrics.frechet import Interval, clips, div, fid, fid_of_others
 from training.evaluation.metrics.geometric import geometric_features
 from training.evaluation.metrics.kinetic import kinetic_features
 from training.evaluation.metrics.modes import Mode
@@ -116,6 +116,19 @@ def set_metrics(
     real, fake = _features(truth, length, hop, mode), _features(made, length, hop, mode)
     result = {f"fid_{name}": fid(real[name], fake[name], mode, resamples) for name in real}
     return result | {f"div_{name}": div(real[name], fake[name], mode, resamples) for name in real}
+
+
+def fid_of_other_dances(
+    truth: Sequence[tuple[np.ndarray, np.ndarray]],
+    others: Sequence[tuple[np.ndarray, np.ndarray]],
+    length: int = CLIP_FRAMES,
+    hop: int = HOP_FRAMES,
+) -> dict[str, Interval]:
+    """fid_k, fid_g and fid_cd, `corrected`, between true couples (leader, reactor), (T, 22, 3) metres each, and other
+    true couples, see `fid_of_others`: what to read the FID of a generated reactor against.
+    """
+    real, other = (_features(couples, length, hop, "corrected") for couples in (truth, others))
+    return {f"fid_{name}": fid_of_others(real[name], other[name]) for name in real}
 
 
 def clip_count(motions: Sequence[np.ndarray], length: int = CLIP_FRAMES, hop: int = HOP_FRAMES) -> int:

@@ -17,6 +17,8 @@ ROWS: tuple[tuple[str, str], ...] = (
     ("mirrored leader", "baseline: mirrored leader"),
 )
 """Rows of an evaluation and how they are called; those that were not measured are left out."""
+OTHER_DANCES = "the training dances, as captured"
+"""The FID of true motion that is not the held-out one, to read the others against."""
 COLUMNS: tuple[tuple[str, str, int], ...] = (
     ("FID_k", "fid_k corrected", 0),
     ("FID_g", "fid_g corrected", 0),
@@ -47,4 +49,9 @@ def paper_table(numbers: dict[str, Any]) -> str:
             cells[bed] += f" ({number(mean.get('bed_forward_chance'), 2)})"
             seconds = number(numbers["seconds"]["mean"], 1) if name == GENERATED else ""
             table.append([label, *cells, seconds])
+        if name == TRUTH and (others := numbers.get("other_dances")):
+            known = [others.get(key.removesuffix(" corrected")) for _, key, _ in COLUMNS]
+            digits_of = [digits for _, _, digits in COLUMNS]
+            cells = [number(v[0], d) if v else "" for v, d in zip(known, digits_of, strict=True)]
+            table.append([OTHER_DANCES, *cells, ""])
     return markdown_table(["", *(label for label, _, _ in COLUMNS), "seconds"], table)

@@ -101,7 +101,8 @@ def _every_measure(numbers: Numbers) -> Sections:
         f"In brackets 95 % bootstrap intervals: over seeds, and for FID and Div over the {clips['count']} clips "
         f"of {clips['frames']} frames (hop {clips['hop']}). `paper` repeats the published features with their "
         "errors, `corrected` has the real up axis and frame rate. Hands are the wrists: the body has no fingers. "
-        "`IPR (capsules)` is not the paper's IPR. PFC depends on the length of the clip.",
+        "`IPR (capsules)` is not the paper's IPR. PFC is of whole dances: it depends on their length and on "
+        "their largest root acceleration, by which it is divided.",
         markdown_table(
             ["measure", *rows], [[key, *(cell(row, key) for row in rows.values())] for key in measures]
         ),

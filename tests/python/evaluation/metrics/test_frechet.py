@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from training.evaluation.metrics.frechet import clips, div, diversity, fid, frechet, normalise
+from training.evaluation.metrics.frechet import clips, div, diversity, fid, fid_of_others, frechet, normalise
 
 
 def gaussian(mean: np.ndarray, std: np.ndarray, seed: int, count: int = 500) -> np.ndarray:
@@ -90,3 +90,15 @@ def test_the_same_clips_are_drawn_together():
     truth, other = (np.random.default_rng(seed).normal(size=(40, 3)) for seed in (8, 9))
     assert fid(truth, truth).high == pytest.approx(0.0, abs=1e-9)
     assert fid(truth, other).low > 0.01
+
+
+def test_fid_of_others_is_that_of_as_many_clips_drawn_without_repeats():
+    random = np.random.default_rng(10)
+    truth, others = random.normal(size=(30, 3)), random.normal(size=(120, 3))
+    spread = fid_of_others(truth, others)
+    assert 0 < spread.low < spread.value < spread.high < fid_of_others(truth, others + 2.0).low
+    # As many as there are: every draw is all of them, in whatever order.
+    same = fid_of_others(truth, truth)
+    assert (same.low, same.high) == pytest.approx((0.0, 0.0), abs=1e-9)
+    few = fid_of_others(truth, others[:20])
+    assert few.low == pytest.approx(few.high) and few.value == pytest.approx(fid(truth, others[:20]).value)
