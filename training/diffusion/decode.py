@@ -7,7 +7,7 @@ from torch import Tensor
 from training.config import DiffusionConfig, FrameConfig
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.foot_contact_correction import correct_foot_contact
-from training.motion.leader_frame import smoothed_heading
+from training.motion.leader_frame import smoothed_heading, smoothed_root
 from training.motion.rigid_body import rigid_body, steady_bones
 from training.motion.streams import from_streams
 
@@ -28,8 +28,8 @@ def decode(
 ) -> Tensor:
     """The reactor's joints (4 L, 22, 3), metres at the model's height, of normalised latents (L, R, C).
 
-    leader: (4 L, 22, 3), what the placement stream is relative to. gains: (S, R) factor of each residual layer of
-    each stream; 0 leaves it out. bones: (22,) metres, the lengths to give them.
+    leader: (4 L, 22, 3), to whose smoothed place the placement stream is relative. gains: (S, R) factor of each
+    residual layer of each stream; 0 leaves it out. bones: (22,) metres, the lengths to give them.
     """
     joints = decoded_joints(hfsq, frame, latents, leader, gains)
     motion = rigid_body(steady_bones(joints[None], bones), bones)[0]
@@ -42,4 +42,4 @@ def decoded_joints(
     """Joints (4 L, 22, 3), metres, as the networks decode them: bones change their lengths, feet slide."""
     raw = hfsq.denormalise(latents) * gains.T.repeat_interleave(hfsq.stream_latent, dim=1)
     upper, lower, placement = (stream[0] for stream in hfsq.decode(raw[None]))
-    return from_streams(upper, lower, placement, leader, smoothed_heading(leader, frame))
+    return from_streams(upper, lower, placement, smoothed_root(leader), smoothed_heading(leader, frame))

@@ -13,6 +13,9 @@ from training.config import FrameConfig
 from training.motion.heading import hip_heading
 from training.motion.smoothing import gaussian_mean
 
+# The Gaussian of the leader's place on the floor, frames.
+PLACE_SIGMA, PLACE_RADIUS = 2.0, 6
+
 # WebGPU's own atan, sin and cos may be wrong by half a thousandth, which is half a millimetre at arm's length:
 # these are as exact everywhere as sums and products are.
 
@@ -56,3 +59,14 @@ def smoothed_heading(leader: Tensor, config: FrameConfig) -> Tensor:
     c, s = cosine_sine(ahead)
     x, z = facing.unbind(-1)
     return torch.stack([c * x + s * z, c * z - s * x], dim=-1)
+
+
+def smoothed_root(leader: Tensor) -> Tensor:
+    """The leader's root (T, 1, 3) with its place on the floor smoothed with a Gaussian.
+
+    leader: (T, 22, 3) metres, y up. A reactor who is placed relative to it does not take over the jerks of a capture
+    or of a video, and steps in the same place.
+    """
+    x, y, z = leader[:, 0].unbind(-1)
+    x, z = gaussian_mean(torch.stack([x, z]), PLACE_SIGMA, PLACE_RADIUS)
+    return torch.stack([x, y, z], dim=-1)[:, None]

@@ -37,7 +37,10 @@ def to_streams(leader: Tensor, reactor: Tensor, heading: Tensor) -> tuple[Tensor
 
 
 def from_streams(upper: Tensor, lower: Tensor, placement: Tensor, leader: Tensor, heading: Tensor) -> Tensor:
-    """Inverse of `to_streams`: reactor joints (T, 22, 3) in the world."""
+    """Inverse of `to_streams`: reactor joints (T, 22, 3) in the world.
+
+    leader: (T, N, 3), of which only the root, the first joint, matters.
+    """
     ordered = torch.cat([torch.zeros_like(upper[:, :3]), upper, lower], dim=-1).unflatten(
         -1, (len(JOINTS), 3)
     )

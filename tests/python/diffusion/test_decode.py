@@ -80,3 +80,22 @@ def test_each_role_dances_on_bones_of_its_own_body(model: Model, leader: Tensor)
     assert (lengths[1] / lengths[0]).mean() > 1.05
     joints = decoded_joints(model.hfsq, model.frame, latents, leader, EVERY)
     assert bone_lengths(joints[None])[0, :, 1:].std(0).min() > 1e-4, "as decoded, bones change their lengths"
+
+
+@torch.no_grad()
+def test_a_jerk_of_the_leader_does_not_pass_to_the_reactor(model: Model, leader: Tensor) -> None:
+    """One frame of a capture that is 5 cm off: raw, that would be an acceleration of 90 m/s^2 of both."""
+    latents = latents_of(model)
+    jerky = leader.clone()
+    jerky[80] += torch.tensor([0.04, 0.0, 0.03])
+    made, after = (
+        decoded_joints(model.hfsq, model.frame, latents, one, EVERY)[:, 0] for one in (leader, jerky)
+    )
+    apart = (after - made).norm(dim=-1)
+    assert 1e-3 < apart.max() < 0.011
+    assert apart[[72, 88]].max() < 1e-6
+    # A leader who stands elsewhere has the reactor there.
+    elsewhere = decoded_joints(
+        model.hfsq, model.frame, latents, leader + torch.tensor([1.0, 0.0, -2.0]), EVERY
+    )
+    assert torch.allclose(elsewhere[:, 0] - made, torch.tensor([1.0, 0.0, -2.0]), atol=1e-5)
