@@ -43,7 +43,7 @@ const { solve } = await loadWeb('motion/fit/ik.ts');
 /** @type {typeof import('../web/motion/contact/beside-partner')} */
 const { besidePartner } = await loadWeb('motion/contact/beside-partner.ts');
 /** @type {typeof import('../web/motion/contact/foot-lock')} */
-const { lockFeet } = await loadWeb('motion/contact/foot-lock.ts');
+const { withFootLock } = await loadWeb('motion/contact/foot-lock.ts');
 const leader = values.beside === undefined ? null : read(values.beside);
 const rules = values.rules === undefined ? null : JSON.parse(readFileSync(values.rules, 'utf8'));
 for (const file of positionals) {
@@ -56,7 +56,7 @@ for (const file of positionals) {
     }
     motion = besidePartner(motion, leader, rules);
   }
-  if (values['foot-lock']) motion = lockFeet(motion);
+  if (values['foot-lock']) motion = withFootLock(motion);
   writeFileSync(file, new Uint8Array(motion.positions.buffer));
   console.log(`${file}: ${motion.frames} frames, fit error ${(motion.fitError * 1000).toFixed(2)} mm`);
 }

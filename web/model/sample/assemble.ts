@@ -3,7 +3,7 @@ import { yieldToEvents } from '../../common/yield-to-events';
 import { besidePartner } from '../../motion/contact/beside-partner';
 import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
-import { lockFeet } from '../../motion/contact/foot-lock';
+import { withFootLock } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
 import type { MotionClip, SolvedMotion } from '../../motion/skeleton/clip';
 import type { ModelSession } from '../load/session';
@@ -68,7 +68,7 @@ export class Assembler {
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
     const clip = await this.decode(dance, { range, overlap: 0 });
     const motion = this.#solve(clip, dance, partOfClip(leader, begin, clip.frames));
-    const locked = lockFeet(motion);
+    const locked = withFootLock(motion);
     const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
     return { from: first, motion: inner(motion), locked: inner(locked) };
   }
@@ -91,7 +91,7 @@ export class Assembler {
     await yieldToEvents(signal);
     const motion = this.#solve(clip, dance, dance.leader);
     await yieldToEvents(signal);
-    return { motion, locked: lockFeet(motion) };
+    return { motion, locked: withFootLock(motion) };
   }
 
   /**

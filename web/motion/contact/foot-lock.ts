@@ -1,15 +1,14 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
+import { separateLegs } from './leg-separation';
 import { bonesAt, LEGS, type LegJoints, shiftFoot } from './shifted-foot';
 import { maxLegLength } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import { add, type Vec3, writeVec } from '../math/vec3';
 
-/** Shift above which its own weight grows, metres: a foot that would be moved farther is released gradually. */
-const MAX_SHIFT = 0.1;
 /** Passes of iteratively reweighted least squares. */
-const PASSES = 6;
+const PASSES = 3;
 /** By how much a leg may be too short for a shift before the weight of a shift of zero doubles, metres. */
 const SHORTFALL = 0.002;
 
@@ -35,7 +34,7 @@ function legReach(motion: SolvedMotion, joints: LegJoints): Record<'ankles' | 'r
 
 /**
  * The shift that keeps a foot in place while it is in contact, along both axes of the floor, one number a frame, metres.
- * Each pass raises the weight of a shift of zero where the pass before asked for too much.
+ * Each pass raises the weight of a shift of zero where the pass before asked for more than the leg reaches.
  */
 function shiftOf(
   motion: SolvedMotion,
@@ -62,14 +61,11 @@ function shiftOf(
   let [x, z] = [held(along), held(across)];
   for (let pass = 1; pass < PASSES; pass++) {
     for (let t = 0; t < frames; t++) {
-      const dx = x[t]!;
-      const dz = z[t]!;
-      const excess = Math.max(1, Math.sqrt(dx * dx + dz * dz) / MAX_SHIFT);
-      const ax = ankles[3 * t]! + dx;
+      const ax = ankles[3 * t]! + x[t]!;
       const ay = ankles[3 * t + 1]!;
-      const az = ankles[3 * t + 2]! + dz;
+      const az = ankles[3 * t + 2]! + z[t]!;
       const shortfall = Math.max(0, Math.sqrt(ax * ax + ay * ay + az * az) - reach[t]!);
-      zeroWeights[t]! *= excess * excess * (1 + shortfall / SHORTFALL);
+      zeroWeights[t]! *= 1 + shortfall / SHORTFALL;
     }
     [x, z] = [held(along), held(across)];
   }
@@ -100,4 +96,9 @@ export function lockFeet(
     }
   }
   return { ...motion, rotations, positions };
+}
+
+/** The motion with foot lock: legs that it brings together, to where feet stand in each other's way, are apart again. Pure. */
+export function withFootLock(motion: SolvedMotion): SolvedMotion {
+  return separateLegs(lockFeet(motion));
 }

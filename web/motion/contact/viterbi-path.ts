@@ -1,11 +1,11 @@
 import type { ShiftColumn } from './capsules';
 
 /** Spacing of the grid of shifts, metres. */
-const GRID_STEP = 0.07;
+const GRID_STEP = 0.14;
 /** Longest shift, metres. */
-const MAX_SHIFT = 0.63;
+const MAX_SHIFT = 0.56;
 /** Largest change of the shift from one sample to the next, metres. */
-const MAX_CHANGE = 0.21;
+const MAX_CHANGE = 0.2;
 /** Cost of a squared change of the shift, where a squared shift costs 1. */
 const CHANGE_COST = 50;
 /** Rounding slack of comparisons on the grid, metres. */

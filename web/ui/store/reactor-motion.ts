@@ -1,6 +1,6 @@
 import { RecentCache } from '../../common/recent-cache';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import { lockFeet } from '../../motion/contact/foot-lock';
+import { withFootLock } from '../../motion/contact/foot-lock';
 import { sameInputs } from './selectors';
 import type { AppState } from './state';
 
@@ -14,7 +14,7 @@ const locked = new RecentCache<SolvedMotion, SolvedMotion>(MOST_LOCKED);
 function asDrawn(motion: SolvedMotion, footLock: boolean): SolvedMotion {
   if (!footLock) return motion;
   let result = locked.get(motion);
-  if (!result) locked.set(motion, (result = lockFeet(motion)));
+  if (!result) locked.set(motion, (result = withFootLock(motion)));
   return result;
 }
 

@@ -269,7 +269,7 @@ export interface AppState {
   /** Whether the browser keeps what is stored even when space is short; null while nobody has asked it. */
   readonly persistent: boolean | null;
   readonly restoring: Restoring | null;
-  /** Whether feet in contact with the floor are kept from sliding (see `lockFeet`). */
+  /** Whether feet in contact with the floor are kept from sliding (see `withFootLock`). */
   readonly footLock: boolean;
   /** Of the motion that was measured last, which may be the one before the one on the stage. */
   readonly quality: Quality | null;

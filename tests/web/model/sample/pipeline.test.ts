@@ -8,7 +8,7 @@ import type { Progress } from '../../../../web/model/progress';
 import type { ModelSession } from '../../../../web/model/load/session';
 import type { Manifest } from '../../../../web/model/manifest';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
-import { lockFeet } from '../../../../web/motion/contact/foot-lock';
+import { withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
 import { readVec } from '../../../../web/motion/math/vec3';
@@ -284,7 +284,7 @@ describe('Pipeline', () => {
     expect(stepRuns).toBe(runs);
     expect(coarse.frames).toBe(motion.frames);
     expect(maxDifference(coarse.positions, motion.positions)).toBeGreaterThan(1e-4);
-    expect(locked).toEqual(lockFeet(coarse));
+    expect(locked).toEqual(withFootLock(coarse));
     // Without its fine layer a reaction is its own coarse reaction.
     const width = manifest.latent.channels;
     const plain = latents.map((value, i) => (Math.floor(i / width) % 2 === 0 ? value : value + 0.5));

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { separateLegs } from '../../../../web/motion/contact/leg-separation';
-import { lockFeet } from '../../../../web/motion/contact/foot-lock';
+import { lockFeet, withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
 import { segmentDistance } from '../../../../web/motion/math/segments';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
@@ -58,7 +58,15 @@ describe('separateLegs', () => {
       expect(top(moves(free, apart, joint).slice(0, 15))).toBeLessThan(1e-6);
   });
 
-  it('leaves them apart when the feet are locked afterwards', () => {
-    expect(Math.min(...gaps(lockFeet(separateLegs(crossing(0.2)))))).toBeGreaterThan(0.06);
-  });
+  it.each([
+    [0.26, 6],
+    [0.3, 6],
+  ])(
+    'keeps apart legs that the foot lock brings together again, after %f radians in %i frames',
+    (inwards, swing) => {
+      const apart = separateLegs(crossing(inwards, swing));
+      expect(Math.min(...gaps(lockFeet(apart)))).toBeLessThan(0.06);
+      expect(Math.min(...gaps(withFootLock(apart)))).toBeGreaterThan(0.075);
+    },
+  );
 });
