@@ -1,4 +1,5 @@
 /** Binds a stage to the state: which dancers and overlays it shows, and when. Opens stages for videos. */
+import type { PictureSize } from './common/picture';
 import { dancers, generatedRole } from './ui/store/roles';
 import { besideStage } from './ui/generation/coarse-layer';
 import { combineDisposers } from './ui/widgets/dom';
@@ -9,7 +10,7 @@ import { type Store, watch, watchAll, type Watched } from './ui/store/store';
 import { isReading } from './ui/store/selectors';
 import { showOther } from './ui/takes/other-dancer';
 import type { createOffscreenStage } from './view/offscreen-stage';
-import type { PictureSize, Stage } from './view/stage';
+import type { Stage } from './view/stage';
 
 const reducedMotion = matchMedia('(prefers-reduced-motion: reduce)');
 

@@ -1,5 +1,5 @@
+import type { Role } from '../../web/common/role';
 import { beforeAll, expect, it, vi } from 'vitest';
-import type { Role } from '../../web/view/theme';
 import type { DancerOptions, Stage } from '../../web/view/stage';
 import type * as binding from '../../web/stage-binding';
 import type { Inputs, Take } from '../../web/ui/store/reaction';

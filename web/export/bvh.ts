@@ -1,6 +1,6 @@
+import type { Role } from '../common/role';
 import { strToU8, zipSync } from 'fflate';
 import { writeBvh } from '../motion/bvh/write';
-import type { Role } from '../view/theme';
 import type { Dance } from './dance';
 
 /** End of the file name. BVH holds one skeleton: one dancer is a BVH file, two are a ZIP archive with one each. */

@@ -1,6 +1,7 @@
+import type { PictureSize, Theme } from '../common/picture';
+import type { Role } from '../common/role';
 import { loadPart } from '../common/page-part';
 import { createBodyLibrary } from '../view/body/library';
-import type { Role, Theme } from '../view/theme';
 import { bvhExtension, writeBvhFile } from './bvh';
 import type { Dance, MotionFormat } from './dance';
 import { writeJson } from './json';
@@ -69,10 +70,7 @@ async function content(
 }
 
 /** How this browser can write a video of this size in pixels, with or without sound; null when it cannot. */
-export async function planVideo(
-  size: { readonly width: number; readonly height: number },
-  withSound: boolean,
-): Promise<VideoPlan | null> {
+export async function planVideo(size: PictureSize, withSound: boolean): Promise<VideoPlan | null> {
   const { plan } = await loadPart(() => import('./video/plan'));
   return plan(size, withSound);
 }

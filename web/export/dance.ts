@@ -1,6 +1,6 @@
+import type { Role } from '../common/role';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
-import type { Role } from '../view/theme';
 
 /** Where a motion comes from and what it was made with: written into every format that has room for it. */
 export interface About {

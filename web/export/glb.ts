@@ -1,3 +1,4 @@
+import type { Theme } from '../common/picture';
 import {
   AnimationClip,
   type BufferGeometry,
@@ -20,7 +21,7 @@ import { toFullGeometry } from '../view/body/geometry';
 import type { BodyLibrary } from '../view/body/library';
 import { BUILDS } from '../view/body/part';
 import { createRig, type Rig } from '../view/dancer/rig';
-import { LOOKS, type Theme } from '../view/theme';
+import { LOOKS } from '../view/theme';
 import type { Dance } from './dance';
 
 /**

@@ -2,15 +2,10 @@ import { VSMShadowMap, WebGLRenderer } from 'three';
 import { createEdgeSmoothing, type Rect, type EdgeSmoothing } from './edge-smoothing';
 import { createCopyPresenter, createDirectPresenter, type FramePresenter } from './frame-presenter';
 import { AppError } from '../common/error';
+import type { PictureSize } from '../common/picture';
 
 /** The whole canvas, or one half of a split view. */
 export type Viewport = 'whole' | 'left' | 'right';
-
-/** Pixels. */
-export interface PictureSize {
-  readonly width: number;
-  readonly height: number;
-}
 
 /** More pixels than this along a CSS pixel cost more than they show. */
 const MAX_PIXEL_RATIO = 2;

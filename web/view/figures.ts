@@ -1,3 +1,5 @@
+import type { Theme } from '../common/picture';
+import type { Role } from '../common/role';
 import { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { standingHeight } from '../motion/skeleton/kinematics';
@@ -5,7 +7,7 @@ import type { BodyLibrary } from './body/library';
 import { perPixelMaterial, perVertexMaterial } from './dancer/body-material';
 import { Dancer } from './dancer/dancer';
 import { createLights } from './lights';
-import { LOOKS, type Role, type Theme } from './theme';
+import { LOOKS } from './theme';
 
 /** A dancer in one moment, as a small picture shows it. */
 export interface Figure {

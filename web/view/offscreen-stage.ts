@@ -1,4 +1,4 @@
-import type { PictureSize } from './canvas';
+import type { PictureSize } from '../common/picture';
 import { Stage } from './stage';
 import { AppError } from '../common/error';
 

@@ -1,8 +1,9 @@
+import type { PictureSize } from '../common/picture';
 import type { BodyLibrary } from './body/library';
 import { CameraRig } from './camera/camera-rig';
 import { easing, isFar, measureCouple, nearestAngle, type Couple } from './camera/framing';
 import { planHeading } from './camera/heading-plan';
-import { Canvas, type PictureSize, type Viewport } from './canvas';
+import { Canvas, type Viewport } from './canvas';
 import { perVertexMaterial, perPixelMaterial } from './dancer/body-material';
 import { Dancers } from './dancer/dancers';
 import { screenBounds } from './edge-smoothing';

@@ -1,20 +1,18 @@
+import { ROLES, type Role } from '../common/role';
 import type { SolvedMotion } from '../motion/skeleton/clip';
 import { createBodyLibrary, type BodyLibrary } from './body/library';
 import type { Detail } from './camera/focus';
 import type { Covered } from './camera/orbit-camera';
-import type { PictureSize } from './canvas';
 import type { DancerName, OtherMode } from './dancer/dancers';
 import { createDynamicResolution } from './dynamic-resolution';
 import { createFrameLoop, idleLoop, type FrameLoop } from './frame-loop';
 import { isSoftwareRendered } from './frame-presenter';
 import type { Framing, View } from '../common/framing';
 import { onPixelSize } from '../common/pixel-size';
-import type { VisibleOverlays } from '../common/visible-overlays';
+import type { VisibleOverlays, Theme, PictureSize } from '../common/picture';
 import { createSplitLabels, type Labels, type SplitLabels } from './split-labels';
 import { StageRenderer } from './stage-renderer';
-import { LOOKS, ROLES, type Role, type Theme } from './theme';
-
-export type { PictureSize };
+import { LOOKS } from './theme';
 
 interface StageStats {
   /** Draw calls of the last frame, shadow passes included. */

@@ -1,6 +1,4 @@
-export type Theme = 'dark' | 'light';
-export type Role = 'leader' | 'reactor';
-export const ROLES = ['leader', 'reactor'] as const satisfies readonly Role[];
+import type { Theme } from '../common/picture';
 
 /** Everything on the stage that differs between the dark and the light theme. */
 export interface Look {

@@ -1,4 +1,5 @@
-import { LOOKS, type Theme } from '../../view/theme';
+import type { Theme } from '../../common/picture';
+import { LOOKS } from '../../view/theme';
 
 /** What is written into a video; empty for nothing. */
 export interface Captions {

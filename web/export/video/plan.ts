@@ -1,3 +1,4 @@
+import type { PictureSize } from '../../common/picture';
 import type { AudioCodec, VideoCodec } from 'mediabunny';
 import { canEncodeAudio, canEncodeVideo, Mp4OutputFormat, WebMOutputFormat } from 'mediabunny';
 import { canEncodeAac } from './aac';
@@ -37,10 +38,7 @@ const RECORDED = [
 ] as const;
 
 /** The first way of writing a video that this browser supports; null when there is none. */
-export async function plan(
-  { width, height }: { readonly width: number; readonly height: number },
-  withSound: boolean,
-): Promise<VideoPlan | null> {
+export async function plan({ width, height }: PictureSize, withSound: boolean): Promise<VideoPlan | null> {
   if ('VideoEncoder' in globalThis) {
     for (const { container, video, audio } of ENCODED) {
       const canVideo = await canEncodeVideo(video, { width, height });

@@ -2,6 +2,7 @@ import type { MotionClip } from '../../motion/skeleton/clip';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { ConditionInput } from './graphs';
 import { AppError } from '../../common/error';
+import type { Role } from '../../common/role';
 import type { Manifest } from '../manifest';
 import type { Weights } from './blend';
 
@@ -19,7 +20,7 @@ export interface Source {
     readonly start?: number | undefined;
   } | null;
   /** Role to generate; the reactor when not given. */
-  readonly role?: 'reactor' | 'leader' | undefined;
+  readonly role?: Role | undefined;
 }
 
 /** Whether two sources are the same arrays. */

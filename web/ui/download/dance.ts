@@ -1,9 +1,9 @@
+import { type Role, otherRole } from '../../common/role';
 import { atFrameRate, type Dance } from '../../export/client';
 import { withLevelHead } from '../../motion/skeleton/level-head';
-import { generatedRole, otherRole } from '../store/roles';
+import { generatedRole } from '../store/roles';
 import { type FileNameParts, videoFileName } from './file-name';
 import { reactorMotion } from '../store/reactor-motion';
-import type { Role } from '../store/reaction';
 import type { AppState, DancerSelection, Saved } from '../store/state';
 import { takeOnStage, takeTitle } from '../store/take';
 

@@ -1,3 +1,4 @@
+import type { PictureSize } from '../../common/picture';
 import { VIDEO_SIZES, type VideoPlan } from '../../export/client';
 import { fileNameParts, savedVideo } from './dance';
 import { textButton } from '../widgets/button';
@@ -135,7 +136,6 @@ function captionField(
 }
 
 type Plan = VideoPlan | null | undefined;
-type Pixels = NonNullable<ReturnType<Services['videoSize']>>;
 
 /** The heading, what will be written, and the buttons. */
 function createHead(services: Services): {
@@ -196,7 +196,7 @@ function createProgress(): {
 }
 
 /** Text beside the heading: what will be written, what was, or why no video can be written. */
-function videoText(plan: Plan, state: AppState, { width, height }: Pixels): string {
+function videoText(plan: Plan, state: AppState, { width, height }: PictureSize): string {
   if (plan === undefined) return '';
   if (plan === null) return 'Not in this browser: a current Chrome, Edge, Firefox or Safari can.';
   const saved = savedVideo(state, plan.container);

@@ -1,3 +1,4 @@
+import type { PictureSize } from '../../common/picture';
 import {
   captioned,
   type MotionFormat,
@@ -25,11 +26,6 @@ import { problemShown } from '../store/actions/notices';
 import { playbackSet } from '../store/actions/view';
 import { AppError } from '../../common/error';
 
-interface Pixels {
-  readonly width: number;
-  readonly height: number;
-}
-
 /** A stage that draws the dance, as it was when the stage was opened, for the frames of a video. */
 export interface VideoStage {
   readonly canvas: HTMLCanvasElement;
@@ -41,10 +37,10 @@ export interface VideoStage {
 /** What the downloads need of the rest of the page. */
 interface DownloadTools {
   /** Opens a stage for a video, framed as the one on the page; null without a stage. */
-  readonly openVideoStage: ((size: Pixels) => Promise<VideoStage>) | null;
+  readonly openVideoStage: ((size: PictureSize) => Promise<VideoStage>) | null;
   /** The same with the leader's video in the other half of the picture; null without such a video. */
-  readonly openBesideVideo: () => ((size: Pixels) => Promise<VideoStage>) | null;
-  readonly stageSize: () => Pixels | null;
+  readonly openBesideVideo: () => ((size: PictureSize) => Promise<VideoStage>) | null;
+  readonly stageSize: () => PictureSize | null;
 }
 
 type Downloads = Pick<
@@ -57,7 +53,7 @@ type SaveFile = typeof saveFile;
 /** Least time between two updates of a video's progress: without a graphics card, drawing the page is slow. */
 const PROGRESS_INTERVAL_MS = 400;
 /** Size of a video as on stage where there is no stage. */
-const FALLBACK_SIZE: Pixels = { width: 1280, height: 720 };
+const FALLBACK_SIZE: PictureSize = { width: 1280, height: 720 };
 
 /** Writes motions and videos to files. A failure is reported as a problem and changes nothing else. */
 export function createDownloads(store: Store, tools: DownloadTools): Downloads {
@@ -195,7 +191,7 @@ function videoProgress(
   };
 }
 
-function videoSize(store: Store, { stageSize }: DownloadTools): Pixels {
+function videoSize(store: Store, { stageSize }: DownloadTools): PictureSize {
   return videoPixels(store.getState().download.size, stageSize() ?? FALLBACK_SIZE);
 }
 

@@ -1,9 +1,9 @@
+import { type Role, otherRole } from '../../common/role';
 import { type FrameRate, motionExtension, type MotionFormat } from '../../export/client';
 import { FPS } from '../../motion/skeleton/clip';
-import { otherRole } from '../store/roles';
 import { fileSlug, slug } from '../store/format';
 import { columnOf } from '../store/guidance-matrix';
-import type { Inputs, Role } from '../store/reaction';
+import type { Inputs } from '../store/reaction';
 
 /** What a file name is made from. */
 export interface FileNameParts {

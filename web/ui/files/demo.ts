@@ -1,5 +1,6 @@
 import * as v from 'valibot';
 import { fetchShipped } from '../../common/fetch';
+import { ROLES } from '../../common/role';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Files } from '../store/services';
@@ -40,7 +41,7 @@ const schema = v.object({
         music: v.number(),
         variety: v.number(),
         seed: v.number(),
-        role: v.picklist(['leader', 'reactor']),
+        role: v.picklist(ROLES),
       }),
     }),
   ),

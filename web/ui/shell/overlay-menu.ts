@@ -1,7 +1,7 @@
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
 import { el, setAttribute, setText, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
-import type { VisibleOverlays } from '../../common/visible-overlays';
+import type { VisibleOverlays } from '../../common/picture';
 import type { Reaction } from '../store/reaction';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';

@@ -1,8 +1,8 @@
 import * as v from 'valibot';
 import { combineDisposers } from '../widgets/dom';
 import { VIEWS } from '../../common/framing';
-import { NO_OVERLAYS } from '../../common/visible-overlays';
-import type { AppState, Theme } from '../store/state';
+import { NO_OVERLAYS, type Theme } from '../../common/picture';
+import type { AppState } from '../store/state';
 import { apply, watch, watchAll, type Change, type Store } from '../store/store';
 import { SPEEDS, themeSet } from '../store/actions/view';
 

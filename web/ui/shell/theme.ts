@@ -1,5 +1,5 @@
+import type { Theme } from '../../common/picture';
 import { generatedRole } from '../store/roles';
-import type { Theme } from '../store/state';
 import { type Store, watch } from '../store/store';
 import { combineDisposers } from '../widgets/dom';
 

@@ -4,10 +4,10 @@ import type { Manifest } from '../../model/client';
 import type { FileBytes } from '../../motion/import/read';
 import type { LeaderFile } from '../../motion/retarget/leader';
 import type { ImportOptions } from '../../motion/retarget/options';
+import type { Role } from '../../common/role';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 
 export type Layer = 'coarse' | 'fine';
-export type Role = 'leader' | 'reactor';
 
 /** Guidance by stream and layer, s of the paper's Eq. 9; streams and layers as the manifest names them. */
 export type Guidance = Readonly<Record<string, Readonly<Record<string, number>>>>;

@@ -1,6 +1,6 @@
+import { otherRole, type Role } from '../../common/role';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { reactorMotion } from './reactor-motion';
-import type { Role } from './reaction';
 import type { AppState } from './state';
 
 /** The role that the model generates; the loaded dancer has the other one. */
@@ -11,10 +11,6 @@ export function generatedRole({ settings }: Pick<AppState, 'settings'>): Role {
 /** The role of the dancer that was loaded from a file. */
 export function loadedRole(state: Pick<AppState, 'settings'>): Role {
   return otherRole(generatedRole(state));
-}
-
-export function otherRole(role: Role): Role {
-  return role === 'leader' ? 'reactor' : 'leader';
 }
 
 /** `Leader` or `Reactor`. */

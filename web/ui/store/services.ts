@@ -1,3 +1,5 @@
+import type { PictureSize, Theme } from '../../common/picture';
+import type { Role } from '../../common/role';
 import type { Song } from '../../audio/client';
 import type { MotionFormat, VideoPlan } from '../../export/client';
 import type { Manifest } from '../../model/client';
@@ -6,9 +8,9 @@ import type { Inspection } from '../../motion/import/inspect';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { StorageUsage } from '../../offline/storage-usage';
 import type { Report } from '../../quality/client';
-import type { LeaderSource, LoadedLeader, LoadedSong, Role } from './reaction';
+import type { LeaderSource, LoadedLeader, LoadedSong } from './reaction';
 import type { ImportOptions } from '../../motion/retarget/options';
-import type { InputKind, Theme } from './state';
+import type { InputKind } from './state';
 import type { Store } from './store';
 
 /** What the system's file chooser is asked for. */
@@ -120,7 +122,7 @@ export interface Services {
   /** Shares the file that was written last with another app, by the system's own dialog. */
   readonly shareSaved: () => void;
   /** Size of the chosen video in pixels; null without a stage. */
-  readonly videoSize: () => { readonly width: number; readonly height: number } | null;
+  readonly videoSize: () => PictureSize | null;
   /** Hands a project file with song, leader, takes and settings to the browser's downloads. */
   readonly saveProject: () => void;
   /** Stores the work of this tab from now on, no longer that of another tab. */

@@ -1,6 +1,6 @@
 /** The state of the page and the types of its parts. */
 import type { View } from '../../common/framing';
-import type { VisibleOverlays } from '../../common/visible-overlays';
+import type { Theme, VisibleOverlays } from '../../common/picture';
 import type { BeatsPerBar } from '../../audio/client';
 import type { FrameRate, MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
@@ -10,7 +10,6 @@ import type { History } from './history/history';
 import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
 
-export type Theme = 'dark' | 'light';
 export type InputKind = 'song' | 'leader';
 
 /** The two takes of a comparison; one is on the stage. */

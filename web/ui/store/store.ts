@@ -1,6 +1,6 @@
-import { NO_OVERLAYS } from '../../common/visible-overlays';
+import { NO_OVERLAYS, type Theme } from '../../common/picture';
 import { FPS } from '../../motion/skeleton/clip';
-import type { AppState, Theme } from './state';
+import type { AppState } from './state';
 import { NO_HISTORY, withUndo } from './history/history';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 

@@ -1,8 +1,8 @@
+import { type Role, ROLES } from '../../common/role';
 import { onPixelSize } from '../../common/pixel-size';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { DancerLanes } from './lanes/dancer-lanes';
 import { reactorMotion } from '../store/reactor-motion';
-import type { Role } from '../store/reaction';
 import { generatedRole } from '../store/roles';
 import { countedBeats } from '../store/counting';
 import { el, combineDisposers } from '../widgets/dom';
@@ -119,7 +119,7 @@ function followSettingOne(store: Store, lanes: HTMLElement): () => void {
 
 /** Hands the motions of both dancers to their lanes. */
 function followMotions(store: Store, lanes: DancerLanes): (() => void)[] {
-  return (['leader', 'reactor'] as const).map((role) =>
+  return ROLES.map((role) =>
     watchAll(
       store,
       (state) => [laneMotion(state, role), state.manifest],

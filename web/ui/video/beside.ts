@@ -1,9 +1,5 @@
+import type { PictureSize } from '../../common/picture';
 import { openPictures } from '../../video/client';
-
-interface Pixels {
-  readonly width: number;
-  readonly height: number;
-}
 
 /** Pictures of the dance for an exported video, as the stage draws them; times ascend. */
 interface Drawn {
@@ -13,8 +9,8 @@ interface Drawn {
 }
 
 /** The halves of a picture: beside each other in a wide one, one above the other in a tall one. */
-export function halves({ width, height }: Pixels): {
-  readonly size: Pixels;
+export function halves({ width, height }: PictureSize): {
+  readonly size: PictureSize;
   readonly second: { readonly x: number; readonly y: number };
 } {
   // Encoders take even sizes, and so do the halves.
@@ -31,9 +27,9 @@ export function halves({ width, height }: Pixels): {
  * @throws {AppError} what is wrong with the video
  */
 export async function openBeside(
-  whole: Pixels,
+  whole: PictureSize,
   { file, start }: { readonly file: Blob; readonly start: number },
-  openStage: (size: Pixels) => Promise<Drawn>,
+  openStage: (size: PictureSize) => Promise<Drawn>,
 ): Promise<Drawn> {
   const { size, second } = halves(whole);
   const pictures = await openPictures(file, start);

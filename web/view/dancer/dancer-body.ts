@@ -1,7 +1,8 @@
+import type { Role } from '../../common/role';
 import { BufferGeometry, Group, SkinnedMesh } from 'three';
 import { toGeometry, type BodyGeometry } from '../body/geometry';
 import type { Body } from '../body/simplify';
-import type { Look, Role } from '../theme';
+import type { Look } from '../theme';
 import { createGhost, type Ghost, type GhostOpacity } from './ghost-material';
 import type { BodyMaterial } from './body-material';
 import type { Rig } from './rig';

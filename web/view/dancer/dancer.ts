@@ -1,10 +1,10 @@
+import type { Role } from '../../common/role';
 import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import type { BodyLibrary } from '../body/library';
 import { BUILDS } from '../body/part';
 import type { Body } from '../body/simplify';
-import type { Role } from '../theme';
 import type { BodyMaterial } from './body-material';
 import { DancerBody } from './dancer-body';
 import { gesture, levelHead } from './gesture';

@@ -1,3 +1,4 @@
+import { otherRole, ROLES, type Role } from '../../common/role';
 import { Group } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { JOINT_COUNT } from '../../motion/skeleton/skeleton';
@@ -5,8 +6,8 @@ import type { BodyLibrary } from '../body/library';
 import { measureCouple, type Couple } from '../camera/framing';
 import type { Viewport } from '../canvas';
 import type { Figure } from '../overlays/overlay';
-import { NO_OVERLAYS, type VisibleOverlays } from '../../common/visible-overlays';
-import { ROLES, type Look, type Role } from '../theme';
+import { NO_OVERLAYS, type VisibleOverlays } from '../../common/picture';
+import { type Look } from '../theme';
 import type { BodyMaterial } from './body-material';
 import { Dancer } from './dancer';
 
@@ -183,7 +184,7 @@ export class Dancers {
 
   /** The role whose motion was loaded, not made. */
   private get loaded(): Role {
-    return this.made === 'reactor' ? 'leader' : 'reactor';
+    return otherRole(this.made);
   }
 
   private isPresent(name: DancerName): boolean {

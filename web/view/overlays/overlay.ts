@@ -1,6 +1,7 @@
+import type { Role } from '../../common/role';
 import type { Object3D } from 'three';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type { Look, Role } from '../theme';
+import type { Look } from '../theme';
 
 /** A dancer as an overlay sees them: role, the whole motion, and the 22 x 3 joint positions of this moment in metres. */
 export interface Figure {

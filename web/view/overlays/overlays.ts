@@ -1,5 +1,5 @@
 import { Group } from 'three';
-import { NO_OVERLAYS, type VisibleOverlays } from '../../common/visible-overlays';
+import { NO_OVERLAYS, type VisibleOverlays } from '../../common/picture';
 import type { Look } from '../theme';
 import { createBones } from './bones';
 import { createContactRings } from './contact-rings';

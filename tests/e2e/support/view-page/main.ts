@@ -1,4 +1,5 @@
 /** Pictures drawn with single parts of the stage, for browser tests to compare. */
+import type { Theme } from '../../../../web/common/picture';
 import {
   Mesh,
   MeshBasicMaterial,
@@ -20,7 +21,7 @@ import {
   type BodyMaterial,
 } from '../../../../web/view/dancer/body-material';
 import { createRig } from '../../../../web/view/dancer/rig';
-import { LOOKS, type Theme } from '../../../../web/view/theme';
+import { LOOKS } from '../../../../web/view/theme';
 import { person } from '../../../web/support/skeletons';
 
 const SIDE = 360;

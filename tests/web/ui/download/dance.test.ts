@@ -1,3 +1,4 @@
+import type { Role } from '../../../../web/common/role';
 import { beforeEach, describe, expect, it } from 'vitest';
 import {
   chosenDance,
@@ -10,7 +11,7 @@ import { videoFileName } from '../../../../web/ui/download/file-name';
 import { downloadChosen, savedChanged } from '../../../../web/ui/store/actions/download';
 import { takeChosen } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';
-import { modelIdentity, type Role } from '../../../../web/ui/store/reaction';
+import { modelIdentity } from '../../../../web/ui/store/reaction';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
 import { leader, still } from '../../support/made-state';

@@ -1,6 +1,6 @@
+import type { Theme } from '../../../../web/common/picture';
 import { describe, expect, it } from 'vitest';
 import { syncPreferences, type PreferenceStorage } from '../../../../web/ui/shell/preferences';
-import type { Theme } from '../../../../web/ui/store/state';
 import { firstVisitEnded } from '../../../../web/ui/store/actions/files';
 import { footLockSet } from '../../../../web/ui/store/actions/reaction';
 import { seedLockSet } from '../../../../web/ui/store/actions/settings';

@@ -4,7 +4,7 @@ import { J } from '../../../../web/motion/skeleton/skeleton';
 import { createBodyLibrary } from '../../../../web/view/body/library';
 import { Dancers } from '../../../../web/view/dancer/dancers';
 import { perPixelMaterial } from '../../../../web/view/dancer/body-material';
-import { NO_OVERLAYS } from '../../../../web/common/visible-overlays';
+import { NO_OVERLAYS } from '../../../../web/common/picture';
 import { LOOKS } from '../../../../web/view/theme';
 import { randomMotion } from '../../support/skeletons';
 

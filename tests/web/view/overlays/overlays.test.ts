@@ -4,7 +4,7 @@ import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { headingOf } from '../../../../web/motion/skeleton/heading';
 import { nearHandPairs } from '../../../../web/view/overlays/hand-pairs';
 import type { Figure } from '../../../../web/view/overlays/overlay';
-import { NO_OVERLAYS } from '../../../../web/common/visible-overlays';
+import { NO_OVERLAYS } from '../../../../web/common/picture';
 import { createOverlays } from '../../../../web/view/overlays/overlays';
 import { contactOpacity, footContactsOf } from '../../../../web/view/overlays/contact-fade';
 import { endEffectorAt, END_EFFECTORS, endEffectorTracks } from '../../../../web/view/overlays/end-effectors';

@@ -1,6 +1,6 @@
 /** The settings of a generation. */
+import { otherRole } from '../../../common/role';
 import { HEIGHTS, type Manifest, SEEDS } from '../../../model/client';
-import { otherRole } from '../roles';
 import {
   columnOf,
   defaultGuidance,

@@ -1,9 +1,9 @@
 /** Playback, camera, theme, overlays and floating panels. */
 import { danceDuration } from '../selectors';
 import type { View } from '../../../common/framing';
-import type { VisibleOverlays } from '../../../common/visible-overlays';
+import type { VisibleOverlays, Theme } from '../../../common/picture';
 import type { Reaction } from '../reaction';
-import type { AppState, CoarseLayer, Playback, Theme } from '../state';
+import type { AppState, CoarseLayer, Playback } from '../state';
 import type { Change } from '../store';
 
 export const SPEEDS = [0.25, 0.5, 0.75, 1, 1.25, 1.5, 2] as const;

@@ -1,10 +1,10 @@
+import { otherRole, type Role, ROLES } from '../../../common/role';
 import type { SolvedMotion } from '../../../motion/skeleton/clip';
 import type { Manifest } from '../../../model/client';
 import { createBlockRow } from '../block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
-import { generatedRole, otherRole } from '../../store/roles';
+import { generatedRole } from '../../store/roles';
 import { isSampling, jobText } from '../../store/selectors';
-import type { Role } from '../../store/reaction';
 import type { AppState } from '../../store/state';
 import type { TimeScale } from '../../store/time-scale';
 import { el } from '../../widgets/dom';
@@ -59,7 +59,7 @@ export class DancerLanes {
       stale: false,
     };
     const madeView: MotionLaneView = { ...loadedView, stale: isSampling(state) };
-    for (const role of ['leader', 'reactor'] as const)
+    for (const role of ROLES)
       this.#lanes[role].draw(this.#motions[role], role === made ? madeView : loadedView);
     const { root } = this.#lanes[made];
     if (this.#blocks.root.parentElement !== root) root.prepend(this.#blocks.root);

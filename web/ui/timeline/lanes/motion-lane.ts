@@ -1,3 +1,4 @@
+import type { Role } from '../../../common/role';
 import { beatScores } from '../../../motion/beats/beat-match';
 import type { Manifest } from '../../../model/client';
 import type { SolvedMotion } from '../../../motion/skeleton/clip';
@@ -7,7 +8,6 @@ import { el, setText } from '../../widgets/dom';
 import { clockTime } from '../../store/format';
 import { drawCurve, drawDots, surface, token } from '../../widgets/lane-canvas';
 import { roleName } from '../../store/roles';
-import type { Role } from '../../store/reaction';
 import type { TimeScale } from '../../store/time-scale';
 
 /** Beat score from which a motion beat counts as on the music: within two and a half frames of a music beat. */

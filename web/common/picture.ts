@@ -1,3 +1,13 @@
+/** How a picture of the couple is drawn, as far as the page chooses it: theme, size and overlays. */
+
+export type Theme = 'dark' | 'light';
+
+/** Pixels. */
+export interface PictureSize {
+  readonly width: number;
+  readonly height: number;
+}
+
 /** Which overlays the stage draws in addition to the dancers. */
 export interface VisibleOverlays {
   /** Bones and joints; the bodies are see-through then. */
