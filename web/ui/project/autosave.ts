@@ -1,3 +1,4 @@
+import { isFull, isNewer } from './database';
 import type { Framing } from '../../common/framing';
 import { yieldToPage } from '../../common/yield-to-events';
 import { fullProblem } from '../store/problems';
@@ -9,8 +10,8 @@ import { currentInputs } from '../store/take';
 import { autosaveChanged } from '../store/actions/project';
 import { TabLock, type TabLockApis } from './tab-lock';
 import type { FoundProject } from './records';
-import { hasVisitorContent, storedProject } from './schema';
-import { isFull, isNewer, type ProjectStorage } from './storage';
+import { hasVisitorContent, storedProject } from './stored-project';
+import { type ProjectStorage } from './storage';
 
 /** Time between two attempts after a failure: space may have been freed in another tab. */
 const RETRY_MS = 20_000;

@@ -5,7 +5,7 @@ import type { Inputs, LoadedLeader, LoadedSong, Settings } from '../store/reacti
 import { sameSettings } from '../store/selectors';
 import type { AppState } from '../store/state';
 import { currentInputs } from '../store/take';
-import { type StoredInputs, storedInputs } from './schema';
+import { type StoredInputs, storedInputs } from './stored-project';
 
 /** The longest song that is read, in frames: a shift beyond it leaves no song. */
 const MAX_SHIFT = 15 * 60 * FPS;

@@ -2,7 +2,7 @@ import { strFromU8, strToU8, type Unzipped, unzipSync, type Zippable, zipSync } 
 import * as v from 'valibot';
 import { fileSlug } from '../store/format';
 import { checked } from './records';
-import { type StoredProject, VERSION } from './schema';
+import { type StoredProject, VERSION } from './stored-project';
 import { motionBytes, packFloats, packMotion, unpackFloats, unpackMotion } from './motion-bytes';
 import { AppError } from '../../common/error';
 

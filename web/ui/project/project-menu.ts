@@ -6,7 +6,7 @@ import type { AutosaveStatus } from '../store/state';
 import { apply, watch, watchAll } from '../store/store';
 import { panelToggled } from '../store/actions/view';
 import { persistenceText } from '../store/selectors';
-import { hasVisitorContent } from './schema';
+import { hasVisitorContent } from './stored-project';
 
 const HEADINGS: Readonly<Record<AutosaveStatus, string>> = {
   stored: 'Saved in this browser until you start over',

@@ -24,7 +24,7 @@ import { askPersistence, isPersistent, type Persistence } from '../../offline/pe
 import { Autosave } from './autosave';
 import type { TabLockApis } from './tab-lock';
 import { checked } from './records';
-import { assignId, loadedParts, storedProject } from './schema';
+import { assignId, loadedParts, storedProject } from './stored-project';
 import { readProject, writeProject } from './project-file';
 import { Restorer, restoringOf, type StoredFileReaders } from './restore';
 import type { ProjectStorage } from './storage';

@@ -11,7 +11,7 @@ import {
   type StoredMotion,
   type StoredSong,
   type StoredTake,
-} from './schema';
+} from './stored-project';
 
 /** How stored songs and leaders are read again; null for one that can't be read any more. */
 export interface StoredFileReaders {

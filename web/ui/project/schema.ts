@@ -1,218 +1,218 @@
-import type { Framing } from '../../common/framing';
-import type { Manifest } from '../../model/client';
+/** The shape and the limits of the records in the database and in project files. */
+import * as v from 'valibot';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
-import type {
-  Inputs,
-  LeaderSource,
-  LoadedLeader,
-  LoadedSong,
-  ModelIdentity,
-  Reaction,
-} from '../store/reaction';
-import type { AppState, Compare, Letter, SongCounting } from '../store/state';
-import { currentInputs, takeOnStage } from '../store/take';
-import type { Span } from '../store/time-scale';
+import { ALL_UNITS, UP_AXES } from '../../motion/retarget/axes-and-units';
+import { checkPlausible } from '../../motion/skeleton/plausible';
+import { J, JOINT_COUNT, SMPL22 } from '../../motion/skeleton/skeleton';
+import { VIEWS } from '../../common/framing';
+import { MAX_TAKE_NAME_LENGTH } from '../store/actions/takes';
+import { MIN_LOOP } from '../store/actions/timeline';
+import type { StoredInputs } from './stored-project';
 
-/**
- * Version of the records, in the database and in project files. Raised when pages of the version before can't read
- * them any more, or would leave out something of the visitor's work when they write them again.
- */
-export const VERSION = 2;
+/** Most songs, and most leaders, that are read again: each takes a worker of its own for a while. */
+export const MAX_FILES = 100;
+const MAX_NAME_LENGTH = 1000;
+/** Most files that a leader is read from, with those that belong to it: any that were dropped with it may. */
+const MAX_LEADER_FILES = 1000;
+/** Most graphs of a model. */
+const MAX_GRAPHS = 10;
+/** Largest rest offset of a joint from its parent, metres. */
+const MAX_BONE = 2;
+/** Largest distance between the root and the pelvis that follows from it, metres. */
+const MAX_ROOT_ERROR = 0.01;
+/** How far from 1 the length of a rotation may be. */
+const MAX_ROTATION_ERROR = 0.01;
+/** Latest moment that a date can hold, milliseconds since 1970. */
+const MAX_DATE = 8.64e15;
 
-/** A song: the file that it was read from. */
-export interface StoredSong {
-  readonly id: string;
-  readonly name: string;
-  readonly label: string | null;
-  readonly file: Blob;
-}
+/** Longest time that a song can have, seconds. */
+const MAX_SECONDS = 3600;
 
-export interface StoredLeader extends LeaderSource {
-  readonly id: string;
-}
+/** How far from the couple a camera may look or stand, and how near it may be, metres. */
+const MAX_PAN = 100;
+const MIN_DISTANCE = 0.1;
+/** Most that a camera may have turned, radians. */
+const MAX_HEADING = 1e4;
 
-export interface StoredMotion {
-  readonly id: string;
-  readonly motion: SolvedMotion;
-  /** Left out where the motion came ready-made, or was stored by a page that did not store latents. */
-  readonly latents?: StoredLatents | undefined;
-}
+const text = v.pipe(v.string(), v.maxLength(MAX_NAME_LENGTH));
+const id = v.pipe(text, v.minLength(1));
+const label = v.nullable(text);
+const amount = v.pipe(v.number(), v.minValue(0), v.maxValue(1e6));
+const count = v.pipe(amount, v.integer());
+const inputs = v.custom<StoredInputs>(
+  (value) => value !== null && typeof value === 'object' && !Array.isArray(value),
+);
 
-/** What a motion was decoded from, as in `Reaction`. */
-interface StoredLatents {
-  /** The decoder they are for, as `decoderOf` names it. */
-  readonly decoder: string;
-  readonly values: Float32Array;
-}
+export const song = v.pipe(
+  v.object({
+    id,
+    name: text,
+    label,
+    type: text,
+    bytes: v.union([v.instance(ArrayBuffer), v.instance(Uint8Array<ArrayBuffer>)]),
+  }),
+  v.check(({ bytes }) => bytes.byteLength > 0),
+  v.transform(({ bytes, type, ...rest }) => ({ ...rest, file: new Blob([bytes], { type }) })),
+);
 
-/** Identifies a model's decoder: the SHA-256 of its graph. */
-export function decoderOf({ graphs }: Manifest): string {
-  return graphs.decode.files.wasm.sha256;
-}
+const leaderFile = v.object({
+  name: text,
+  bytes: v.pipe(
+    v.instance(Uint8Array<ArrayBuffer>),
+    v.check(({ byteLength }) => byteLength > 0),
+  ),
+});
 
-/** What a reaction is made from besides song and leader: settings, and whatever else `Inputs` has. */
-export type StoredInputs = Readonly<Record<string, unknown>>;
+const degrees = v.pipe(v.number(), v.minValue(-360), v.maxValue(360));
+const metres = v.pipe(v.number(), v.minValue(-1000), v.maxValue(1000));
 
-export interface StoredTake {
-  readonly id: string;
-  readonly number: number;
-  readonly name: string | null;
-  readonly starred: boolean;
-  readonly createdAt: number;
-  readonly label: string | null;
-  readonly seconds: number | null;
-  readonly model?: ModelIdentity | undefined;
-  /** Ids of the parts. */
-  readonly motion: string;
-  readonly leader: string;
-  readonly song: string | null;
-  readonly inputs: StoredInputs;
-}
+/** See `ImportOptions`; what does not fit is found in the file instead, as if it had not been set. */
+const options = v.object({
+  fps: v.fallback(v.optional(v.pipe(amount, v.gtValue(0))), undefined),
+  unit: v.fallback(v.optional(v.picklist(ALL_UNITS.map((unit) => unit.name))), undefined),
+  up: v.fallback(v.optional(v.picklist(UP_AXES.map((axis) => axis.name))), undefined),
+  turn: v.fallback(v.optional(degrees), undefined),
+  floor: v.fallback(v.optional(metres), undefined),
+  part: v.fallback(v.optional(count), undefined),
+  joints: v.fallback(v.optional(v.record(v.picklist(SMPL22), v.nullable(text))), undefined),
+});
 
-/** What is on the page, by ids. */
-export interface StoredPage {
-  readonly leader: string | null;
-  readonly song: string | null;
-  /** Null while there was no leader. */
-  readonly inputs: StoredInputs | null;
-  readonly shown: string | null;
-  readonly other: string | null;
-  readonly letter: Letter;
-  readonly compare: Compare;
-  readonly takesMade: number;
-  readonly footLock: boolean;
-  readonly countings: readonly SongCounting[];
-  /** Seconds. */
-  readonly time: number;
-  /** The chosen part of the dance. */
-  readonly region: Span | null;
-  /** Whether that part, or the whole dance, repeats. */
-  readonly loop: boolean;
-  /** How the camera sees the couple; null where the page shows none. */
-  readonly framing: Framing | null;
-}
+export const leader = v.object({
+  id,
+  name: text,
+  label,
+  files: v.pipe(v.array(leaderFile), v.minLength(1), v.maxLength(MAX_LEADER_FILES)),
+  options,
+});
 
-/** What storage and project files hold: plain data from which songs and leaders are read and analysed again. */
-export interface StoredProject {
-  readonly songs: readonly StoredSong[];
-  readonly leaders: readonly StoredLeader[];
-  readonly motions: readonly StoredMotion[];
-  readonly takes: readonly StoredTake[];
-  readonly page: StoredPage;
-}
+const floats = v.instance(Float32Array);
 
-/** Ids of songs, leaders and motions; the same object has the same id until the page is closed. */
-const ids = new WeakMap<object, string>();
+export const motion = v.object({
+  id,
+  motion: v.pipe(
+    v.object({
+      fps: v.pipe(amount, v.gtValue(0)),
+      frames: v.pipe(count, v.minValue(1)),
+      fitError: amount,
+      offsets: floats,
+      root: floats,
+      rotations: floats,
+      positions: floats,
+    }),
+    v.check((dance) => isDance(dance)),
+  ),
+  // Without latents a take is whole; only its coarse layer can't be shown.
+  latents: v.fallback(
+    v.optional(
+      v.object({
+        decoder: id,
+        values: v.pipe(
+          floats,
+          v.check((values) => values.every(Number.isFinite)),
+        ),
+      }),
+    ),
+    undefined,
+  ),
+});
 
-function idOf(part: object): string {
-  let id = ids.get(part);
-  if (id === undefined) {
-    id = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
-      byte.toString(16).padStart(2, '0'),
-    ).join('');
-    ids.set(part, id);
+/** See `ModelIdentity`. */
+const model = v.object({ id, name: text, graphs: v.pipe(v.array(text), v.maxLength(MAX_GRAPHS)) });
+
+export const take = v.object({
+  id,
+  number: count,
+  name: v.nullable(
+    v.pipe(
+      v.string(),
+      v.minLength(1),
+      v.transform((name) => name.slice(0, MAX_TAKE_NAME_LENGTH)),
+    ),
+  ),
+  starred: v.boolean(),
+  createdAt: v.pipe(v.number(), v.minValue(0), v.maxValue(MAX_DATE)),
+  label,
+  seconds: v.nullable(amount),
+  model: v.fallback(v.optional(model), undefined),
+  motion: id,
+  leader: id,
+  song: v.nullable(id),
+  inputs,
+});
+
+/** How a song is counted. */
+const counting = v.object({
+  song: text,
+  bytes: v.pipe(v.number(), v.integer(), v.minValue(0)),
+  beatsPerBar: v.picklist([3, 4]),
+  rate: v.picklist([0.5, 1, 2]),
+  one: v.pipe(v.number(), v.minValue(-MAX_SECONDS), v.maxValue(MAX_SECONDS)),
+});
+
+/** A part of the dance, seconds. */
+const region = v.pipe(
+  v.object({ from: amount, to: amount }),
+  v.check(({ from, to }) => to >= from + MIN_LOOP),
+);
+
+const radians = v.pipe(v.number(), v.minValue(-MAX_HEADING), v.maxValue(MAX_HEADING));
+const place = v.pipe(v.number(), v.minValue(-MAX_PAN), v.maxValue(MAX_PAN));
+
+/** See `Framing`. */
+const framing = v.object({
+  view: v.picklist(VIEWS),
+  shot: v.object({
+    target: v.tuple([place, place, place]),
+    distance: v.pipe(v.number(), v.minValue(MIN_DISTANCE), v.maxValue(MAX_PAN)),
+    heading: radians,
+    elevation: v.pipe(v.number(), v.minValue(-Math.PI / 2), v.maxValue(Math.PI / 2)),
+  }),
+  tracked: v.tuple([place, place]),
+  ownDistance: v.boolean(),
+  ownHeading: v.boolean(),
+  aspect: v.pipe(v.number(), v.minValue(1e-2), v.maxValue(1e2)),
+});
+
+/** Each of these takes its neutral value where it does not fit: the page is made of takes, and they can be chosen. */
+export const page = v.object({
+  leader: v.fallback(v.nullable(id), null),
+  song: v.fallback(v.nullable(id), null),
+  inputs: v.fallback(v.nullable(inputs), null),
+  shown: v.fallback(v.nullable(id), null),
+  other: v.fallback(v.nullable(id), null),
+  letter: v.fallback(v.picklist(['A', 'B']), 'A'),
+  compare: v.fallback(v.picklist(['off', 'side', 'ghost']), 'off'),
+  takesMade: v.fallback(count, 0),
+  footLock: v.fallback(v.boolean(), true),
+  countings: v.fallback(v.pipe(v.array(counting), v.maxLength(MAX_FILES)), []),
+  time: v.fallback(amount, 0),
+  region: v.fallback(v.nullable(region), null),
+  loop: v.fallback(v.boolean(), false),
+  framing: v.fallback(v.nullable(framing), null),
+});
+
+/** Whether all arrays have the length of the frames, and numbers that a dancer's skeleton can have. */
+function isDance(motion: SolvedMotion): boolean {
+  const { frames, offsets, root, rotations, positions } = motion;
+  const lengths =
+    offsets.length === JOINT_COUNT * 3 &&
+    root.length === frames * 3 &&
+    rotations.length === frames * JOINT_COUNT * 4 &&
+    positions.length === frames * JOINT_COUNT * 3;
+  if (!lengths || !offsets.every((offset) => Math.abs(offset) <= MAX_BONE)) return false;
+  for (let at = 0; at < rotations.length; at += 4) {
+    const [x, y, z, w] = [rotations[at]!, rotations[at + 1]!, rotations[at + 2]!, rotations[at + 3]!];
+    if (!(Math.abs(Math.hypot(x, y, z, w) - 1) <= MAX_ROTATION_ERROR)) return false;
   }
-  return id;
-}
-
-/** Gives a restored object the id under which it is stored already. */
-export function assignId(part: object, id: string): void {
-  ids.set(part, id);
-}
-
-/** Songs and leaders by the ids under which they are stored. */
-export interface LoadedParts {
-  readonly songs: ReadonlyMap<string, LoadedSong>;
-  readonly leaders: ReadonlyMap<string, LoadedLeader>;
-}
-
-/** Those on the page and those of its takes. */
-export function loadedParts({ takes, song, leader }: AppState): LoadedParts {
-  const songs = new Map<string, LoadedSong>();
-  const leaders = new Map<string, LoadedLeader>();
-  for (const parts of [{ song, leader }, ...takes.map(({ reaction }) => reaction.inputs)]) {
-    if (parts.song) songs.set(idOf(parts.song), parts.song);
-    if (parts.leader) leaders.set(idOf(parts.leader), parts.leader);
+  for (let frame = 0; frame < frames; frame++)
+    for (let axis = 0; axis < 3; axis++) {
+      const pelvis = positions[(frame * JOINT_COUNT + J.pelvis) * 3 + axis]!;
+      if (!(Math.abs(root[3 * frame + axis]! - pelvis) <= MAX_ROOT_ERROR)) return false;
+    }
+  try {
+    checkPlausible(motion);
+    return true;
+  } catch {
+    return false;
   }
-  return { songs, leaders };
-}
-
-/**
- * The part of the state that is stored, with songs, leaders and motions referred to by id.
- * @param framing the stage's
- */
-export function storedProject(state: AppState, framing: Framing | null = null): StoredProject {
-  const songs = new Map<string, StoredSong>();
-  const leaders = new Map<string, StoredLeader>();
-  const motions = new Map<string, StoredMotion>();
-  const song = (part: LoadedSong | null): string | null => {
-    if (!part) return null;
-    const { name, label, file } = part;
-    const id = idOf(part);
-    songs.set(id, { id, name, label, file });
-    return id;
-  };
-  const leader = (part: LoadedLeader): string => {
-    const { name, label, files, options } = part;
-    const id = idOf(part);
-    leaders.set(id, { id, name, label, files, options });
-    return id;
-  };
-  const motion = ({ motion: part, latents: values }: Reaction): string => {
-    const id = idOf(part);
-    const latents = values && state.manifest && { decoder: decoderOf(state.manifest), values };
-    motions.set(id, { id, motion: part, ...(latents && { latents }) });
-    return id;
-  };
-
-  const takes = state.takes.map(({ id, number, name, starred, createdAt, reaction }): StoredTake => {
-    const { label, seconds, model, inputs } = reaction;
-    const parts = {
-      motion: motion(reaction),
-      leader: leader(inputs.leader),
-      song: song(inputs.song),
-      inputs: storedInputs(inputs),
-    };
-    return { id, number, name, starred, createdAt, label, seconds, model, ...parts };
-  });
-  const inputs = currentInputs(state);
-  const { other, letter, compare, takesMade, footLock, countings, playback } = state;
-  const page: StoredPage = {
-    leader: state.leader ? leader(state.leader) : null,
-    song: song(state.song),
-    inputs: inputs ? storedInputs(inputs) : null,
-    shown: takeOnStage(state)?.id ?? null,
-    other,
-    letter,
-    compare,
-    takesMade,
-    footLock,
-    countings,
-    time: playback.time,
-    region: playback.region,
-    loop: playback.loop,
-    framing: state.leader && framing,
-  };
-  return {
-    songs: [...songs.values()],
-    leaders: [...leaders.values()],
-    motions: [...motions.values()],
-    takes,
-    page,
-  };
-}
-
-/** The inputs besides song and leader. */
-export function storedInputs(inputs: Inputs): StoredInputs {
-  return Object.fromEntries(Object.entries(inputs).filter(([key]) => key !== 'song' && key !== 'leader'));
-}
-
-/** Whether the page holds anything of the visitor's own; a demo that was only watched does not count. */
-export function hasVisitorContent({ takes, leader, song, countings }: AppState): boolean {
-  return (
-    countings.length > 0 ||
-    leader?.label === null ||
-    song?.label === null ||
-    takes.some(({ starred, name, reaction }) => starred || name !== null || reaction.label === null)
-  );
 }

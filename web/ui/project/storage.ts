@@ -1,40 +1,7 @@
-import {
-  type DBSchema,
-  type IDBPDatabase,
-  type IDBPObjectStore,
-  type IDBPTransaction,
-  openDB,
-  type OpenDBCallbacks,
-  type StoreNames,
-} from 'idb';
+import { atOnce, connection, isFull, type Part, PARTS, recordsOf, type SongRecord, STORES } from './database';
 import type { FoundProject } from './records';
-import {
-  type StoredProject,
-  type StoredLeader,
-  type StoredMotion,
-  type StoredPage,
-  type StoredSong,
-  type StoredTake,
-  VERSION,
-} from './schema';
+import type { StoredLeader, StoredMotion, StoredPage, StoredProject, StoredTake } from './stored-project';
 
-/** A song in the database: its bytes, because not every browser can store blobs in private windows. */
-interface SongRecord extends Omit<StoredSong, 'file'> {
-  readonly bytes: ArrayBuffer;
-  readonly type: string;
-}
-
-interface Schema extends DBSchema {
-  songs: { key: string; value: SongRecord };
-  leaders: { key: string; value: StoredLeader };
-  motions: { key: string; value: StoredMotion };
-  takes: { key: string; value: StoredTake };
-  page: { key: 'now'; value: StoredPage };
-}
-
-const PARTS = ['songs', 'leaders', 'motions', 'takes'] as const;
-const STORES = [...PARTS, 'page'] as const;
-type Part = (typeof PARTS)[number];
 type Ids = Record<Part, Set<string>>;
 
 /** What one transaction changes. */
@@ -65,23 +32,13 @@ export interface ProjectStorage {
   readonly clear: () => Promise<void>;
 }
 
-/** Whether the browser has no more space for the page. */
-export function isFull(error: unknown): error is DOMException {
-  return error instanceof DOMException && error.name === 'QuotaExceededError';
-}
-
-/** Whether what is stored was written by a newer version of the page, which this one leaves alone. */
-export function isNewer(error: unknown): error is DOMException {
-  return error instanceof DOMException && error.name === 'VersionError';
-}
-
 /**
  * The page's database; its version is that of the records. Every call rejects with the browser's own error where it
  * gives no storage, as in private windows, when its space is full (`isFull`) or when a newer page has written it
  * (`isNewer`).
  */
 export class ProjectDatabase implements ProjectStorage {
-  private readonly open: () => Promise<IDBPDatabase<Schema>>;
+  private readonly open: ReturnType<typeof connection>;
   /** Ids in the database as far as this page knows. Parts never change under their id; takes do. */
   private present: Ids = noIds();
   /** Ids that this page has written. The others belong to another tab, or could not be restored in this visit. */
@@ -134,7 +91,7 @@ export class ProjectDatabase implements ProjectStorage {
 
   async removeOwn(): Promise<void> {
     if (PARTS.every((part) => this.own[part].size === 0)) return;
-    await this.atOnce((transaction, send) => {
+    await atOnce(await this.open(), (transaction, send) => {
       for (const part of PARTS)
         for (const id of this.own[part]) send(transaction.objectStore(part).delete(id));
       send(transaction.objectStore('page').delete('now'));
@@ -146,7 +103,7 @@ export class ProjectDatabase implements ProjectStorage {
   }
 
   async clear(): Promise<void> {
-    await this.atOnce((transaction, send) => {
+    await atOnce(await this.open(), (transaction, send) => {
       for (const part of STORES) send(transaction.objectStore(part).clear());
     });
     this.present = noIds();
@@ -212,7 +169,7 @@ export class ProjectDatabase implements ProjectStorage {
 
   private async commit({ songs, leaders, motions, takes, page, removed }: Difference): Promise<void> {
     if (!page && [songs, leaders, motions, takes, removed].every(({ length }) => length === 0)) return;
-    await this.atOnce((transaction, send) => {
+    await atOnce(await this.open(), (transaction, send) => {
       for (const song of songs) send(transaction.objectStore('songs').put(song));
       for (const leader of leaders) send(transaction.objectStore('leaders').put(leader));
       for (const motion of motions) send(transaction.objectStore('motions').put(motion));
@@ -228,36 +185,6 @@ export class ProjectDatabase implements ProjectStorage {
       this.own[part].delete(id);
       this.present[part].delete(id);
       if (part === 'takes') this.storedTakes.delete(id);
-    }
-  }
-
-  /**
-   * Makes all of a change or nothing, in one transaction. Its requests and its commit are sent in the same task: a page
-   * that is reloaded or ends the next moment is sure of what was committed, and of nothing else.
-   */
-  private async atOnce(
-    request: (
-      transaction: IDBPTransaction<Schema, typeof STORES, 'readwrite'>,
-      send: (request: Promise<unknown>) => void,
-    ) => void,
-  ): Promise<void> {
-    const transaction = (await this.open()).transaction(STORES, 'readwrite');
-    // A full storage also aborts the requests beside the one that did not fit. They are not waited for: Chromium may end
-    // the transaction and leave some without an answer.
-    const failures: unknown[] = [];
-    try {
-      request(transaction, (one) => void one.catch((error: unknown) => failures.push(error)));
-      transaction.commit();
-    } catch (error) {
-      // Else what was sent before would be kept.
-      transaction.abort();
-      await transaction.done.catch(() => undefined);
-      throw error;
-    }
-    try {
-      await transaction.done;
-    } catch (error) {
-      throw failures.find(isFull) ?? error;
     }
   }
 
@@ -295,54 +222,6 @@ function referredIds(takes: readonly StoredTake[], page: StoredPage | null): Ids
   if (page?.song) ids.songs.add(page.song);
   if (page?.leader) ids.leaders.add(page.leader);
   return ids;
-}
-
-async function recordsOf(songs: readonly StoredSong[]): Promise<SongRecord[]> {
-  return Promise.all(
-    songs.map(async ({ file, ...song }) => ({ ...song, bytes: await file.arrayBuffer(), type: file.type })),
-  );
-}
-
-/** Opens the database once, and again after it was closed. */
-function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
-  let opening: Promise<IDBPDatabase<Schema>> | null = null;
-  const reset = (): void => {
-    opening = null;
-  };
-  const options: OpenDBCallbacks<Schema> = {
-    upgrade: (database, oldVersion, _newVersion, transaction) => {
-      if (oldVersion > 0) return void convertLeaders(transaction.objectStore('leaders'));
-      for (const part of PARTS) database.createObjectStore(part, { keyPath: 'id' });
-      database.createObjectStore('page');
-    },
-    // Another tab has a newer page: it may go ahead, this one opens the database again when it needs it.
-    blocking: (_now, _wanted, event) => {
-      (event.target as IDBDatabase).close();
-      reset();
-    },
-    terminated: reset,
-  };
-  return () => {
-    opening ??= openDB<Schema>(name, VERSION, options).catch((error: unknown) => {
-      reset();
-      throw error;
-    });
-    return opening;
-  };
-}
-
-/** A leader as the first version stored it: the text of a BVH file, and its frame rate where that was set by hand. */
-type FirstLeader = Pick<StoredLeader, 'id' | 'name' | 'label'> & { text: string; fps: number | null };
-
-/** Converts leaders of the first version, within the transaction that upgrades the database. */
-async function convertLeaders(
-  leaders: IDBPObjectStore<Schema, StoreNames<Schema>[], 'leaders', 'versionchange'>,
-): Promise<void> {
-  for (const first of (await leaders.getAll()) as unknown as FirstLeader[]) {
-    const { id, name, label, text, fps } = first;
-    const files = [{ name, bytes: new TextEncoder().encode(text) }];
-    await leaders.put({ id, name, label, files, options: fps === null ? {} : { fps } });
-  }
 }
 
 function isSame(one: unknown, other: unknown): boolean {

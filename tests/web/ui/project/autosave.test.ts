@@ -4,7 +4,7 @@ import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
 import type { TabLockApis } from '../../../../web/ui/project/tab-lock';
 import type { FoundProject } from '../../../../web/ui/project/records';
-import { storedProject, type StoredProject } from '../../../../web/ui/project/schema';
+import { storedProject, type StoredProject } from '../../../../web/ui/project/stored-project';
 import { Project } from '../../../../web/ui/project/project';
 import { notes, persistenceText } from '../../../../web/ui/store/selectors';
 import * as change from '../../support/actions';

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { checked, type FoundProject } from '../../../../web/ui/project/records';
 import { Restorer } from '../../../../web/ui/project/restore';
-import { type StoredProject, storedProject } from '../../../../web/ui/project/schema';
+import { type StoredProject, storedProject } from '../../../../web/ui/project/stored-project';
 import { currentInputs } from '../../../../web/ui/store/take';
 import * as change from '../../support/actions';
 import { fuzz } from '../../support/hostile/fuzz';

@@ -8,7 +8,7 @@ import {
   type StoredProject,
   storedProject,
   hasVisitorContent,
-} from '../../../../web/ui/project/schema';
+} from '../../../../web/ui/project/stored-project';
 import { checked } from '../../../../web/ui/project/records';
 import { readProject, writeProject } from '../../../../web/ui/project/project-file';
 import { type StoredFileReaders, Restorer } from '../../../../web/ui/project/restore';

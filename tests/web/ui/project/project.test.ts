@@ -3,7 +3,7 @@ import { FileLoader } from '../../../../web/ui/files/file-loader';
 import { openedText, Project } from '../../../../web/ui/project/project';
 import type { FoundProject } from '../../../../web/ui/project/records';
 import { writeProject } from '../../../../web/ui/project/project-file';
-import { storedProject } from '../../../../web/ui/project/schema';
+import { storedProject } from '../../../../web/ui/project/stored-project';
 import { countingsRestored } from '../../../../web/ui/store/actions/counting';
 import { takeDeleted } from '../../../../web/ui/store/actions/takes';
 import { undone } from '../../../../web/ui/store/history/history';

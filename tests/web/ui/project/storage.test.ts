@@ -1,9 +1,10 @@
+import { isNewer } from '../../../../web/ui/project/database';
 import 'fake-indexeddb/auto';
 import { openDB } from 'idb';
 import { expect, it } from 'vitest';
 import { checked } from '../../../../web/ui/project/records';
-import { storedProject, VERSION } from '../../../../web/ui/project/schema';
-import { isNewer, ProjectDatabase } from '../../../../web/ui/project/storage';
+import { storedProject, VERSION } from '../../../../web/ui/project/stored-project';
+import { ProjectDatabase } from '../../../../web/ui/project/storage';
 import * as change from '../../support/actions';
 import { takeDeleted, takeRenamed } from '../../../../web/ui/store/actions/takes';
 import { currentInputs } from '../../../../web/ui/store/take';
