@@ -1,31 +1,23 @@
+import { AppError } from '../../common/error';
 import type { Problem, InputKind } from './state';
-
-/** An error with a code, a sentence for the visitor and a hint what to do, as `AppError` is. */
-interface ExplainedError {
-  readonly code: string;
-  readonly message: string;
-  readonly hint: string;
-}
-
-function isExplained(error: unknown): error is ExplainedError {
-  return (
-    error instanceof Error &&
-    'code' in error &&
-    'hint' in error &&
-    typeof error.hint === 'string' &&
-    error.hint !== ''
-  );
-}
 
 /** True for the error of an abort signal, which is not shown. */
 export function isAbort(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
-/** The server has a newer version of the page, without which this one cannot go on; null for other failures. */
-function versionProblem(error: unknown): Problem | null {
-  if (!isExplained(error) || error.code !== 'newer-version') return null;
-  return { code: error.code, title: error.message, hint: error.hint, remedy: 'reload', refused: null };
+/**
+ * A failure in its own words where it was foreseen, else in those of `unforeseen`. Where the server has a newer version of
+ * the page, without which this one cannot go on, the remedy is to reload it.
+ */
+function problemOf(
+  error: unknown,
+  unforeseen: Pick<Problem, 'code' | 'title' | 'hint'>,
+  remedy: Problem['remedy'],
+): Problem {
+  const { code, title, hint } =
+    error instanceof AppError ? { code: error.code, title: error.message, hint: error.hint } : unforeseen;
+  return { code, title, hint, remedy: code === 'newer-version' ? 'reload' : remedy, refused: null };
 }
 
 /** Failures of the page that no other file would mend. */
@@ -33,20 +25,19 @@ const NOT_OF_THE_FILE: readonly string[] = ['worker-crashed', 'page-part-missing
 
 /** A failure while a file was read. */
 export function fileProblem(error: unknown, kind: InputKind, name: string): Problem {
-  const newer = versionProblem(error);
-  if (newer) return newer;
+  const problem = problemOf(
+    error,
+    {
+      code: 'unreadable-file',
+      title: `${name} could not be read.`,
+      hint: 'Choose it again, or try another file. Everything loaded before is unchanged.',
+    },
+    kind,
+  );
+  if (problem.remedy === 'reload') return problem;
   const refused = { kind, name };
-  if (isExplained(error) && NOT_OF_THE_FILE.includes(error.code))
-    return { code: error.code, title: error.message, hint: error.hint, remedy: 'read-again', refused };
-  if (isExplained(error))
-    return { code: error.code, title: named(name, error.message), hint: error.hint, remedy: kind, refused };
-  return {
-    code: 'unreadable-file',
-    title: `${name} could not be read.`,
-    hint: 'Choose it again, or try another file. Everything loaded before is unchanged.',
-    remedy: kind,
-    refused,
-  };
+  if (NOT_OF_THE_FILE.includes(problem.code)) return { ...problem, remedy: 'read-again', refused };
+  return { ...problem, title: named(name, problem.title), refused };
 }
 
 /** A leader that ships with the page could not be loaded. */
@@ -67,14 +58,16 @@ function named(name: string, sentence: string): string {
 
 /** A project file that could not be opened, or written. */
 export function projectProblem(error: unknown, name: string, remedy: Problem['remedy']): Problem {
-  const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'unreadable-file',
-    title: explained ? named(name, error.message) : `${name} could not be read.`,
-    hint: explained ? error.hint : 'Choose it again. Everything on the page is unchanged.',
+  const problem = problemOf(
+    error,
+    {
+      code: 'unreadable-file',
+      title: `${name} could not be read.`,
+      hint: 'Choose it again. Everything on the page is unchanged.',
+    },
     remedy,
-    refused: { kind: null, name },
-  };
+  );
+  return { ...problem, title: named(name, problem.title), refused: { kind: null, name } };
 }
 
 /** An opened project in which there is no leader. */
@@ -103,15 +96,14 @@ export function fullProblem(): Problem {
 
 /** A failure while the model was loaded. */
 export function modelProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return (
-    versionProblem(error) ?? {
-      code: explained ? error.code : 'model-failed',
-      title: explained ? error.message : 'The model could not be started.',
-      hint: explained ? error.hint : 'Reload the page; if it happens again, try another browser.',
-      remedy: 'model',
-      refused: null,
-    }
+  return problemOf(
+    error,
+    {
+      code: 'model-failed',
+      title: 'The model could not be started.',
+      hint: 'Reload the page; if it happens again, try another browser.',
+    },
+    'model',
   );
 }
 
@@ -123,72 +115,67 @@ export function ownModelProblem(error: unknown): Problem {
 
 /** A failure while a reaction was generated. */
 export function generationProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return (
-    versionProblem(error) ?? {
-      code: explained ? error.code : 'generation-failed',
-      title: explained ? error.message : 'The partner could not be made.',
-      hint: explained ? error.hint : 'Try again; a shorter leader needs less memory.',
-      remedy: 'generate',
-      refused: null,
-    }
+  return problemOf(
+    error,
+    {
+      code: 'generation-failed',
+      title: 'The partner could not be made.',
+      hint: 'Try again; a shorter leader needs less memory.',
+    },
+    'generate',
   );
 }
 
 /** A failure to decode the coarse layer of a reaction that is there. */
 export function coarseProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return (
-    versionProblem(error) ?? {
-      code: explained ? error.code : 'coarse-failed',
-      title: explained ? error.message : 'The coarse layer of this reaction could not be shown.',
-      hint: explained ? error.hint : 'Show it again, or generate the reaction again.',
-      remedy: 'generate',
-      refused: null,
-    }
+  return problemOf(
+    error,
+    {
+      code: 'coarse-failed',
+      title: 'The coarse layer of this reaction could not be shown.',
+      hint: 'Show it again, or generate the reaction again.',
+    },
+    'generate',
   );
 }
 
 /** A failure to play. */
 export function playbackProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'playback-failed',
-    title: explained ? error.message : 'The song could not be played.',
-    hint: explained ? error.hint : 'Press play again.',
-    remedy: 'none',
-    refused: null,
-  };
+  return problemOf(
+    error,
+    {
+      code: 'playback-failed',
+      title: 'The song could not be played.',
+      hint: 'Press play again.',
+    },
+    'none',
+  );
 }
 
 /** A failure to write a download. */
 export function savingProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return (
-    versionProblem(error) ?? {
-      code: explained ? error.code : 'saving-failed',
-      title: explained ? error.message : 'The file could not be written.',
-      hint: explained
-        ? error.hint
-        : 'Try again, or another format. The dance and your settings are unchanged.',
-      remedy: 'none',
-      refused: null,
-    }
+  return problemOf(
+    error,
+    {
+      code: 'saving-failed',
+      title: 'The file could not be written.',
+      hint: 'Try again, or another format. The dance and your settings are unchanged.',
+    },
+    'none',
   );
 }
 
 /** A failure of the 3D view; everything else goes on working. */
 export function stageProblem(error: unknown): Problem {
-  const explained = isExplained(error);
-  return {
-    code: explained ? error.code : 'stage-failed',
-    title: explained ? error.message : 'The 3D view could not be started.',
-    hint: explained
-      ? error.hint
-      : 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
-    remedy: 'none',
-    refused: null,
-  };
+  return problemOf(
+    error,
+    {
+      code: 'stage-failed',
+      title: 'The 3D view could not be started.',
+      hint: 'Turn on hardware acceleration in the browser. Generating and downloading still work.',
+    },
+    'none',
+  );
 }
 
 /** What was dropped could not be opened at all: moved in the meantime, forbidden, or on a disk that was removed. */
