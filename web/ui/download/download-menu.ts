@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { createDownloadMotion } from './download-motion';
 import { createDownloadVideo } from './download-video';
 import { icon, type IconName } from '../widgets/icons';
@@ -51,12 +51,6 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     else if (wasOpen && (menu.contains(document.activeElement) || document.activeElement === document.body))
       (wide.element.offsetParent ? wide : narrow).element.focus();
   };
-  const closeOutside = (event: PointerEvent): void => {
-    const target = event.target as Node;
-    const inside = [menu, wide.element, narrow.element].some((part) => part.contains(target));
-    if (!menu.hidden && !inside) toggle();
-  };
-  document.addEventListener('pointerdown', closeOutside);
   return combineDisposers(
     watchAll(
       store,
@@ -69,8 +63,10 @@ export const mountDownloadMenu: Mount = (root, store, services) => {
     watch(store, (state) => state.openPanel === 'download', showOpen),
     motion.dispose,
     video.dispose,
+    onPressOutside([menu, wide.element, narrow.element], () => {
+      if (!menu.hidden) toggle();
+    }),
     () => {
-      document.removeEventListener('pointerdown', closeOutside);
       for (const element of elements) element.remove();
     },
   );

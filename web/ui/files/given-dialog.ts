@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { createDialogPlace } from '../widgets/dialog-place';
 import { el, combineDisposers } from '../widgets/dom';
 import { givenSet } from '../store/actions/files';
@@ -52,15 +53,8 @@ function build({ songs, leaders, unused }: GivenFiles, store: Store, services: S
       'div',
       { class: 'actions' },
       el('button', { class: 'btn primary', text: useText(songs, leaders), attributes: { type: 'submit' } }),
-      el('button', {
-        class: 'btn ghost',
-        text: 'Cancel',
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            apply(store, givenSet(null));
-          },
-        },
+      textButton('btn ghost', 'Cancel', () => {
+        apply(store, givenSet(null));
       }),
     ),
   );

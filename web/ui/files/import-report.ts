@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import { standingHeight } from '../../motion/skeleton/kinematics';
@@ -142,17 +143,15 @@ function offeredSelect(services: Services): HTMLSelectElement {
 
 /** Opens the panel in which joints, unit, axes and clip are set by hand: of the loaded leader, where there is one. */
 function importButton(store: Store): HTMLElement {
-  return el('button', {
-    class: 'btn ghost',
-    text: 'Joints and units',
-    attributes: { id: 'open-import', type: 'button' },
-    on: {
-      click: () => {
-        if (store.getState().leader) apply(store, leaderRefused(null));
-        apply(store, panelToggled('import'));
-      },
+  return textButton(
+    'btn ghost',
+    'Joints and units',
+    () => {
+      if (store.getState().leader) apply(store, leaderRefused(null));
+      apply(store, panelToggled('import'));
     },
-  });
+    { id: 'open-import' },
+  );
 }
 
 function formatText({ format, parts, part }: LoadedLeader['file']['report']): string {

@@ -2,6 +2,7 @@ import { onPixelSize } from '../../common/pixel-size';
 import { allVariationsMade, VARIATION_COUNT } from '../store/actions/variations';
 import { el, setAttribute, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
+import { ARROW_STEPS } from '../widgets/radio-group';
 import { clockTime } from '../store/format';
 import { danceFps, sameInputs } from '../store/selectors';
 import type { Mount } from '../store/services';
@@ -27,9 +28,6 @@ interface Card {
 
 /** Least time between two drawings of the figures. */
 const DRAW_INTERVAL_MS = 250;
-
-/** Steps between cards, by key. */
-const ARROWS: Readonly<Record<string, number>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 
 /**
  * The variations to pick from, as small figures in the moment in which they differ most; the one on the stage is marked.
@@ -118,7 +116,7 @@ function createCard(onPick: () => void, onArrow: (by: number) => void): Card {
       on: {
         click: onPick,
         keydown: (event) => {
-          const by = ARROWS[event.key];
+          const by = ARROW_STEPS[event.key];
           if (by === undefined) return;
           event.preventDefault();
           event.stopPropagation();

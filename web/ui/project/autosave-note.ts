@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
@@ -18,15 +19,9 @@ const NOTES: Readonly<Partial<Record<AutosaveStatus, { readonly text: string; re
 /** Over the stage: what is being restored, and a note where another tab or version saves its work instead of this one. */
 export const mountAutosaveNote: Mount = (root, store, services) => {
   const text = el('span');
-  const button = el('button', {
-    class: 'btn tint',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        if (store.getState().autosave === 'newer') location.reload();
-        else services.storeHere();
-      },
-    },
+  const button = textButton('btn tint', '', () => {
+    if (store.getState().autosave === 'newer') location.reload();
+    else services.storeHere();
   });
   const note = el('div', { class: 'float update kept', attributes: { role: 'status' } }, text, button);
   const coming = el('div', { class: 'float toast restoring', attributes: { role: 'status' } });

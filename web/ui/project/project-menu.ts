@@ -1,5 +1,5 @@
-import { closeButton } from '../widgets/close-button';
-import { el, listen, setAttribute, setText, combineDisposers } from '../widgets/dom';
+import { closeButton } from '../widgets/button';
+import { el, listen, onPressOutside, setAttribute, setText, combineDisposers } from '../widgets/dom';
 import { icon, type IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
 import type { AutosaveStatus } from '../store/state';
@@ -61,9 +61,8 @@ export const mountProjectMenu: Mount = (root, store, services) => {
         clear.disabled = state.restoring !== null || !hasVisitorContent(state);
       },
     ),
-    listen(window, 'pointerdown', ({ target }) => {
-      const outside = target instanceof Node && ![menu, opener].some((part) => part.contains(target));
-      if (!menu.hidden && outside) toggle();
+    onPressOutside([menu, opener], () => {
+      if (!menu.hidden) toggle();
     }),
     listen(window, 'keydown', (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;

@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { el, setAttribute, setText, setVariable } from '../widgets/dom';
 import type { InfoCard, CardContent } from '../widgets/info-card';
 import { surface, token } from '../widgets/lane-canvas';
@@ -64,14 +65,8 @@ export function createQualityLane(
       known.mark = mark;
       return known.flag;
     }
-    const flag = el('button', {
-      class: 'flag',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          onMark(made.mark);
-        },
-      },
+    const flag = textButton('flag', '', () => {
+      onMark(made.mark);
     });
     const made = { flag, mark };
     buttons.push(made);

@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { mountDeviceCard } from './device-card';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
@@ -21,16 +22,7 @@ export const mountBackendBadge: Mount = (root, store, services) => {
   );
   const bytes = el('span', { class: 'bytes' });
   const dot = el('span', { class: 'dot', attributes: { 'aria-hidden': 'true' } });
-  const again = el('button', {
-    class: 'btn tint',
-    text: 'Try again',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        services.retryModel();
-      },
-    },
-  });
+  const again = textButton('btn tint', 'Try again', services.retryModel);
   const about = el(
     'button',
     {

@@ -1,3 +1,4 @@
+import { iconButton } from '../widgets/button';
 import { mountBackendBadge } from './backend-badge';
 import { mountFileChip } from '../files/file-chip';
 import { el, setAttribute, combineDisposers } from '../widgets/dom';
@@ -11,19 +12,9 @@ import { mountUndo } from '../takes/undo';
 
 /** The bar: name, song and leader, backend, undo, project, keys, theme and download. */
 export const mountBar: Mount = (root, store, services) => {
-  const theme = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', title: 'Light or dark' },
-      on: {
-        click: () => {
-          apply(store, themeSet(store.getState().theme === 'dark' ? 'light' : 'dark'));
-        },
-      },
-    },
-    icon('theme'),
-  );
+  const theme = iconButton('icon', 'theme', { title: 'Light or dark' }, () => {
+    apply(store, themeSet(store.getState().theme === 'dark' ? 'light' : 'dark'));
+  });
   const keys = el(
     'button',
     {

@@ -1,5 +1,5 @@
-import { closeButton } from '../widgets/close-button';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { textButton, closeButton } from '../widgets/button';
+import { el, onPressOutside, setText, combineDisposers } from '../widgets/dom';
 import { byteSize } from '../store/format';
 import type { Services } from '../store/services';
 import type { ModelState } from '../store/state';
@@ -37,11 +37,6 @@ export function mountDeviceCard(
   const elements = build(toggle, () => void empty(elements, services));
   const { card, why, work } = elements;
   root.append(card);
-  const closeOutside = ({ target }: PointerEvent): void => {
-    const inside = [card, opener].some((part) => part.contains(target as Node));
-    if (!card.hidden && !inside) toggle();
-  };
-  document.addEventListener('pointerdown', closeOutside);
   return combineDisposers(
     watch(
       store,
@@ -65,8 +60,10 @@ export function mountDeviceCard(
       setText(work, sentence === null ? '' : `Your songs, leaders and takes: ${sentence}`);
       work.hidden = sentence === null;
     }),
+    onPressOutside([card, opener], () => {
+      if (!card.hidden) toggle();
+    }),
     () => {
-      document.removeEventListener('pointerdown', closeOutside);
       card.remove();
     },
   );
@@ -77,11 +74,8 @@ function build(toggle: () => void, empty: () => void): Elements {
   const facts = el('dl', { class: 'facts' });
   const sum = el('p', { attributes: { role: 'status' } });
   const work = el('p', { class: 'reason' });
-  const clear = el('button', {
-    class: 'btn tint',
-    text: 'Clear',
-    attributes: { type: 'button', title: 'Removes page, runtime and model from this device' },
-    on: { click: empty },
+  const clear = textButton('btn tint', 'Clear', empty, {
+    title: 'Removes page, runtime and model from this device',
   });
   const close = closeButton(toggle);
   const card = el(

@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
 import { el, setText, combineDisposers } from '../widgets/dom';
@@ -94,16 +95,7 @@ function demoText(state: AppState): string {
 }
 
 function cameraButton(services: Services): HTMLElement {
-  return el('button', {
-    class: 'btn ghost camera',
-    text: 'Use the camera',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        services.recordVideo();
-      },
-    },
-  });
+  return textButton('btn ghost camera', 'Use the camera', services.recordVideo);
 }
 
 /** Buttons for the leaders that need no file. */
@@ -113,15 +105,8 @@ function offeredLeaders(services: Services): HTMLElement {
     { class: 'offered', attributes: { role: 'group', 'aria-label': 'Leaders that need no file' } },
     el('span', { text: 'No file at hand? Take one of ours:' }),
     ...OFFERED_LEADERS.map(({ file, name }) =>
-      el('button', {
-        class: 'btn',
-        text: name,
-        attributes: { type: 'button' },
-        on: {
-          click: () => {
-            services.openOffered(file);
-          },
-        },
+      textButton('btn', name, () => {
+        services.openOffered(file);
       }),
     ),
   );

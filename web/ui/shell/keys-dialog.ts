@@ -1,4 +1,4 @@
-import { closeButton } from '../widgets/close-button';
+import { closeButton } from '../widgets/button';
 import { el, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';

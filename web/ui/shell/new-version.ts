@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
@@ -10,26 +11,15 @@ export const mountNewVersion: Mount = (root, store, services) => {
     'div',
     { class: 'float update', attributes: { role: 'status' } },
     text,
-    el('button', {
-      class: 'btn tint',
-      text: 'Reload',
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          services.loadUpdate();
-        },
+    textButton('btn tint', 'Reload', services.loadUpdate),
+    textButton(
+      'btn ghost',
+      'Later',
+      () => {
+        apply(store, updateSet(false));
       },
-    }),
-    el('button', {
-      class: 'btn ghost',
-      text: 'Later',
-      attributes: { type: 'button', title: 'The new version loads at your next visit' },
-      on: {
-        click: () => {
-          apply(store, updateSet(false));
-        },
-      },
-    }),
+      { title: 'The new version loads at your next visit' },
+    ),
   );
   root.append(note);
   return combineDisposers(

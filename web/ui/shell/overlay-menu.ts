@@ -1,5 +1,6 @@
+import { textButton } from '../widgets/button';
 import { besideStage, coarseIsMissing } from '../generation/coarse-layer';
-import { el, setAttribute, setText, combineDisposers } from '../widgets/dom';
+import { el, onPressOutside, setAttribute, setText, combineDisposers } from '../widgets/dom';
 import type { Mount, Services } from '../store/services';
 import type { VisibleOverlays } from '../../common/picture';
 import type { Reaction } from '../store/reaction';
@@ -53,12 +54,6 @@ export const mountOverlayMenu: Mount = (root, store, services) => {
   const { corner, button, menu } = elements;
   root.append(corner);
   const takes = mountTakesButton(corner, store, services);
-  const closeOutside = (event: PointerEvent): void => {
-    const target = event.target as Node;
-    if (!menu.hidden && !menu.contains(target) && !button.contains(target))
-      apply(store, panelToggled('overlays'));
-  };
-  document.addEventListener('pointerdown', closeOutside);
   return combineDisposers(
     watchAll(
       store,
@@ -75,8 +70,10 @@ export const mountOverlayMenu: Mount = (root, store, services) => {
       },
     ),
     takes,
+    onPressOutside([menu, button], () => {
+      if (!menu.hidden) apply(store, panelToggled('overlays'));
+    }),
     () => {
-      document.removeEventListener('pointerdown', closeOutside);
       corner.remove();
     },
   );
@@ -101,16 +98,7 @@ function build(store: Store, services: Services): Elements {
     );
   const inMenu = togglesOf('menu-item');
   const onStage = togglesOf('btn stage-toggle');
-  const generate = el('button', {
-    class: 'btn',
-    text: 'Generate it here',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        services.generate();
-      },
-    },
-  });
+  const generate = textButton('btn', 'Generate it here', services.generate);
   const noteText = el('span');
   const note = el('div', { class: 'note' }, noteText, generate);
   const [ghost, ...others] = inMenu;

@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { RATES } from '../files/import-report';
 import { createDialogPlace } from '../widgets/dialog-place';
 import { el, combineDisposers } from '../widgets/dom';
@@ -32,16 +33,9 @@ export const mountProblemDialog: Mount = (root, store, services) => {
 
 function build(problem: Problem, state: AppState, store: Store, services: Services): HTMLElement {
   const action = (text: string, kind: string, run: () => void, close = problemClosed): HTMLElement =>
-    el('button', {
-      class: `btn ${kind}`,
-      text,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, close());
-          run();
-        },
-      },
+    textButton(`btn ${kind}`, text, () => {
+      apply(store, close());
+      run();
     });
   const remedy = remedyOf(problem, services);
   return el(

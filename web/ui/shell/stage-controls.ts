@@ -1,8 +1,9 @@
+import { iconButton, textButton } from '../widgets/button';
 import { el, combineDisposers } from '../widgets/dom';
 import { coarseMotion, earlierMotion } from '../store/reactor-motion';
 import type { Mount } from '../store/services';
 import { mountOverlayMenu } from './overlay-menu';
-import { icon } from '../widgets/icons';
+import { radioGroup } from '../widgets/radio-group';
 import { mountUndo } from '../takes/undo';
 import type { View } from '../../common/framing';
 import { apply, watch, watchAll } from '../store/store';
@@ -22,19 +23,7 @@ const mountStageTools: Mount = (root, store, services) => {
     attributes: { role: 'group', 'aria-label': 'Stage tools' },
   });
   const undo = mountUndo(tools, store, services);
-  const frame = el(
-    'button',
-    {
-      class: 'icon',
-      attributes: { type: 'button', 'aria-label': 'Frame both', title: 'Frame both' },
-      on: {
-        click: () => {
-          services.frameBoth();
-        },
-      },
-    },
-    icon('frame'),
-  );
+  const frame = iconButton('icon', 'frame', { label: 'Frame both', title: 'Frame both' }, services.frameBoth);
   tools.append(frame);
   root.append(tools);
   return combineDisposers(undo, () => {
@@ -72,47 +61,11 @@ const mountLegend: Mount = (root, store) => {
 
 /** Over the picture: the legend, the cameras, overlays and stage tools. */
 export const mountStageControls: Mount = (root, store, services) => {
-  const select = (camera: View): void => {
+  const cameras = radioGroup('Camera', CAMERAS, (camera) => {
     apply(store, cameraSet(camera));
-  };
-  const buttons = CAMERAS.map(([camera, label]) =>
-    el('button', {
-      class: 'btn',
-      text: label,
-      attributes: { type: 'button', role: 'radio' },
-      on: {
-        click: () => {
-          select(camera);
-        },
-        keydown: (event) => {
-          const move = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-          if (move === undefined) return;
-          event.preventDefault();
-          event.stopPropagation();
-          const index = CAMERAS.findIndex(([name]) => name === camera);
-          const next = (index + move + CAMERAS.length) % CAMERAS.length;
-          select(CAMERAS[next]?.[0] ?? camera);
-          buttons[next]?.focus();
-        },
-      },
-    }),
-  );
-  const group = el(
-    'div',
-    { class: 'group', attributes: { role: 'radiogroup', 'aria-label': 'Camera' } },
-    ...buttons,
-  );
-  const frame = el('button', {
-    class: 'btn once',
-    text: 'Frame both',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        services.frameBoth();
-      },
-    },
   });
-  const views = el('div', { class: 'over views' }, group, frame);
+  const frame = textButton('btn once', 'Frame both', services.frameBoth);
+  const views = el('div', { class: 'over views' }, cameras.element, frame);
   const legend = mountLegend(root, store, services);
   root.append(views);
 
@@ -120,16 +73,7 @@ export const mountStageControls: Mount = (root, store, services) => {
     legend,
     mountOverlayMenu(root, store, services),
     mountStageTools(root, store, services),
-    watch(
-      store,
-      (state) => state.camera,
-      (shown) => {
-        CAMERAS.forEach(([camera], index) => {
-          buttons[index]?.setAttribute('aria-checked', String(camera === shown));
-          buttons[index]?.setAttribute('tabindex', camera === shown ? '0' : '-1');
-        });
-      },
-    ),
+    watch(store, (state) => state.camera, cameras.show),
     () => {
       views.remove();
     },

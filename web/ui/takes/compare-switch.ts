@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { el, listen, setAttribute, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState, Compare, Letter } from '../store/state';
@@ -86,15 +87,8 @@ function createLetters(store: Store): Group {
 /** How the other take is drawn; pressed again, a mode is switched off. */
 function createModes(store: Store): Group {
   const buttons = MODES.map(([mode, text]) =>
-    el('button', {
-      class: 'desk',
-      text,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, compareSet(mode));
-        },
-      },
+    textButton('desk', text, () => {
+      apply(store, compareSet(mode));
     }),
   );
   const attributes = { role: 'group', 'aria-label': 'Show both takes' };

@@ -1,4 +1,4 @@
-import { iconButton } from '../widgets/button';
+import { iconButton, textButton } from '../widgets/button';
 import { el, setAttribute, setText } from '../widgets/dom';
 import type { Take } from '../store/reaction';
 import type { AppState, Letter } from '../store/state';
@@ -95,14 +95,8 @@ function cell(className: string, ...children: HTMLElement[]): HTMLElement {
 /** The buttons that make the take A or B of the comparison, in this order. */
 function createLetterButtons(store: Store, id: string): HTMLButtonElement[] {
   return LETTERS.map((letter) =>
-    el('button', {
-      text: letter,
-      attributes: { type: 'button' },
-      on: {
-        click: () => {
-          apply(store, letterGiven(id, letter));
-        },
-      },
+    textButton('', letter, () => {
+      apply(store, letterGiven(id, letter));
     }),
   );
 }

@@ -1,5 +1,4 @@
-import { textButton } from '../widgets/button';
-import { closeButton } from '../widgets/close-button';
+import { textButton, closeButton } from '../widgets/button';
 import { el, listen, setText, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
@@ -162,16 +161,14 @@ export const mountTakesButton: Mount = (root, store) => {
 
 /** On the phone, the button that opens the project menu. */
 function createProjectButton(store: Store): HTMLElement {
-  return el('button', {
-    class: 'btn tint phone-only',
-    text: 'Project',
-    attributes: { type: 'button', 'aria-haspopup': 'dialog' },
-    on: {
-      click: () => {
-        apply(store, panelToggled('project'));
-      },
+  return textButton(
+    'btn tint phone-only',
+    'Project',
+    () => {
+      apply(store, panelToggled('project'));
     },
-  });
+    { 'aria-haspopup': 'dialog' },
+  );
 }
 
 /** Closes the sheet when the pointer goes down outside it; returns a function that stops it. */

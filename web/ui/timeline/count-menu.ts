@@ -4,17 +4,17 @@ import { barAt, countedBeats, countingOf, isOf, tempoText } from '../store/count
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
 import { textButton } from '../widgets/button';
-import { combineDisposers, el, setAttribute, setText } from '../widgets/dom';
+import { combineDisposers, el, onPressOutside, setAttribute, setText } from '../widgets/dom';
 import { radioGroup } from '../widgets/radio-group';
 
 const RATES = [
-  ['0.5', 'Half'],
-  ['1', 'As found'],
-  ['2', 'Double'],
+  [0.5, 'Half'],
+  [1, 'As found'],
+  [2, 'Double'],
 ] as const;
 const BARS = [
-  ['4', 'Eight'],
-  ['3', 'Six'],
+  [4, 'Eight'],
+  [3, 'Six'],
 ] as const;
 
 /** Bar and count at the playhead; a click opens what is counted and how. */
@@ -28,10 +28,6 @@ export function createCountMenu(store: Store): {
   const { button, showPlace } = createButton(toggle);
   const { menu, showChoices } = createMenu(store);
   const element = el('div', { class: 'count-corner' }, button, menu);
-  const closeOutside = ({ target }: PointerEvent): void => {
-    if (!menu.hidden && !element.contains(target as Node)) toggle();
-  };
-  document.addEventListener('pointerdown', closeOutside);
   const dispose = combineDisposers(
     watchAll(
       store,
@@ -50,9 +46,9 @@ export function createCountMenu(store: Store): {
         else if (focusInside) button.focus();
       },
     ),
-    () => {
-      document.removeEventListener('pointerdown', closeOutside);
-    },
+    onPressOutside([element], () => {
+      if (!menu.hidden) toggle();
+    }),
   );
   return { element, dispose };
 }
@@ -97,11 +93,11 @@ function createMenu(store: Store): {
   const here = textButton('btn', 'At the playhead', () => {
     apply(store, oneSet(store.getState().playback.time));
   });
-  const bars = radioGroup<'3' | '4'>('Counts of', BARS, (value) => {
-    apply(store, countingSet({ beatsPerBar: value === '3' ? 3 : 4 }));
+  const bars = radioGroup('Counts of', BARS, (beatsPerBar) => {
+    apply(store, countingSet({ beatsPerBar }));
   });
-  const rates = radioGroup<'0.5' | '1' | '2'>('Tempo of the count', RATES, (value) => {
-    apply(store, countingSet({ rate: value === '0.5' ? 0.5 : value === '1' ? 1 : 2 }));
+  const rates = radioGroup('Tempo of the count', RATES, (rate) => {
+    apply(store, countingSet({ rate }));
   });
   const found = textButton('btn', 'Count as found', () => {
     apply(store, countingSet(null));
@@ -122,8 +118,8 @@ function createMenu(store: Store): {
     if (!song) return;
     const { beatsPerBar, rate } = countingOf(song, countings);
     setText(tempo, tempoText(song, countings));
-    bars.show(beatsPerBar === 3 ? '3' : '4');
-    rates.show(rate === 0.5 ? '0.5' : rate === 1 ? '1' : '2');
+    bars.show(beatsPerBar);
+    rates.show(rate);
     found.disabled = !countings.some((counting) => isOf(counting, song));
     setAttribute(click, 'aria-pressed', String(settingOne));
     setText(hint, settingOne ? 'Now click the beat in the ruler or on the song; Esc cancels.' : '');

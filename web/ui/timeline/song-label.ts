@@ -1,3 +1,4 @@
+import { textButton } from '../widgets/button';
 import { el, setText } from '../widgets/dom';
 import { shiftAdvice, frameCountText, percent, shiftText, signed } from '../store/song-shift';
 import type { AppState } from '../store/state';
@@ -11,25 +12,13 @@ interface SongLabel {
 }
 
 export function createSongLabel(store: Store): SongLabel {
-  const back = el('button', {
-    class: 'shifted',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        apply(store, shiftSet(0));
-      },
-    },
+  const back = textButton('shifted', '', () => {
+    apply(store, shiftSet(0));
   });
-  const align = el('button', {
-    class: 'align',
-    attributes: { type: 'button' },
-    on: {
-      click: () => {
-        const state = store.getState();
-        const better = shiftAdvice(state)?.better;
-        if (better) apply(store, shiftSet(state.shift + better.by));
-      },
-    },
+  const align = textButton('align', '', () => {
+    const state = store.getState();
+    const better = shiftAdvice(state)?.better;
+    if (better) apply(store, shiftSet(state.shift + better.by));
   });
   const none = el('span', { class: 'well-aligned' });
   const root = el(

@@ -1,4 +1,4 @@
-import { iconButton } from '../widgets/button';
+import { iconButton, textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { clockTime, rate } from '../store/format';
 import { icon } from '../widgets/icons';
@@ -99,20 +99,16 @@ function halfRateOf({ leader }: AppState): number | null {
 
 /** Reads the leader again at half the frame rate, where the dancer moves faster than people do. */
 function createHalfRateButton(store: Store, { rereadLeader }: Services): Control<HTMLButtonElement> {
-  const element = el('button', {
-    class: 'half-rate',
-    attributes: {
-      type: 'button',
-      title: 'The leader moves faster than people do: the frame rate of the file may be wrong',
+  const element = textButton(
+    'half-rate',
+    '',
+    () => {
+      const { leader } = store.getState();
+      const fps = halfRateOf(store.getState());
+      if (leader && fps !== null) rereadLeader(leader, { ...leader.options, fps });
     },
-    on: {
-      click: () => {
-        const { leader } = store.getState();
-        const fps = halfRateOf(store.getState());
-        if (leader && fps !== null) rereadLeader(leader, { ...leader.options, fps });
-      },
-    },
-  });
+    { title: 'The leader moves faster than people do: the frame rate of the file may be wrong' },
+  );
   const dispose = watch(store, halfRateOf, (fps) => {
     element.hidden = fps === null;
     setText(element, fps === null ? '' : `Leader too fast? Read it at ${rate(fps)} fps`);

@@ -2,8 +2,7 @@ import { AppError } from '../../common/error';
 import type { Services } from '../store/services';
 import { toastShown } from '../store/actions/notices';
 import { apply, type Store } from '../store/store';
-import { textButton } from '../widgets/button';
-import { closeButton } from '../widgets/close-button';
+import { textButton, closeButton } from '../widgets/button';
 import { el, listen, rememberFocus, setText } from '../widgets/dom';
 
 /** Seconds between the click and the recording: time to walk to one's place. */

@@ -1,7 +1,6 @@
 import type { Observations, Point, ReadReport, VideoMotion, WorldOptions } from '../../video/client';
-import { closeButton } from '../widgets/close-button';
 import { el, rememberFocus, setText, setVariable } from '../widgets/dom';
-import { textButton } from '../widgets/button';
+import { textButton, closeButton } from '../widgets/button';
 import { createControls, type Controls } from './controls';
 import { UNSURE } from './video-lane';
 import { VideoPicture } from './video-picture';

@@ -1,4 +1,4 @@
-import { el } from './dom';
+import { type Attributes, el } from './dom';
 import { icon, type IconName } from './icons';
 
 /** A button that shows an icon. `label` is what a screen reader says, `title` the tooltip. */
@@ -15,11 +15,22 @@ export function iconButton(
   );
 }
 
+/** The button that closes a floating panel. */
+export function closeButton(close: () => void): HTMLButtonElement {
+  return iconButton('icon', 'close', { label: 'Close' }, close);
+}
+
 /** A button that shows words. */
 export function textButton(
   className: string,
   text: string,
   onClick: (event: MouseEvent) => void,
+  attributes: Attributes = {},
 ): HTMLButtonElement {
-  return el('button', { class: className, text, attributes: { type: 'button' }, on: { click: onClick } });
+  return el('button', {
+    class: className,
+    text,
+    attributes: { type: 'button', ...attributes },
+    on: { click: onClick },
+  });
 }

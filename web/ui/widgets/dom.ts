@@ -1,10 +1,12 @@
 type Child = Node | string | null;
 
+/** Attributes by their names; `true` is an empty attribute, `false` and `undefined` leave it out. */
+export type Attributes = Readonly<Record<string, string | number | boolean | undefined>>;
+
 interface Properties {
   readonly class?: string;
   readonly text?: string;
-  /** Attributes; `true` is an empty attribute, `false` and `undefined` leave it out. */
-  readonly attributes?: Readonly<Record<string, string | number | boolean | undefined>>;
+  readonly attributes?: Attributes;
   readonly on?: { readonly [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void };
 }
 
@@ -76,4 +78,11 @@ export function listen<K extends keyof WindowEventMap>(
   return () => {
     target.removeEventListener(type, listener, options);
   };
+}
+
+/** Calls back when the pointer goes down outside all of these elements; returns the removal. */
+export function onPressOutside(elements: readonly Element[], listener: () => void): () => void {
+  return listen(window, 'pointerdown', ({ target }) => {
+    if (target instanceof Node && !elements.some((element) => element.contains(target))) listener();
+  });
 }

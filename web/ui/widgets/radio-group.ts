@@ -7,7 +7,13 @@ interface RadioGroup<T extends string | number> {
   readonly show: (value: T) => void;
 }
 
-const MOVES: Readonly<Record<string, 1 | -1>> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
+/** To the next choice or the one before, by key. */
+export const ARROW_STEPS: Readonly<Record<string, 1 | -1>> = {
+  ArrowRight: 1,
+  ArrowDown: 1,
+  ArrowLeft: -1,
+  ArrowUp: -1,
+};
 
 /** @param choose called with the visitor's choice; the group changes only by `show` */
 export function radioGroup<T extends string | number>(
@@ -25,7 +31,7 @@ export function radioGroup<T extends string | number>(
           choose(value);
         },
         keydown: (event) => {
-          const move = MOVES[event.key];
+          const move = ARROW_STEPS[event.key];
           if (move === undefined) return;
           event.preventDefault();
           event.stopPropagation();

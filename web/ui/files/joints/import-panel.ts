@@ -1,10 +1,10 @@
+import { textButton, closeButton } from '../../widgets/button';
 import { jointSelects } from './joint-selects';
 import type { RememberedJointsStorage } from './remembered';
 import { importControls } from './import-controls';
 import { drawSkeleton } from './skeleton-figure';
 import type { Inspection } from '../../../motion/import/inspect';
 import type { ImportOptions } from '../../../motion/retarget/options';
-import { closeButton } from '../../widgets/close-button';
 import { combineDisposers, el, rememberFocus } from '../../widgets/dom';
 import type { Mount } from '../../store/services';
 import { panelToggled } from '../../store/actions/view';
@@ -96,7 +96,7 @@ function panelContent(
     });
   selects?.show();
   const button = (text: string, kind: string, run: () => void): HTMLElement =>
-    el('button', { class: `btn ${kind}`, text, attributes: { type: 'button' }, on: { click: run } });
+    textButton(`btn ${kind}`, text, run);
   const readAgain = (): void => {
     const joints = selects?.changed() ?? options.joints;
     if (inspection && joints) remembered.remember(inspection.skeleton, joints);
