@@ -1,6 +1,7 @@
 import { valueText } from '../widgets/fader';
 import type { Manifest } from '../../model/client';
 import { el, setText, combineDisposers } from '../widgets/dom';
+import { capitalised } from '../store/format';
 import { columnOf, guidanceAt, rangeOf } from '../store/guidance-matrix';
 import { icon } from '../widgets/icons';
 import { createMiniFader, type MiniFader } from './mini-fader';
@@ -117,7 +118,7 @@ function fillGrid(grid: HTMLElement, { latent }: Manifest, cells: readonly Cell[
   grid.style.setProperty('--columns', String(layers.length));
   grid.replaceChildren(
     el('i'),
-    ...layers.map((layer) => el('i', { text: layer.charAt(0).toUpperCase() + layer.slice(1) })),
+    ...layers.map((layer) => el('i', { text: capitalised(layer) })),
     ...streams.flatMap((stream) => [
       el('span', { text: PARTS[stream]?.name ?? stream, attributes: { title: PARTS[stream]?.hint } }),
       ...cells.filter((cell) => cell.stream === stream).map(({ fader }) => fader.root),

@@ -2,7 +2,7 @@ import type { Framing } from '../../common/framing';
 import { randomSeed } from '../store/actions/settings';
 import type { Files, FileReaders } from '../store/services';
 import { leaderlessProblem, projectProblem } from '../store/problems';
-import { fileSlug } from '../store/format';
+import { counted, fileSlug } from '../store/format';
 import type { Take } from '../store/reaction';
 import type { AppState } from '../store/state';
 import { firstVisitEnded, givenSet } from '../store/actions/files';
@@ -290,6 +290,6 @@ function projectName({ song, leader }: AppState): string {
 
 /** `Opened: descarga.mp3, leader_0412.bvh, 3 takes`. */
 export function openedText({ song, leader, takes }: Pick<AppState, 'song' | 'leader' | 'takes'>): string {
-  const count = takes.length === 1 ? '1 take' : `${takes.length || 'no'} takes`;
+  const count = takes.length > 0 ? counted(takes.length, 'take') : 'no takes';
   return `Opened: ${[song?.name ?? 'no song', leader?.name ?? 'no leader', count].join(', ')}`;
 }

@@ -1,4 +1,6 @@
 import * as v from 'valibot';
+import { counted } from '../store/format';
+import { newestFirst } from '../store/take';
 import { leader, MAX_FILES, motion, page, song, take } from './schema';
 import type { StoredPage, StoredProject, StoredTake } from './stored-project';
 
@@ -32,7 +34,7 @@ export function checked(found: FoundProject): CheckedProject {
   const wholeTakes = [...takes.values()]
     .filter((one) => leaders.has(one.leader) && motions.has(one.motion))
     .map((one) => (one.song === null || songs.has(one.song) ? one : { ...one, song: null }))
-    .toSorted((a, b) => b.createdAt - a.createdAt);
+    .toSorted(newestFirst);
   const there: StoredPage = {
     ...now,
     leader: now.leader !== null && leaders.has(now.leader) ? now.leader : null,
@@ -51,12 +53,13 @@ export function checked(found: FoundProject): CheckedProject {
     page: shown,
   };
   const lost = [
-    counted(found.songs.length - songs.size, 'song'),
-    counted(found.leaders.length - leaders.size, 'leader'),
-    counted(found.motions.length - motions.size, 'motion'),
-    counted(found.takes.length - keptTakes.length, 'take'),
-  ].filter((part) => part !== null);
-  const losses = lost.length > 0 ? [`What was damaged or incomplete is left out: ${lost.join(', ')}.`] : [];
+    [found.songs.length - songs.size, 'song'],
+    [found.leaders.length - leaders.size, 'leader'],
+    [found.motions.length - motions.size, 'motion'],
+    [found.takes.length - keptTakes.length, 'take'],
+  ] as const;
+  const texts = lost.filter(([number]) => number > 0).map(([number, what]) => counted(number, what));
+  const losses = texts.length > 0 ? [`What was damaged or incomplete is left out: ${texts.join(', ')}.`] : [];
   return { project, losses };
 }
 
@@ -83,8 +86,4 @@ function withTake(page: StoredPage, take: StoredTake | undefined): StoredPage {
 /** The first ids of which there are so many that they are read in a bearable time. */
 function firstUsed(ids: readonly (string | null)[]): Set<string> {
   return new Set([...new Set(ids.filter((one) => one !== null))].slice(0, MAX_FILES));
-}
-
-function counted(number: number, what: string): string | null {
-  return number === 0 ? null : `${number} ${what}${number === 1 ? '' : 's'}`;
 }

@@ -1,7 +1,8 @@
-import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Inputs, LoadedLeader, LoadedSong, Reaction, Take } from '../store/reaction';
 import type { AppState, Restoring } from '../store/state';
-import { takeTitle } from '../store/take';
+import { counted } from '../store/format';
+import { danceDuration } from '../store/selectors';
+import { newestFirst, takeTitle } from '../store/take';
 import { restoredInputs } from './inputs';
 import {
   decoderOf,
@@ -23,19 +24,16 @@ export interface StoredFileReaders {
 export function restoringOf({ songs, leaders, takes, page }: StoredProject): Restoring {
   const name = (all: readonly (StoredSong | StoredLeader)[], id: string | null): string[] =>
     all.filter((part) => part.id === id).map((part) => part.name);
-  const count = takes.length === 1 ? '1 take' : `${takes.length} takes`;
   return {
     what: [
       ...name(songs, page.song),
       ...name(leaders, page.leader),
-      ...(takes.length > 0 ? [count] : []),
+      ...(takes.length > 0 ? [counted(takes.length, 'take')] : []),
     ].join(', '),
-    takes: takes
-      .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number)
-      .map(({ id, number, name, label }) => ({
-        id,
-        title: takeTitle({ number, name, reaction: { label } }),
-      })),
+    takes: takes.toSorted(newestFirst).map(({ id, number, name, label }) => ({
+      id,
+      title: takeTitle({ number, name, reaction: { label } }),
+    })),
   };
 }
 
@@ -103,7 +101,7 @@ export class Restorer {
     const reaction = onStage?.inputs.leader === leader ? onStage : null;
     const other = reaction && takes.some(({ id }) => id === page.other) ? page.other : null;
     const { letter, takesMade, footLock, countings, time, region, loop, framing } = page;
-    const length = leader ? seconds(leader.motion) : 0;
+    const length = danceDuration({ leader, song: null });
     const inputs: Partial<Inputs> =
       leader && page.inputs ? restoredInputs(page.inputs, state, leader, song).inputs : { song, shift: 0 };
     return {
@@ -136,7 +134,7 @@ export class Restorer {
     return this.stored.takes
       .map((take) => this.take(take, state))
       .filter((take) => take !== null)
-      .toSorted((a, b) => b.createdAt - a.createdAt || b.number - a.number);
+      .toSorted(newestFirst);
   }
 
   /** Sentences about what could not be restored. */
@@ -213,8 +211,4 @@ function readableLatents({ motion, latents }: StoredMotion, { manifest }: AppSta
   const { stride, layers, channels } = manifest.latent;
   const length = Math.ceil(motion.frames / stride) * layers.length * channels;
   return latents.values.length === length ? latents.values : null;
-}
-
-function seconds({ frames, fps }: SolvedMotion): number {
-  return frames / fps;
 }

@@ -1,11 +1,9 @@
 import type { MeasureRow, Verdict } from '../widgets/info-card';
+import { percent } from '../store/format';
 import type { Reference } from '../store/state';
 import type { Report } from '../../quality/client';
-import type { Part } from './quality-text';
+import { NOTHING, type Part, score } from './quality-text';
 
-const NOTHING = '–';
-const percent = (share: number): string => `${Math.round(share * 100)} %`;
-const score = (value: number): string => value.toFixed(2);
 const missing = (value: number | null | undefined): value is null | undefined =>
   value === null || value === undefined || Number.isNaN(value);
 

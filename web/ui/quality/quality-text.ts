@@ -1,7 +1,7 @@
 import type { Reference } from '../store/state';
 import type { Moment, MomentKind, Report, Rules } from '../../quality/client';
 import type { CardContent } from '../widgets/info-card';
-import { clockTime } from '../store/format';
+import { clockTime, percent } from '../store/format';
 
 export type Part = keyof Report;
 
@@ -20,12 +20,12 @@ export const PART_NAMES: Readonly<Record<Part, string>> = {
   seams: 'Seams',
 };
 
-const percent = (share: number): string => `${Math.round(share * 100)} %`;
 const metres = (length: number): string => `${length.toFixed(2)} m`;
 const centimetres = (length: number): string => `${(length * 100).toFixed(length < 0.095 ? 1 : 0)} cm`;
 const speed = (value: number): string => `${value.toFixed(2)} m/s`;
-const score = (value: number): string => value.toFixed(2);
-const NOTHING = '–';
+export const score = (value: number): string => value.toFixed(2);
+/** Stands where there is nothing to measure. */
+export const NOTHING = '–';
 
 /** ` (recorded dancers: 33 %)`, where that is known. */
 function recorded(value: number | null | undefined, write: (value: number) => string): string {

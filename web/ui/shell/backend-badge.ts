@@ -2,7 +2,7 @@ import { textButton } from '../widgets/button';
 import { mountDeviceCard } from './device-card';
 import { el, setText, setVariable, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
-import { bytesOf } from '../store/format';
+import { bytesOf, capitalised } from '../store/format';
 import type { Mount } from '../store/services';
 import type { ModelState } from '../store/state';
 import { apply, watch } from '../store/store';
@@ -97,8 +97,4 @@ export function loadingText({ label, received, total, parts = [] }: Loading): {
 
 function named(parts: readonly { readonly name: string }[]): string {
   return parts.map(({ name }) => name).join(' and ');
-}
-
-function capitalised(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }

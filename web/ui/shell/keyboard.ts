@@ -1,6 +1,5 @@
 import { listen, combineDisposers } from '../widgets/dom';
-import { barBeside } from '../store/bars';
-import { countedBeats, snapped } from '../store/counting';
+import { barBeside, countedBeats, snapped } from '../store/counting';
 import { danceDuration, danceFps } from '../store/selectors';
 import type { Services } from '../store/services';
 import { OVERLAYS, toggleOverlay } from './overlay-menu';

@@ -1,5 +1,6 @@
 /** How a song is counted: as dancers do, in groups of two bars, eight or six beats. */
 import type { LoadedSong } from './reaction';
+import { danceDuration } from './selectors';
 import { songStart } from './song-shift';
 import type { AppState, Counting, SongCounting } from './state';
 
@@ -96,6 +97,25 @@ export function snapped({ times }: CountedBeats, time: number): number {
 export function beatBeside({ times }: CountedBeats, time: number, direction: 1 | -1): number | null {
   if (direction > 0) return times[firstAfter(times, time + 1e-3)] ?? null;
   return times[firstAfter(times, time - 1e-3) - 1] ?? null;
+}
+
+/** Two moments nearer than this are the same one, seconds. */
+const SAME_MOMENT = 0.01;
+
+/** How far a bar is where no beats say it, seconds. */
+const WITHOUT_BEATS = 1;
+
+/**
+ * The start of the next (1) or of the previous bar (-1), seconds; before the first and after the last one the start and
+ * the end of the dance. Without beats it is a second away.
+ */
+export function barBeside(state: AppState, time: number, direction: 1 | -1): number {
+  const beats = countedBeats(state);
+  if (beats.times.length === 0) return time + direction * WITHOUT_BEATS;
+  const starts = beats.times.filter((_, index) => accentOf(beats, index) !== 'beat');
+  return direction > 0
+    ? (starts.find((start) => start > time + SAME_MOMENT) ?? danceDuration(state))
+    : (starts.findLast((start) => start < time - SAME_MOMENT) ?? 0);
 }
 
 /** Beats a minute as the song is counted: the tempo of the song, or half or double it. */

@@ -105,7 +105,7 @@ export function lengthNote({
   reading,
 }: Pick<AppState, 'song' | 'leader' | 'shift' | 'reading'>): string | null {
   if (!leader || reading.song) return null;
-  const dance = leader.file.clip.frames / leader.file.clip.fps;
+  const dance = danceDuration({ leader, song });
   if (!song) return 'No song: the couple dances in silence.';
   const end = song.data.duration + shift / leader.file.clip.fps;
   const rest = dance - end;

@@ -1,5 +1,6 @@
 import { bestShift, type BestShift } from '../../motion/beats/beat-match';
 import { motionBeats } from '../../motion/beats/motion-beats';
+import { percent } from './format';
 import type { LoadedLeader, LoadedSong } from './reaction';
 import type { AppState } from './state';
 
@@ -89,9 +90,4 @@ function noBetter(best: BestShift | null, { file: { clip } }: LoadedLeader): Shi
       : `; the best within two seconds is ${percent(best.score)}, ${seconds} s ${best.by > 0 ? 'later' : 'earlier'}` +
         (best.clear ? '' : ', a difference that may be chance');
   return { better: null, summary: 'timing fits', reason: `${now}${other}. Drag the song to move it.` };
-}
-
-/** `58 %`. */
-export function percent(part: number): string {
-  return `${Math.round(part * 100)} %`;
 }

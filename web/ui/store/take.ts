@@ -1,3 +1,4 @@
+import { capitalised } from './format';
 import { readyInputs } from './selectors';
 import type { Inputs, Reaction, Take } from './reaction';
 import type { AppState, Letter } from './state';
@@ -54,13 +55,21 @@ export function takeTitle({
 }: Pick<Take, 'name' | 'number'> & { readonly reaction: Pick<Reaction, 'label'> }): string {
   if (name !== null) return name;
   const { label } = reaction;
-  return label ? label.charAt(0).toUpperCase() + label.slice(1) : `Take ${number}`;
+  return label ? capitalised(label) : `Take ${number}`;
+}
+
+/** The order in which takes are listed. */
+export function newestFirst(
+  a: Pick<Take, 'createdAt' | 'number'>,
+  b: Pick<Take, 'createdAt' | 'number'>,
+): number {
+  return b.createdAt - a.createdAt || b.number - a.number;
 }
 
 /** Replaces the take with the same id, or adds the take in order of age, the newest first. */
 export function withTake(takes: readonly Take[], take: Take): readonly Take[] {
   if (takes.some(({ id }) => id === take.id)) return takes.map((old) => (old.id === take.id ? take : old));
-  return [...takes, take].sort((a, b) => b.createdAt - a.createdAt || b.number - a.number);
+  return [...takes, take].sort(newestFirst);
 }
 
 /**

@@ -1,3 +1,4 @@
+import { counted } from '../store/format';
 import { textButton } from '../widgets/button';
 import { el } from '../widgets/dom';
 import { type Answer, CRITERIA } from './answers';
@@ -27,7 +28,7 @@ export function resultView(
     { class: 'result', attributes: { 'aria-label': 'Result' } },
     el('h1', { text: 'Thank you', attributes: { tabindex: -1 } }),
     el('p', {
-      text: `${answers.length} answers of ${participants} ${participants === 1 ? 'participant' : 'participants'}. A share is that of the answers that prefer the first method, “no difference” counting half; in brackets the 95 % interval of Wilson, which takes the answers as independent.`,
+      text: `${answers.length} answers of ${counted(participants, 'participant')}. A share is that of the answers that prefer the first method, “no difference” counting half; in brackets the 95 % interval of Wilson, which takes the answers as independent.`,
     }),
     repeated > 0 ? el('p', { text: `${repeated} more were there twice and count once.` }) : null,
     table(comparisons),

@@ -1,3 +1,4 @@
+import { counted } from '../store/format';
 import { textButton } from '../widgets/button';
 import { el, setText } from '../widgets/dom';
 import { USUAL_PAIRS } from './plan';
@@ -127,7 +128,7 @@ export class SetupView {
 
 function describe({ name, reference, duets }: StudySet): string {
   const methods = [...new Set(duets.flatMap((duet) => duet.methods))];
-  const count = `${duets.length} ${duets.length === 1 ? 'leader' : 'leaders'}, ${methods.length} methods`;
+  const count = `${counted(duets.length, 'leader')}, ${counted(methods.length, 'method')}`;
   const music = duets.every(({ song }) => song) ? '' : ', some without music';
   const against = reference === null ? 'all compared with each other' : `compared with “${reference}”`;
   return `${name === 'files' ? 'Your files' : 'The dances of this page'}: ${count}${music}, ${against}.`;

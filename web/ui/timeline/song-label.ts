@@ -1,6 +1,7 @@
 import { textButton } from '../widgets/button';
 import { el, setText } from '../widgets/dom';
-import { shiftAdvice, frameCountText, percent, shiftText, signed } from '../store/song-shift';
+import { percent } from '../store/format';
+import { shiftAdvice, frameCountText, shiftText, signed } from '../store/song-shift';
 import type { AppState } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { shiftSet } from '../store/actions/timeline';

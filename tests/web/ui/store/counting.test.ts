@@ -1,8 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { countingSet, oneSet } from '../../../../web/ui/store/actions/counting';
-import { songLoaded } from '../../../../web/ui/store/actions/files';
+import { leaderLoaded, songLoaded } from '../../../../web/ui/store/actions/files';
+import { manifestLoaded } from '../../../../web/ui/store/actions/model';
 import {
   barAt,
+  barBeside,
   beatBeside,
   type CountedBeats,
   countedBeats,
@@ -12,6 +14,8 @@ import {
 } from '../../../../web/ui/store/counting';
 import { redone, undone } from '../../../../web/ui/store/history/history';
 import { apply, createAppStore, type Store } from '../../../../web/ui/store/store';
+import { musicBeats } from '../../../../web/ui/store/song-shift';
+import { small } from '../../support/small-manifest';
 import { leader, rhythm, song } from '../../support/made-state';
 
 const times = (count: number, every = 0.5, begin = 0.5): number[] =>
@@ -142,4 +146,21 @@ it('a tempo says how sure and how steady it is', () => {
   expect(text({ slowest: 118, fastest: 123 })).toBe('120 BPM');
   expect(text({ slowest: 99.6, fastest: 135.2 })).toBe('100–135 BPM');
   expect(text({ sure: false })).toBe('about 120 BPM');
+});
+
+it('a bar on and back is the start of a bar, and at the ends that of the dance', () => {
+  const store = createAppStore('dark');
+  apply(store, manifestLoaded(small, 7));
+  apply(store, leaderLoaded(leader(300)));
+  expect(barBeside(store.getState(), 4, -1)).toBe(3);
+  apply(store, songLoaded(song(10)));
+  const state = store.getState();
+  const [first = NaN, , , , second = NaN] = musicBeats(state);
+  expect(second).toBeGreaterThan(first);
+  expect(barBeside(state, first, 1)).toBe(second);
+  expect(barBeside(state, first + 0.2, 1)).toBe(second);
+  expect(barBeside(state, second, -1)).toBe(first);
+  expect(barBeside(state, second - 0.2, -1)).toBe(first);
+  expect(barBeside(state, first, -1)).toBe(0);
+  expect(barBeside(state, 9.99, 1)).toBe(10);
 });

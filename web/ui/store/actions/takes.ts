@@ -1,3 +1,4 @@
+import { counted } from '../format';
 import { timelineWithin, upToDate } from '../selectors';
 import type { Take } from '../reaction';
 import type { AppState, Compare, Letter } from '../state';
@@ -130,7 +131,7 @@ export function starredKept(): Change {
     const comparisonEnds = next !== undefined || !takes.some(({ id }) => id === state.other);
     return {
       takes,
-      toast: `${count} ${count === 1 ? 'take' : 'takes'} without a star removed. Undo brings them back.`,
+      toast: `${counted(count, 'take')} without a star removed. Undo brings them back.`,
       ...(next && withTakeShown(state, next)),
       ...(comparisonEnds && { other: null, compare: 'off' }),
     };

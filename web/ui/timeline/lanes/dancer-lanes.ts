@@ -4,6 +4,7 @@ import type { Manifest } from '../../../model/client';
 import { createBlockRow } from '../block-row';
 import { createMotionLane, type DrawnMotion, drawnMotion, type MotionLaneView } from './motion-lane';
 import { generatedRole } from '../../store/roles';
+import { capitalised } from '../../store/format';
 import { isSampling, jobText } from '../../store/selectors';
 import type { AppState } from '../../store/state';
 import type { TimeScale } from '../../store/time-scale';
@@ -96,8 +97,4 @@ export class DancerLanes {
 function usualTopSpeed(motions: readonly (DrawnMotion | null)[]): number {
   const speeds = Float32Array.from(motions.flatMap((motion) => (motion ? [...motion.speed] : []))).sort();
   return speeds[Math.floor(speeds.length * USUAL_SHARE)] ?? 0;
-}
-
-function capitalised(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }
