@@ -10,7 +10,7 @@ export interface VideoFeature {
   readonly open: (file: File) => Promise<void>;
   /** Ends the reading of a video, since a newer leader has been asked for. */
   readonly cancel: () => void;
-  /** Records with the webcam and reads that. */
+  /** Records with the webcam and reads that; does nothing while the camera's dialog is open. */
   readonly record: () => Promise<void>;
 }
 
@@ -47,10 +47,21 @@ export function createVideoFeature(
       if (!signal.aborted) files().fail(error, 'leader', file.name, () => void open(file, songStart));
     }
   };
-  const record = async (): Promise<void> => {
+  /** The camera's dialog is open, or on its way: the browser may ask the visitor first. */
+  let filming = false;
+  const film = async (): Promise<File | null> => {
+    filming = true;
     try {
       const { recordCamera } = await loadPart(() => import('./camera-dialog'));
-      const file = await recordCamera(host(), store, playback);
+      return await recordCamera(host(), store, playback);
+    } finally {
+      filming = false;
+    }
+  };
+  const record = async (): Promise<void> => {
+    if (filming) return;
+    try {
+      const file = await film();
       // The song plays from the moment at which the recording begins.
       if (file) await open(file, store.getState().song ? 0 : null);
     } catch (error) {

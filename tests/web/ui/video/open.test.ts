@@ -67,3 +67,26 @@ it('a part of the page that is missing is not the fault of the file, which is re
   failed[0]!.again();
   await vi.waitFor(() => expect(opened).toEqual(['a.mov']));
 });
+
+it('a double click opens the camera once, and it can be opened again when its dialog is closed', async () => {
+  let dialogs = 0;
+  let close = (): void => undefined;
+  vi.doMock('../../../../web/ui/video/camera-dialog', () => ({
+    recordCamera: () => {
+      dialogs++;
+      return new Promise<null>((resolve) => (close = () => resolve(null)));
+    },
+  }));
+  const video = feature();
+  const first = video.record();
+  await vi.waitFor(() => expect(dialogs).toBe(1));
+  // It ends at once, without a dialog of its own.
+  await video.record();
+  expect(dialogs).toBe(1);
+  close();
+  await first;
+  void video.record();
+  await vi.waitFor(() => expect(dialogs).toBe(2));
+  close();
+  vi.doUnmock('../../../../web/ui/video/camera-dialog');
+});
