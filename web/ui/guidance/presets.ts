@@ -1,12 +1,9 @@
 import type { Manifest } from '../../model/client';
 import type { Control } from '../widgets/fader';
 import { clampedToStep, rangeOf, sameGuidance, uniform } from '../store/guidance-matrix';
-import type { Settings } from '../store/reaction';
+import type { Weights } from '../store/reaction';
 
 type Range = Manifest['guidance']['coarse'];
-
-/** The settings that a preset sets. */
-type Weights = Pick<Settings, 'guidance' | 'music' | 'variety'>;
 
 /** Weights under a name. */
 export interface Preset extends Weights {

@@ -1,6 +1,6 @@
 import type { Manifest } from '../../model/client';
 import { toStep } from './format';
-import type { Guidance, Layer, Settings } from './reaction';
+import type { Guidance, Layer, Weights } from './reaction';
 
 type Range = Pick<Manifest['guidance']['coarse'], 'min' | 'max' | 'step'>;
 
@@ -105,11 +105,7 @@ export function clampedToStep(value: number, range: Range): number {
 }
 
 /** `1.20 coarse, 0.60 fine, 3.00 music, 1.00 variety`, with `about` where the body parts differ. */
-export function guidanceText({
-  guidance,
-  music,
-  variety,
-}: Pick<Settings, 'guidance' | 'music' | 'variety'>): string {
+export function guidanceText({ guidance, music, variety }: Weights): string {
   const layers = (['coarse', 'fine'] as const).map((layer) => {
     const { value, mixed } = columnOf(guidance, layer);
     return `${mixed ? 'about ' : ''}${value.toFixed(2)} ${layer}`;

@@ -52,6 +52,9 @@ export interface Settings {
   readonly height: number | null;
 }
 
+/** The settings that are weights of guidance: they act on latents that have been sampled. */
+export type Weights = Pick<Settings, 'guidance' | 'music' | 'variety'>;
+
 /** Everything that determines a reaction. Songs and leaders are compared by identity. */
 export interface Inputs {
   readonly leader: LoadedLeader;

@@ -13,7 +13,7 @@ import {
 } from '../guidance-matrix';
 import { sealed } from '../history/history';
 import { sameSettings, upToDate } from '../selectors';
-import type { Guidance, Layer, Settings } from '../reaction';
+import type { Guidance, Layer, Settings, Weights } from '../reaction';
 import type { Change } from '../store';
 
 /** Sets all of them, to those of a ready-made reaction. */
@@ -49,7 +49,7 @@ export function varietySet(value: number): Change {
 }
 
 /** Sets the whole matrix, the music and the variety to those of a preset. */
-export function presetChosen({ guidance, music, variety }: Guided): Change {
+export function presetChosen({ guidance, music, variety }: Weights): Change {
   return guided(() => ({ guidance, music, variety }));
 }
 
@@ -93,10 +93,8 @@ export function dragEnded(): Change {
   return (state) => ({ drag: state.drag && !upToDate(state) ? { ...state.drag, held: false } : null });
 }
 
-type Guided = Pick<Settings, 'guidance' | 'music' | 'variety'>;
-
 /** A change of the guidance alone; settings stay the same object when it comes out as it was. */
-function guided(next: (settings: Settings, manifest: Manifest) => Partial<Guided>): Change {
+function guided(next: (settings: Settings, manifest: Manifest) => Partial<Weights>): Change {
   return ({ settings, manifest }) => {
     if (!settings || !manifest) return {};
     const wanted = { ...settings, ...next(settings, manifest) };
