@@ -1,4 +1,4 @@
-import { serve, type TaskContext } from '../common/run-in-worker';
+import { serve, type TaskContext } from '../common/serve-tasks';
 import { analyse, type Analysis } from './analyse';
 import type { DecodedSong } from './decode';
 import type { AudioRecipe } from './recipe';

@@ -1,26 +1,12 @@
 /**
- * Calls between the page and its workers, over comlink. A worker offers tasks by name with `serve`; the page calls them
- * through a `WorkerConnection`, or with `runInWorker` where each call gets a worker of its own.
+ * The page's side of the calls between the page and its workers, over comlink: it calls the tasks that a worker serves
+ * (serve-tasks.ts) through a `WorkerConnection`, or with `runInWorker` where each call gets a worker of its own.
  */
-import { type Endpoint, expose, proxy, releaseProxy, type Remote, transfer, wrap } from 'comlink';
+import { proxy, releaseProxy, type Remote, transfer, wrap } from 'comlink';
 import { AppError } from './error';
 import { explainedByVersion, pagePartMissing } from './page-part';
+import type { Outcome, Reporter, TaskContext, TaskRunner, Tasks } from './serve-tasks';
 import { type Timeouts, Watchdog } from './watchdog';
-
-export interface TaskContext<Report> {
-  /** Aborted when the page cancels this call. */
-  readonly signal: AbortSignal;
-  /** Sends something to the page before the task ends, its buffers transferred; resolves when the page has taken it. */
-  report(this: void, report: Report): Promise<void>;
-}
-
-/** What a worker does on a call. It gives its output away: all buffers in it are transferred to the page. */
-export type Task<Input, Output, Report = never> = (
-  input: Input,
-  context: TaskContext<Report>,
-) => Output | Promise<Output>;
-
-type Tasks = Readonly<Record<string, Task<never, unknown, never>>>;
 
 type InputOf<T extends Tasks[string]> = Parameters<T>[0];
 type OutputOf<T extends Tasks[string]> = Awaited<ReturnType<T>>;
@@ -33,83 +19,6 @@ interface CallOptions<Report = never> {
   readonly onReport?: ((report: Report) => unknown) | undefined;
   /** Buffers of the input that are handed to the worker instead of copied. */
   readonly transfers?: readonly ArrayBufferLike[] | undefined;
-}
-
-/** Errors cross as data: a structured clone would lose code and hint. */
-type Outcome =
-  | { readonly kind: 'done'; readonly output: unknown }
-  | { readonly kind: 'refused'; readonly error: Pick<AppError, 'code' | 'message' | 'hint'> }
-  | { readonly kind: 'cancelled' }
-  /** Anything unforeseen, out of memory or a lost GPU for example; the worker is not to be used again. */
-  | { readonly kind: 'crashed'; readonly reason: string };
-
-type Reporter = (report: unknown) => void | Promise<void>;
-
-interface TaskRunner {
-  call(id: number, name: string, input: unknown, report: Reporter): Promise<Outcome>;
-  cancel(id: number): void;
-  /** Answered as soon as the worker's work lets messages in. */
-  answer(): void;
-}
-
-/** In a worker: answers the page's calls, which come through `port`, with these tasks. */
-export function serve(tasks: Tasks, port?: Endpoint): void {
-  const running = new Map<number, AbortController>();
-  const runner: TaskRunner = {
-    async call(id, name, input, report) {
-      const controller = new AbortController();
-      running.set(id, controller);
-      const { signal } = controller;
-      let lastReport = Promise.resolve();
-      const context: TaskContext<unknown> = {
-        signal,
-        report: (value) => {
-          lastReport = Promise.resolve(report(handOver(value)));
-          return lastReport;
-        },
-      };
-      let outcome: Outcome;
-      try {
-        const task = tasks[name] as Task<unknown, unknown, unknown>;
-        outcome = handOver({ kind: 'done', output: await task(input, context) });
-      } catch (error) {
-        outcome = failure(error, signal);
-      } finally {
-        running.delete(id);
-      }
-      // Reports go through a port of their own, which the outcome would overtake.
-      await lastReport;
-      // Its port would stay open until both threads have collected their garbage.
-      (report as Remote<Reporter>)[releaseProxy]();
-      return outcome;
-    },
-    cancel(id) {
-      running.get(id)?.abort();
-    },
-    answer: () => undefined,
-  };
-  expose(runner, port);
-}
-
-function failure(error: unknown, signal: AbortSignal): Outcome {
-  if (signal.aborted) return { kind: 'cancelled' };
-  if (error instanceof AppError) {
-    const { code, message, hint } = error;
-    return { kind: 'refused', error: { code, message, hint } };
-  }
-  return { kind: 'crashed', reason: error instanceof Error ? error.message : String(error) };
-}
-
-/** Marks all buffers of a value of plain objects, arrays and typed arrays to be transferred with it. */
-function handOver<T>(value: T): T {
-  const buffers = new Set<ArrayBuffer>();
-  const collect = (part: unknown): void => {
-    if (ArrayBuffer.isView(part)) {
-      if (part.buffer instanceof ArrayBuffer) buffers.add(part.buffer);
-    } else if (typeof part === 'object' && part !== null) Object.values(part).forEach(collect);
-  };
-  collect(value);
-  return buffers.size > 0 ? transfer(value, [...buffers]) : value;
 }
 
 /**
@@ -189,8 +98,8 @@ export class WorkerConnection<T extends Tasks> {
 
   /**
    * Has the worker do a task.
-   * @throws the task's {AppError}, or `newer-version` where that explains it; the error of a crash; the signal's reason, at once, while the worker hears of it when
-   * its task next lets messages in
+   * @throws the task's {AppError}, or `newer-version` where that explains it; the error of a crash; the signal's reason,
+   * at once, while the worker hears of it when its task next lets messages in
    */
   async call<K extends keyof T & string>(
     name: K,

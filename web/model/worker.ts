@@ -1,5 +1,5 @@
 /** The worker that runs the model with onnxruntime. */
-import { serve, type TaskContext } from '../common/run-in-worker';
+import { serve, type TaskContext } from '../common/serve-tasks';
 import type { Backend } from './load/backend';
 import { type LoadedModel, loadModel, type LoadOptions, type Status } from './load/load';
 import type { Manifest } from './manifest';

@@ -1,5 +1,5 @@
 /** Reads and solves one motion file, or only its joints, off the main thread, so that a long one does not freeze the page. */
-import { serve } from '../common/run-in-worker';
+import { serve } from '../common/serve-tasks';
 import type { LeaderRequest, ReadLeader } from './client';
 import { solve } from './fit/ik';
 import { type Inspection, inspectMotion } from './import/inspect';

@@ -1,5 +1,5 @@
 /** Measures one dance off the main thread. */
-import { serve } from '../common/run-in-worker';
+import { serve } from '../common/serve-tasks';
 import type { QualityRequest } from './client';
 import { measure, type Report } from './measure';
 

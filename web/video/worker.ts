@@ -1,6 +1,6 @@
 /** Reads videos and makes motions of what was seen, off the main thread. */
+import { serve, type TaskContext } from '../common/serve-tasks';
 import { AppError } from '../common/error';
-import { serve, type TaskContext } from '../common/run-in-worker';
 import { yieldToEvents } from '../common/yield-to-events';
 import { writeBvh } from '../motion/bvh/write';
 import { checkSeen } from './checks';

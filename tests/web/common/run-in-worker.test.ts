@@ -1,9 +1,10 @@
+import { serve, type TaskContext } from '../../../web/common/serve-tasks';
 import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { AppError } from '../../../web/common/error';
 import { yieldToEvents } from '../../../web/common/yield-to-events';
-import { runInWorker, serve, type TaskContext, WorkerConnection } from '../../../web/common/run-in-worker';
+import { runInWorker, WorkerConnection } from '../../../web/common/run-in-worker';
 
 const seen: { signal?: AbortSignal; buffers: ArrayBuffer[]; counted: number } = { buffers: [], counted: 0 };
 

@@ -1,5 +1,5 @@
+import { serve } from '../../../web/common/serve-tasks';
 import { afterEach, expect, it, vi } from 'vitest';
-import { serve } from '../../../web/common/run-in-worker';
 import { createGenerator } from '../../../web/model/client';
 import type { Source } from '../../../web/model/sample/inputs';
 import { still } from '../support/made-state';

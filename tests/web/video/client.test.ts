@@ -1,5 +1,5 @@
+import { serve } from '../../../web/common/serve-tasks';
 import { afterEach, expect, it, vi } from 'vitest';
-import { serve } from '../../../web/common/run-in-worker';
 import { createVideoReader, type Observations, type WorldOptions } from '../../../web/video/client';
 
 /** The workers that were made, in order. */

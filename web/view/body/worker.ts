@@ -1,4 +1,4 @@
-import { serve } from '../../common/run-in-worker';
+import { serve } from '../../common/serve-tasks';
 import { makeBody, type Body } from './simplify';
 import type { Build } from './part';
 
