@@ -1,6 +1,7 @@
 import { AppError } from '../common/error';
 import { RecentCache } from '../common/recent-cache';
 import { runInWorker } from '../common/run-in-worker';
+import { sha256 } from '../common/sha256';
 import type { Analysis } from './analyse';
 import { decodeSong } from './decode';
 import { type AudioRecipe, readRecipe } from './recipe';
@@ -96,10 +97,8 @@ function workerError(reason: string): AppError {
 
 /** SHA-256 of the file, and the recipe; null where the browser offers no hash (insecure origins). */
 async function cacheKey(file: Blob, recipe: AudioRecipe): Promise<string | null> {
-  const subtle = globalThis.crypto.subtle as SubtleCrypto | undefined;
-  if (!subtle || file.size === 0) return null;
+  if (file.size === 0) return null;
   const bytes = await file.arrayBuffer().catch(() => null);
-  if (!bytes) return null;
-  const hash = new Uint8Array(await subtle.digest('SHA-256', bytes));
-  return `${Array.from(hash, (byte) => byte.toString(16).padStart(2, '0')).join('')} ${JSON.stringify(recipe)}`;
+  const sum = bytes && (await sha256(bytes));
+  return sum ? `${sum} ${JSON.stringify(recipe)}` : null;
 }

@@ -1,4 +1,5 @@
 import { AppError } from '../../common/error';
+import { sha256 } from '../../common/sha256';
 import type { ManifestFile } from '../manifest';
 
 /** Stores verified files between visits; in the page, the Cache API. */
@@ -26,14 +27,6 @@ export interface DownloadOptions {
 export type ModelFolder = Readonly<Record<string, Blob>>;
 
 const MISSING_HINT = 'Check that the model folder was copied to the server, then load the page again.';
-
-/** Lower-case hexadecimal SHA-256; undefined on an insecure origin, where the browser does not offer it. */
-async function sha256(bytes: Uint8Array<ArrayBuffer>): Promise<string | undefined> {
-  const subtle = (globalThis.crypto as Crypto | undefined)?.subtle;
-  if (subtle === undefined) return undefined;
-  const digest = new Uint8Array(await subtle.digest('SHA-256', bytes));
-  return Array.from(digest, (byte) => byte.toString(16).padStart(2, '0')).join('');
-}
 
 /**
  * Fetch something that must not be a page: servers of single-page apps answer a missing file with 200 and HTML.

@@ -1,4 +1,5 @@
 import type { Framing } from '../../common/framing';
+import { hex } from '../../common/sha256';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type {
@@ -107,9 +108,7 @@ const ids = new WeakMap<object, string>();
 function idOf(part: object): string {
   let id = ids.get(part);
   if (id === undefined) {
-    id = Array.from(crypto.getRandomValues(new Uint8Array(8)), (byte) =>
-      byte.toString(16).padStart(2, '0'),
-    ).join('');
+    id = hex(crypto.getRandomValues(new Uint8Array(8)));
     ids.set(part, id);
   }
   return id;
