@@ -1,16 +1,9 @@
 import * as v from 'valibot';
-import { FLOOR } from '../motion/retarget/axes-and-units';
 import { FPS } from '../motion/skeleton/clip';
-import { PARENTS, SMPL22 } from '../motion/skeleton/skeleton';
-import { AppError } from '../common/error';
-import { shapeProblem } from './graph-shapes';
+import { SMPL22 } from '../motion/skeleton/skeleton';
 
 /** Far above what any model of this method has: sizes beyond it only fill the memory. */
 const MAX_COUNT = 1e6;
-/** Most values of a block, 64 MB: a hundred times as many as a block of the shipped model has. */
-const MAX_BLOCK = 2 ** 24;
-/** Most positions of a fader. */
-const MAX_FADER_STEPS = 10_000;
 const count = v.pipe(v.number(), v.integer(), v.minValue(1), v.maxValue(MAX_COUNT));
 const natural = v.pipe(v.number(), v.integer(), v.minValue(0), v.maxValue(MAX_COUNT));
 const joint = v.pipe(natural, v.maxValue(SMPL22.length - 1));
@@ -87,7 +80,7 @@ const names = v.pipe(
   v.check((all) => new Set(all).size === all.length, 'Expected different words'),
 );
 
-const schema = v.object({
+export const schema = v.object({
   format: v.literal('reactdance-model'),
   version: v.literal(8),
   id: v.pipe(v.string(), v.minLength(1)),
@@ -167,120 +160,9 @@ const schema = v.object({
   golden: file,
 });
 
-/** Every number about a model that the page knows; written by export, checked here. */
+/** Every number about a model that the page knows; written by export, checked by parse-manifest.ts. */
 export type Manifest = v.InferOutput<typeof schema>;
 export type GraphName = keyof Manifest['graphs'];
 export type ManifestFile = v.InferOutput<typeof file>;
 
-/** Each has a fader, and weights in the golden sampling. */
-const LAYERS = ['coarse', 'fine'];
-
 export const GRAPHS: readonly GraphName[] = ['condition', 'step', 'decode'];
-
-const REEXPORT = 'Export the model again with this version of the project, or use the model it ships with.';
-
-function invalid(message: string): AppError {
-  return new AppError('manifest-invalid', message, REEXPORT);
-}
-
-/** Says which field is wrong and how, in one sentence. */
-function describe(issue: v.BaseIssue<unknown>): string {
-  const path = v.getDotPath(issue);
-  if (path === null) return "The model's manifest is not a JSON object.";
-  if (issue.received === 'undefined') return `The model's manifest has no field "${path}".`;
-  return `The model's manifest has a wrong field "${path}": ${issue.message}.`;
-}
-
-/** Statements that tie fields to each other and to what this page can draw. */
-function check(manifest: Manifest): void {
-  const { skeleton, latent, diffusion, audio } = manifest;
-  const { coarse, fine, music, variety } = manifest.guidance;
-  const ranges = { coarse, fine, music, variety };
-  const same = (a: readonly unknown[], b: readonly unknown[]): boolean =>
-    a.length === b.length && a.every((value, i) => value === b[i]);
-  if (!same(skeleton.joints, SMPL22) || !same(skeleton.parents, PARENTS)) {
-    throw new AppError(
-      'model-unsupported',
-      "The model's skeleton is not the 22-joint SMPL body that this page draws.",
-      REEXPORT,
-    );
-  }
-  if (skeleton.floor.toe_rest !== FLOOR.toe_rest || skeleton.floor.percentile !== FLOOR.percentile) {
-    throw new AppError(
-      'model-unsupported',
-      'The model was trained on dancers whose floor was found in another way than this page finds it.',
-      REEXPORT,
-    );
-  }
-  if (diffusion.alphas_cumprod.length !== diffusion.train_steps) {
-    throw invalid(
-      `The model's manifest lists ${diffusion.alphas_cumprod.length} values in "diffusion.alphas_cumprod" ` +
-        `for ${diffusion.train_steps} train steps.`,
-    );
-  }
-  if (!same(latent.layers, LAYERS)) {
-    throw new AppError(
-      'model-unsupported',
-      `The model has the residual layers ${latent.layers.join(', ')}; ` +
-        `this page steers models of two, ${LAYERS.join(' and ')}.`,
-      'Use a model that was trained with two residual layers, as the one that the page ships with.',
-    );
-  }
-  const shapes = shapeProblem(manifest);
-  if (shapes !== null) throw invalid(`The model's manifest ${shapes}.`);
-  if (audio.sample_rate !== manifest.fps * audio.hop) {
-    throw invalid(
-      `The model's manifest has ${audio.sample_rate / audio.hop} feature frames a second for ${manifest.fps} motion frames.`,
-    );
-  }
-  if (latent.block * Math.max(latent.stride, latent.layers.length * latent.channels) > MAX_BLOCK) {
-    throw invalid("The model's manifest has blocks that are too large to sample on this page.");
-  }
-  if (latent.channels % latent.streams.length !== 0) {
-    throw invalid(
-      `The model's manifest shares ${latent.channels} channels among ${latent.streams.length} streams.`,
-    );
-  }
-  const { alphas_cumprod: alphas } = diffusion;
-  if (!alphas.every((alpha, t) => alpha > 0 && alpha < (alphas[t - 1] ?? 1))) {
-    throw invalid(
-      'The model\'s manifest has a "diffusion.alphas_cumprod" that does not fall from step to step.',
-    );
-  }
-  if (Math.round(diffusion.last_time * diffusion.train_steps) < 1) {
-    throw invalid('The model\'s manifest has a "diffusion.last_time" before the first train step.');
-  }
-  if (diffusion.steps > diffusion.train_steps) {
-    throw invalid(
-      `The model's manifest has ${diffusion.steps} steps in "diffusion.steps" for ${diffusion.train_steps} train steps.`,
-    );
-  }
-  for (const [name, { min, max, step, default: preset }] of Object.entries(ranges)) {
-    if (!(min < max && min <= preset && preset <= max))
-      throw invalid(`The model's manifest has a "guidance.${name}" that is not in order: min, default, max.`);
-    if (!(step <= max - min && max - min <= MAX_FADER_STEPS * step))
-      throw invalid(`The model's manifest has a "guidance.${name}" whose step does not fit its range.`);
-  }
-}
-
-/**
- * Check a parsed manifest.
- * @throws {AppError} `manifest-invalid` naming the first wrong field, `model-unsupported` for another format,
- * version, skeleton or number of layers
- */
-export function parseManifest(json: unknown): Manifest {
-  const head = v.safeParse(v.looseObject({ format: v.string(), version: v.number() }), json);
-  const expected = { format: schema.entries.format.literal, version: schema.entries.version.literal };
-  if (head.success && (head.output.format !== expected.format || head.output.version !== expected.version)) {
-    throw new AppError(
-      'model-unsupported',
-      `The model has format "${head.output.format}" version ${head.output.version}; ` +
-        `this page reads "${expected.format}" version ${expected.version}.`,
-      REEXPORT,
-    );
-  }
-  const result = v.safeParse(schema, json);
-  if (!result.success) throw invalid(describe(result.issues[0]));
-  check(result.output);
-  return result.output;
-}

@@ -1,8 +1,8 @@
+import { parseManifest } from '../../../web/model/parse-manifest';
 import { readFileSync } from 'node:fs';
 import { zipSync, unzipSync } from 'fflate';
 import { expect, test } from 'vitest';
 import { readGolden } from '../../../web/model/load/golden';
-import { parseManifest } from '../../../web/model/manifest';
 import { ddim } from '../../../web/model/sample/schedule';
 import { fuzz } from '../support/hostile/fuzz';
 import { damagedBytes, damagedJson } from '../support/hostile/mutations';

@@ -1,6 +1,6 @@
+import { parseManifest } from '../../../web/model/parse-manifest';
 import { describe, expect, it } from 'vitest';
 import { AppError } from '../../../web/common/error';
-import { parseManifest } from '../../../web/model/manifest';
 import { smallJson } from '../support/small-manifest';
 
 type Json = ReturnType<typeof smallJson>;

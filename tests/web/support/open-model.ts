@@ -1,8 +1,9 @@
+import { parseManifest } from '../../../web/model/parse-manifest';
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { filesOf } from '../../../web/model/load/assets';
 import { type Golden, readGolden } from '../../../web/model/load/golden';
-import { GRAPHS, type GraphName, type Manifest, parseManifest } from '../../../web/model/manifest';
+import { GRAPHS, type GraphName, type Manifest } from '../../../web/model/manifest';
 import { readNpz } from '../../../web/model/load/npz';
 import type { NpzArray } from '../../../web/common/npz';
 import type { Provider } from '../../../web/model/load/runtime';

@@ -1,6 +1,7 @@
+import { parseManifest } from '../../../web/model/parse-manifest';
 import { FLOOR } from '../../../web/motion/retarget/axes-and-units';
 import { PARENTS, SMPL22 } from '../../../web/motion/skeleton/skeleton';
-import { type Manifest, parseManifest } from '../../../web/model/manifest';
+import { type Manifest } from '../../../web/model/manifest';
 
 const file = (path: string) => ({ path, bytes: 3, sha256: '0'.repeat(64) });
 type Shapes = Record<string, (string | number)[]>;

@@ -1,10 +1,11 @@
+import { parseManifest } from '../parse-manifest';
 import { type Backend, chooseBackend, fallBackToWasm, type Preference, environment } from './backend';
 import { AppError } from '../../common/error';
 import { goldenError, readGolden } from './golden';
 import { fetchWithTimeout } from '../../common/fetch';
 import { folderFetch, type ModelFolder } from './download';
 import { fetchLatest } from './network-first';
-import { type Manifest, parseManifest } from '../manifest';
+import { type Manifest } from '../manifest';
 import { downloadFiles, type DownloadPart, downloadParts } from './assets';
 import { unitGains } from '../sample/blend';
 import { BranchSampler } from '../sample/branch-sampler';

@@ -1,6 +1,7 @@
 /** The model client without the app around it, for browser tests to call. */
+import { parseManifest } from '../../../../web/model/parse-manifest';
 import { goldenError, readGolden } from '../../../../web/model/load/golden';
-import { GRAPHS, type GraphName, parseManifest } from '../../../../web/model/manifest';
+import { GRAPHS, type GraphName } from '../../../../web/model/manifest';
 import type { Provider } from '../../../../web/model/load/runtime';
 import { openSession } from '../../../../web/model/load/session';
 import { readNpz } from '../../../../web/model/load/npz';

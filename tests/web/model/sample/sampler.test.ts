@@ -1,6 +1,6 @@
+import { parseManifest } from '../../../../web/model/parse-manifest';
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { parseManifest } from '../../../../web/model/manifest';
 import { noise } from '../../../../web/model/sample/noise';
 import type { HeldLatents, StepInput, StepRunner } from '../../../../web/model/sample/graphs';
 import { sample, type Sampling } from '../../../../web/model/sample/sampler';

@@ -1,6 +1,6 @@
+import { parseManifest } from '../../../../web/model/parse-manifest';
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { parseManifest } from '../../../../web/model/manifest';
 import { ddim } from '../../../../web/model/sample/schedule';
 import { small } from '../../support/small-manifest';
 
