@@ -1,3 +1,4 @@
+import { TRUNK_JOINTS } from './joint-names';
 import {
   ALL_UNITS,
   type AxisName,
@@ -15,7 +16,7 @@ import { FPS, type MotionClip } from '../skeleton/clip';
 import { OWN_CONVENTION } from '../bvh/names';
 import { AppError } from '../../common/error';
 import { checkedRate, nearestRate } from './frame-rate';
-import { type JointMap, mapJoints, type MappedBy, TRUNK_JOINTS, withSidesExchanged } from './joint-map';
+import { type JointMap, mapJoints, type MappedBy, withSidesExchanged } from './joint-map';
 import { restFrames } from './t-pose';
 import { checkPlausible } from '../skeleton/plausible';
 import { J, JOINT_COUNT, type JointName, SMPL22 } from '../skeleton/skeleton';
