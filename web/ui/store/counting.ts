@@ -119,7 +119,7 @@ export function barBeside(state: AppState, time: number, direction: 1 | -1): num
 }
 
 /** Beats a minute as the song is counted: the tempo of the song, or half or double it. */
-export function countedTempo(song: LoadedSong, countings: readonly SongCounting[]): number {
+function countedTempo(song: LoadedSong, countings: readonly SongCounting[]): number {
   return song.data.rhythm.tempo * countingOf(song, countings).rate;
 }
 

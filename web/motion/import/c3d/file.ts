@@ -22,7 +22,7 @@ export interface C3d {
 }
 
 /** The error of a file that is not as C3D says. */
-export function damagedC3d(what: string, cause?: unknown): AppError {
+function damagedC3d(what: string, cause?: unknown): AppError {
   return new AppError(
     'unreadable-file',
     `The C3D file is damaged: ${what}.`,
