@@ -1,7 +1,7 @@
-import { isNewer } from '../../../../web/ui/project/database';
+import { isFull, isNewer } from '../../../../web/ui/project/database';
 import 'fake-indexeddb/auto';
 import { openDB } from 'idb';
-import { expect, it } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { checked } from '../../../../web/ui/project/records';
 import { storedProject, VERSION } from '../../../../web/ui/project/stored-project';
 import { ProjectDatabase } from '../../../../web/ui/project/storage';
@@ -23,6 +23,11 @@ function withTakes(...ids: string[]): change.Store {
     change.apply(store, change.reactionAdded(reaction, { id, at: 1e6 * (index + 1) }));
   });
   return store;
+}
+
+/** How the stand-in for the browser's IndexedDB ends a transaction with an error. */
+interface Aborted {
+  _abort(error: string): void;
 }
 
 const read = async (name: string) => checked((await new ProjectDatabase(name).read())!).project;
@@ -52,6 +57,57 @@ it('a write that fails in the middle changes nothing', async () => {
   await expect(database.write({ ...broken, takes })).rejects.toThrow();
   expect((await read('atomic')).takes.map(({ id }) => id)).toEqual(['a']);
   expect(await count('atomic', 'motions')).toBe(1);
+});
+
+describe('a storage with room for one motion', () => {
+  /** Motions that fit; a transaction with more of them ends as it does in a browser whose storage is full. */
+  let room: number;
+  const put = IDBObjectStore.prototype.put;
+  beforeEach(() => {
+    room = 1;
+    IDBObjectStore.prototype.put = function (this: IDBObjectStore, ...record: Parameters<typeof put>) {
+      const request = put.apply(this, record);
+      if (this.name === 'motions')
+        this.count().onsuccess = ({ target }) => {
+          const full = (target as IDBRequest<number>).result > room;
+          if (full) (this.transaction as unknown as Aborted)._abort('QuotaExceededError');
+        };
+      return request;
+    };
+  });
+  afterEach(() => {
+    IDBObjectStore.prototype.put = put;
+  });
+
+  it('keeps the takes and the page that fit, says that it is full, and keeps the rest when there is room', async () => {
+    const database = new ProjectDatabase('full');
+    const project = storedProject(withTakes('a', 'b').getState());
+    await expect(database.write(project)).rejects.toSatisfy(isFull);
+    expect((await read('full')).takes).toHaveLength(1);
+    expect((await read('full')).page).toEqual(project.page);
+    expect(await count('full', 'motions')).toBe(1);
+
+    await expect(database.write(project)).rejects.toSatisfy(isFull);
+    room = 2;
+    await database.write(project);
+    expect((await read('full')).takes.map(({ id }) => id).sort()).toEqual(['a', 'b']);
+  });
+
+  it('keeps a change of a take beside a new one that does not fit, and removes what has left before it adds', async () => {
+    const database = new ProjectDatabase('exchange');
+    const store = withTakes('a');
+    await database.write(storedProject(store.getState()));
+    change.apply(store, takeRenamed('a', 'Softer hands'));
+    const other = storedProject(withTakes('b').getState());
+    const old = storedProject(store.getState());
+    const takes = [...other.takes, ...old.takes];
+    const both = { ...old, motions: [...other.motions, ...old.motions], takes };
+    await expect(database.write(both)).rejects.toSatisfy(isFull);
+    expect((await read('exchange')).takes).toMatchObject([{ id: 'a', name: 'Softer hands' }]);
+
+    await database.write(other);
+    expect((await read('exchange')).takes.map(({ id }) => id)).toEqual(['b']);
+  });
 });
 
 it('leaves what a newer page has written alone', async () => {
