@@ -10,6 +10,7 @@ import { columnOf } from '../../../../web/ui/store/guidance-matrix';
 import * as change from '../../support/actions';
 import { regionSet, zoomSet } from '../../../../web/ui/store/actions/timeline';
 import { MAX_TAKES } from '../../../../web/ui/store/add-take';
+import { takesMerged } from '../../../../web/ui/store/actions/project';
 import * as edit from '../../../../web/ui/store/actions/takes';
 import { redone, undone, withoutUndo } from '../../../../web/ui/store/history/history';
 import { type OtherDancer, showOther } from '../../../../web/ui/takes/other-dancer';
@@ -602,4 +603,23 @@ describe('undo and redo', () => {
     fresh.arrive();
     expect(fresh.state.history.past).toEqual([]);
   });
+});
+
+it('merges takes with those another tab has stored: what was changed or deleted here stays so, the rest is theirs', () => {
+  for (const seed of [8, 9, 10]) {
+    page.arrive();
+    page.seed(seed);
+  }
+  page.arrive();
+  const synced = page.state.takes;
+  const renamed = (title: string, name: string) =>
+    synced.map((take) => (takeTitle(take) === title ? { ...take, name } : take));
+  page.do(edit.takeRenamed(page.id('Take 1'), 'Mine'), edit.takeDeleted(page.id('Take 2')));
+  const theirs = [
+    ...renamed('Take 3', 'Theirs').filter((take) => takeTitle(take) !== 'Take 4'),
+    { ...synced[0]!, id: 'new', number: 5, createdAt: page.now + 1 },
+  ];
+  page.do(takesMerged(theirs, synced));
+  expect(page.titles).toEqual(['Take 5', 'Theirs', 'Mine']);
+  expect(page.state.takesMade).toBe(5);
 });
