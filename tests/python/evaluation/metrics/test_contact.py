@@ -39,11 +39,14 @@ def test_contact_is_against_each_joints_own_floor():
     assert foot_skating(standing(50) + np.array([0.0, 1.0, 0.0]))["contact_share"] == pytest.approx(1.0)
 
 
-def test_pfc_by_hand():
+@pytest.mark.parametrize("slower", ["ankles", "feet"])
+def test_pfc_by_hand(slower: str):
     motion = standing(5)
+    order = slice(None) if slower == "feet" else slice(None, None, -1)
     motion[:, 0, 0] += np.array([0.0, 0.0, 0.01, 0.01, 0.01])  # accelerations 0.01, -0.01, 0
-    motion[:, [7, 10], 0] += np.arange(5)[:, None] * np.array([0.03, 0.02])  # smaller on the left: 0.02
-    motion[:, [8, 11], 2] += np.arange(5)[:, None] * np.array([0.05, 0.04])  # smaller on the right: 0.04
+    left, right = np.array([[0.03, 0.02], [0.05, 0.04]])[:, order]  # of ankle and foot, metres a frame
+    motion[:, [7, 10], 0] += np.arange(5)[:, None] * left
+    motion[:, [8, 11], 2] += np.arange(5)[:, None] * right
     motion[:, [7, 10, 8, 11], 1] += 0.5 * np.arange(5)[:, None]  # heights do not count
     assert physical_foot_contact(motion) == pytest.approx(1e4 * 0.02 * 0.04 * (1 + 1 + 0) / 3)
     assert physical_foot_contact(standing(9)) == 0.0

@@ -19,9 +19,10 @@ def test_the_truth_measured_against_itself():
     ratios = {k: v for k, v in row.items() if k.endswith("_ratio")}
     assert len(ratios) == 4
     assert all(value == pytest.approx(1.0) for value in ratios.values())
-    assert {"mpjpe_mm", "pfc", "ipr_capsules", "bas", "bas_chance", "skate_share", "bone_variation"} <= set(
-        row
-    )
+    further = {"mpjpe_mm", "pfc", "ipr_capsules", "bas", "bas_chance", "skate_share", "bone_variation"}
+    assert further | {"repeat_share", "repeat_mm"} <= set(row)
+    short = duet_metrics(leader[:150], truth[:150], truth[:150])
+    assert set(row) - set(short) == {k for k in row if k.startswith(("bas", "repeat"))}
 
 
 def test_sets_of_clips():

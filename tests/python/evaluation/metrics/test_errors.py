@@ -43,7 +43,8 @@ def test_root_error_splits_by_the_true_distance():
     for block, (distance, error) in enumerate(((0.3, 0.1), (0.7, 0.2), (1.0, 0.3), (2.0, 0.4))):
         rows = slice(10 * block, 10 * block + 10)
         truth[rows, :, 0] += distance
-        generated[rows, :, 0] += distance + error
+        # Half and one and a half times the error in turns.
+        generated[rows, :, 0] += distance + error * np.resize([0.5, 1.5], 10)[:, None]
     split = root_error_by_distance(leader, truth, generated)
     assert list(split) == ["0-0.4 m", "0.4-0.8 m", "0.8-1.2 m", ">1.2 m"]
     assert list(split.values()) == pytest.approx([100.0, 200.0, 300.0, 400.0])

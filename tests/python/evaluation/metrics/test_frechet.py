@@ -67,6 +67,9 @@ def test_diversity_of_a_triangle():
     scaled = div(corners, corners)
     assert scaled.value == pytest.approx(diversity(normalise(corners)[0]))
     assert scaled.low <= scaled.value <= scaled.high
+    many = np.random.default_rng(2).normal(size=(40, 3))
+    interval = div(many, many)
+    assert interval.low < interval.value < interval.high
 
 
 def test_fid_and_its_interval():

@@ -86,6 +86,8 @@ def test_motion_that_follows_the_beat_is_told_from_motion_that_does_not():
     unchanging = shift_test(base, 0.5 * np.exp(0.4j) + noise[2] + 1j * noise[3])
     assert unchanging["p"] > 0.05
     assert unchanging["following"] < -0.8
+    known = shift_test([1 + 0j, 1j], [-1 + 0j, -1 + 0j])
+    assert [known["following"], known["difference"]] == pytest.approx([0.5**0.5, 2.5**0.5])
     # Few seeds cannot be significant: 2 of the 2^3 exchanges are as extreme as what was seen.
     assert shift_test([1 + 0j] * 3, [-1 + 0j] * 3)["p"] == pytest.approx(0.25, abs=0.02)
     with pytest.raises(ValueError, match="pairs"):
