@@ -7,6 +7,8 @@ import { severity, worstMoments } from '../../../web/quality/moments';
 import { overlapDepth } from '../../../web/quality/penetration';
 import type { Duet, Rules } from '../../../web/quality/rules';
 import { boundaries, velocityChange } from '../../../web/quality/seams';
+import { beatScores } from '../../../web/motion/beats/beat-match';
+import { motionBeats } from '../../../web/motion/beats/motion-beats';
 import { footContacts, RELEASE_SPEED } from '../../../web/motion/contact/foot-contacts';
 import { readNpz } from '../../../web/model/load/npz';
 import { madeStander } from '../support/made-stander';
@@ -185,6 +187,21 @@ describe('what is drawn', () => {
     expect(silent.whole.music.value).toBeNaN();
     const around = [-40, -5, ...duet.beats, duet.frames, duet.frames + 20];
     expect(measure({ ...duet, beats: around }, golden.rules).beats).toEqual(report.beats);
+  });
+
+  test('the row of a beat is its score with those around it, weighed by a Gaussian of a second and a half', () => {
+    const { rows, whole } = report.beats;
+    const { smoothing, tolerance } = golden.rules.beats;
+    const beats = duet.beats.filter((beat) => beat >= 0 && beat < duet.frames);
+    const scores = beatScores(beats, motionBeats(reactor, smoothing), tolerance);
+    const { chance } = whole.music;
+    for (let frame = 0; frame < duet.frames; frame += 7) {
+      const weights = beats.map((beat) => Math.exp(-((frame - beat) ** 2) / 2 / (1.5 * golden.fps) ** 2));
+      const sum = (values: number[]): number => values.reduce((a, b) => a + b, 0);
+      const score = sum(weights.map((weight, i) => weight * scores[i]!)) / sum(weights);
+      const expected = severity(score, { fine: 2 * chance, limit: chance / 2, bad: -chance / 2 });
+      expect(Math.abs(rows[0]![frame]! - expected)).toBeLessThan(0.02);
+    }
   });
 
   test('a single beat of the music judges nothing', () => {

@@ -71,11 +71,14 @@ describe('Pipeline', () => {
   it.each([1, 2, 3, 4, 5, 119, 241, 483])(
     'generates as many frames as the leader has (%i)',
     async (frames) => {
+      const start = performance.now();
       const { motion, seconds } = await pipeline.generate(request(frames));
+      const all = (performance.now() - start) / 1000;
       expect(motion.frames).toBe(frames);
       expect(motion.positions).toHaveLength(frames * 66);
       expect(motion.positions.every(Number.isFinite)).toBe(true);
       expect(Object.values(seconds).every((time) => time >= 0)).toBe(true);
+      expect(seconds.steps + seconds.decode + seconds.solve).toBeLessThanOrEqual(all);
     },
   );
 

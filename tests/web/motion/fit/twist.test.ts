@@ -73,6 +73,16 @@ describe('hinges over time', () => {
     for (const hinge of hinges) expect(angleOf(hinge)).toBeCloseTo(1, 6);
   });
 
+  test('come back to those of the prior where a limb stays straight for long', () => {
+    const hinges = smoothed(
+      frames(1500).map(() => down),
+      frames(1500).map((t) => (t < 20 ? axis(0.3) : [0, 0, 0])),
+      frames(1500).map((t) => axis(t < 20 ? 0 : 0.6)),
+    );
+    expect(angleOf(hinges[10]!)).toBeCloseTo(0.3, 2);
+    expect(angleOf(hinges.at(-1)!)).toBeCloseTo(0.6, 3);
+  });
+
   test('do not flip where the bone passes through the axis of the prior', () => {
     // The bone turns about z, the hinge is z; it shows at the beginning and at the end only.
     const angles = frames(60).map((t) => 0.4 + (t / 60) * 2.2);
