@@ -4,6 +4,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { LoadedLeader } from '../../../../../web/ui/store/reaction';
 import * as change from '../../../support/actions';
 import { projectCleared } from '../../../../../web/ui/store/actions/project';
+import { takeDeleted } from '../../../../../web/ui/store/actions/takes';
 import { redone, undone, withoutUndo } from '../../../../../web/ui/store/history/history';
 import { currentInputs } from '../../../../../web/ui/store/take';
 import { leader, still } from '../../../support/made-state';
@@ -42,10 +43,10 @@ async function held(leaders: readonly WeakRef<LoadedLeader>[]): Promise<number[]
   return leaders.flatMap((leader, index) => (leader.deref() ? [index] : []));
 }
 
-function react(store: change.Store, id: string): void {
+function react(store: change.Store, id: string, latents: Float32Array | null = null): void {
   const inputs = currentInputs(store.getState())!;
   const motion = still(inputs.leader.motion.frames);
-  const reaction = { motion, latents: null, inputs, label: null, seconds: 1 };
+  const reaction = { motion, latents, inputs, label: null, seconds: 1 };
   change.apply(store, change.reactionAdded(reaction, { id, at: Number(id) * 1e6 }));
 }
 
@@ -83,6 +84,19 @@ describe('the history of undo', () => {
     expect(steps(store)).toBe(1);
     change.apply(store, undone());
     expect(store.getState().leader?.files[0]?.bytes).toHaveLength(200e6);
+  });
+
+  it('counts the latents of takes that were deleted', () => {
+    const store = page();
+    load(store, 1, 0);
+    for (const id of ['1', '2', '3', '4', '5', '6']) {
+      react(store, id, new Float32Array(5e6));
+      change.apply(store, takeDeleted(id));
+      vi.advanceTimersByTime(2000);
+    }
+    while (steps(store) > 0) change.apply(store, undone());
+    // 60 MB beside the reaction that stays on the stage.
+    expect(store.getState().takes.map(({ id }) => id)).toEqual(['6', '5', '4', '3']);
   });
 
   it('counts what the page holds anyway as nothing', () => {
