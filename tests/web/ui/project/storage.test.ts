@@ -62,9 +62,14 @@ it('a write that fails in the middle changes nothing', async () => {
 describe('a storage with room for one motion', () => {
   /** Motions that fit; a transaction with more of them ends as it does in a browser whose storage is full. */
   let room: number;
-  const put = IDBObjectStore.prototype.put;
+  const original = Object.getOwnPropertyDescriptor(IDBObjectStore.prototype, 'put')!;
   beforeEach(() => {
     room = 1;
+    const put = original.value as (
+      this: IDBObjectStore,
+      value: unknown,
+      key?: IDBValidKey,
+    ) => IDBRequest<IDBValidKey>;
     IDBObjectStore.prototype.put = function (this: IDBObjectStore, ...record: Parameters<typeof put>) {
       const request = put.apply(this, record);
       if (this.name === 'motions')
@@ -76,7 +81,7 @@ describe('a storage with room for one motion', () => {
     };
   });
   afterEach(() => {
-    IDBObjectStore.prototype.put = put;
+    Object.defineProperty(IDBObjectStore.prototype, 'put', original);
   });
 
   it('keeps the takes and the page that fit, says that it is full, and keeps the rest when there is room', async () => {
