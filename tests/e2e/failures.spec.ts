@@ -155,10 +155,10 @@ test.describe('the model', () => {
 
   test('crashing is reported, and the next attempt starts a new worker', async ({ page }) => {
     const app = new App(page);
-    // The real model: its steps take seconds, so that the crash comes in the middle of them on any machine.
+    // The real model and five minutes of dance: that takes seconds, so that the crash comes in the middle of them.
     await app.openWithoutPicture(SHIPPED);
     await app.settled();
-    await app.chooseLeader(bvh({ frames: 2400, name: 'unlucky.bvh' }));
+    await app.chooseLeader(bvh({ frames: 9000, name: 'unlucky.bvh' }));
     await app.reaction('unlucky.bvh');
     const generate = page.getByRole('button', { name: 'Generate' });
     await generate.press('Enter');
