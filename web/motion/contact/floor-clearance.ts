@@ -20,15 +20,16 @@ function liftOf({ positions, frames, fps }: SolvedMotion, joint: number, height:
 }
 
 /**
- * Brings heels and balls of the feet out of the floor at height 0, each by what it is under it: a foot whose heel alone
- * is under the floor turns about its ball. Legs follow by two-bone inverse kinematics; nothing else moves. Pure.
+ * Brings heels and balls of the feet out of the floor, each by what it is under it: a foot whose heel alone is under the
+ * floor turns about its ball. Legs follow by two-bone inverse kinematics; nothing else moves. Pure.
+ * @param toeRest height of the toes of a standing foot, metres: above a floor at height 0 by the thickness of a sole
  */
-export function liftFeet(motion: SolvedMotion): SolvedMotion {
+export function liftFeet(motion: SolvedMotion, toeRest = SOLE): SolvedMotion {
   const rotations = motion.rotations.slice();
   const positions = motion.positions.slice();
   for (const joints of LEGS) {
-    const ankles = liftOf(motion, joints.ankle, SOLE - motion.offsets[joints.toe * 3 + 1]!);
-    const toes = liftOf(motion, joints.toe, SOLE);
+    const ankles = liftOf(motion, joints.ankle, toeRest - motion.offsets[joints.toe * 3 + 1]!);
+    const toes = liftOf(motion, joints.toe, toeRest);
     for (let frame = 0; frame < motion.frames; frame++) {
       const [ankle, toe] = [ankles[frame]!, toes[frame]!];
       if (ankle > 0 || toe > 0)

@@ -1,5 +1,6 @@
 /** From what was seen in the pictures to the dancer's motion in space. */
 import { AppError } from '../../common/error';
+import { liftFeet } from '../../motion/contact/floor-clearance';
 import { solve } from '../../motion/fit/ik';
 import { between, rotate } from '../../motion/math/quat';
 import { gaussianFilter, median } from '../../motion/math/statistics';
@@ -72,7 +73,7 @@ export function reconstruct(observations: Observations, options: WorldOptions): 
   placeLegs(landmarks, cues, ground);
   const positions = jointsOf(upright(landmarks, ground));
   const clip: MotionClip = { fps: FPS, frames: series.frames, positions };
-  const motion = holdRoot(solve(clip), cues.stances);
+  const motion = liftFeet(holdRoot(solve(clip), cues.stances), 0);
   return { motion, series, distance: median(depth), flipped: changed };
 }
 

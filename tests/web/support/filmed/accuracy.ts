@@ -22,6 +22,8 @@ export interface Accuracy {
   readonly flipped: number;
   /** Mean speed over the floor of ankles and toes that stand in truth, m/s. */
   readonly feet: number;
+  /** How far a toe is under the floor at most, metres. */
+  readonly sunk: number;
 }
 
 /** Speed below which a foot of the truth stands, and height of its toes above their lowest, m/s and metres. */
@@ -91,7 +93,15 @@ function compared(found: Float32Array, truth: Float32Array, fps: number): Accura
     heading,
     flipped,
     feet: standingSpeed(found, truth, fps),
+    sunk: -lowestToe(found),
   };
+}
+
+function lowestToe(positions: Float32Array): number {
+  let lowest = Infinity;
+  for (let row = 0; row < positions.length; row += JOINT_COUNT * 3)
+    for (const toe of [J.left_foot, J.right_foot]) lowest = Math.min(lowest, positions[row + 3 * toe + 1]!);
+  return lowest;
 }
 
 interface Path {

@@ -36,6 +36,10 @@ describe.each([...FILMED, ...PERSON])('$title, camera at $shot.position.1 m', (f
     expect(found.feet).toBeLessThan(filmed.motion === 'spinning' ? 0.3 : limits.feet);
   });
 
+  it('has no foot deep in the floor', () => {
+    expect(found.sunk).toBeLessThan(0.045);
+  });
+
   it('is in the document as it is', () => {
     const row = numbers(tableRow(filmed, found));
     const same = document.split('\n').filter((line) => {
