@@ -3,7 +3,7 @@ import { median } from '../motion/math/statistics';
 import type { Observations } from './observations';
 import { LANDMARK_COUNT } from './pose/landmarks';
 import { L } from './world/landmark-names';
-import { rowsSeen } from './world/series';
+import { MAX_BRIDGE, rowsSeen } from './world/series';
 
 /** Mean brightness below which a picture counts as black. */
 const BLACK = 0.03;
@@ -32,7 +32,7 @@ export function checkSeen(observations: Observations): void {
       'Film one dancer from head to feet, in light, with a camera that stands still.',
     );
   }
-  const seconds = times[rows.at(-1)!]! - times[rows[0]!]!;
+  const seconds = secondsSeen(rows, times);
   if (seconds < MIN_SECONDS)
     throw new AppError(
       'video-too-short',
@@ -45,6 +45,17 @@ export function checkSeen(observations: Observations): void {
       'The dancer’s legs are not in the picture for most of the video.',
       'Step back or turn the phone upright, so that the whole body is seen from head to feet.',
     );
+}
+
+/** How long the person is seen, short gaps included. */
+function secondsSeen(rows: readonly number[], times: Float64Array): number {
+  let sum = 0;
+  rows.slice(1).forEach((row, i) => {
+    const before = rows[i]!;
+    const step = times[row]! - times[before]!;
+    if (step <= MAX_BRIDGE || row === before + 1) sum += step;
+  });
+  return sum;
 }
 
 /** Visibility of the better ankle; 0 where it is outside the picture. */

@@ -113,6 +113,14 @@ describe('what was seen', () => {
       'video-black',
     );
     expect(refused((seen) => ({ ...seen, visibility: seen.visibility.map(() => 0.1) }))).toBe('half-a-body');
+    // Twice a moment, a second and more apart.
+    const moments = (row: number): boolean => (row >= 5 && row < 7) || (row >= 50 && row < 54);
+    expect(
+      refused((seen) => ({
+        ...seen,
+        presence: seen.presence.map((value, row) => (moments(row) ? value : 0)),
+      })),
+    ).toBe('video-too-short');
     expect(refused((seen) => ({ ...seen, times: seen.times.map((time) => time / 10) }))).toBe(
       'video-too-short',
     );
