@@ -116,6 +116,23 @@ test('rotated pictures, MOV and uneven times at up to 120 pictures a second are 
   expect(quick.times.every((time, i) => i === 0 || time > quick.times[i - 1]!)).toBe(true);
 });
 
+test('who is far from where the dancer was lost is not followed instead', async ({ browser }) => {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, width: 640, height: 320, focal: 300, position: [-0.9, 1.3, 3.2] } satisfies Shot;
+  const seen = await studio.call(
+    'read',
+    await studio.call('filmSeveral', 'walking', shot, 1.3, [-0.8, 1.8], 0.8),
+  );
+  const alone = await studio.call('read', await studio.call('filmSeveral', 'walking', shot, 0.5, [9, 1.8]));
+  await studio.close();
+  // The other one would be found.
+  expect(Math.max(...alone.presence)).toBeGreaterThan(0.5);
+  seen.times.forEach((time, row) => {
+    if (time < 0.75) expect(seen.presence[row]).toBeGreaterThan(0.5);
+    if (time > 0.85) expect(seen.presence[row]).toBe(0);
+  });
+});
+
 test('of several people the largest is followed, and another one who is clicked', async ({
   page,
   browser,

@@ -27,10 +27,11 @@ import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import type { Shot } from '../../../web/support/filmed/shots';
 import { createMannequin } from './mannequin';
 
-/** The dancers of a motion in the picture, each shifted along x by metres. */
+/** A dancer in the picture, shifted along x by metres, who is there until a time in seconds. */
 export interface Cast {
   readonly motion: SolvedMotion;
   readonly aside?: number;
+  readonly until?: number;
 }
 
 function studio(): Scene {
@@ -141,7 +142,10 @@ export async function film(
   // A phone that is turned writes turned pictures and says by how much players have to turn them back.
   if (shot.rotation !== undefined) camera.rotateZ((-shot.rotation * Math.PI) / 180);
   const draw = (time: number): void => {
-    for (const mannequin of mannequins) mannequin.pose(time);
+    mannequins.forEach((mannequin, i) => {
+      mannequin.pose(time);
+      mannequin.mesh.visible = time < (cast[i]?.until ?? Infinity);
+    });
     renderer.render(scene, camera);
   };
   const file = await written(renderer.domElement, draw, { ...shot, seconds }, format);

@@ -21,14 +21,19 @@ const page = {
   async film(motion: MotionName, shot: Shot, seconds: number, format?: VideoFormat): Promise<string> {
     return base64(await film([{ motion: motionOf(motion) }], shot, seconds, format));
   },
-  /** A video of the same dancer several times, each shifted along x by metres. */
+  /** A video of the same dancer several times, each shifted along x by metres; the first leaves after so many seconds. */
   async filmSeveral(
     motion: MotionName,
     shot: Shot,
     seconds: number,
     aside: readonly number[],
+    firstUntil = Infinity,
   ): Promise<string> {
-    const cast = aside.map((x): Cast => ({ motion: motionOf(motion), aside: x }));
+    const cast = aside.map((x, i): Cast => ({
+      motion: motionOf(motion),
+      aside: x,
+      until: i === 0 ? firstUntil : Infinity,
+    }));
     return base64(await film(cast, shot, seconds));
   },
   /** A video of one colour. */
