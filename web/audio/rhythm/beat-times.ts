@@ -1,5 +1,5 @@
 /** How much a deviation from the period costs, in units of the onsets' root mean square. */
-const TIGHTNESS = 60;
+const TIGHTNESS = 240;
 /** Beats to either side that a beat's place is fitted to. */
 const NEIGHBOURS = 4;
 /** Farthest that the fit moves a beat, frames: more than the onsets' accuracy would be another beat. */

@@ -1,4 +1,5 @@
 import { type Accents, strongest } from './accents';
+import { harmonyChanges } from './harmony';
 
 /** Beats in a bar. */
 export type BeatsPerBar = 3 | 4;
@@ -14,10 +15,10 @@ export interface Metre {
 const WINDOW = 24;
 /** How much more of the accents bars of three have to explain than bars of four, which are far more common. */
 const THREE_MARGIN = 0.06;
-/** Weights of onset, bass and harmony: a snare drum is loudest between the beats where bass and harmony begin a bar. */
-const WEIGHTS = { onset: 0.5, bass: 1, harmony: 1.5 } as const;
+/** Weight of a change of the pitch classes, 0 to 1, beside onset and bass, which are in standard deviations. */
+const HARMONY_WEIGHT = 50;
 /** How much more accented, in standard deviations, a later bar has to be than the first one to begin the count. */
-const LATER_MARGIN = 0.25;
+const LATER_MARGIN = 0.6;
 
 /**
  * Three or four beats a bar, by which of them explains more of the accents' variance, and where the count begins.
@@ -27,34 +28,17 @@ const LATER_MARGIN = 0.25;
 export function metreOf(beats: readonly number[], accents: Accents): Metre {
   const onset = standardized(beats.map((beat) => strongest(accents.onset, beat)));
   const bass = standardized(beats.map((beat) => strongest(accents.bass, beat)));
-  const harmony = standardized(harmonyChanges(beats, accents));
-  const accent = onset.map(
-    (value, beat) => WEIGHTS.onset * value + WEIGHTS.bass * bass[beat]! + WEIGHTS.harmony * harmony[beat]!,
-  );
+  const harmony = standardized(harmonyChanges(beats, accents, 1));
   const explained = (beatsPerBar: BeatsPerBar): number =>
-    [accent, onset, bass, harmony].reduce((sum, each) => sum + meanExplained(each, beatsPerBar), 0) / 4;
+    [onset, bass, harmony].reduce((sum, each) => sum + meanExplained(each, beatsPerBar), 0) / 3;
   const beatsPerBar = explained(3) > explained(4) + THREE_MARGIN ? 3 : 4;
+  const accent = harmonyChanges(beats, accents, beatsPerBar).map(
+    (change, beat) => HARMONY_WEIGHT * change + bass[beat]! + onset[beat]!,
+  );
   const bar = strongestPhase(accent, beatsPerBar, 0);
   const phases = phaseMeans(accent, 2 * beatsPerBar);
   const later = phases[bar + beatsPerBar]! > phases[bar]! + LATER_MARGIN;
   return { beatsPerBar, first: later ? bar + beatsPerBar : bar };
-}
-
-/** How much the pitch classes of each beat differ from those of the beat before: 1 less their cosine. */
-function harmonyChanges(beats: readonly number[], { chroma, onset }: Accents): number[] {
-  const pitches = chroma.length / Math.max(1, onset.length);
-  const spectra = beats.map((beat, index) => {
-    const sum = new Float64Array(pitches);
-    const end = Math.min(onset.length, beats[index + 1] ?? onset.length);
-    for (let frame = Math.max(0, Math.round(beat)); frame < end; frame++)
-      for (let pitch = 0; pitch < pitches; pitch++) sum[pitch]! += chroma[frame * pitches + pitch]!;
-    const length = Math.sqrt(sum.reduce((all, value) => all + value ** 2, 0));
-    return sum.map((value) => (length > 0 ? value / length : 0));
-  });
-  return spectra.map((spectrum, beat) => {
-    const before = spectra[beat - 1];
-    return before ? 1 - spectrum.reduce((sum, value, pitch) => sum + value * before[pitch]!, 0) : 0;
-  });
 }
 
 /** The values less their mean, in standard deviations; zeros where all are the same. */
@@ -65,7 +49,7 @@ function standardized(values: readonly number[]): number[] {
 }
 
 /** Means of the values of each phase, `count` of them. */
-function phaseMeans(values: readonly number[], count: number): number[] {
+export function phaseMeans(values: readonly number[], count: number): number[] {
   return Array.from({ length: count }, (_, phase) => {
     const own = values.filter((_, index) => index % count === phase);
     return own.reduce((sum, value) => sum + value, 0) / Math.max(1, own.length);

@@ -1,7 +1,8 @@
 import type { AudioRecipe } from '../recipe';
 import { type Accents, accentsOf, strongest } from './accents';
 import { beatFrames } from './beat-times';
-import { metreOf, type Metre } from './metre';
+import { harmonyChanges } from './harmony';
+import { metreOf, type Metre, phaseMeans } from './metre';
 import { tempoCurve } from './tempo-curve';
 
 /** Tempo, beats and metre of a song as the page shows them. */
@@ -21,8 +22,10 @@ export interface Rhythm extends Metre {
 const MIN_CLARITY = 0.19;
 /** Clarity from which the beat is sure: songs with a steady beat have 0.31 and more, strings in free time 0.21. */
 const SURE_CLARITY = 0.25;
-/** Ratio of the bass halfway between the beats to that on them from which those are the beats. */
-const CLEARLY_STRONGER = 1.6;
+/** Weight of a change of harmony, 0 to 1, beside the logarithm of the bass's ratio. */
+const HARMONY_WEIGHT = 30;
+/** Evidence from which the moments halfway between the beats are the beats. */
+const MIN_EVIDENCE = 0.25;
 /** With fewer beats than this nothing is counted. */
 const MIN_BEATS = 8;
 /** Intervals of a local tempo. */
@@ -40,7 +43,7 @@ export function rhythmOf(features: Float32Array, recipe: AudioRecipe): Rhythm {
   const accents = accentsOf(features, recipe);
   const { onset, framesPerSecond } = accents;
   const { periods, clarity } = tempoCurve(onset, framesPerSecond);
-  const frames = clarity < MIN_CLARITY ? [] : onTheBass(beatFrames(onset, periods), accents);
+  const frames = clarity < MIN_CLARITY ? [] : onTheBeat(beatFrames(onset, periods), accents);
   if (frames.length < MIN_BEATS) return NO_RHYTHM;
   const beats = frames.map((frame) => Math.max(0, (frame - LATENESS) / framesPerSecond));
   const sure = clarity >= SURE_CLARITY;
@@ -48,14 +51,19 @@ export function rhythmOf(features: Float32Array, recipe: AudioRecipe): Rhythm {
 }
 
 /**
- * The beats, or the moments halfway between them where the bass is clearly stronger: a bright offbeat, as the open
- * hi-hat of house music, is as loud as the beat and sharper.
+ * The beats, or the moments halfway between them where bass and chords say so. The open hi-hat of house music is as
+ * loud as the beat and sharper, but the bass is on the beat; the bass of a salsa is between the beats, but its chords
+ * change on them.
  */
-function onTheBass(beats: readonly number[], { bass }: Accents): readonly number[] {
+function onTheBeat(beats: readonly number[], accents: Accents): readonly number[] {
   const halves = beats.slice(1).map((beat, index) => (beat + beats[index]!) / 2);
-  const mean = (frames: readonly number[]): number =>
-    frames.reduce((sum, frame) => sum + strongest(bass, frame), 0) / Math.max(1, frames.length);
-  return mean(halves) > CLEARLY_STRONGER * mean(beats) ? halves : beats;
+  const { beatsPerBar } = metreOf(beats, accents);
+  const bass = (frames: readonly number[]): number =>
+    frames.reduce((sum, frame) => sum + strongest(accents.bass, frame), 1e-6) / Math.max(1, frames.length);
+  const harmony = (frames: readonly number[]): number =>
+    Math.max(...phaseMeans(harmonyChanges(frames, accents, beatsPerBar), beatsPerBar));
+  const evidence = Math.log(bass(halves) / bass(beats)) + HARMONY_WEIGHT * (harmony(halves) - harmony(beats));
+  return evidence > MIN_EVIDENCE ? halves : beats;
 }
 
 /** No steady beat. */

@@ -20,8 +20,8 @@ const HOP = 0.5;
 /** Multiples of the period at which onsets repeat. */
 const REPEATS = 4;
 /** Cost of a change of tempo between two windows: of each step, and at most. */
-const STEP_COST = 0.08;
-const JUMP_COST = 3;
+const STEP_COST = 0.16;
+const JUMP_COST = 6;
 
 /**
  * The tempo by the autocorrelation of the onsets in windows, at one to four periods, followed through the song by

@@ -8,7 +8,8 @@ import { kick, quiet, randomNumbers, stroke, tone } from './made-song';
 const TIMING = 0.008;
 const LOUDNESS = 0.25;
 
-const BEGIN = 0.4;
+/** Second of the first beat. */
+export const BEGIN = 0.4;
 const SECONDS = 24;
 
 /** Frequency of a MIDI note, hertz. */
