@@ -21,12 +21,11 @@ PLACE_SIGMA, PLACE_RADIUS = 2.0, 6
 
 
 def arctangent(x: Tensor) -> Tensor:
-    """atan(x) for x in [-1, 1], to 1e-7; beyond that of the nearest end."""
-    x = x.clamp(-1, 1)
-    for _ in range(2):  # atan(x) = 2 atan(x / (1 + sqrt(1 + x^2))), down to x of 0.2
+    """atan(x), to 5e-7."""
+    for _ in range(3):  # atan(x) = 2 atan(x / (1 + sqrt(1 + x^2))), down to x of 0.2
         x = x / (1 + (1 + x * x).sqrt())
     y = x * x
-    return 4 * x * (1 + y * (-1 / 3 + y * (1 / 5 + y * (-1 / 7 + y / 9))))
+    return 8 * x * (1 + y * (-1 / 3 + y * (1 / 5 + y * (-1 / 7 + y / 9))))
 
 
 def cosine_sine(angle: Tensor) -> tuple[Tensor, Tensor]:
