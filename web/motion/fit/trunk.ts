@@ -32,9 +32,8 @@ const SIDES = {
   chest: [J.left_collar, J.right_collar],
 } as const;
 
-/** Share of their distance at rest from which the sides show the rotation, and how fast that falls below it. */
-const CERTAIN = 0.8;
-const CERTAINTY_POWER = 4;
+/** How fast the sides show less of the rotation, the nearer they are to each other than at rest. */
+const CERTAINTY_POWER = 6;
 /** Standard deviation in time of the Gaussian filter over uncertain rotations, seconds, and how often it is applied. */
 const SMOOTHING = 0.1;
 const PASSES = 3;
@@ -128,7 +127,7 @@ function certaintyOf(
   return Float64Array.from({ length: observed.length / (3 * JOINT_COUNT) }, (_, frame) => {
     const row = frame * JOINT_COUNT;
     const distance = rowDistance(observed, row + left, observed, row + right);
-    return Math.min(1, distance / (CERTAIN * atRest)) ** CERTAINTY_POWER;
+    return Math.min(1, distance / atRest) ** CERTAINTY_POWER;
   });
 }
 
