@@ -27,6 +27,7 @@ export type ErrorCode =
   | 'sound-only'
   | 'video-codec'
   | 'video-insecure'
+  | 'video-unread'
   | 'video-damaged'
   | 'video-too-long'
   | 'video-too-short'

@@ -2,6 +2,7 @@
 import {
   ALL_FORMATS,
   BlobSource,
+  EncodedPacketSink,
   Input,
   type InputTrack,
   type InputVideoTrack,
@@ -23,6 +24,8 @@ export interface VideoFile {
   readonly start: number;
   /** When the last picture ends. */
   readonly end: number;
+  /** Time of the last picture that the file names: of a file that was cut off, it is not there. */
+  readonly last: number;
   readonly width: number;
   readonly height: number;
   /** When its sound begins, as the browser decodes it; null where it has none. */
@@ -38,7 +41,7 @@ export interface VideoFile {
 
 /**
  * Opens a video.
- * @throws {AppError} `not-a-video`, `sound-only`, `video-insecure`, `video-codec`, `video-too-long`
+ * @throws {AppError} `not-a-video`, `sound-only`, `video-insecure`, `video-unread`, `video-codec`, `video-too-long`
  */
 export async function openVideo(file: Blob): Promise<VideoFile> {
   const input = new Input({ formats: ALL_FORMATS, source: new BlobSource(file) });
@@ -46,11 +49,15 @@ export async function openVideo(file: Blob): Promise<VideoFile> {
     const track = await videoTrack(input);
     const start = await shownFrom(track);
     const end = await track.computeDuration();
+    const lastPacket = await new EncodedPacketSink(track).getPacket(Infinity, { metadataOnly: true });
+    // A WebM file that is cut off in its first part has a header, and no picture that could be read.
+    if (!lastPacket) throw notAVideo();
     if (end - start > MAX_DURATION) throw tooLong(end - start);
     const sound = await input.getPrimaryAudioTrack();
     return {
       start,
       end,
+      last: lastPacket.timestamp,
       width: await track.getDisplayWidth(),
       height: await track.getDisplayHeight(),
       soundStart: sound && (await shownFrom(sound)),
@@ -85,22 +92,15 @@ async function videoTrack(input: Input): Promise<InputVideoTrack> {
       'Choose a video of a dancer, or use the file as the song.',
     );
   }
-  if (!('VideoDecoder' in globalThis) && !isSecureContext) {
-    throw new AppError(
-      'video-insecure',
-      'Videos can be read over https or on localhost only.',
-      'Open this page at an address that begins with https, or choose a motion file.',
-    );
-  }
-  if (!(await track.canDecode().catch(() => false))) {
-    const codec = await track.getCodec();
-    throw new AppError(
-      'video-codec',
-      `This browser cannot decode the video's codec${codec ? ` (${codec})` : ''}.`,
-      'Save the video as H.264 MP4 or as VP9 WebM, or open the page in another browser.',
-    );
-  }
+  if (!('VideoDecoder' in globalThis)) throw noDecoder();
+  if (!(await track.canDecode().catch(() => false))) throw undecodable(await codecOf(track));
   return track;
+}
+
+/** As it is commonly called, else as the file calls it; null where that is not text. */
+async function codecOf(track: InputVideoTrack): Promise<string | null> {
+  const codec = (await track.getCodec()) ?? (await track.getInternalCodecId());
+  return typeof codec === 'string' ? codec : null;
 }
 
 /** Tells of each picture of a video, by its time in seconds, whether it is read: at most 30 a second are. */
@@ -140,8 +140,39 @@ function notAVideo(options?: ErrorOptions): AppError {
   return new AppError(
     'not-a-video',
     'This file holds no video that could be read.',
-    'Convert it to MP4, or choose another MP4, MOV, WebM or MKV file.',
+    'If it plays elsewhere, convert it to MP4. If not, copy or download it again: its end may be missing.',
     options,
+  );
+}
+
+/** WebCodecs are missing: they are offered over https only, and not by every browser. */
+function noDecoder(): AppError {
+  if (!isSecureContext)
+    return new AppError(
+      'video-insecure',
+      'Videos can be read over https or on localhost only.',
+      'Open this page at an address that begins with https, or choose a motion file.',
+    );
+  return new AppError(
+    'video-unread',
+    'This browser cannot read videos for a page.',
+    'Open the page in a new version of Chrome, Edge or Safari, or choose a motion file.',
+  );
+}
+
+function undecodable(codec: string | null): AppError {
+  // What phones record unless they are told otherwise.
+  if (codec === 'hevc')
+    return new AppError(
+      'video-codec',
+      'This browser cannot decode the video’s codec (HEVC, also called H.265).',
+      'Convert it to H.264 MP4, or open the page in Safari. To film in H.264, choose Settings > Camera > Formats > ' +
+        'Most Compatible on an iPhone, or turn off HEVC or “high efficiency” in the camera’s settings on Android.',
+    );
+  return new AppError(
+    'video-codec',
+    `This browser cannot decode the video’s codec${codec ? ` (${codec})` : ''}.`,
+    'Save the video as H.264 MP4 or as VP9 WebM, or open the page in another browser.',
   );
 }
 

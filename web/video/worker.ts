@@ -31,6 +31,7 @@ export type ReadReport =
       readonly kind: 'opened';
       readonly start: number;
       readonly end: number;
+      readonly last: number;
       readonly width: number;
       readonly height: number;
       readonly soundStart: number | null;
@@ -88,8 +89,8 @@ async function read(
 ): Promise<Observations> {
   const video = await openVideo(file);
   try {
-    const { start, end, width, height, soundStart } = video;
-    void report({ kind: 'opened', start, end, width, height, soundStart });
+    const { start, end, last, width, height, soundStart } = video;
+    void report({ kind: 'opened', start, end, last, width, height, soundStart });
     const graphs = await loadPoseGraphs(list, globalThis, (fraction) => {
       void report({ kind: 'networks', fraction });
     });

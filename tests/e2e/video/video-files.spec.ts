@@ -80,6 +80,25 @@ test('a video in which the sound begins first stays in step with it, and is show
   await expect(panel.getByLabel('Use to')).toHaveValue('3');
 });
 
+test('of a file whose end is missing what is there is danced, and the rest is told', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const whole = Buffer.from(await studio.call('film', 'walking', SHOT, 3, { container: 'mp4' }), 'base64');
+  await studio.close();
+  // The pictures come last.
+  const pictures = whole.indexOf('mdat');
+  const buffer = whole.subarray(0, Math.round(pictures + 0.7 * (whole.length - pictures)));
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'half.mp4', mimeType: 'video/mp4', buffer });
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
+  await expect(panel.getByText(/The file is incomplete: [12]\.\d of 3\.0 s could be read/)).toBeVisible();
+});
+
 test('what was cut off a video without a loss is not danced', async ({ browser }) => {
   const studio = await openStudio(browser);
   const seen = async (begin: number) =>

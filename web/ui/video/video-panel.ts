@@ -5,6 +5,9 @@ import { createControls, type Controls } from './controls';
 import { UNSURE } from './video-lane';
 import { VideoPicture } from './video-picture';
 
+/** Seconds at the end of a video that are worth a sentence where they cannot be read; of quick videos some pictures are left out. */
+const MIN_MISSING = 0.5;
+
 /** What the visitor does on the panel. */
 export interface PanelActions {
   readonly close: () => void;
@@ -33,7 +36,7 @@ export class VideoPanel {
   readonly #advice = el('ul', { class: 'notes', attributes: { 'aria-label': 'What to film better' } });
   readonly #controls: Controls;
   readonly #giveBackFocus = rememberFocus();
-  #span = { start: 0, end: 0 };
+  #span = { start: 0, end: 0, last: 0 };
   #begun = 0;
   #part = 0;
   #hasSound = false;
@@ -149,7 +152,9 @@ export class VideoPanel {
       `The dancer is the leader now; ${share} % of the frames are clearly seen.` +
         (this.#hasSound ? '' : ' The video has no sound.'),
     );
-    this.#advice.replaceChildren(...motion.advice.map((text) => el('li', { text, class: 'warning' })));
+    const missing = missingPart(this.#span, observations.times);
+    const warnings = missing === null ? motion.advice : [missing, ...motion.advice];
+    this.#advice.replaceChildren(...warnings.map((text) => el('li', { text, class: 'warning' })));
   }
 
   showSoundUsed(): void {
@@ -199,6 +204,17 @@ export class VideoPanel {
     setVariable(this.#fill, '--part', share);
     this.#meter.setAttribute('aria-valuenow', String(Math.round(100 * share)));
   }
+}
+
+/** Says that the file names pictures after the last one that could be read; null where it does not. Seconds. */
+function missingPart(
+  { start, end, last }: { readonly start: number; readonly end: number; readonly last: number },
+  times: Float64Array,
+): string | null {
+  const read = times.at(-1) ?? start;
+  if (last - read < MIN_MISSING) return null;
+  const seconds = (time: number): string => (time - start).toFixed(1);
+  return `The file is incomplete: ${seconds(read)} of ${seconds(end)} s could be read. Copy or download it again.`;
 }
 
 function timeLeft(seconds: number): string {
