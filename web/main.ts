@@ -60,6 +60,7 @@ import { referenceLoaded } from './ui/store/actions/reaction';
 import { updateSet } from './ui/store/actions/view';
 import { stageProblem } from './ui/store/problems';
 import type { Services } from './ui/store/services';
+import { undoLast } from './ui/store/history/asked';
 import { apply, createAppStore } from './ui/store/store';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
 import { mountTakes } from './ui/takes/takes-panel';
@@ -158,6 +159,7 @@ const services: Services = {
     generation.cancel();
     variations.cancel();
   },
+  undo: () => undoLast(store, files),
   makeVariations: variations.make,
   drawFigure: stage && createFigures(stage.library, stage.softwareRendered).draw,
   pickVariation: variations.pick,
@@ -221,7 +223,7 @@ for (const mount of [mountGuidance, mountOptions, mountFootLock, mountTakes, mou
 mountImportPanel(rememberedJoints)(document.body, store, services);
 mountKeysDialog(document.body, store, services);
 mountKeyboard(store, services);
-mountUndoKeys(store);
+mountUndoKeys(store, services);
 if (stage) {
   mountLostNote(stage, stageHost);
   bindStage(stage, withPartRead(store));

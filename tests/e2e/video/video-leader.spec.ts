@@ -125,7 +125,7 @@ test('a video becomes the leader, gets a partner, and is shown beside it in the 
   await expect(lane).toBeVisible();
 });
 
-test('a video outlasts the demo that comes while it is read, and gives way to a newer file', async ({
+test('a video outlasts the demo that comes while it is read, and gives way to undo and to a newer file', async ({
   page,
   browser,
 }) => {
@@ -146,6 +146,14 @@ test('a video outlasts the demo that comes while it is read, and gives way to a 
   release();
   await app.until(({ leader }) => leader?.label === 'demo leader');
   await app.until(({ leader }) => leader?.name === 'first.webm');
+
+  // Undo ends the reading, which is the newest, and no step before it.
+  await app.drop({ name: 'undone.webm', mimeType: 'video/webm', buffer });
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  await page.keyboard.press('Control+z');
+  await expect(panel.getByRole('heading')).toHaveText('first.webm');
+  await expect(panel.getByRole('progressbar')).toBeHidden();
+  expect(await app.read(({ leader }) => leader?.name)).toBe('first.webm');
 
   await app.drop({ name: 'second.webm', mimeType: 'video/webm', buffer });
   await expect(panel.getByRole('progressbar')).toBeVisible();

@@ -5,10 +5,11 @@ import type { LeaderSource, LoadedLeader, LoadedSong } from '../store/reaction';
 import type { ImportOptions } from '../../motion/retarget/options';
 import { groupCompanions } from '../../motion/import/format';
 import type { FileBytes } from '../../motion/import/read';
-import type { InputKind } from '../store/state';
+import type { AppState, InputKind } from '../store/state';
 import { leaderLoaded, leaderRefused, readingSet, songLoaded, firstVisitEnded } from '../store/actions/files';
 import { apply, type Change, type Store } from '../store/store';
 import { problemShown, problemClosed } from '../store/actions/notices';
+import { ask } from '../store/history/asked';
 import { withoutUndo } from '../store/history/history';
 
 /**
@@ -33,10 +34,19 @@ interface OtherLeaders {
   readonly cancel: () => void;
 }
 
+/** Whether the visitor has put another song or leader on the page while one was read, as by the choice of a take. */
+function isOverruled(kind: InputKind, state: AppState, before: AppState): boolean {
+  // What the page loads by itself is no step of undo; what has just been read is no longer being read.
+  const isStep = state.history !== before.history && state.reading[kind] === before.reading[kind];
+  return isStep && state[kind] !== before[kind];
+}
+
 /** A song or leader to read, and what to do with it. */
 interface Task<T> {
   readonly side: InputKind;
   readonly name: string;
+  /** Whether the visitor has asked for it: undo ends its reading. */
+  readonly asked: boolean;
   readonly read: (signal: AbortSignal, progress: (fraction: number) => void) => Promise<T>;
   readonly done: (value: T) => void;
   /** Called when it could not be read. */
@@ -45,7 +55,8 @@ interface Task<T> {
 
 /**
  * Reads songs and leaders and puts them into the store; videos are handed on. A newer file of a kind cancels the older
- * one that is still being read; a file that fails is reported as a problem and leaves what was loaded before as it is.
+ * one that is still being read, as does a song or leader that comes onto the page in another way; a file that fails is
+ * reported as a problem and leaves what was loaded before as it is.
  */
 export class FileLoader implements Files {
   private readonly running: Record<InputKind, AbortController | null> = { song: null, leader: null };
@@ -56,7 +67,11 @@ export class FileLoader implements Files {
     private readonly store: Store,
     private readonly readers: FileReaders,
     private readonly otherLeaders: OtherLeaders,
-  ) {}
+  ) {
+    store.subscribe((state, before) => {
+      for (const { kind } of state.asked) if (isOverruled(kind, state, before)) this.cancel(kind);
+    });
+  }
 
   async open(files: readonly File[]): Promise<void> {
     apply(this.store, problemClosed());
@@ -74,24 +89,27 @@ export class FileLoader implements Files {
   }
 
   openSong(blob: Blob, name: string, label: string | null): Promise<LoadedSong | null> {
-    return this.runSong(blob, name, label, (song) => {
+    const done = (song: LoadedSong): void => {
       if (this.isSuperseded('song', label)) this.endReading('song');
       else this.put(songLoaded(song), label);
-    });
+    };
+    return this.runSong({ name, asked: label === null, done }, blob, label);
   }
 
   openLeader(source: LeaderSource): Promise<LoadedLeader | null> {
-    return this.runLeader(source.name, given(source), (leader) => {
+    const done = (leader: LoadedLeader): void => {
       if (this.isSuperseded('leader', source.label)) this.endReading('leader');
       else this.putLeader(leader);
-    });
+    };
+    return this.runLeader({ name: source.name, asked: false, done }, given(source));
   }
 
   rereadLeader({ name, label, files }: LeaderSource, options: ImportOptions): Promise<LoadedLeader | null> {
     this.otherLeaders.cancel();
-    return this.runLeader(name, given({ name, label, files, options }), (read) => {
-      this.putLeader(read);
-    });
+    return this.runLeader(
+      { name, asked: true, done: this.putLeader },
+      given({ name, label, files, options }),
+    );
   }
 
   /** Reads the file again whose reading failed last. */
@@ -106,6 +124,7 @@ export class FileLoader implements Files {
 
   cancel(side: InputKind): void {
     if (side === 'leader') this.otherLeaders.cancel();
+    apply(this.store, ({ asked }) => ({ asked: asked.filter(({ kind }) => kind !== side) }));
     if (!this.running[side]) return;
     this.running[side].abort();
     this.running[side] = null;
@@ -116,13 +135,14 @@ export class FileLoader implements Files {
     const done = (): void => {
       this.endReading('song');
     };
-    return this.runSong(blob, name, label, done, after);
+    return this.runSong({ name, asked: false, done }, blob, label, after);
   }
 
   readLeader(source: LeaderSource): Promise<LoadedLeader | null> {
-    return this.runLeader(source.name, given(source), () => {
+    const done = (): void => {
       this.endReading('leader');
-    });
+    };
+    return this.runLeader({ name: source.name, asked: false, done }, given(source));
   }
 
   /** @param companions files that belong to this one, as the ASF skeleton of an AMC */
@@ -160,16 +180,13 @@ export class FileLoader implements Files {
       const files = await Promise.all(parts.map(bytesOf));
       return { name, label: null, files, options: {} };
     };
-    await this.runLeader(name, source, (leader) => {
-      this.putLeader(leader);
-    });
+    await this.runLeader({ name, asked: true, done: this.putLeader }, source);
   }
 
   private runSong(
+    task: Pick<Task<LoadedSong>, 'name' | 'asked' | 'done'>,
     blob: Blob,
-    name: string,
     label: string | null,
-    done: (song: LoadedSong) => void,
     after = Promise.resolve(),
   ): Promise<LoadedSong | null> {
     const read = async (signal: AbortSignal, progress: (fraction: number) => void): Promise<LoadedSong> => {
@@ -181,16 +198,15 @@ export class FileLoader implements Files {
       const data = await this.readers.loadSong(blob, audio, { signal, onProgress });
       // The bytes themselves: a file on the visitor's disk may have changed by the time it is saved.
       const file = new Blob([await blob.arrayBuffer()], { type: blob.type });
-      return { name, label, file, data };
+      return { name: task.name, label, file, data };
     };
-    return this.run({ side: 'song', name, read, done });
+    return this.run({ side: 'song', read, ...task });
   }
 
   /** @param source the leader's bytes and options, asked for when the reading begins */
   private runLeader(
-    name: string,
+    task: Pick<Task<LoadedLeader>, 'name' | 'asked' | 'done'>,
     source: () => Promise<LeaderSource>,
-    done: (leader: LoadedLeader) => void,
   ): Promise<LoadedLeader | null> {
     let known: LeaderSource | null = null;
     const read = async (signal: AbortSignal): Promise<LoadedLeader> => {
@@ -203,17 +219,18 @@ export class FileLoader implements Files {
     const refused = (): void => {
       if (known) apply(this.store, leaderRefused(known));
     };
-    return this.run({ side: 'leader', name, read, done, refused });
+    return this.run({ side: 'leader', read, refused, ...task });
   }
 
   /** Runs a task with its progress in the store; null when it failed or a newer one cancelled it. */
   private async run<T>(task: Task<T>): Promise<T | null> {
     const { store, running } = this;
-    const { side, name, read, done, refused } = task;
+    const { side, name, asked, read, done, refused } = task;
     delete this.retry[side];
     running[side]?.abort();
     const controller = new AbortController();
     running[side] = controller;
+    const endAsked = asked ? ask(store, side) : () => undefined;
     apply(store, readingSet(side, { name, fraction: 0 }));
     let reported = performance.now();
     try {
@@ -234,6 +251,8 @@ export class FileLoader implements Files {
       refused?.();
       this.fail(error, side, name, () => void this.run(task));
       return null;
+    } finally {
+      endAsked();
     }
   }
 
@@ -242,9 +261,9 @@ export class FileLoader implements Files {
     apply(this.store, label === null ? change : withoutUndo(change));
   }
 
-  private putLeader(leader: LoadedLeader): void {
+  private readonly putLeader = (leader: LoadedLeader): void => {
     this.put(leaderLoaded(leader), leader.label);
-  }
+  };
 
   /** Whether a file of the page's own is no longer wanted, because another one has been loaded while it was read. */
   private isSuperseded(side: InputKind, label: string | null): boolean {

@@ -3,6 +3,7 @@ import { readingSet } from '../store/actions/files';
 import { problemShown } from '../store/actions/notices';
 import { offeredProblem } from '../store/problems';
 import type { Files } from '../store/services';
+import { ask } from '../store/history/asked';
 import { apply, type Store } from '../store/store';
 
 /** A leader that ships with the page: its file in leaders/, and what it is called. */
@@ -37,6 +38,7 @@ export class OfferedLeaders {
     this.cancel();
     const { signal } = (this.#loading = new AbortController());
     const { name } = OFFERED_LEADERS.find((one) => one.file === file)!;
+    signal.addEventListener('abort', ask(this.store, 'leader'));
     apply(this.store, readingSet('leader', { name, fraction: 0 }));
     let content: Blob;
     try {

@@ -186,6 +186,8 @@ export class Project {
 
   /** Empties the page and, by autosave, the storage; undo brings everything back. */
   clear(): void {
+    this.files.cancel('leader');
+    this.files.cancel('song');
     this.autosave.clear();
     apply(this.store, projectCleared(this.store.getState().manifest, randomSeed()));
   }

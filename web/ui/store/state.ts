@@ -6,6 +6,7 @@ import type { FrameRate, MotionFormat, VideoSize } from '../../export/client';
 import type { DownloadPart, Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
 import type { Report } from '../../quality/client';
+import type { Asked } from './history/asked';
 import type { History } from './history/history';
 import type { Inputs, LeaderSource, LoadedLeader, LoadedSong, Reaction, Settings, Take } from './reaction';
 import type { Span } from './time-scale';
@@ -264,6 +265,8 @@ export interface AppState {
   readonly letter: Letter;
   readonly compare: Compare;
   readonly history: History;
+  /** What undo can end the reading of, the last one asked for last. */
+  readonly asked: readonly Asked[];
   readonly autosave: AutosaveStatus;
   /** Whether the browser keeps what is stored even when space is short; null while nobody has asked it. */
   readonly persistent: boolean | null;

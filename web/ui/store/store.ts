@@ -47,6 +47,7 @@ export function initialState(theme: Theme): AppState {
     letter: 'A',
     compare: 'off',
     history: NO_HISTORY,
+    asked: [],
     autosave: 'stored',
     persistent: null,
     restoring: null,

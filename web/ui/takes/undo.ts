@@ -1,26 +1,27 @@
 import { iconButton } from '../widgets/button';
 import { listen, combineDisposers } from '../widgets/dom';
 import type { IconName } from '../widgets/icons';
-import type { Mount } from '../store/services';
-import { apply, type Change, type Store, watchAll } from '../store/store';
-import { redone, undone } from '../store/history/history';
+import type { Mount, Services } from '../store/services';
+import { apply, type Store, watchAll } from '../store/store';
+import { askedLast } from '../store/history/asked';
+import { redone } from '../store/history/history';
 
 /** Undo and redo as two buttons. */
-export const mountUndo: Mount = (root, store) => {
-  const button = (name: IconName, label: string, title: string, change: Change): HTMLButtonElement =>
-    iconButton('icon undo', name, { label, title }, () => {
-      apply(store, change);
-    });
-  const undo = button('undo', 'Undo', 'Undo (Ctrl Z)', undone());
-  const redo = button('redo', 'Redo', 'Redo (Ctrl Y)', redone());
+export const mountUndo: Mount = (root, store, services) => {
+  const button = (name: IconName, label: string, title: string, press: () => void): HTMLButtonElement =>
+    iconButton('icon undo', name, { label, title }, press);
+  const undo = button('undo', 'Undo', 'Undo (Ctrl Z)', services.undo);
+  const redo = button('redo', 'Redo', 'Redo (Ctrl Y)', () => {
+    apply(store, redone());
+  });
   root.append(undo, redo);
   return combineDisposers(
     watchAll(
       store,
-      (state) => [state.history],
-      ({ history }) => {
-        undo.disabled = history.past.length === 0;
-        redo.disabled = history.future.length === 0;
+      (state) => [state.history, state.asked],
+      (state) => {
+        undo.disabled = state.history.past.length === 0 && askedLast(state) === null;
+        redo.disabled = state.history.future.length === 0;
       },
     ),
     () => {
@@ -31,14 +32,14 @@ export const mountUndo: Mount = (root, store) => {
 };
 
 /** Undo and redo by Ctrl or Command with Z, Shift Z and Y; text fields have their own undo. */
-export function mountUndoKeys(store: Store): () => void {
+export function mountUndoKeys(store: Store, services: Pick<Services, 'undo'>): () => void {
   return listen(window, 'keydown', (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
     if (event.target instanceof Element && event.target.matches('input:not([type="range"]), textarea'))
       return;
     const key = event.key.toLowerCase();
-    if (key === 'z') apply(store, event.shiftKey ? redone() : undone());
-    else if (key === 'y' && !event.shiftKey) apply(store, redone());
+    if (key === 'z' && !event.shiftKey) services.undo();
+    else if (key === 'z' || (key === 'y' && !event.shiftKey)) apply(store, redone());
     else return;
     event.preventDefault();
   });

@@ -14,6 +14,7 @@ import { FPS } from '../../motion/skeleton/clip';
 import { shiftSet } from '../store/actions/timeline';
 import { stageCovered } from '../store/actions/view';
 import { firstVisitEnded } from '../store/actions/files';
+import { ask } from '../store/history/asked';
 import { isAbort } from '../store/problems';
 import type { LeaderSource } from '../store/reaction';
 import type { Files } from '../store/services';
@@ -109,6 +110,7 @@ export class VideoLeader {
     this.#reading?.abort();
     const reading = new AbortController();
     this.#reading = reading;
+    const endAsked = ask(this.store, 'leader');
     const signal = AbortSignal.any([reading.signal, ended.signal]);
     let part = new AbortController();
     try {
@@ -132,7 +134,7 @@ export class VideoLeader {
       };
       const observations = await reader.read(file, pick, session.options, signal, onReport);
       session.thumbnails = thumbnails;
-      await this.#solve(session, session.options, observations);
+      await this.#solve(session, session.options, observations, signal);
     } catch (error) {
       if (signal.aborted || isAbort(error)) return;
       if (error instanceof AppError && error.code === 'sound-only') {
@@ -141,6 +143,7 @@ export class VideoLeader {
       } else this.#fail(session, error, () => void this.#read(session, pick));
     } finally {
       if (this.#reading === reading) this.#reading = null;
+      endAsked();
     }
   }
 
@@ -155,26 +158,37 @@ export class VideoLeader {
   }
 
   /** Makes the motion with these options and puts it on the page as the leader. */
-  async #solve(session: Session, options: WorldOptions, observations = session.observations): Promise<void> {
+  async #solve(
+    session: Session,
+    options: WorldOptions,
+    observations = session.observations,
+    signal = session.ended.signal,
+  ): Promise<void> {
     const { store } = this;
-    const { reader, file, ended, motion: before } = session;
+    const { reader, file, motion: before, observations: seenBefore } = session;
     session.options = options;
     if (!observations) return;
     try {
-      const motion = await reader.solve(observations, options, ended.signal);
+      const motion = await reader.solve(observations, options, signal);
       // A newer choice is being computed.
       if (session.options !== options) return;
       session.observations = observations;
       session.motion = motion;
       this.#showRead(session);
       const { shift } = store.getState();
-      await this.files.openLeader(sourceOf(file, motion.bvh));
+      const leader = await this.files.openLeader(sourceOf(file, motion.bvh));
+      if (!leader && session.motion === motion) {
+        // It could not be read, or was cancelled.
+        Object.assign(session, { observations: seenBefore, motion: before });
+        this.#endReading(session);
+        return;
+      }
       if (session.before) this.#end(session.before);
       if (before && (shift !== 0 || session.songStart !== null))
         apply(store, shiftSet(shift + (before.start - motion.start) * FPS));
       else this.#alignSong(session);
     } catch (error) {
-      if (ended.signal.aborted || isAbort(error)) return;
+      if (signal.aborted || isAbort(error)) return;
       this.#fail(session, error, () => void this.#solve(session, options, observations));
     } finally {
       this.#part.end();

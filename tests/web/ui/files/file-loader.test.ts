@@ -1,4 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { undoLast } from '../../../../web/ui/store/history/asked';
+import { takeChosen } from '../../../../web/ui/store/actions/takes';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
 import type { FileReaders } from '../../../../web/ui/store/services';
 import type { LeaderSource } from '../../../../web/ui/store/reaction';
@@ -182,6 +184,108 @@ describe('reading files', () => {
     answers[0]?.();
     expect(await first).toBeNull();
     expect(store.getState().leader?.name).toBe('second.bvh');
+  });
+
+  /** Readers that answer when they are told to; what is cancelled they answer all the same. */
+  function slowReaders(): { readonly answer: () => Promise<void> } {
+    const answers: (() => void)[] = [];
+    const later = <T>(value: T): Promise<T> =>
+      new Promise((resolve) => {
+        answers.push(() => {
+          resolve(value);
+        });
+      });
+    readers.loadSong = () => later(songData(2));
+    readers.readLeader = () => later({ file: leaderFile(9), motion: still(9) });
+    return {
+      answer: async () => {
+        await vi.waitFor(() => expect(answers).not.toEqual([]));
+        for (const answer of answers.splice(0)) answer();
+        await new Promise((resolve) => setTimeout(resolve));
+      },
+    };
+  }
+
+  it.each([
+    ['song', 'late.mp3', SONG],
+    ['leader', 'late.bvh', BVH],
+  ] as const)(
+    'undo ends the reading of a %s, after the steps that are newer',
+    async (kind, name, content) => {
+      await files.open([file('a.mp3', SONG), file('a.bvh', BVH)]);
+      const { seed } = store.getState().settings!;
+      change.apply(store, change.seedSet(11));
+      const { answer } = slowReaders();
+      void files.open([file(name, content)]);
+      await vi.waitFor(() => expect(store.getState().reading[kind]?.name).toBe(name));
+      change.apply(store, change.heightSet(1.8));
+
+      undoLast(store, files);
+      expect(store.getState()).toMatchObject({
+        settings: { seed: 11, height: null },
+        reading: { [kind]: { name } },
+      });
+      undoLast(store, files);
+      expect(store.getState()).toMatchObject({
+        settings: { seed: 11 },
+        reading: { [kind]: null },
+        asked: [],
+      });
+      expect(cancelOther).toHaveBeenCalledTimes(kind === 'leader' ? 3 : 1);
+      await answer();
+      expect(store.getState()[kind]?.name).not.toBe(name);
+      undoLast(store, files);
+      expect(store.getState().settings!.seed).toBe(seed);
+    },
+  );
+
+  it('what the page reads by itself is not ended by undo, which undoes a step', async () => {
+    await files.open([file('a.mp3', SONG), file('a.bvh', BVH)]);
+    const { seed } = store.getState().settings!;
+    const { answer } = slowReaders();
+    const stored = files.readSong(file('b', SONG), 'b.mp3', null, Promise.resolve());
+    change.apply(store, change.seedSet(11));
+    undoLast(store, files);
+    expect(store.getState().settings!.seed).toBe(seed);
+    await answer();
+    expect(await stored).toMatchObject({ name: 'b.mp3' });
+  });
+
+  it('a take of another leader, chosen while a leader is read, stays; one of the same leader does not end the reading', async () => {
+    const take = (): string => {
+      const { leader, song, shift, settings, takes } = store.getState();
+      const inputs = { leader: leader!, song, shift, settings: settings! };
+      const reaction = {
+        motion: still(60),
+        latents: null,
+        model: undefined,
+        inputs,
+        label: null,
+        seconds: 1,
+      };
+      const id = `take ${takes.length}`;
+      change.apply(store, change.reactionAdded(reaction, { id, at: 0 }));
+      return id;
+    };
+    await files.open([file('a.bvh', BVH)]);
+    const ofA = take();
+    await files.open([file('b.bvh', BVH)]);
+    const ofB = take();
+    change.apply(store, change.seedSet(11));
+    take();
+    const { answer } = slowReaders();
+    const reading = files.open([file('late.bvh', BVH)]);
+    await vi.waitFor(() => expect(store.getState().reading.leader?.name).toBe('late.bvh'));
+    change.apply(store, takeChosen(ofB));
+    expect(store.getState()).toMatchObject({
+      leader: { name: 'b.bvh' },
+      reading: { leader: { name: 'late.bvh' } },
+    });
+    change.apply(store, takeChosen(ofA));
+    expect(store.getState()).toMatchObject({ leader: { name: 'a.bvh' }, reading: { leader: null } });
+    await answer();
+    await reading;
+    expect(store.getState()).toMatchObject({ leader: { name: 'a.bvh' }, asked: [] });
   });
 
   it('an older file that fails after a newer one came shows no problem', async () => {

@@ -12,7 +12,7 @@ interface Edit {
 }
 
 /** One step that can be undone. It holds only what differed, so that undoing leaves later changes elsewhere alone. */
-interface Step {
+export interface Step {
   /** What was changed; steps of the same kind in quick succession are one step. Null is never the same kind. */
   readonly kind: string | null;
   /** When it was last added to, milliseconds since 1970. */
