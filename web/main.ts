@@ -3,6 +3,7 @@
  * the panels, and what is loaded at the start.
  */
 import { AudioPlayer, loadSong } from './audio/client';
+import { ownName, ownStorage } from './common/own-name';
 import { createGenerator } from './model/client';
 import { inspectLeader, type LeaderRequest, readLeader } from './motion/client';
 import { registerServiceWorker } from './offline/register';
@@ -75,7 +76,7 @@ import { mountVideoLane, VideoTrack } from './ui/video/video-lane';
 // ---- the store and the features that change it ----
 
 const store = createAppStore(systemTheme());
-syncPreferences(store, () => localStorage, watchSystemTheme);
+syncPreferences(store, ownStorage, watchSystemTheme);
 const { manifestUrl, backend } = readParameters(location.search, document.baseURI);
 const model: ModelLink = new ModelLink(store, (onStatus, folder) =>
   createGenerator({
@@ -89,7 +90,7 @@ const model: ModelLink = new ModelLink(store, (onStatus, folder) =>
     },
   }),
 );
-const rememberedJoints = new RememberedJointsStorage(() => localStorage);
+const rememberedJoints = new RememberedJointsStorage(ownStorage);
 const readers = {
   loadSong,
   readLeader: (request: LeaderRequest, signal?: AbortSignal) =>
@@ -114,7 +115,7 @@ const video = createVideoFeature(
 );
 const project = new Project(store, files, readers, {
   stage: () => stage,
-  storage: new ProjectDatabase(),
+  storage: new ProjectDatabase(ownName('reactdance')),
   tabs: tabLockApis(globalThis),
   persistence: navigator.storage,
 });

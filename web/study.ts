@@ -2,6 +2,7 @@
 import { AudioPlayer, loadSong } from './audio/client';
 import { AppError } from './common/error';
 import { fetchShipped } from './common/fetch';
+import { ownStorage } from './common/own-name';
 import { createGenerator, type Generator } from './model/client';
 import { readLeader } from './motion/client';
 import { saveFile } from './ui/download/save-and-share';
@@ -81,7 +82,7 @@ const study = new Study({
       loadSong: (file, audio) => loadSong(file, audio),
       generator: () => generator(onStatus),
     }),
-  storage: new SavedSession(() => localStorage),
+  storage: new SavedSession(ownStorage),
   saveFile,
   seed: () => crypto.getRandomValues(new Uint32Array(1))[0]!,
   now: () => performance.now(),

@@ -1,3 +1,4 @@
+import { ownName } from '../common/own-name';
 import { shellNames } from './shell';
 
 /** Bytes that the page has cached on this device, by part. */
@@ -30,10 +31,7 @@ export async function clearStorage(scope: typeof globalThis): Promise<void> {
   await (await container?.getRegistration())?.unregister();
 }
 
-/**
- * The page's caches by name, with what they hold. Those of runtime and model belong also to pages in other folders of
- * the origin, which download again what was cleared.
- */
+/** The page's caches by name, with what they hold. */
 async function ownCaches({
   caches,
   document,
@@ -43,7 +41,7 @@ async function ownCaches({
   return [
     ...shells.map((name) => [name, 'page'] as const),
     ...(['runtime', 'model'] as const)
-      .map((part) => [`reactdance-${part}`, part] as const)
+      .map((part) => [ownName(`reactdance-${part}`, { document }), part] as const)
       .filter(([name]) => present.includes(name)),
   ];
 }

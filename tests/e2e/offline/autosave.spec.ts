@@ -1,16 +1,16 @@
 import type { Page } from '@playwright/test';
 import type { Framing } from '../../../web/common/framing';
 import { bvh } from '../support/files';
-import { App } from '../support/app-page';
+import { App, TINY } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import { rested } from '../support/stage-rest';
 
 /** A page with a take of its own. */
-async function withTake(page: Page): Promise<App> {
+async function withTake(page: Page, address = TINY, name = 'mine.bvh'): Promise<App> {
   await page.route('**/demo/*', (route) => route.fulfill({ status: 404 }));
   const app = new App(page);
-  await app.openWithoutPicture();
-  await app.drop(bvh({ frames: 90, name: 'mine.bvh' }));
+  await app.openWithoutPicture(address);
+  await app.drop(bvh({ frames: 90, name }));
   await app.until(({ takes, job }) => takes.length === 1 && !job);
   return app;
 }
@@ -87,6 +87,31 @@ test('of two tabs one keeps the work, and the other says so and can take over', 
   await first.until(({ takes, autosave }) => takes.length === 3 && autosave === 'stored');
   await expect(says(page)).toBeHidden();
   expect((await seeds(first)).sort()).toEqual(expect.arrayContaining([201, 202]));
+});
+
+test('two copies of the page in folders of one site keep work, preferences and model apart', async ({
+  page,
+  context,
+}) => {
+  const first = await withTake(page);
+  await page.keyboard.press('l');
+  const other = await context.newPage();
+  const second = await withTake(other, `/copy${TINY}`, 'other.bvh');
+  expect(await second.read(({ playback, takes }) => [playback.loop, takes.length])).toEqual([false, 1]);
+  for (const [tab, app, leader, loop] of [
+    [page, first, 'mine.bvh', true],
+    [other, second, 'other.bvh', false],
+  ] as const) {
+    await app.until(({ autosave }) => autosave === 'stored');
+    await tab.reload();
+    await app.until(({ takes, restoring }) => takes.length > 0 && !restoring);
+    expect(
+      await app.read(({ leader, playback, takes }) => [leader?.name, playback.loop, takes.length]),
+    ).toEqual([leader, loop, 1]);
+  }
+  expect((await page.evaluate(() => caches.keys())).sort()).toEqual(
+    ['model', 'runtime'].flatMap((part) => [`reactdance-${part}`, `reactdance-${part}:%2Fcopy%2F`]),
+  );
 });
 
 test.describe('with a small stage, for a software renderer', () => {

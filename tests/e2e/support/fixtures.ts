@@ -15,7 +15,7 @@ interface WorkerFixtures {
    * song takes more of a processor than all else that the page does at its start.
    */
   readonly shippedDemo: boolean;
-  /** Address of the built app; the tiny model of the fixtures is below models/tiny/. */
+  /** Address of the built app; the tiny model of the fixtures is below models/tiny/, a second copy of the app below copy/. */
   readonly site: string;
 }
 
@@ -38,6 +38,7 @@ export const test = base.extend<TestFixtures, WorkerFixtures>({
         writeFileSync(path.join(demo, name), content);
       const mounts = {
         '/models/tiny/': path.join(project, 'tests/fixtures/tiny-model'),
+        '/copy/': root,
         ...(shippedDemo ? {} : { '/demo/': demo }),
       };
       const server = createSite({ root, mounts });

@@ -188,7 +188,7 @@ describe('the cached app shell', () => {
       const memory = memoryCaches();
       await cached('one', memory);
       for (const base of others) await cached('one', memory, { base });
-      for (const name of ['reactdance-model', 'of another page'])
+      for (const name of ['reactdance-model:%2Fstudio%2F', 'reactdance-model', 'of another page'])
         await (
           await memory.caches.open(name)
         ).put(`${BASE}x`, new Response('', { headers: { 'content-length': '5' } }));
@@ -200,6 +200,7 @@ describe('the cached app shell', () => {
       await clearStorage(scope);
       expect([...memory.all.keys()]).toEqual([
         ...others.map((base) => name('one', new URL(base).pathname)),
+        'reactdance-model',
         'of another page',
       ]);
     });

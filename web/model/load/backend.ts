@@ -1,4 +1,4 @@
-import { inTime } from '../../common/in-time';
+import { inTime } from './in-time';
 import type { Provider } from './runtime';
 
 export type Preference = 'auto' | Provider;

@@ -1,3 +1,4 @@
+import { ownName } from '../../common/own-name';
 import type { FileStore } from './download';
 
 /** Names in the Cache API, one for each part, so that each can be measured and cleared. */
@@ -17,16 +18,16 @@ function cacheStorage(scope: typeof globalThis): CacheStorage | undefined {
   }
 }
 
-function cache(caches: CacheStorage, part: CachedPart, address: (key: string) => string): ResponseCache {
+function cache(caches: CacheStorage, name: string, address: (key: string) => string): ResponseCache {
   return {
     async get(key) {
-      const response = await (await caches.open(CACHES[part])).match(address(key));
+      const response = await (await caches.open(name)).match(address(key));
       return response === undefined ? undefined : new Uint8Array(await response.arrayBuffer());
     },
     async put(key, bytes) {
       // The length lets the cache be measured without reading the files.
       const headers = { 'content-type': 'application/octet-stream', 'content-length': String(bytes.length) };
-      await (await caches.open(CACHES[part])).put(address(key), new Response(bytes, { headers }));
+      await (await caches.open(name)).put(address(key), new Response(bytes, { headers }));
     },
   };
 }
@@ -39,13 +40,14 @@ function cache(caches: CacheStorage, part: CachedPart, address: (key: string) =>
 export function fileStore(scope: typeof globalThis, part: CachedPart, owner: string): FileStore | undefined {
   const caches = cacheStorage(scope);
   if (caches === undefined) return undefined;
+  const name = ownName(CACHES[part], scope);
   // Cache keys are addresses; these are never fetched.
   const folder = new URL(`/kept-files/${encodeURIComponent(owner)}/`, scope.location.origin).href;
   const address = (key: string): string => folder + key;
   return {
-    ...cache(caches, part, address),
+    ...cache(caches, name, address),
     async keepOnly(keys) {
-      const opened = await caches.open(CACHES[part]);
+      const opened = await caches.open(name);
       const wanted = new Set(keys.map(address));
       for (const { url } of await opened.keys()) {
         if (url.startsWith(folder) && !wanted.has(url)) await opened.delete(url);
@@ -57,5 +59,5 @@ export function fileStore(scope: typeof globalThis, part: CachedPart, owner: str
 /** The model's small files, by their own address. */
 export function responseCache(scope: typeof globalThis): ResponseCache | undefined {
   const caches = cacheStorage(scope);
-  return caches && cache(caches, 'model', (address) => address);
+  return caches && cache(caches, ownName(CACHES.model, scope), (address) => address);
 }

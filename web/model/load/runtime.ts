@@ -1,6 +1,6 @@
 /** onnxruntime, and which of its builds is loaded. */
 import type * as ort from 'onnxruntime-web/wasm';
-import { inTime } from '../../common/in-time';
+import { inTime } from './in-time';
 import { loadPart } from '../../common/page-part';
 
 export type Provider = 'webgpu' | 'wasm';

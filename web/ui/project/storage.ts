@@ -48,7 +48,7 @@ export class ProjectDatabase implements ProjectStorage {
   /** The last write did not fit. */
   private isFull = false;
 
-  constructor(name = 'reactdance') {
+  constructor(name: string) {
     this.open = connection(name);
   }
 

@@ -1,17 +1,20 @@
-/** The same for all tabs of the page. */
-const NAME = 'reactdance.project';
+import { ownName } from '../../common/own-name';
 
 /** The parts of Web Locks and BroadcastChannel that are needed; both are missing on insecure origins. */
 export interface TabLockApis {
+  /** Of lock and channel, the same for all tabs of the page. */
+  readonly name: string;
   readonly locks: Pick<LockManager, 'request'> | undefined;
   readonly channel: Pick<BroadcastChannel, 'postMessage' | 'addEventListener' | 'close'> | undefined;
 }
 
 /** What this browser has of them. */
 export function tabLockApis({ navigator, BroadcastChannel }: typeof globalThis): TabLockApis {
+  const name = ownName('reactdance.project');
   return {
+    name,
     locks: navigator.locks,
-    channel: (BroadcastChannel as typeof BroadcastChannel | undefined) && new BroadcastChannel(NAME),
+    channel: (BroadcastChannel as typeof BroadcastChannel | undefined) && new BroadcastChannel(name),
   };
 }
 
@@ -83,7 +86,7 @@ export class TabLock {
 
   /** Resolves with whether the right was got; the lock itself is held until it is given back or taken. */
   private request(options: LockOptions): Promise<boolean> {
-    const { locks } = this.means;
+    const { name, locks } = this.means;
     const withoutLock = (): true => {
       this.release = () => undefined;
       return true;
@@ -102,7 +105,7 @@ export class TabLock {
           resolve(true);
         });
       };
-      locks.request(NAME, options, held).catch((error: unknown) => {
+      locks.request(name, options, held).catch((error: unknown) => {
         // Locks are forbidden with all that sites keep. No other tab keeps anything then, and writing says why.
         if (!(error instanceof DOMException && error.name === 'AbortError')) return resolve(withoutLock());
         // Taken by another tab, or not waited for any longer.

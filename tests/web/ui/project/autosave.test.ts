@@ -25,7 +25,7 @@ interface Browser {
 }
 
 /** A browser without an earlier visit and other tabs. */
-const ALONE: Browser = { found: null, tabs: { locks: undefined, channel: undefined }, readers };
+const ALONE: Browser = { found: null, tabs: { name: 'tabs', locks: undefined, channel: undefined }, readers };
 
 describe('autosave', () => {
   let store: change.Store;
@@ -222,7 +222,7 @@ describe('autosave', () => {
     const taken = { request: (...[, , held]: Parameters<LockManager['request']>) => held(null) };
     await visit(9, {
       found: storedProject(store.getState()),
-      tabs: { locks: taken as TabLockApis['locks'], channel: undefined },
+      tabs: { name: 'tabs', locks: taken as TabLockApis['locks'], channel: undefined },
       readers: { ...readers, manifest: () => new Promise(() => undefined) },
     });
     expect(store.getState().restoring).not.toBeNull();

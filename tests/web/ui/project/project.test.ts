@@ -86,7 +86,7 @@ describe('a project', () => {
         removeOwn: () => Promise.resolve(),
         clear: () => Promise.resolve(),
       },
-      tabs: { locks: undefined, channel: undefined },
+      tabs: { name: 'tabs', locks: undefined, channel: undefined },
       persistence: { persisted: () => Promise.resolve(true), persist: () => Promise.resolve(true) },
     });
   };

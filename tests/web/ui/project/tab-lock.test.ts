@@ -37,6 +37,7 @@ function tabs(names: readonly string[], needed: Set<string>) {
   const log: string[] = [];
   const all = names.map((name) => {
     const means: TabLockApis = {
+      name: 'tabs',
       locks: lock,
       channel: {
         postMessage: () => {
@@ -97,7 +98,7 @@ it.each<[string, TabLockApis['locks']]>([
 ])('%s every tab has it', async (_, locks) => {
   const gains: string[] = [];
   const right = new TabLock(
-    { locks, channel: undefined },
+    { name: 'tabs', locks, channel: undefined },
     { gained: () => gains.push('gained'), lost: () => undefined, needed: () => true },
   );
   await right.takeIfFree();
