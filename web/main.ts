@@ -60,7 +60,7 @@ import { problemShown } from './ui/store/actions/notices';
 import { referenceLoaded } from './ui/store/actions/reaction';
 import { updateSet } from './ui/store/actions/view';
 import { stageProblem } from './ui/store/problems';
-import type { Services } from './ui/store/services';
+import type { FileChoice, Services } from './ui/store/services';
 import { undoLast } from './ui/store/history/asked';
 import { apply, createAppStore } from './ui/store/store';
 import { mountCompareSwitch } from './ui/takes/compare-switch';
@@ -147,7 +147,7 @@ if (stage?.softwareRendered) apply(store, downloadChosen({ size: 'stage' }));
 const services: Services = {
   openDropped: (reading) => void openDropped(reading, store, { open: openFiles }, model, generation.generate),
   useGiven: (chosen) => void files.open(chosen),
-  choose: createFileChooser(document.body, (chosen) => void openFiles(chosen)),
+  choose: createFileChooser(document.body, (chosen, what) => void openFiles(chosen, what)),
   openOffered: (file) => void offered.open(file),
   recordVideo: () => void video.record(),
   rereadLeader: (source, options) => void files.rereadLeader(source, options),
@@ -271,10 +271,10 @@ function openStage(host: HTMLElement): Stage | null {
 }
 
 /** A project has its own song and leader, so other files beside it are not read. */
-async function openFiles(chosen: readonly File[]): Promise<void> {
+async function openFiles(chosen: readonly File[], as?: FileChoice): Promise<void> {
   const projectFile = chosen.find(({ name }) => isProject(name));
   if (projectFile) await project.open(projectFile);
-  else await openGiven(chosen, store, files);
+  else await openGiven(chosen, store, files, as);
 }
 
 async function saveProject(): Promise<void> {

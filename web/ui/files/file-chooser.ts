@@ -3,7 +3,7 @@ import type { FileChoice } from '../store/services';
 
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
-  song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm',
+  song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv',
   leader: `${MOTION_ENDINGS},video/*,.mov,.mkv`,
   any: `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv,${MOTION_ENDINGS},.reactdance`,
   project: '.reactdance,.zip',
@@ -12,25 +12,25 @@ const ACCEPT = {
 /** Opens the system's file chooser through hidden inputs, one for each kind of file. */
 export function createFileChooser(
   host: HTMLElement,
-  open: (files: readonly File[]) => void,
+  open: (files: readonly File[], what: FileChoice) => void,
 ): (what: FileChoice) => void {
   const inputs = new Map<FileChoice, HTMLInputElement>();
-  for (const side of ['song', 'leader', 'any', 'project'] as const) {
+  for (const what of ['song', 'leader', 'any', 'project'] as const) {
     const input = document.createElement('input');
     input.type = 'file';
-    input.id = `choose-${side}`;
+    input.id = `choose-${what}`;
     input.hidden = true;
-    input.accept = ACCEPT[side];
+    input.accept = ACCEPT[what];
     // A leader may be two files: an AMC and its ASF.
-    input.multiple = side === 'any' || side === 'leader';
+    input.multiple = what === 'any' || what === 'leader';
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
       // So that choosing the same file again is a change.
       input.value = '';
-      if (files.length > 0) open(files);
+      if (files.length > 0) open(files, what);
     });
     host.append(input);
-    inputs.set(side, input);
+    inputs.set(what, input);
   }
   return (what) => inputs.get(what)?.click();
 }

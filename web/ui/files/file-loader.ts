@@ -1,4 +1,4 @@
-import type { Files, FileReaders } from '../store/services';
+import type { FileChoice, Files, FileReaders } from '../store/services';
 import { emptyFileProblem, fileProblem, isAbort, unknownFileProblem } from '../store/problems';
 import { fileKind, HEAD_BYTES } from './file-type';
 import type { LeaderSource, LoadedLeader, LoadedSong } from '../store/reaction';
@@ -73,13 +73,13 @@ export class FileLoader implements Files {
     });
   }
 
-  async open(files: readonly File[]): Promise<void> {
+  async open(files: readonly File[], as?: FileChoice): Promise<void> {
     apply(this.store, problemClosed());
     await Promise.all(
       groupCompanions(files).map(async ([file, ...companions]) => {
         if (!file) return;
         try {
-          await this.openOne(file, companions);
+          await this.openOne(file, companions, as);
         } catch (error) {
           // A folder, or a file that vanished between choosing and reading.
           apply(this.store, problemShown(fileProblem(error, 'leader', file.name)));
@@ -146,13 +146,14 @@ export class FileLoader implements Files {
   }
 
   /** @param companions files that belong to this one, as the ASF skeleton of an AMC */
-  private async openOne(file: File, companions: readonly File[]): Promise<void> {
+  private async openOne(file: File, companions: readonly File[], as?: FileChoice): Promise<void> {
     if (file.size === 0) {
       apply(this.store, problemShown(emptyFileProblem(file.name)));
       return;
     }
     const head = new Uint8Array(await file.slice(0, HEAD_BYTES).arrayBuffer());
-    switch (fileKind(head, file.name, file.type)) {
+    const kind = fileKind(head, file.name, file.type);
+    switch (kind === 'video' && as === 'song' ? 'song' : kind) {
       case 'song':
         apply(this.store, firstVisitEnded());
         await this.openSong(file, file.name, null);

@@ -1,7 +1,7 @@
 import { noneUsableProblem } from '../store/problems';
 import { givenSet } from '../store/actions/files';
 import { problemClosed, problemShown } from '../store/actions/notices';
-import type { Files } from '../store/services';
+import type { FileChoice, Files } from '../store/services';
 import type { GivenFiles } from '../store/state';
 import { apply, type Store } from '../store/store';
 import { groupCompanions } from '../../motion/import/format';
@@ -37,11 +37,12 @@ export async function openGiven(
   files: readonly File[],
   store: Store,
   reader: Pick<Files, 'open'>,
+  as?: FileChoice,
 ): Promise<void> {
   // Files from which nothing was chosen are no longer wanted.
   apply(store, givenSet(null));
   // What is wrong with a single file is said at length.
-  if (files.length === 1) return reader.open(files);
+  if (files.length === 1) return reader.open(files, as);
   const given = await sortedFiles(files);
   const { songs, leaders, unused } = given;
   apply(store, problemClosed());

@@ -36,8 +36,8 @@ export interface FileReaders {
 
 /** Reading songs and leaders from files. */
 export interface Files {
-  /** Reads files that the visitor gave. */
-  readonly open: (files: readonly File[]) => Promise<void>;
+  /** Reads files that the visitor gave; of a video given as the song, its sound. */
+  readonly open: (files: readonly File[], as?: FileChoice) => Promise<void>;
   /** Reads one song and puts it on the page; the label says where it comes from when not from the visitor. */
   readonly openSong: (blob: Blob, name: string, label: string | null) => Promise<LoadedSong | null>;
   readonly openLeader: (source: LeaderSource) => Promise<LoadedLeader | null>;

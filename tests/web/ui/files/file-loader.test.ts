@@ -65,6 +65,12 @@ describe('reading files', () => {
     expect(store.getState().song?.name).toBe('b');
   });
 
+  it('takes the sound of a video that is chosen as the song', async () => {
+    await files.open([file('party.mp4', '\u0000\u0000\u0000\u0014ftypisom')], 'song');
+    expect(videos).toEqual([]);
+    expect(store.getState().song?.name).toBe('party.mp4');
+  });
+
   it('a newer leader of the visitor’s ends what is still made of a video or downloaded; the page’s own and songs do not', async () => {
     const demo = await files.openLeader(source('demo.bvh', BVH, 'demo leader'));
     await files.readLeader(source('stored.bvh'));
