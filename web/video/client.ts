@@ -3,31 +3,37 @@ import { loadPart } from '../common/page-part';
 import { WorkerConnection } from '../common/run-in-worker';
 import type { Observations } from './observations';
 import type { Picture } from './pose/picture';
-import type { Point } from './pose/tracker';
+import type { PersonPick, Point } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
 import { BONES } from './world/landmark-names';
 import type { WorldOptions } from './world/reconstruct';
-import type { ReadReport, VideoMotion, VideoTasks } from './worker';
+import type { People, ReadReport, VideoMotion, VideoTasks } from './worker';
 
 export { BONES, DEFAULT_FOCAL };
-export type { Observations, Point, ReadReport, VideoMotion, WorldOptions };
+export type { Observations, People, PersonPick, Point, ReadReport, VideoMotion, WorldOptions };
 
 /** Reads one video in a worker of its own, which is replaced after a crash. */
 export interface VideoReader {
   /**
-   * What is seen in all pictures of a video.
-   * @param pick where the person stands who is followed; null takes the largest
+   * What is seen in all pictures of a video, or in those from the moment of `pick` on.
+   * @param pick the person who is followed; null takes the largest
    * @param options how the motions are made that are reported meanwhile
    * @throws {AppError} what is wrong with the video
    * @throws the signal's reason
    */
   read(
     file: Blob,
-    pick: Point | null,
+    pick: PersonPick | null,
     options: Omit<WorldOptions, 'trim'>,
     signal: AbortSignal,
     onReport: (report: ReadReport) => void,
   ): Promise<Observations>;
+  /**
+   * Who could be followed from a moment on, seconds of the video, also while it is being read; null after its end.
+   * @throws {AppError} what is wrong with the video
+   * @throws the signal's reason
+   */
+  people(file: Blob, time: number, signal: AbortSignal): Promise<People | null>;
   /** The motion of the dancer. @throws {AppError} */
   solve(observations: Observations, options: WorldOptions, signal: AbortSignal): Promise<VideoMotion>;
   /** Ends the worker and with it the download, decoding and networks. */
@@ -53,6 +59,7 @@ export function createVideoReader(): VideoReader {
   return {
     read: (file, pick, options, signal, onReport) =>
       current().call('read', { file, graphs, pick, options }, { signal, onReport }),
+    people: (file, time, signal) => current().call('people', { file, graphs, time }, { signal }),
     solve: (observations, options, signal) => current().call('solve', { observations, options }, { signal }),
     dispose: () => {
       disposed = true;

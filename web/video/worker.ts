@@ -6,10 +6,10 @@ import { writeBvh } from '../motion/bvh/write';
 import { checkSeen } from './checks';
 import { openVideo } from './frames';
 import { type Observations, Recorder } from './observations';
-import { loadPoseGraphs } from './pose/graphs';
+import { loadPoseGraphs, type PoseGraphs } from './pose/graphs';
 import { bodyBox } from './pose/detector';
-import type { Picture } from './pose/picture';
-import { PersonTracker, type Point } from './pose/tracker';
+import { Cropper, type Picture } from './pose/picture';
+import { detectPersons, PersonTracker, type PersonPick } from './pose/tracker';
 import { adviceOn, confidenceOf } from './world/advice';
 import { type WorldOptions, reconstruct } from './world/reconstruct';
 
@@ -17,10 +17,20 @@ export interface ReadRequest {
   readonly file: Blob;
   /** Absolute address of pose.json. */
   readonly graphs: string;
-  /** Where the person stands who is followed, pixels of the first picture with people; null takes the largest. */
-  readonly pick: Point | null;
+  /** Who is followed, and from when on; null takes the largest in the first picture with people. */
+  readonly pick: PersonPick | null;
   /** How the motions of what has been read so far are made; all of that is used. */
   readonly options: Omit<WorldOptions, 'trim'>;
+}
+
+/** The people in the picture of a moment. */
+export interface People {
+  /** Of the picture, seconds of the video. */
+  readonly time: number;
+  /** About where each is, the largest first: left, top, right and bottom in pixels of the video. */
+  readonly boxes: readonly (readonly [number, number, number, number])[];
+  /** The picture, small. */
+  readonly image: ImageBitmap;
 }
 
 /** What happens while a video is being read; times as in `VideoFile`. */
@@ -36,12 +46,8 @@ export type ReadReport =
       readonly height: number;
       readonly soundStart: number | null;
     }
-  /** Several people, of whom one can be picked: about where each is, left, top, right and bottom in pixels. */
-  | {
-      readonly kind: 'persons';
-      readonly boxes: readonly (readonly [number, number, number, number])[];
-      readonly image: ImageBitmap;
-    }
+  /** Several people, of whom one can be picked. */
+  | ({ readonly kind: 'persons' } & People)
   /** A small picture of a moment for the timeline. */
   | { readonly kind: 'thumbnail'; readonly time: number; readonly image: ImageBitmap }
   /** The newest picture, small, its time, and 33 x 2 landmarks in pixels of the video where the person is seen. */
@@ -91,26 +97,27 @@ async function read(
   try {
     const { start, end, last, width, height, soundStart } = video;
     void report({ kind: 'opened', start, end, last, width, height, soundStart });
-    const graphs = await loadPoseGraphs(list, globalThis, (fraction) => {
+    const graphs = await poseGraphs(list, (fraction) => {
       void report({ kind: 'networks', fraction });
     });
     const tracker = new PersonTracker(graphs, pick);
     const recorder = new Recorder(width, height);
     const thumbnails = new Shrinker(width / height, THUMBNAIL_HEIGHT);
     const shown = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT));
+    const from = pick?.time ?? start;
     const isThumbnail = thumbnailTimes(end - start);
     let reported = 0;
-    let nextPart = start + PART.first;
+    let nextPart = from + PART.first;
     // Who was picked is not asked about again.
     let asked = pick !== null;
-    for await (const { time, picture } of video.pictures(0, Infinity)) {
+    for await (const { time, picture } of video.pictures(pick?.time ?? 0, Infinity)) {
       const tracked = await tracker.next(picture, time);
       recorder.add(time, tracked);
       if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
       if (!asked && tracked.persons && tracked.persons.length > 0) {
         asked = true;
         const boxes = tracked.persons.map(bodyBox);
-        if (boxes.length > 1) void report({ kind: 'persons', boxes, image: shown.of(picture) });
+        if (boxes.length > 1) void report({ kind: 'persons', time, boxes, image: shown.of(picture) });
       }
       if (performance.now() - reported > REPORT_INTERVAL_MS) {
         reported = performance.now();
@@ -118,7 +125,7 @@ async function read(
         void report({ kind: 'picture', time, landmarks, image: shown.of(picture) });
       }
       if (time >= nextPart) {
-        nextPart = start + PART.growth * (nextPart - start);
+        nextPart = from + PART.growth * (nextPart - from);
         const motion = motionSoFar(recorder.observations(), options);
         if (motion) void report({ kind: 'part', motion });
       }
@@ -130,6 +137,41 @@ async function read(
   } finally {
     video.close();
   }
+}
+
+interface PeopleRequest extends Pick<ReadRequest, 'file' | 'graphs'> {
+  /** Seconds of the video. */
+  readonly time: number;
+}
+
+/** Who could be followed from a moment on; null after the end of the video. */
+async function people({ file, graphs: list, time }: PeopleRequest): Promise<People | null> {
+  const video = await openVideo(file);
+  const pictures = video.pictures(time, Infinity);
+  try {
+    const graphs = await poseGraphs(list, () => undefined);
+    const first = await pictures.next();
+    if (first.done) return null;
+    const { time: shownAt, picture } = first.value;
+    const { width, height } = picture;
+    const { persons } = await detectPersons(graphs, new Cropper(), picture);
+    const image = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT)).of(picture);
+    return { time: shownAt, boxes: persons.map(bodyBox), image };
+  } finally {
+    await pictures.return(undefined);
+    video.close();
+  }
+}
+
+let graphs: Promise<PoseGraphs> | null = null;
+
+/** The networks, which are opened once. */
+function poseGraphs(list: string, onProgress: (fraction: number) => void): Promise<PoseGraphs> {
+  graphs ??= loadPoseGraphs(list, globalThis, onProgress).catch((error: unknown) => {
+    graphs = null;
+    throw error;
+  });
+  return graphs;
 }
 
 /** Makes small pictures of those of a video. */
@@ -182,7 +224,7 @@ function solve({ observations, options }: SolveRequest): VideoMotion {
   };
 }
 
-const tasks = { read, solve };
+const tasks = { read, people, solve };
 export type VideoTasks = typeof tasks;
 
 serve(tasks);

@@ -1,5 +1,5 @@
 /** What videos are read, and what is said of those that are not. */
-import type { Browser } from '@playwright/test';
+import type { Browser, Locator } from '@playwright/test';
 import { App } from '../support/app-page';
 import { expect, test } from '../support/fixtures';
 import type { Shot } from '../../web/support/filmed/shots';
@@ -152,6 +152,69 @@ test('who is far from where the dancer was lost is not followed instead', async 
   });
 });
 
+/** Where the skeleton is drawn, as a share of the picture's width. */
+function skeletonAt(panel: Locator): Promise<number> {
+  return panel.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
+    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    let [sum, count] = [0, 0];
+    // Yellow on the left of the body, blue on the right.
+    const lines = [0xffd166, 0x4cc9f0];
+    for (let i = 0; i < data.length; i += 4)
+      if (lines.includes((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!)) {
+        sum += (i / 4) % canvas.width;
+        count++;
+      }
+    return sum / count / canvas.width;
+  });
+}
+
+test('who comes into the picture later is followed from the moment in which they are chosen, also while it is read', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
+  const film = await studio.call('filmSeveral', 'walking', shot, 4, [-0.8, 0.9], 9, 1);
+  const buffer = Buffer.from(film, 'base64');
+  await studio.close();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  await app.drop({ name: 'later.webm', mimeType: 'video/webm', buffer });
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  const status = panel.getByRole('status');
+  const ready = /The dancer is the leader now/;
+  const people = panel.getByRole('button', { name: /Follow person \d from the largest/ });
+  const moment = panel.getByRole('slider', { name: 'Moment of the video' });
+  const another = panel.getByRole('button', { name: 'Follow another person' });
+  const frames = () => app.read(({ leader }) => leader?.motion.frames ?? 0);
+
+  await test.step('while it is read', async () => {
+    await expect(panel.getByText(/^Reading, /)).toBeVisible({ timeout: 60_000 });
+    await another.click();
+    await moment.fill('2');
+    await expect(people).toHaveCount(2);
+    await panel.getByRole('button', { name: 'Keep this person' }).click();
+    await expect(people).toHaveCount(0);
+    await expect(moment).toBeHidden();
+    await expect(status).toHaveText(ready, { timeout: 60_000 });
+    await expect.poll(() => skeletonAt(panel)).toBeLessThan(0.5);
+    await expect.poll(frames).toBeGreaterThan(100);
+  });
+
+  await another.click();
+  await expect(people, 'at the start there is one').toHaveCount(1);
+  await moment.fill('2');
+  await expect(people).toHaveCount(2);
+  const places = await people.evaluateAll((all) => all.map(({ style }) => parseFloat(style.left)));
+  await people.nth(places[0]! > places[1]! ? 0 : 1).press('Enter');
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  await expect(status).toHaveText(ready, { timeout: 60_000 });
+  await expect.poll(() => skeletonAt(panel)).toBeGreaterThan(0.5);
+  expect(await panel.locator('video').evaluate((one: HTMLVideoElement) => one.currentTime)).toBeCloseTo(2, 1);
+  await expect.poll(frames).toBeLessThan(65);
+});
+
 test('of several people the largest is followed, and another one who is clicked', async ({
   page,
   browser,
@@ -166,21 +229,7 @@ test('of several people the largest is followed, and another one who is clicked'
   await app.drop({ name: 'two.webm', mimeType: 'video/webm', buffer });
   const panel = page.getByRole('region', { name: 'Video of the leader' });
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
-  /** Where the skeleton is drawn, as a share of the picture's width. */
-  const skeletonAt = (): Promise<number> =>
-    panel.locator('canvas').evaluate((canvas: HTMLCanvasElement) => {
-      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
-      let [sum, count] = [0, 0];
-      // Yellow on the left of the body, blue on the right.
-      const lines = [0xffd166, 0x4cc9f0];
-      for (let i = 0; i < data.length; i += 4)
-        if (lines.includes((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!)) {
-          sum += (i / 4) % canvas.width;
-          count++;
-        }
-      return sum / count / canvas.width;
-    });
-  await expect.poll(skeletonAt).toBeLessThan(0.5);
+  await expect.poll(() => skeletonAt(panel)).toBeLessThan(0.5);
   // The dancers stand beside the video.
   const right = await panel.evaluate(({ offsetLeft, offsetWidth }: HTMLElement) => offsetLeft + offsetWidth);
   await app.until(({ covered }, width) => covered === width, right);
@@ -194,12 +243,13 @@ test('of several people the largest is followed, and another one who is clicked'
   // Cancelled, the person who was followed before is there as they were.
   await panel.getByRole('button', { name: 'Cancel' }).click();
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/);
-  await expect.poll(skeletonAt).toBeLessThan(0.5);
+  await expect.poll(() => skeletonAt(panel)).toBeLessThan(0.5);
   await panel.getByRole('button', { name: 'Follow another person' }).click();
+  await expect(people).toHaveCount(2);
   await page.mouse.click(box.x + 0.93 * box.width, box.y + 0.2 * box.height);
   await expect(panel.getByRole('progressbar')).toBeVisible();
   await expect(panel.getByRole('status')).toHaveText(/The dancer is the leader now/, { timeout: 60_000 });
-  await expect.poll(skeletonAt).toBeGreaterThan(0.5);
+  await expect.poll(() => skeletonAt(panel)).toBeGreaterThan(0.5);
   await panel.getByRole('button', { name: 'Close' }).click();
   await app.until(({ covered }) => covered === 0);
 });

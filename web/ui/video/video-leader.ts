@@ -2,7 +2,7 @@ import {
   createVideoReader,
   DEFAULT_FOCAL,
   type Observations,
-  type Point,
+  type PersonPick,
   type ReadReport,
   type VideoMotion,
   type VideoReader,
@@ -33,6 +33,8 @@ interface Session {
   readonly reader: VideoReader;
   readonly panel: VideoPanel;
   readonly ended: AbortController;
+  /** Ends the search for people in the picture of a moment. */
+  looking: AbortController;
   /** The video whose dancer is the leader until this one has been read; it is shown again if that fails. */
   before: Session | null;
   /** When the video's sound begins, seconds of the video; null where it has none. */
@@ -73,6 +75,7 @@ export class VideoLeader {
       file,
       reader: createVideoReader(),
       ended,
+      looking: new AbortController(),
       before,
       soundStart: null,
       songStart,
@@ -87,7 +90,8 @@ export class VideoLeader {
         cancel: () => {
           this.#cancelReading(session);
         },
-        pick: (point) => void this.#read(session, point),
+        look: (time) => void this.#look(session, time),
+        pick: (person) => void this.#read(session, person),
         change: (options) => void this.#solve(session, { ...session.options, ...options }),
         useSound: () => void this.#useSound(session),
         resized: () => {
@@ -105,7 +109,7 @@ export class VideoLeader {
     if (this.#session && this.#reading) this.#cancelReading(this.#session);
   }
 
-  async #read(session: Session, pick: Point | null): Promise<void> {
+  async #read(session: Session, pick: PersonPick | null): Promise<void> {
     const { file, reader, panel, ended } = session;
     this.#reading?.abort();
     const reading = new AbortController();
@@ -144,6 +148,20 @@ export class VideoLeader {
     } finally {
       if (this.#reading === reading) this.#reading = null;
       endAsked();
+    }
+  }
+
+  /** Shows who could be followed from a moment on, seconds of the video. */
+  async #look(session: Session, time: number): Promise<void> {
+    session.looking.abort();
+    session.looking = new AbortController();
+    const signal = AbortSignal.any([session.looking.signal, session.ended.signal]);
+    try {
+      const people = await session.reader.people(session.file, time, signal);
+      if (people) session.panel.showPeople(people);
+    } catch (error) {
+      if (signal.aborted || isAbort(error)) return;
+      this.files.fail(error, 'leader', session.file.name, () => void this.#look(session, time));
     }
   }
 

@@ -1,4 +1,11 @@
-import type { Observations, Point, ReadReport, VideoMotion, WorldOptions } from '../../video/client';
+import type {
+  Observations,
+  People,
+  PersonPick,
+  ReadReport,
+  VideoMotion,
+  WorldOptions,
+} from '../../video/client';
 import { el, rememberFocus, setText, setVariable } from '../widgets/dom';
 import { textButton, closeButton } from '../widgets/button';
 import { createControls, type Controls } from './controls';
@@ -13,8 +20,10 @@ export interface PanelActions {
   readonly close: () => void;
   /** What is being read is not wanted. */
   readonly cancel: () => void;
+  /** The people of a moment are to be shown, seconds of the video. */
+  readonly look: (time: number) => void;
   /** Another person is to be followed. */
-  readonly pick: (point: Point) => void;
+  readonly pick: (person: PersonPick) => void;
   readonly change: (options: Partial<WorldOptions>) => void;
   readonly useSound: () => void;
   /** The panel has another size, or is hidden or gone. */
@@ -37,13 +46,15 @@ export class VideoPanel {
   readonly #controls: Controls;
   readonly #giveBackFocus = rememberFocus();
   #span = { start: 0, end: 0, last: 0 };
+  /** When the reading began, milliseconds, and from which moment of the video on. */
   #begun = 0;
+  #from = 0;
   #part = 0;
   #hasSound = false;
   #soundUsed = false;
 
   constructor(host: HTMLElement, file: File, actions: PanelActions) {
-    this.#picture = new VideoPicture(file, actions.pick);
+    this.#picture = new VideoPicture(file, actions);
     this.#meter = el(
       'span',
       {
@@ -91,32 +102,38 @@ export class VideoPanel {
       case 'opened':
         this.#span = report;
         this.#hasSound = report.soundStart !== null;
-        this.#picture.setSize(report.width, report.height);
+        this.#picture.setVideo(report);
         this.#controls.setSpan(report);
         return;
       case 'networks':
         setText(this.#status, `Loading what finds the dancer, ${Math.round(100 * report.fraction)} %`);
         return;
       case 'persons':
-        this.#picture.showPersons(report);
+        this.showPeople(report);
         this.#say('Several people: the largest is followed. Click another one to follow them.');
         return;
       case 'picture':
-        this.#picture.showRead(report.image, report.landmarks);
+        this.#picture.showRead(report);
         this.#showProgress(report.time);
     }
+  }
+
+  /** People of whom one can be picked. */
+  showPeople(people: People): void {
+    this.#picture.showPeople(people);
   }
 
   /** How far the reading is. */
   #showProgress(time: number): void {
     const now = performance.now();
-    if (this.#begun === 0) this.#begun = now;
+    if (this.#begun === 0) [this.#begun, this.#from] = [now, time];
     const { start, end } = this.#span;
     const [read, all] = [time - start, end - start];
     const share = all > 0 ? Math.min(1, read / all) : 0;
     this.#progress(share);
     if (this.#picture.choosing) return;
-    const left = share > 0.02 ? ((now - this.#begun) / 1000) * (1 / share - 1) : null;
+    const pace = (time - this.#from) / ((now - this.#begun) / 1000);
+    const left = time - this.#from > 0.02 * all ? (end - time) / pace : null;
     const seen = `${read.toFixed(0)} of ${all.toFixed(0)} s`;
     const progress = left === null ? `Reading, ${seen}` : `Reading, ${seen}, ${timeLeft(left)}`;
     setText(

@@ -1,16 +1,8 @@
-import { type Observations, type Point } from '../../video/client';
+import type { Observations, People, ReadReport } from '../../video/client';
 import { textButton } from '../widgets/button';
 import { el, setText } from '../widgets/dom';
 import { drawSkeleton } from './skeleton-overlay';
-
-/** About where a person is seen: left, top, right, bottom, pixels. */
-type Box = readonly [number, number, number, number];
-
-/** People of whom one can be picked, and the picture in which they are. */
-interface People {
-  readonly boxes: readonly Box[];
-  readonly image: ImageBitmap;
-}
+import type { PanelActions } from './video-panel';
 
 /** How far the video may be from the dance before it is set right, seconds. */
 const MAX_DRIFT = 0.12;
@@ -28,30 +20,48 @@ export class VideoPicture {
       click: ({ offsetX, offsetY }) => {
         const { clientWidth, clientHeight } = this.#persons;
         const { width, height } = this.#size;
-        this.#picked({ x: (offsetX / clientWidth) * width, y: (offsetY / clientHeight) * height });
+        this.#picked((offsetX / clientWidth) * width, (offsetY / clientHeight) * height);
       },
     },
   });
-  /** Begins the choice of another person after one was read, and ends it. */
+  /** Begins the choice of another person, and ends it. */
   readonly #another = textButton('btn tint', FOLLOW_ANOTHER, () => {
     if (this.choosing) this.#endChoice();
-    else this.#choose();
+    else this.#look();
   });
+  /** The moment that is shown, seconds of the video; while a person is chosen it can be moved. */
+  readonly #moment = el('input', {
+    attributes: { type: 'range', step: 0.1, 'aria-label': 'Moment of the video' },
+    on: {
+      input: () => {
+        this.#persons.replaceChildren();
+        drawSkeleton(this.#canvas, null);
+        this.#video.currentTime = this.#moment.valueAsNumber;
+      },
+      change: () => {
+        this.#look();
+      },
+    },
+  });
+  readonly #hint = el('span', { attributes: { 'aria-live': 'polite' } });
+  readonly #choice = el('div', { class: 'choice' }, this.#hint, this.#moment);
   readonly #address: string;
   readonly #skeleton = el('input', { attributes: { type: 'checkbox', checked: true } });
   #size = { width: 1, height: 1 };
   #observations: Observations | null = null;
-  #people: People | null = null;
+  /** Whether the visitor has asked for the choice, which then outlasts the reading. */
+  #byVisitor = false;
+  /** Of the picture in which a person is chosen, seconds of the video. */
+  #time = 0;
 
-  /** @param pick is called with the place of a person that was clicked, pixels of the picture */
   constructor(
     file: Blob,
-    private readonly pick: (point: Point) => void,
+    private readonly actions: Pick<PanelActions, 'look' | 'pick'>,
   ) {
     this.#address = URL.createObjectURL(file);
     this.#video = el('video', { attributes: { src: this.#address, playsinline: true, preload: 'auto' } });
     this.#video.muted = true;
-    this.#another.hidden = true;
+    this.#another.hidden = this.#choice.hidden = true;
     this.#video.setAttribute('aria-label', 'The video');
     // What the page can read its player may still refuse, such as MOV: the skeleton is shown alone then.
     this.#video.addEventListener('error', () => {
@@ -67,46 +77,48 @@ export class VideoPicture {
     this.root = el(
       'div',
       { class: 'picture-of-video' },
+      // Above the picture, which may reach below the edge of a low window.
+      this.#another,
+      this.#choice,
       el('div', { class: 'frame' }, this.#video, this.#canvas, this.#persons),
       el('label', {}, this.#skeleton, ' Skeleton over the video'),
-      this.#another,
     );
   }
 
   /** Whether persons to choose from are shown. */
   get choosing(): boolean {
-    return this.#persons.childElementCount > 0;
+    return !this.#choice.hidden;
   }
 
-  setSize(width: number, height: number): void {
+  setVideo({ width, height, start, end }: Extract<ReadReport, { kind: 'opened' }>): void {
     this.#size = { width, height };
+    Object.assign(this.#moment, { min: start, max: end });
+    this.#another.hidden = false;
     this.#canvas.width = width;
     this.#canvas.height = height;
     this.root.style.setProperty('--aspect', String(width / height));
   }
 
-  /** People who can be picked in a picture. */
-  showPersons(people: People): void {
-    this.#people?.image.close();
-    this.#people = people;
-    this.#choose();
-  }
-
-  /** Shows a box around each of the people; a click anywhere picks the nearest. */
-  #choose(): void {
-    if (!this.#people) return;
+  /** Shows the picture of a moment with a box around each of the people; a click anywhere picks the nearest. */
+  showPeople({ time, boxes, image }: People): void {
     const { width, height } = this.#size;
+    this.#choice.hidden = false;
+    this.#moment.valueAsNumber = this.#time = time;
     this.#video.pause();
-    drawSkeleton(this.#canvas, null, this.#people.image);
+    drawSkeleton(this.#canvas, null, image);
+    image.close();
     setText(this.#another, 'Keep this person');
+    const found =
+      boxes.length > 0 ? 'Click the person to follow from this moment on' : 'Nobody is found here';
+    setText(this.#hint, `${found}, or choose another moment.`);
     this.#persons.replaceChildren(
-      ...this.#people.boxes.map(([left, top, right, bottom], i) => {
+      ...boxes.map(([left, top, right, bottom], i) => {
         const button = el('button', {
           attributes: { type: 'button', 'aria-label': `Follow person ${i + 1} from the largest` },
           on: {
             click: (event) => {
               event.stopPropagation();
-              this.#picked({ x: (left + right) / 2, y: (top + bottom) / 2 });
+              this.#picked((left + right) / 2, (top + bottom) / 2);
             },
           },
         });
@@ -121,31 +133,40 @@ export class VideoPicture {
     );
   }
 
+  #look(): void {
+    this.#byVisitor = true;
+    this.actions.look(this.#moment.valueAsNumber);
+  }
+
   #endChoice(): void {
+    this.#byVisitor = false;
+    this.#choice.hidden = true;
     this.#persons.replaceChildren();
     this.#drawAt(this.#video.currentTime);
     setText(this.#another, FOLLOW_ANOTHER);
   }
 
-  #picked(point: Point): void {
+  /** @param x, y place of a person, pixels of the picture */
+  #picked(x: number, y: number): void {
     // First, while the person that was pressed still has the focus.
-    this.pick(point);
+    this.actions.pick({ x, y, time: this.#time });
     this.#endChoice();
-    this.#another.hidden = true;
     this.#observations = null;
   }
 
   /** The picture that was read last; while persons can be chosen theirs stays. */
-  showRead(image: ImageBitmap, landmarks: Float32Array | null): void {
-    if (!this.choosing) drawSkeleton(this.#canvas, this.#skeleton.checked ? landmarks : null, image);
+  showRead({ time, image, landmarks }: Extract<ReadReport, { kind: 'picture' }>): void {
+    if (!this.choosing) {
+      drawSkeleton(this.#canvas, this.#skeleton.checked ? landmarks : null, image);
+      this.#moment.valueAsNumber = time;
+    }
     image.close();
   }
 
   /** The whole video has been read. */
   showObservations(observations: Observations): void {
     this.#observations = observations;
-    this.#endChoice();
-    this.#another.hidden = this.#people === null;
+    if (!this.#byVisitor) this.#endChoice();
   }
 
   showTime(
@@ -155,6 +176,7 @@ export class VideoPicture {
     if (this.choosing) return;
     const video = this.#video;
     const wanted = start + time;
+    this.#moment.valueAsNumber = wanted;
     video.playbackRate = speed;
     if (playing && video.paused) void video.play().catch(() => undefined);
     if (!playing && !video.paused) video.pause();
@@ -186,7 +208,6 @@ export class VideoPicture {
   }
 
   dispose(): void {
-    this.#people?.image.close();
     this.#video.pause();
     this.#video.removeAttribute('src');
     URL.revokeObjectURL(this.#address);

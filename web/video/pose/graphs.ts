@@ -55,13 +55,17 @@ export async function loadPoseGraphs(
   const landmarkSession = await open(landmarkBytes);
   // Compiled by now: its bytes need not stay in memory.
   delete runtime.env.wasm.wasmBinary;
+  /** The runs of the runtime follow each other: it can't do two at once. */
+  let last: Promise<unknown> = Promise.resolve();
   const run = async (
     session: ort.InferenceSession,
     image: Float32Array,
     side: number,
   ): Promise<Record<string, Float32Array>> => {
     const tensor = new runtime.Tensor('float32', image, [1, 3, side, side]);
-    const results = await session.run({ image: tensor });
+    const running = last.then(() => session.run({ image: tensor }));
+    last = running.catch(() => undefined);
+    const results = await running;
     return Object.fromEntries(
       Object.entries(results).map(([name, value]) => [name, value.data as Float32Array]),
     );

@@ -24,6 +24,11 @@ export interface Point {
   readonly y: number;
 }
 
+/** Where a person stands who is to be followed from a moment on, seconds of the video. */
+export interface PersonPick extends Point {
+  readonly time: number;
+}
+
 /** What was found in one picture. */
 export interface Tracked {
   /** Null where the person is not seen. */
@@ -64,9 +69,7 @@ export class PersonTracker {
     if (this.#region)
       return { ...(await this.#see(picture, time, this.#region)), persons: null, brightness: null };
     if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons: null, brightness: null };
-    const { input, toPicture, brightness } = this.#cropper.detectorInput(picture);
-    const { boxes, scores } = await this.graphs.detect(input);
-    const persons = personsOf(boxes, scores, toPicture);
+    const { persons, brightness } = await detectPersons(this.graphs, this.#cropper, picture);
     const found = this.#last ? sameAsLast(persons, this.#last, time) : nearest(persons, this.pick);
     this.#since = time;
     const seen = found ? await this.#see(picture, time, found.region) : { landmarks: null };
@@ -86,6 +89,17 @@ export class PersonTracker {
     if (time - this.#since >= MIN_SIGHTING) this.#last = { region: next, time };
     return { landmarks };
   }
+}
+
+/** The persons in a picture, the largest first, and its mean brightness, 0 to 1. */
+export async function detectPersons(
+  graphs: PoseGraphs,
+  cropper: Cropper,
+  picture: Picture,
+): Promise<{ readonly persons: readonly Person[]; readonly brightness: number }> {
+  const { input, toPicture, brightness } = cropper.detectorInput(picture);
+  const { boxes, scores } = await graphs.detect(input);
+  return { persons: personsOf(boxes, scores, toPicture), brightness };
 }
 
 /** The person nearest to where one was seen last, if they can have come so far. */

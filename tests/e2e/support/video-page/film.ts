@@ -27,10 +27,11 @@ import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import type { Shot } from '../../../web/support/filmed/shots';
 import { createMannequin } from './mannequin';
 
-/** A dancer in the picture, shifted along x by metres, who is there until a time in seconds. */
+/** A dancer in the picture, shifted along x by metres, who is there from and until a time in seconds. */
 export interface Cast {
   readonly motion: SolvedMotion;
   readonly aside?: number;
+  readonly from?: number;
   readonly until?: number;
 }
 
@@ -144,7 +145,8 @@ export async function film(
   const draw = (time: number): void => {
     mannequins.forEach((mannequin, i) => {
       mannequin.pose(time);
-      mannequin.mesh.visible = time < (cast[i]?.until ?? Infinity);
+      const { from = 0, until = Infinity } = cast[i]!;
+      mannequin.mesh.visible = time >= from && time < until;
     });
     renderer.render(scene, camera);
   };

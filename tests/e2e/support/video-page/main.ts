@@ -21,18 +21,19 @@ const page = {
   async film(motion: MotionName, shot: Shot, seconds: number, format?: VideoFormat): Promise<string> {
     return base64(await film([{ motion: motionOf(motion) }], shot, seconds, format));
   },
-  /** A video of the same dancer several times, each shifted along x by metres; the first leaves after so many seconds. */
+  /** A video of the same dancer several times, each shifted along x by metres; the first leaves after so many seconds, and the others come. */
   async filmSeveral(
     motion: MotionName,
     shot: Shot,
     seconds: number,
     aside: readonly number[],
     firstUntil = Infinity,
+    othersFrom = 0,
   ): Promise<string> {
     const cast = aside.map((x, i): Cast => ({
       motion: motionOf(motion),
       aside: x,
-      until: i === 0 ? firstUntil : Infinity,
+      ...(i === 0 ? { until: firstUntil } : { from: othersFrom }),
     }));
     return base64(await film(cast, shot, seconds));
   },
