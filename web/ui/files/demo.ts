@@ -3,6 +3,7 @@ import { fetchShipped } from '../../common/fetch';
 import { ROLES } from '../../common/role';
 import type { Manifest } from '../../model/client';
 import type { SolvedMotion } from '../../motion/skeleton/clip';
+import { isOf } from '../store/counting';
 import type { Files } from '../store/services';
 import {
   modelIdentity,
@@ -14,6 +15,7 @@ import {
 } from '../store/reaction';
 import { demoChanged, leaderLoaded, readingSet } from '../store/actions/files';
 import { reactionAdded, reactionCompleted } from '../store/actions/reaction';
+import { countingSet } from '../store/actions/counting';
 import { settingsSet } from '../store/actions/settings';
 import { apply, type Store } from '../store/store';
 import { playbackSet } from '../store/actions/view';
@@ -24,7 +26,11 @@ const named = { file: text, name: text, label: text };
 
 /** demo.json: the shipped demo's files, beside it, and what they are called on the page. */
 const schema = v.object({
-  song: v.object(named),
+  song: v.object({
+    ...named,
+    /** A "1" of its count, seconds: the bass of a salsa comes before it, so that it would be found a beat early. */
+    one: v.optional(v.number()),
+  }),
   leader: v.object(named),
   /** Moment that is shown before anything plays, seconds; the start when it is left out. */
   poster: v.optional(v.pipe(v.number(), v.minValue(0)), 0),
@@ -150,7 +156,7 @@ async function openSong(
   store: Store,
   files: Files,
   coming: Promise<Blob | null>,
-  { song: { name, label }, leader }: v.InferOutput<typeof schema>,
+  { song: { name, label, one }, leader }: v.InferOutput<typeof schema>,
 ): Promise<LoadedSong | null> {
   const reading = { name, fraction: 0 };
   apply(store, readingSet('song', reading));
@@ -159,5 +165,11 @@ async function openSong(
   if (now.reading.song !== reading) return null;
   apply(store, readingSet('song', null));
   const isOwn = now.leader !== null && now.leader.label !== leader.label;
-  return file && !isOwn ? files.openSong(file, name, label) : null;
+  if (!file || isOwn) return null;
+  const song = await files.openSong(file, name, label);
+  const { song: shown, countings } = store.getState();
+  // As a visitor has counted it earlier, it stays.
+  if (song && song === shown && one !== undefined && !countings.some((counting) => isOf(counting, song)))
+    apply(store, withoutUndo(countingSet({ one })));
+  return song;
 }

@@ -10,6 +10,7 @@ import type {
   ModelIdentity,
   Reaction,
 } from '../store/reaction';
+import { isOf } from '../store/counting';
 import type { AppState, Compare, Letter, SongCounting } from '../store/state';
 import { currentInputs, takeOnStage } from '../store/take';
 import type { Span } from '../store/time-scale';
@@ -206,10 +207,10 @@ export function storedInputs(inputs: Inputs): StoredInputs {
   return Object.fromEntries(Object.entries(inputs).filter(([key]) => key !== 'song' && key !== 'leader'));
 }
 
-/** Whether the page holds anything of the visitor's own; a demo that was only watched does not count. */
+/** Whether the page holds anything of the visitor's own; a demo that was only watched, and its count, are not. */
 export function hasVisitorContent({ takes, leader, song, countings }: AppState): boolean {
   return (
-    countings.length > 0 ||
+    countings.some((counting) => !song || song.label === null || !isOf(counting, song)) ||
     leader?.label === null ||
     song?.label === null ||
     takes.some(({ starred, name, reaction }) => starred || name !== null || reaction.label === null)

@@ -2,6 +2,8 @@ import { afterEach, describe, expect, it, vi } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { loadDemo } from '../../../../web/ui/files/demo';
 import { FileLoader } from '../../../../web/ui/files/file-loader';
+import { countedBeats } from '../../../../web/ui/store/counting';
+import { hasVisitorContent } from '../../../../web/ui/project/stored-project';
 import { Generation } from '../../../../web/ui/generation/generation';
 import { ManualGenerator } from '../../support/manual-generator';
 import * as change from '../../support/actions';
@@ -33,14 +35,14 @@ describe('the demo’s ready-made reaction', () => {
   ): Promise<void> => {
     change.apply(store, change.manifestLoaded(small, 7));
     const reactor = { file: 'reactor', label: 'demo reaction', model, settings };
-    const demo = JSON.stringify({ song: named('song'), leader: named('leader'), reactor });
+    const demo = JSON.stringify({ song: { ...named('song'), one: 1.6 }, leader: named('leader'), reactor });
     vi.stubGlobal('fetch', async ({ pathname }: URL) => {
       if (pathname.endsWith('/song') && songAnswer !== null) await beforeSong;
       const status = pathname.endsWith('/song') && songAnswer === false ? 503 : 200;
       return new Response(pathname.endsWith('.json') ? demo : 'content', { status });
     });
     const readers = {
-      loadSong: () => beforeSong.then(() => songData(1)),
+      loadSong: () => beforeSong.then(() => songData(3)),
       readLeader: () => Promise.resolve({ file: leaderFile(30), motion: still(30) }),
       manifest: () => Promise.resolve(small),
     };
@@ -81,6 +83,15 @@ describe('the demo’s ready-made reaction', () => {
       reaction: { label: 'demo reaction', model: { id: small.id }, inputs: { song: { name: 'song' } } },
     });
     expect(takes).toHaveLength(1);
+  });
+
+  it('has its song counted as its file says, which is nothing of the visitor’s own', async () => {
+    const store = await loadWhile();
+    const beats = countedBeats(store.getState());
+    expect(beats.times[beats.first]).toBe(1.5);
+    expect(hasVisitorContent(store.getState())).toBe(false);
+    change.apply(store, change.songLoaded({ ...store.getState().song!, label: null }));
+    expect(hasVisitorContent(store.getState())).toBe(true);
   });
 
   it('is left out with another model, which keeps its own settings', async () => {
