@@ -13,6 +13,8 @@ test('the shipped demo plays a duet on one click', async ({ page }) => {
   await app.until(({ demo, reading }) => demo !== 'loading' && !reading.song);
   await expect(page.getByRole('button', { name: /^Song: .*demo/ })).toBeVisible();
   await expect(page.getByRole('button', { name: /^Leader: .*demo/ })).toBeVisible();
+  // The poster's 12.4 s are in the 33rd beat of 164 BPM from the "1" that demo.json gives.
+  await expect(page.getByRole('button', { name: /^Bar .* Count/ })).toHaveText(/Bar\s*9\s*Count\s*1/);
   await page.getByRole('button', { name: 'Play the demo' }).click();
   await app.until(({ playback }) => playback.playing && playback.time > 0.5);
   await expect(page.getByRole('heading', { name: /Drop a video/ })).toBeHidden();

@@ -22,8 +22,8 @@ export interface Rhythm extends Metre {
 const MIN_CLARITY = 0.19;
 /** Clarity from which the beat is sure: songs with a steady beat have 0.31 and more, strings in free time 0.21. */
 const SURE_CLARITY = 0.25;
-/** Weight of a change of harmony, 0 to 1, beside the logarithm of the bass's ratio. */
-const HARMONY_WEIGHT = 30;
+/** Evidence that a change of harmony, 0 to 1, gives beside the logarithm of the bass's ratio. */
+const HARMONY_EVIDENCE = 30;
 /** Evidence from which the moments halfway between the beats are the beats. */
 const MIN_EVIDENCE = 0.25;
 /** With fewer beats than this nothing is counted. */
@@ -62,7 +62,8 @@ function onTheBeat(beats: readonly number[], accents: Accents): readonly number[
     frames.reduce((sum, frame) => sum + strongest(accents.bass, frame), 1e-6) / Math.max(1, frames.length);
   const harmony = (frames: readonly number[]): number =>
     Math.max(...phaseMeans(harmonyChanges(frames, accents, beatsPerBar), beatsPerBar));
-  const evidence = Math.log(bass(halves) / bass(beats)) + HARMONY_WEIGHT * (harmony(halves) - harmony(beats));
+  const evidence =
+    Math.log(bass(halves) / bass(beats)) + HARMONY_EVIDENCE * (harmony(halves) - harmony(beats));
   return evidence > MIN_EVIDENCE ? halves : beats;
 }
 

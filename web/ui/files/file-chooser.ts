@@ -1,11 +1,15 @@
 import { MOTION_ENDINGS } from '../../motion/import/format';
 import type { FileChoice } from '../store/services';
 
+const VIDEOS = 'video/*,.mov,.mkv';
+/** A video chosen as the song gives its sound. */
+const SONGS = `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,${VIDEOS}`;
+
 /** What the system's file chooser offers; the type is decided by the file's content. */
 const ACCEPT = {
-  song: 'audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv',
-  leader: `${MOTION_ENDINGS},video/*,.mov,.mkv`,
-  any: `audio/*,.mp3,.wav,.ogg,.oga,.opus,.flac,.m4a,.aac,.webm,video/*,.mov,.mkv,${MOTION_ENDINGS},.reactdance`,
+  song: SONGS,
+  leader: `${MOTION_ENDINGS},${VIDEOS}`,
+  any: `${SONGS},${MOTION_ENDINGS},.reactdance`,
   project: '.reactdance,.zip',
 } as const;
 
