@@ -14,6 +14,7 @@ from training.evaluation.metrics.distance import (
     cross_distances,
     facing,
     hand_distance,
+    hands_held,
     root_distance,
     wasserstein,
 )
@@ -62,6 +63,7 @@ def duet_metrics(
         ),
         "distance_w1_m": wasserstein(root_distance(leader, truth), root_distance(leader, made)),
         "hands_w1_m": wasserstein(hand_distance(leader, truth), hand_distance(leader, made)),
+        "hands_held": hands_held(leader, made),
         "facing_w1_deg": wasserstein(facing(leader, truth), facing(leader, made)),
         **feet,
         "pfc": physical_foot_contact(made),

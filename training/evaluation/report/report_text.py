@@ -34,13 +34,14 @@ COLUMNS: tuple[tuple[str, str, int], ...] = (
     ("skate", "skate_share", 2),
     ("contact", "contact_share", 2),
     ("IPR caps", "ipr_capsules", 3),
+    ("hands", "hands_held", 2),
     ("BED", "bed_forward", 3),
     ("BAS", "bas", 3),
     ("FID_k", "fid_k corrected", 1),
     ("FID_g", "fid_g corrected", 1),
     ("FID_cd", "fid_cd", 1),
 )
-DUET_COLUMNS = COLUMNS[:11]  # FID exists only for all duets together
+DUET_COLUMNS = COLUMNS[:12]  # FID exists only for all duets together
 
 
 def markdown(numbers: Numbers, title: str, pictures: list[Path], videos: list[Path]) -> str:

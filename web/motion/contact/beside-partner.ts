@@ -3,12 +3,14 @@ import { bringDown } from './bring-down';
 import type { BodyRule } from './capsules';
 import { avoidCollisions } from './collision-avoidance';
 import { liftFeet } from './floor-clearance';
+import { holdHands } from './hand-hold';
 import { separateLegs } from './leg-separation';
 import { type GlideRule, limitRootSpeed } from './root-speed';
 
 /**
  * What a dancer keeps to beside a partner: moved out of the partner's body, no faster over the floor than dancers go,
- * brought down where they stay off the floor, with legs out of each other and feet out of the floor. Pure.
+ * brought down where they stay off the floor, with legs out of each other, feet out of the floor, and hands that go with
+ * the partner's hands near them. Pure.
  *
  * @param partner of the same frames and rate
  * @param rules capsules of both bodies, and how fast a root may be
@@ -20,5 +22,5 @@ export function besidePartner(
 ): SolvedMotion {
   const apart = avoidCollisions(motion, partner, rules.penetration);
   const down = bringDown(limitRootSpeed(apart, partner, rules.glide));
-  return liftFeet(separateLegs(down));
+  return holdHands(liftFeet(separateLegs(down)), partner);
 }

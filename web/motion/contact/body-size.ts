@@ -20,7 +20,7 @@ import {
   X_AXIS,
 } from '../math/vec3';
 import { gaussianFilter } from '../math/statistics';
-import { maxLegLength, twoBoneIk } from './two-bone-ik';
+import { maxLimbLength, twoBoneIk } from './two-bone-ik';
 
 /** A limb by its joints; `bends` is 1 where its lower bone bends forwards, as an arm's, and -1 where backwards. */
 interface Limb {
@@ -135,10 +135,10 @@ function reach(
   const bend = cross(upper, lower);
   const straight = scale(cross(along, forward), bends * BEND_WEIGHT * length(upper) * length(lower));
   const hinge = perpendicular(add(bend, straight), along, X_AXIS);
-  const target = within(from, at(end), wanted, maxLegLength(upper, lower));
-  const turns = twoBoneIk({ hip: from, thigh: upper, shin: lower, hinge }, target);
-  const knee = add(from, rotate(turns.thigh, upper));
-  return { middle: knee, end: add(knee, rotate(turns.shin, lower)) };
+  const target = within(from, at(end), wanted, maxLimbLength(upper, lower));
+  const turns = twoBoneIk({ start: from, upper, lower, hinge }, target);
+  const knee = add(from, rotate(turns.upper, upper));
+  return { middle: knee, end: add(knee, rotate(turns.lower, lower)) };
 }
 
 /** The point nearest to `to` on the way from `from`, which lies within the radius around `centre`, that does so too. */

@@ -1,8 +1,8 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
 import { separateLegs } from './leg-separation';
-import { bonesAt, LEGS, type LegJoints, shiftFoot } from './shifted-foot';
-import { maxLegLength } from './two-bone-ik';
+import { LEGS, type LegJoints, shiftFoot } from './shifted-foot';
+import { bonesAt, maxLimbLength } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import { add, type Vec3, writeVec } from '../math/vec3';
@@ -21,13 +21,16 @@ interface HoldOptions {
 }
 
 /** Where the ankle is from the hip, frames x 3 metres, and how far from it the leg reaches, metres. */
-function legReach(motion: SolvedMotion, joints: LegJoints): Record<'ankles' | 'reach', Float64Array> {
+function legReach(
+  motion: SolvedMotion,
+  { hip, knee, ankle }: LegJoints,
+): Record<'ankles' | 'reach', Float64Array> {
   const ankles = new Float64Array(3 * motion.frames);
   const reach = new Float64Array(motion.frames);
   for (let t = 0; t < motion.frames; t++) {
-    const { thigh, shin } = bonesAt(motion.positions, joints, t);
-    writeVec(ankles, t, add(thigh, shin));
-    reach[t] = maxLegLength(thigh, shin);
+    const { upper, lower } = bonesAt(motion.positions, t, [hip, knee, ankle]);
+    writeVec(ankles, t, add(upper, lower));
+    reach[t] = maxLimbLength(upper, lower);
   }
   return { ankles, reach };
 }

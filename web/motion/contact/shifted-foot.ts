@@ -1,5 +1,5 @@
 import type { SolvedMotion } from '../skeleton/clip';
-import { twoBoneIk } from './two-bone-ik';
+import { bonesAt, twoBoneIk } from './two-bone-ik';
 import { between, conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 import { add, direction, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
@@ -16,20 +16,6 @@ export const LEGS: readonly LegJoints[] = [
   { hip: J.left_hip, knee: J.left_knee, ankle: J.left_ankle, toe: J.left_foot },
   { hip: J.right_hip, knee: J.right_knee, ankle: J.right_ankle, toe: J.right_foot },
 ];
-
-/** The vectors from hip to knee and from knee to ankle, metres. */
-export function bonesAt(
-  positions: Float32Array,
-  { hip, knee, ankle }: LegJoints,
-  frame: number,
-): { thigh: Vec3; shin: Vec3 } {
-  const row = frame * JOINT_COUNT;
-  const middle = readVec(positions, row + knee);
-  return {
-    thigh: sub(middle, readVec(positions, row + hip)),
-    shin: sub(readVec(positions, row + ankle), middle),
-  };
-}
 
 /**
  * Writes one leg of one frame with its foot shifted: the ankle goes as far as asked, by two-bone inverse kinematics, and
@@ -55,11 +41,10 @@ export function shiftFoot(
     between(direction(sole, X_AXIS), direction(add(sole, sub(shift.toe, shift.ankle)), X_AXIS)),
     before,
   );
-  const start = readVec(motion.positions, row + hip);
   // In the rest pose knees bend about x.
-  const leg = { hip: start, ...bonesAt(motion.positions, joints, frame), hinge: rotate(thigh, X_AXIS) };
-  const turns = twoBoneIk(leg, add(add(start, add(leg.thigh, leg.shin)), shift.ankle));
-  const [upper, lower] = [multiply(turns.thigh, thigh), multiply(turns.shin, shin)];
+  const leg = { ...bonesAt(motion.positions, frame, [hip, knee, ankle]), hinge: rotate(thigh, X_AXIS) };
+  const turns = twoBoneIk(leg, add(readVec(motion.positions, row + ankle), shift.ankle));
+  const [upper, lower] = [multiply(turns.upper, thigh), multiply(turns.lower, shin)];
   const put = (joint: number, parent: Quat, turn: Quat): void =>
     writeQuat(shifted.rotations, row + joint, multiply(conjugate(parent), turn));
   put(hip, pelvis, upper);
@@ -70,5 +55,5 @@ export function shiftFoot(
     writeVec(shifted.positions, row + joint, to);
     return to;
   };
-  place(toe, place(ankle, place(knee, start, upper), lower), foot);
+  place(toe, place(ankle, place(knee, leg.start, upper), lower), foot);
 }

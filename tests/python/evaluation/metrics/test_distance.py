@@ -11,6 +11,7 @@ from training.evaluation.metrics.distance import (
     cross_distances,
     facing,
     hand_distance,
+    hands_held,
     root_distance,
     wasserstein,
 )
@@ -37,6 +38,18 @@ def test_nearest_hands_of_four_pairs():
     leader[:, 20], leader[:, 21] = (0.0, 1.0, 0.0), (1.0, 1.0, 0.0)
     reactor[:, 20], reactor[:, 21] = (5.0, 1.0, 0.0), (1.0, 1.3, 0.4)
     assert hand_distance(leader, reactor) == pytest.approx(np.full(61, 0.5))
+
+
+def test_hands_are_held_where_wrists_are_near_and_go_together():
+    leader, reactor = random_walk(90), random_walk(90, seed=1)
+    leader[:, 20:22] = leader[:, :1] + np.array([[0.3, 0.2, 0.0], [-5.0, 0.0, 0.0]])
+    reactor[:, 20:22] = leader[:, 20:22] + np.array([[0.3, 0.0, 0.0], [9.0, 0.0, 0.0]])
+    assert hands_held(leader, reactor) == 1.0
+    reactor[45:, 20, 1] += 0.5
+    assert hands_held(leader, reactor) == pytest.approx(0.5, abs=0.03), "too far away in the second half"
+    reactor[45:, 20] = leader[45:, 20]
+    reactor[45:, 20, 1] += 0.3 * np.sin(np.arange(45) * 0.8)
+    assert hands_held(leader, reactor) == pytest.approx(0.5, abs=0.12), "near, but to and fro"
 
 
 def test_wasserstein_of_a_shift_is_the_shift():

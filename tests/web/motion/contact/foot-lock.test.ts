@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { lockFeet } from '../../../../web/motion/contact/foot-lock';
 import { leastSquaresShift } from '../../../../web/motion/contact/least-squares-shift';
-import { type Leg, twoBoneIk } from '../../../../web/motion/contact/two-bone-ik';
+import { type Limb, twoBoneIk } from '../../../../web/motion/contact/two-bone-ik';
 import { contactIntervals } from '../../../../web/motion/contact/foot-contacts';
 import { rotate } from '../../../../web/motion/math/quat';
 import { FEET, J } from '../../../../web/motion/skeleton/skeleton';
@@ -214,15 +214,15 @@ describe('the least-squares shift', () => {
 });
 
 describe('two-bone inverse kinematics', () => {
-  const bentBy = (angle: number): Leg => ({
-    hip: [0.1, 0.9, 0],
-    thigh: [0, -0.42, 0],
-    shin: [0.03, -0.4 * Math.cos(angle), -0.4 * Math.sin(angle)],
+  const bentBy = (angle: number): Limb => ({
+    start: [0.1, 0.9, 0],
+    upper: [0, -0.42, 0],
+    lower: [0.03, -0.4 * Math.cos(angle), -0.4 * Math.sin(angle)],
     hinge: [1, 0, 0],
   });
-  const ankleOf = (leg: Leg, target: Vec3): Vec3 => {
-    const { thigh, shin } = twoBoneIk(leg, target);
-    return add(leg.hip, add(rotate(thigh, leg.thigh), rotate(shin, leg.shin)));
+  const ankleOf = (leg: Limb, target: Vec3): Vec3 => {
+    const { upper, lower } = twoBoneIk(leg, target);
+    return add(leg.start, add(rotate(upper, leg.upper), rotate(lower, leg.lower)));
   };
 
   test.each([0.1, 0.6, 1.4])('brings the ankle to the target from a knee bent by %f', (angle) => {
@@ -238,22 +238,22 @@ describe('two-bone inverse kinematics', () => {
   test('stretches towards a target that is too far', () => {
     const target: Vec3 = [0.1, -0.3, 0.4];
     const leg = bentBy(0.6);
-    const way = sub(ankleOf(leg, target), leg.hip);
+    const way = sub(ankleOf(leg, target), leg.start);
     expect(length(way)).toBeCloseTo(Math.hypot(0.82, 0.03), 3);
-    expect(dot(way, sub(target, leg.hip))).toBeCloseTo(length(way) * distance(target, leg.hip), 9);
+    expect(dot(way, sub(target, leg.start))).toBeCloseTo(length(way) * distance(target, leg.start), 9);
   });
 
   test('leaves a leg as it is whose ankle is at the target, even with a knee bent forwards by noise', () => {
     for (const angle of [-0.1, -0.01, 0.01, 0.5]) {
       const leg = bentBy(angle);
-      const { thigh, shin } = twoBoneIk(leg, add(leg.hip, add(leg.thigh, leg.shin)));
-      for (const turn of [thigh, shin]) expect(Math.abs(turn[3])).toBeGreaterThan(1 - 1e-9);
+      const { upper, lower } = twoBoneIk(leg, add(leg.start, add(leg.upper, leg.lower)));
+      for (const turn of [upper, lower]) expect(Math.abs(turn[3])).toBeGreaterThan(1 - 1e-9);
     }
   });
 
   test('does not jump where the knee passes through the straight leg', () => {
     const target: Vec3 = [0.15, 0.12, 0.05];
-    const kneeAt = (angle: number): Vec3 => rotate(twoBoneIk(bentBy(angle), target).thigh, [0, -0.42, 0]);
+    const kneeAt = (angle: number): Vec3 => rotate(twoBoneIk(bentBy(angle), target).upper, [0, -0.42, 0]);
     for (let angle = -0.1; angle < 0.1; angle += 0.005) {
       expect(distance(kneeAt(angle), kneeAt(angle + 0.005))).toBeLessThan(0.003);
     }
