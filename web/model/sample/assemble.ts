@@ -95,8 +95,8 @@ export class Assembler {
   }
 
   /**
-   * Gives the dancer their size, fits the body to the joints, moves it out of the other dancer's, limits the root's
-   * speed, brings down who stays off the floor, and keeps legs out of each other and feet out of the floor.
+   * Gives the dancer their size, fits the body to the joints, and lets it keep to what it does beside the other dancer's
+   * (see `besidePartner`).
    * @param leader the frames of the loaded dancer that belong to the clip's
    */
   #solve(clip: MotionClip, dance: Dance, leader: MotionClip): SolvedMotion {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { besidePartner } from '../../../../web/motion/contact/beside-partner';
 import { holdHands } from '../../../../web/motion/contact/hand-hold';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
 import { add, direction, distance, scale, sub, type Vec3 } from '../../../../web/motion/math/vec3';
@@ -7,6 +8,7 @@ import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { J, JOINT_COUNT, MIRROR } from '../../../../web/motion/skeleton/skeleton';
 import { at, expectSound, moves, top } from '../../support/moved-feet';
 import { eased, madeStander } from '../../support/made-stander';
+import { small } from '../../support/small-manifest';
 
 const FRAMES = 150;
 const ARMS = [J.left_elbow, J.right_elbow, J.left_wrist, J.right_wrist];
@@ -207,13 +209,19 @@ describe('holdHands', () => {
         return values.slice(from * width, to * width);
       };
       const parts = Object.entries(clip).map(([key, value]: [string, unknown]): [string, unknown] => [
-      key,
-      value instanceof Float32Array && key !== 'offsets' ? rows(value) : value,
-    ]);
-    return { ...(Object.fromEntries(parts) as unknown as T), frames: to - from };
+        key,
+        value instanceof Float32Array && key !== 'offsets' ? rows(value) : value,
+      ]);
+      return { ...(Object.fromEntries(parts) as unknown as T), frames: to - from };
     };
     const whole = cut(holdHands(drifting, partner), 65, 85);
     const part = cut(holdHands(cut(drifting, 20, 130), cut(partner, 20, 130)), 45, 65);
     for (const joint of ARMS) expect(top(moves(whole, part, joint))).toBeLessThan(1e-6);
+  });
+
+  it('belongs to what a dancer keeps to beside a partner', () => {
+    const partner = opposite(still, apart(0.12));
+    const kept = besidePartner(drifting, partner, small.quality);
+    expect(drift(kept, partner)).toBeLessThan(0.4 * drift(drifting, partner));
   });
 });
