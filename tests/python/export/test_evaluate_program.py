@@ -56,14 +56,17 @@ def test_the_pages_solver_keeps_bones_rigid():
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="Node is not installed")
 def test_the_pages_solver_keeps_the_dancer_out_of_the_leader():
-    """A dancer inside the leader is moved aside over the floor, no farther than needed."""
+    """A dancer inside the leader is moved aside over the floor, no farther than needed; only arms, which hold the
+    leader's hands, leave their height.
+    """
     motion = np.repeat(made_duet(90, 1).leader[:1], 90, axis=0)
     inside = motion + np.array([0.1, 0, 0], np.float32)
     free, solved = (solve_with_node([inside], motion + np.array([x, 0, 0], np.float32))[0] for x in (3, 0))
     aside = solved - free
     assert np.median(overlap_depth(motion, inside)) > 0.1
-    assert np.abs(aside[..., 1]).max() < 1e-6  # legs are computed again from where they are
-    assert 0.05 < np.linalg.norm(aside, axis=-1).max() < 0.64
+    body = [j for j, joint in enumerate(JOINTS) if "elbow" not in joint and "wrist" not in joint]
+    assert np.abs(aside[:, body, 1]).max() < 1e-6  # legs are computed again from where they are
+    assert 0.05 < np.linalg.norm(aside[:, body], axis=-1).max() < 0.64
     trunk = [JOINTS.index(joint) for joint in ("pelvis", "spine1", "spine2", "spine3", "neck", "head")]
     assert np.linalg.norm(solved[:, trunk] - motion[:, trunk], axis=-1).min() > 0.2
 
