@@ -21,7 +21,10 @@ export const LEGS = [
 ] as const;
 export const KNEES = LEGS.map(([, knee]) => knee);
 
-/** What holds for every motion of which only some joints were moved: consistent positions, unit quaternions without sign flips, nothing else moved. */
+/**
+ * What holds for every motion of which only some joints were moved: consistent positions, unit quaternions without sign
+ * flips, nothing else moved.
+ */
 export function expectSound(
   free: SolvedMotion,
   moved: SolvedMotion,

@@ -17,8 +17,8 @@ import { gaussianFilter } from '../math/statistics';
 import { bonesAt, maxLimbLength, twoBoneIk } from './two-bone-ik';
 
 /**
- * From the wrist to where a hand is held, on from the forearm, metres. Where captured dancers hold hands, points there are
- * the nearest to each other.
+ * From the wrist to where a hand is held, on from the forearm, metres. Where captured dancers hold hands, points there
+ * are nearest to each other.
  */
 const HAND = 0.15;
 /** Distance of two hands up to which they hold each other, and from which on they do not, metres. */
@@ -31,10 +31,13 @@ const SMOOTHING = 0.3;
 /** Shift of a hand from which on it begins to let go, and from which on it stays where it was, metres. */
 const LONG = 0.2;
 const TOO_LONG = 0.4;
-/** Distance of a wrist from its shoulder, as a share of the arm's length, up to which the arm stays as it is, and from which the hand is free to be held: near the shoulder a small shift swings the whole arm. */
+/**
+ * Distance of a wrist from its shoulder, as a share of the arm's length, up to which the arm stays as it is, and from
+ * which the hand is free to be held: near the shoulder a small shift swings the whole arm.
+ */
 const FOLDED = 0.4;
 const OPEN = 0.8;
-/** Standard deviation of the filter over the shifts, which keeps jerks of the partner's hands from the dancer's, seconds. */
+/** Standard deviation of the filter over the shifts, which keeps out jerks of the partner's hands, seconds. */
 const STEADINESS = 0.067;
 
 interface ArmJoints {
@@ -53,9 +56,9 @@ const ARMS: readonly ArmJoints[] = [
 /**
  * Lets a dancer hold the partner's hands where their own are near them.
  *
- * Decoded hands come to the right region but drift about in it, while hands that hold each other go the same way. So near
- * a hand of the partner the way from hand to hand is replaced by its slow part, no longer than a grip. Upper arms and
- * forearms follow by two-bone inverse kinematics; nothing else moves, and the partner stays. Pure.
+ * Decoded hands come to the right region but drift about in it, while hands that hold each other go the same way. So
+ * near a hand of the partner the way from hand to hand is replaced by its slow part, no longer than a grip. Upper arms
+ * and forearms follow by two-bone inverse kinematics; nothing else moves, and the partner stays. Pure.
  *
  * @param partner of the same frames and rate
  */
