@@ -28,7 +28,7 @@ export function liftFeet(motion: SolvedMotion, toeRest = SOLE): SolvedMotion {
   const rotations = motion.rotations.slice();
   const positions = motion.positions.slice();
   for (const joints of LEGS) {
-    const ankles = liftOf(motion, joints.ankle, toeRest - motion.offsets[joints.toe * 3 + 1]!);
+    const ankles = liftOf(motion, joints.end, toeRest - motion.offsets[joints.toe * 3 + 1]!);
     const toes = liftOf(motion, joints.toe, toeRest);
     for (let frame = 0; frame < motion.frames; frame++) {
       const [ankle, toe] = [ankles[frame]!, toes[frame]!];

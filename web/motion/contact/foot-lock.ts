@@ -21,14 +21,11 @@ interface HoldOptions {
 }
 
 /** Where the ankle is from the hip, frames x 3 metres, and how far from it the leg reaches, metres. */
-function legReach(
-  motion: SolvedMotion,
-  { hip, knee, ankle }: LegJoints,
-): Record<'ankles' | 'reach', Float64Array> {
+function legReach(motion: SolvedMotion, leg: LegJoints): Record<'ankles' | 'reach', Float64Array> {
   const ankles = new Float64Array(3 * motion.frames);
   const reach = new Float64Array(motion.frames);
   for (let t = 0; t < motion.frames; t++) {
-    const { upper, lower } = bonesAt(motion.positions, t, [hip, knee, ankle]);
+    const { upper, lower } = bonesAt(motion.positions, leg, t);
     writeVec(ankles, t, add(upper, lower));
     reach[t] = maxLimbLength(upper, lower);
   }
@@ -45,7 +42,7 @@ function shiftOf(
   { contacts, weight }: HoldOptions,
 ): { x: Float64Array; z: Float64Array } {
   const { frames, positions } = motion;
-  const feet = [joints.ankle, joints.toe].map((joint) => ({
+  const feet = [joints.end, joints.toe].map((joint) => ({
     joint,
     contacts: contacts(joint),
   }));

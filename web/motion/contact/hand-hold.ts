@@ -1,20 +1,8 @@
-import {
-  add,
-  direction,
-  length,
-  readVec,
-  scale,
-  smoothstep,
-  sub,
-  type Vec3,
-  writeVec,
-  ZERO,
-} from '../math/vec3';
-import { conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
+import { add, direction, length, readVec, scale, smoothstep, sub, type Vec3, ZERO } from '../math/vec3';
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
-import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
+import { J, JOINT_COUNT } from '../skeleton/skeleton';
 import { gaussianFilter } from '../math/statistics';
-import { bonesAt, maxLimbLength, twoBoneIk } from './two-bone-ik';
+import { bonesAt, type LimbJoints, maxLimbLength, shiftEnd } from './two-bone-ik';
 
 /**
  * From the wrist to where a hand is held, on from the forearm, metres. Where captured dancers hold hands, points there
@@ -40,17 +28,9 @@ const OPEN = 0.8;
 /** Standard deviation of the filter over the shifts, which keeps out jerks of the partner's hands, seconds. */
 const STEADINESS = 0.067;
 
-interface ArmJoints {
-  readonly shoulder: number;
-  readonly elbow: number;
-  readonly wrist: number;
-  /** The axis about which the elbow bends in the rest pose. */
-  readonly hinge: Vec3;
-}
-
-const ARMS: readonly ArmJoints[] = [
-  { shoulder: J.left_shoulder, elbow: J.left_elbow, wrist: J.left_wrist, hinge: [0, -1, 0] },
-  { shoulder: J.right_shoulder, elbow: J.right_elbow, wrist: J.right_wrist, hinge: [0, 1, 0] },
+const ARMS: readonly LimbJoints[] = [
+  { start: J.left_shoulder, middle: J.left_elbow, end: J.left_wrist, hinge: [0, -1, 0] },
+  { start: J.right_shoulder, middle: J.right_elbow, end: J.right_wrist, hinge: [0, 1, 0] },
 ];
 
 /**
@@ -68,106 +48,75 @@ export function holdHands(motion: SolvedMotion, partner: MotionClip): SolvedMoti
   for (const arm of ARMS) {
     const shifts = shiftsOf(motion, partner, arm);
     for (let frame = 0; frame < motion.frames; frame++) {
-      const shift = readVec(shifts, frame);
-      if (shift.some(Boolean)) shiftWrist(motion, arm, frame, shift, { rotations, positions });
+      const shift = vectorAt(shifts, frame);
+      if (shift.some(Boolean)) shiftEnd(motion, arm, frame, shift, { rotations, positions });
     }
   }
   return { ...motion, rotations, positions };
 }
 
-/** By how much a wrist goes with the hands of the partner that it is near, frames x 3 metres. */
-function shiftsOf(motion: SolvedMotion, partner: MotionClip, arm: ArmJoints): Float64Array {
+/** One number a frame along each axis, metres. */
+type Columns = readonly [Float64Array, Float64Array, Float64Array];
+
+function columns(frames: number, at: (frame: number) => Vec3): Columns {
+  const [x, y, z] = [new Float64Array(frames), new Float64Array(frames), new Float64Array(frames)];
+  for (let frame = 0; frame < frames; frame++) {
+    const vector = at(frame);
+    x[frame] = vector[0];
+    y[frame] = vector[1];
+    z[frame] = vector[2];
+  }
+  return [x, y, z];
+}
+
+function filtered([x, y, z]: Columns, deviation: number): Columns {
+  return [gaussianFilter(x, deviation), gaussianFilter(y, deviation), gaussianFilter(z, deviation)];
+}
+
+function vectorAt([x, y, z]: Columns, frame: number): Vec3 {
+  return [x[frame]!, y[frame]!, z[frame]!];
+}
+
+/** By how much a wrist goes with the hands of the partner that it is near. */
+function shiftsOf(motion: SolvedMotion, partner: MotionClip, arm: LimbJoints): Columns {
   const { positions, frames, fps } = motion;
   const ways = ARMS.map((theirs) => {
-    const way = new Float64Array(3 * frames);
-    for (let frame = 0; frame < frames; frame++)
-      writeVec(way, frame, sub(handAt(positions, arm, frame), handAt(partner.positions, theirs, frame)));
+    const way = columns(frames, (frame) =>
+      sub(handAt(positions, arm, frame), handAt(partner.positions, theirs, frame)),
+    );
     return { way, slow: filtered(way, SMOOTHING * fps) };
   });
-  const shifts = new Float64Array(3 * frames);
-  for (let frame = 0; frame < frames; frame++) {
+  const shifts = columns(frames, (frame) => {
     let [sum, weights] = [ZERO, 0];
     for (const { way, slow } of ways) {
-      const mean = readVec(slow, frame);
+      const mean = vectorAt(slow, frame);
       const far = length(mean);
+      if (far >= FAR) continue;
       const weight = 1 - smoothstep(NEAR, FAR, far);
       const grip = scale(mean, Math.min(1, GRIP / far || 1));
-      sum = add(sum, scale(sub(grip, readVec(way, frame)), weight));
+      sum = add(sum, scale(sub(grip, vectorAt(way, frame)), weight));
       weights += weight;
     }
     // Between both hands of the partner where both are near.
-    if (weights > 0)
-      writeVec(shifts, frame, possible(motion, arm, frame, scale(sum, 1 / Math.max(1, weights))));
-  }
+    return weights > 0 ? possible(motion, arm, frame, scale(sum, 1 / Math.max(1, weights))) : ZERO;
+  });
   return filtered(shifts, STEADINESS * fps);
 }
 
 /** Where a hand is held in a frame, metres. */
-function handAt(positions: Float32Array, { elbow, wrist }: ArmJoints, frame: number): Vec3 {
+function handAt(positions: Float32Array, { middle, end }: LimbJoints, frame: number): Vec3 {
   const row = frame * JOINT_COUNT;
-  const at = readVec(positions, row + wrist);
-  return add(at, scale(direction(sub(at, readVec(positions, row + elbow)), ZERO), HAND));
+  const wrist = readVec(positions, row + end);
+  return add(wrist, scale(direction(sub(wrist, readVec(positions, row + middle)), ZERO), HAND));
 }
 
 /** As much of a wrist's shift as the arm reaches; less of one that is long, and of an arm that is folded. */
-function possible(
-  motion: SolvedMotion,
-  { shoulder, elbow, wrist }: ArmJoints,
-  frame: number,
-  wanted: Vec3,
-): Vec3 {
-  const { upper, lower } = bonesAt(motion.positions, frame, [shoulder, elbow, wrist]);
+function possible(motion: SolvedMotion, arm: LimbJoints, frame: number, wanted: Vec3): Vec3 {
+  const { upper, lower } = bonesAt(motion.positions, arm, frame);
   const before = add(upper, lower);
   const after = add(before, scale(wanted, 1 - smoothstep(LONG, TOO_LONG, length(wanted))));
   const reached = scale(after, Math.min(1, maxLimbLength(upper, lower) / length(after) || 1));
   const whole = length(upper) + length(lower);
-  const open = (arm: Vec3): number => smoothstep(FOLDED, OPEN, length(arm) / whole);
+  const open = (way: Vec3): number => smoothstep(FOLDED, OPEN, length(way) / whole);
   return scale(sub(reached, before), Math.min(open(before), open(after)));
-}
-
-/** Rows of three numbers, each column filtered. @param deviation in rows */
-function filtered(rows: Float64Array, deviation: number): Float64Array {
-  const out = new Float64Array(rows.length);
-  for (let axis = 0; axis < 3; axis++) {
-    const column = gaussianFilter(
-      rows.filter((_, i) => i % 3 === axis),
-      deviation,
-    );
-    column.forEach((value, row) => (out[3 * row + axis] = value));
-  }
-  return out;
-}
-
-/** Writes one arm of one frame with its wrist shifted; the hand keeps its rotation to the forearm. */
-function shiftWrist(
-  motion: SolvedMotion,
-  { shoulder, elbow, wrist, hinge }: ArmJoints,
-  frame: number,
-  shift: Vec3,
-  shifted: Pick<SolvedMotion, 'rotations' | 'positions'>,
-): void {
-  const row = frame * JOINT_COUNT;
-  const parent = worldRotation(motion.rotations, row, PARENTS[shoulder]!);
-  const upperArm = multiply(parent, readQuat(motion.rotations, row + shoulder));
-  const forearm = multiply(upperArm, readQuat(motion.rotations, row + elbow));
-  const arm = {
-    ...bonesAt(motion.positions, frame, [shoulder, elbow, wrist]),
-    hinge: rotate(upperArm, hinge),
-  };
-  const turns = twoBoneIk(arm, add(readVec(motion.positions, row + wrist), shift));
-  const [upper, lower] = [multiply(turns.upper, upperArm), multiply(turns.lower, forearm)];
-  writeQuat(shifted.rotations, row + shoulder, multiply(conjugate(parent), upper));
-  writeQuat(shifted.rotations, row + elbow, multiply(conjugate(upper), lower));
-  const place = (joint: number, from: Vec3, turn: Quat): Vec3 => {
-    const to = add(from, rotate(turn, readVec(motion.offsets, joint)));
-    writeVec(shifted.positions, row + joint, to);
-    return to;
-  };
-  place(wrist, place(elbow, arm.start, upper), lower);
-}
-
-/** The rotation of a joint in world axes. @param row that of the frame's first joint */
-function worldRotation(rotations: Float32Array, row: number, joint: number): Quat {
-  const own = readQuat(rotations, row + joint);
-  return joint === 0 ? own : multiply(worldRotation(rotations, row, PARENTS[joint]!), own);
 }

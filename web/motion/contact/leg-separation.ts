@@ -25,10 +25,10 @@ const SHIFTS = [0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.14, 0.16].flatMap((size) =>
 const WIDTH = 9;
 
 /** Lower legs and feet of one side, frames x 3 x 3 metres. */
-function lowerLeg({ positions, frames }: SolvedMotion, { knee, ankle, toe }: LegJoints): Float64Array {
+function lowerLeg({ positions, frames }: SolvedMotion, { middle, end, toe }: LegJoints): Float64Array {
   const leg = new Float64Array(frames * WIDTH);
   for (let frame = 0; frame < frames; frame++)
-    [knee, ankle, toe].forEach((joint, i) => {
+    [middle, end, toe].forEach((joint, i) => {
       const at = 3 * (frame * JOINT_COUNT + joint);
       leg.set(positions.subarray(at, at + 3), frame * WIDTH + 3 * i);
     });

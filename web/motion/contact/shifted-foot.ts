@@ -1,20 +1,18 @@
 import type { SolvedMotion } from '../skeleton/clip';
-import { bonesAt, twoBoneIk } from './two-bone-ik';
-import { between, conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
+import { between, conjugate, multiply, rotate, writeQuat } from '../math/quat';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
-import { add, direction, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
+import { add, direction, readVec, sub, type Vec3, X_AXIS } from '../math/vec3';
+import { type LimbJoints, placeJoint, shiftEnd, worldRotation, type Written } from './two-bone-ik';
 
-/** Joint indices of a leg. */
-export interface LegJoints {
-  readonly hip: number;
-  readonly knee: number;
-  readonly ankle: number;
+/** The joints of a leg: hip, knee, ankle and toe. */
+export interface LegJoints extends LimbJoints {
   readonly toe: number;
 }
 
+// In the rest pose knees bend about x.
 export const LEGS: readonly LegJoints[] = [
-  { hip: J.left_hip, knee: J.left_knee, ankle: J.left_ankle, toe: J.left_foot },
-  { hip: J.right_hip, knee: J.right_knee, ankle: J.right_ankle, toe: J.right_foot },
+  { start: J.left_hip, middle: J.left_knee, end: J.left_ankle, toe: J.left_foot, hinge: X_AXIS },
+  { start: J.right_hip, middle: J.right_knee, end: J.right_ankle, toe: J.right_foot, hinge: X_AXIS },
 ];
 
 /**
@@ -24,36 +22,19 @@ export const LEGS: readonly LegJoints[] = [
  */
 export function shiftFoot(
   motion: SolvedMotion,
-  joints: LegJoints,
+  leg: LegJoints,
   frame: number,
   shift: { readonly ankle: Vec3; readonly toe: Vec3 },
-  shifted: Pick<SolvedMotion, 'rotations' | 'positions'>,
+  written: Written,
 ): void {
-  const { hip, knee, ankle, toe } = joints;
   const row = frame * JOINT_COUNT;
-  const turnOf = (joint: number): Quat => readQuat(motion.rotations, row + joint);
-  const pelvis = turnOf(J.pelvis);
-  const thigh = multiply(pelvis, turnOf(hip));
-  const shin = multiply(thigh, turnOf(knee));
-  const before = multiply(shin, turnOf(ankle));
-  const sole = rotate(before, readVec(motion.offsets, toe));
+  const before = worldRotation(motion.rotations, row, leg.end);
+  const sole = rotate(before, readVec(motion.offsets, leg.toe));
   const foot = multiply(
     between(direction(sole, X_AXIS), direction(add(sole, sub(shift.toe, shift.ankle)), X_AXIS)),
     before,
   );
-  // In the rest pose knees bend about x.
-  const leg = { ...bonesAt(motion.positions, frame, [hip, knee, ankle]), hinge: rotate(thigh, X_AXIS) };
-  const turns = twoBoneIk(leg, add(readVec(motion.positions, row + ankle), shift.ankle));
-  const [upper, lower] = [multiply(turns.upper, thigh), multiply(turns.lower, shin)];
-  const put = (joint: number, parent: Quat, turn: Quat): void =>
-    writeQuat(shifted.rotations, row + joint, multiply(conjugate(parent), turn));
-  put(hip, pelvis, upper);
-  put(knee, upper, lower);
-  put(ankle, lower, foot);
-  const place = (joint: number, from: Vec3, turn: Quat): Vec3 => {
-    const to = add(from, rotate(turn, readVec(motion.offsets, joint)));
-    writeVec(shifted.positions, row + joint, to);
-    return to;
-  };
-  place(toe, place(ankle, place(knee, leg.start, upper), lower), foot);
+  const { lower, end } = shiftEnd(motion, leg, frame, shift.ankle, written);
+  writeQuat(written.rotations, row + leg.end, multiply(conjugate(lower), foot));
+  placeJoint(motion, row, leg.toe, end, foot, written);
 }
