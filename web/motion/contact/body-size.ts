@@ -1,5 +1,6 @@
 import type { MotionClip } from '../skeleton/clip';
 import { forwardOf } from '../skeleton/heading';
+import { ARMS, LEGS, type LimbJoints } from '../skeleton/limbs';
 import { J, JOINT_COUNT } from '../skeleton/skeleton';
 import { rotate } from '../math/quat';
 import {
@@ -22,23 +23,7 @@ import {
 import { gaussianFilter } from '../math/statistics';
 import { maxLimbLength, twoBoneIk } from './two-bone-ik';
 
-/** A limb by its joints; `bends` is 1 where its lower bone bends forwards, as an arm's, and -1 where backwards. */
-interface Limb {
-  readonly start: number;
-  readonly middle: number;
-  readonly end: number;
-  readonly bends: 1 | -1;
-}
-
-const LEGS: readonly (Limb & { readonly toe: number })[] = [
-  { start: J.left_hip, middle: J.left_knee, end: J.left_ankle, toe: J.left_foot, bends: -1 },
-  { start: J.right_hip, middle: J.right_knee, end: J.right_ankle, toe: J.right_foot, bends: -1 },
-];
-const ARMS: readonly Limb[] = [
-  { start: J.left_shoulder, middle: J.left_elbow, end: J.left_wrist, bends: 1 },
-  { start: J.right_shoulder, middle: J.right_elbow, end: J.right_wrist, bends: 1 },
-];
-const WRISTS = [J.left_wrist, J.right_wrist];
+const WRISTS = ARMS.map(({ end }) => end);
 
 /** Distance of two wrists up to which they count as joined, and from which they do not, metres. */
 const JOINED = 0.15;
@@ -87,7 +72,7 @@ export function resized(clip: MotionClip, factor: number, partner: MotionClip, t
         raised(ankle[1]),
         midZ + factor * (ankle[2] - midZ),
       ];
-      const moved = reach(leg, grown, wanted, forward);
+      const moved = reach(leg, -1, grown, wanted, forward);
       put(leg.middle, moved.middle);
       put(leg.end, moved.end);
       put(leg.toe, add(moved.end, scale(sub(toe, ankle), factor)));
@@ -96,7 +81,7 @@ export function resized(clip: MotionClip, factor: number, partner: MotionClip, t
       // A folded arm would swing round its shoulder.
       const share = joined[side]![frame]! * opened(arm, before);
       if (share === 0) return;
-      const moved = reach(arm, grown, lerp(grown(arm.end), before(arm.end), share), forward);
+      const moved = reach(arm, 1, grown, lerp(grown(arm.end), before(arm.end), share), forward);
       put(arm.middle, moved.middle);
       put(arm.end, moved.end);
     });
@@ -116,14 +101,18 @@ function joinedShares(clip: MotionClip, partner: MotionClip, wrist: number): Flo
 }
 
 /** How far an arm is open, 0 to 1. */
-function opened({ start, middle, end }: Limb, at: (joint: number) => Vec3): number {
+function opened({ start, middle, end }: LimbJoints, at: (joint: number) => Vec3): number {
   const whole = distance(at(start), at(middle)) + distance(at(middle), at(end));
   return smoothstep(FOLDED, OPEN, distance(at(start), at(end)) / whole);
 }
 
-/** Middle and end of a limb whose end is brought to `wanted`, or as far on the way there as the limb reaches. */
+/**
+ * Middle and end of a limb whose end is brought to `wanted`, or as far on the way there as the limb reaches.
+ * @param bends 1 where the lower bone bends forwards, as an arm's, and -1 where backwards
+ */
 function reach(
-  { start, middle, end, bends }: Limb,
+  { start, middle, end }: LimbJoints,
+  bends: 1 | -1,
   at: (joint: number) => Vec3,
   wanted: Vec3,
   forward: Vec3,

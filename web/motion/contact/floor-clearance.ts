@@ -2,7 +2,8 @@ import type { SolvedMotion } from '../skeleton/clip';
 import { SOLE } from '../skeleton/kinematics';
 import { gaussianFilter, windowMaximum } from '../math/statistics';
 import { JOINT_COUNT } from '../skeleton/skeleton';
-import { LEGS, shiftFoot } from './shifted-foot';
+import { shiftFoot } from './shifted-foot';
+import { LEGS } from '../skeleton/limbs';
 
 /** Standard deviation of the way up and down again, seconds. */
 const SMOOTHING = 0.06;

@@ -1,7 +1,8 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
 import { separateLegs } from './leg-separation';
-import { LEGS, type LegJoints, shiftFoot } from './shifted-foot';
+import { shiftFoot } from './shifted-foot';
+import { LEGS, type LegJoints } from '../skeleton/limbs';
 import { bonesAt, maxLimbLength } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { JOINT_COUNT } from '../skeleton/skeleton';

@@ -1,8 +1,9 @@
 import { add, direction, length, readVec, scale, smoothstep, sub, type Vec3, ZERO } from '../math/vec3';
 import type { MotionClip, SolvedMotion } from '../skeleton/clip';
-import { J, JOINT_COUNT } from '../skeleton/skeleton';
+import { ARMS, type LimbJoints } from '../skeleton/limbs';
+import { JOINT_COUNT } from '../skeleton/skeleton';
 import { gaussianFilter } from '../math/statistics';
-import { bonesAt, type LimbJoints, maxLimbLength, shiftEnd } from './two-bone-ik';
+import { bonesAt, maxLimbLength, shiftEnd } from './two-bone-ik';
 
 /**
  * From the wrist to where a hand is held, on from the forearm, metres. Where captured dancers hold hands, points there
@@ -27,11 +28,6 @@ const FOLDED = 0.4;
 const OPEN = 0.8;
 /** Standard deviation of the filter over the shifts, which keeps out jerks of the partner's hands, seconds. */
 const STEADINESS = 0.067;
-
-const ARMS: readonly LimbJoints[] = [
-  { start: J.left_shoulder, middle: J.left_elbow, end: J.left_wrist, hinge: [0, -1, 0] },
-  { start: J.right_shoulder, middle: J.right_elbow, end: J.right_wrist, hinge: [0, 1, 0] },
-];
 
 /**
  * Lets a dancer hold the partner's hands where their own are near them.

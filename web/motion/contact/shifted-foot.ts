@@ -1,19 +1,9 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { between, conjugate, multiply, rotate, writeQuat } from '../math/quat';
-import { J, JOINT_COUNT } from '../skeleton/skeleton';
+import type { LegJoints } from '../skeleton/limbs';
+import { JOINT_COUNT } from '../skeleton/skeleton';
 import { add, direction, readVec, sub, type Vec3, X_AXIS } from '../math/vec3';
-import { type LimbJoints, placeJoint, shiftEnd, worldRotation, type Written } from './two-bone-ik';
-
-/** The joints of a leg: hip, knee, ankle and toe. */
-export interface LegJoints extends LimbJoints {
-  readonly toe: number;
-}
-
-// In the rest pose knees bend about x.
-export const LEGS: readonly LegJoints[] = [
-  { start: J.left_hip, middle: J.left_knee, end: J.left_ankle, toe: J.left_foot, hinge: X_AXIS },
-  { start: J.right_hip, middle: J.right_knee, end: J.right_ankle, toe: J.right_foot, hinge: X_AXIS },
-];
+import { placeJoint, shiftEnd, worldRotation, type Written } from './two-bone-ik';
 
 /**
  * Writes one leg of one frame with its foot shifted: the ankle goes as far as asked, by two-bone inverse kinematics, and

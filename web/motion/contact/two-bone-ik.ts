@@ -10,6 +10,7 @@ import {
 } from '../math/quat';
 import { add, cross, direction, dot, length, readVec, sub, type Vec3, writeVec } from '../math/vec3';
 import type { SolvedMotion } from '../skeleton/clip';
+import type { LimbJoints } from '../skeleton/limbs';
 import { JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 
 /**
@@ -57,16 +58,6 @@ export function twoBoneIk({ start, upper, lower, hinge }: Limb, target: Vec3): {
 /** The largest length that a limb may have, metres: nearly straight, or its present length if longer. */
 export function maxLimbLength(upper: Vec3, lower: Vec3): number {
   return Math.max(length(add(upper, lower)), MAX_EXTENSION * (length(upper) + length(lower)));
-}
-
-/** The joints of a leg or an arm. */
-export interface LimbJoints {
-  /** Hip, knee and ankle, or shoulder, elbow and wrist. */
-  readonly start: number;
-  readonly middle: number;
-  readonly end: number;
-  /** Unit axis about which the limb bends in the rest pose. */
-  readonly hinge: Vec3;
 }
 
 /** The bones of a limb in a frame of positions (frames x 22 x 3, metres). */

@@ -17,55 +17,22 @@ import {
 } from '../math/quat';
 import { rotateRow, rowDistance } from '../math/rows';
 import { restOffsets } from './rest-pose';
+import { ARMS, LEGS, type LimbJoints } from '../skeleton/limbs';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 import { steadyTrunk, trunkRotations } from './trunk';
 import { smoothHinges } from './twist';
 import { add, cross, direction, dot, readVec, scale, sub, type Vec3, writeVec } from '../math/vec3';
 
 /** A limb whose upper bone gets its twist from the hinge at its middle joint. */
-interface Limb {
+interface Limb extends LimbJoints {
+  /** The part of the body that carries it. */
   readonly part: 'pelvis' | 'chest';
-  readonly start: number;
-  readonly middle: number;
-  readonly end: number;
   readonly toe: number | null;
-  /** Hinge axis in the rest pose, about which the limb bends. */
-  readonly hinge: Vec3;
 }
 
 const LIMBS: readonly Limb[] = [
-  {
-    part: 'pelvis',
-    start: J.left_hip,
-    middle: J.left_knee,
-    end: J.left_ankle,
-    toe: J.left_foot,
-    hinge: [1, 0, 0],
-  },
-  {
-    part: 'pelvis',
-    start: J.right_hip,
-    middle: J.right_knee,
-    end: J.right_ankle,
-    toe: J.right_foot,
-    hinge: [1, 0, 0],
-  },
-  {
-    part: 'chest',
-    start: J.left_shoulder,
-    middle: J.left_elbow,
-    end: J.left_wrist,
-    toe: null,
-    hinge: [0, -1, 0],
-  },
-  {
-    part: 'chest',
-    start: J.right_shoulder,
-    middle: J.right_elbow,
-    end: J.right_wrist,
-    toe: null,
-    hinge: [0, 1, 0],
-  },
+  ...LEGS.map((leg) => ({ ...leg, part: 'pelvis' as const })),
+  ...ARMS.map((arm) => ({ ...arm, part: 'chest' as const, toe: null })),
 ];
 
 /** Weight of the foot's direction in the leg's twist, where a knee bent at a right angle has 1. */

@@ -2,6 +2,7 @@ import { readQuat, slerp, writeQuat } from '../math/quat';
 import { fitRotation, type RigidPart, rigidPart } from '../math/rigid';
 import { addScaled, directionTo, rotateRow } from '../math/rows';
 import { direction, length, readVec, writeVec, Y_AXIS } from '../math/vec3';
+import { ARMS, LEGS } from '../skeleton/limbs';
 import { J, JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
 import type { SteadyTrunk, TrunkRotations } from './trunk';
 
@@ -36,16 +37,11 @@ const PELVIS: TrunkPart = { part: 'pelvis', origin: J.pelvis, joints: [J.left_hi
 const CHEST: TrunkPart = { part: 'chest', origin: J.spine3, joints: [J.neck, J.left_collar, J.right_collar] };
 
 const SPINE = [J.spine2, J.spine3];
-const LEGS = [
-  [J.left_hip, J.left_knee, J.left_ankle, J.left_foot],
-  [J.right_hip, J.right_knee, J.right_ankle, J.right_foot],
-] as const;
-const ARMS = [
-  [J.left_shoulder, J.left_elbow, J.left_wrist],
-  [J.right_shoulder, J.right_elbow, J.right_wrist],
-] as const;
 /** Joints whose bones turn with the pelvis where they show no direction; the others turn with the chest. */
-const CARRIED_BY_PELVIS: ReadonlySet<number> = new Set([...SPINE, ...LEGS.flat()]);
+const CARRIED_BY_PELVIS: ReadonlySet<number> = new Set([
+  ...SPINE,
+  ...LEGS.flatMap(({ start, middle, end, toe }) => [start, middle, end, toe]),
+]);
 
 /** Sweeps of `fitLimb`; each halves what the bone lengths leave of the error at the end of the limb. */
 const LIMB_SWEEPS = 3;
@@ -121,13 +117,13 @@ function fitFromRoot(frame: Frame): void {
   for (const joint of SPINE) follow(frame, joint);
   fitPart(frame, CHEST);
   follow(frame, J.head);
-  for (const [, knee, ankle, toe] of LEGS) {
-    fitLimb(frame, knee, ankle);
+  for (const { middle, end, toe } of LEGS) {
+    fitLimb(frame, middle, end);
     follow(frame, toe);
   }
-  for (const [shoulder, elbow, wrist] of ARMS) {
-    follow(frame, shoulder);
-    fitLimb(frame, elbow, wrist);
+  for (const { start, middle, end } of ARMS) {
+    follow(frame, start);
+    fitLimb(frame, middle, end);
   }
 }
 

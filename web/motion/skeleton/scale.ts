@@ -1,14 +1,10 @@
 import type { MotionClip } from './clip';
+import { LEGS } from './limbs';
 import { J, JOINT_COUNT } from './skeleton';
 import { rowDistance } from '../math/rows';
 import { median } from '../math/statistics';
 
 const SPINE = [J.pelvis, J.spine1, J.spine2, J.spine3, J.neck, J.head];
-const LEGS = [
-  [J.left_hip, J.left_knee, J.left_ankle],
-  [J.right_hip, J.right_knee, J.right_ankle],
-];
-
 /**
  * Body height: length of leg plus spine in metres, by which dancers are scaled to one another. The median over frames
  * of the mean leg (hip, knee, ankle) plus the chain from pelvis to head. It does not depend on the pose, unlike the
@@ -25,7 +21,8 @@ export function bodyHeight(clip: MotionClip): number {
   };
   const heights = new Float64Array(frames);
   for (let frame = 0; frame < frames; frame++) {
-    const legs = LEGS.reduce((sum, leg) => sum + chain(leg, frame), 0) / LEGS.length;
+    const legs =
+      LEGS.reduce((sum, { start, middle, end }) => sum + chain([start, middle, end], frame), 0) / LEGS.length;
     heights[frame] = legs + chain(SPINE, frame);
   }
   return median(heights);
