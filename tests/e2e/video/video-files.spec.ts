@@ -168,15 +168,24 @@ function skeletonAt(panel: Locator): Promise<number> {
   });
 }
 
+/** A video of two dancers beside each other, so many seconds; `times` when the first leaves and when the other comes. */
+async function filmTwo(
+  browser: Browser,
+  seconds: number,
+  ...times: [] | [until: number, from: number]
+): Promise<Buffer> {
+  const studio = await openStudio(browser);
+  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
+  const film = await studio.call('filmSeveral', 'walking', shot, seconds, [-0.8, 0.9], ...times);
+  await studio.close();
+  return Buffer.from(film, 'base64');
+}
+
 test('who comes into the picture later is followed from the moment in which they are chosen, also while it is read', async ({
   page,
   browser,
 }) => {
-  const studio = await openStudio(browser);
-  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
-  const film = await studio.call('filmSeveral', 'walking', shot, 4, [-0.8, 0.9], 9, 1);
-  const buffer = Buffer.from(film, 'base64');
-  await studio.close();
+  const buffer = await filmTwo(browser, 4, 9, 1);
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -219,10 +228,7 @@ test('of several people the largest is followed, and another one who is clicked'
   page,
   browser,
 }) => {
-  const studio = await openStudio(browser);
-  const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
-  const buffer = Buffer.from(await studio.call('filmSeveral', 'walking', shot, 2, [-0.8, 0.9]), 'base64');
-  await studio.close();
+  const buffer = await filmTwo(browser, 2);
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();

@@ -41,7 +41,8 @@ COLUMNS: tuple[tuple[str, str, int], ...] = (
     ("FID_g", "fid_g corrected", 1),
     ("FID_cd", "fid_cd", 1),
 )
-DUET_COLUMNS = COLUMNS[:12]  # FID exists only for all duets together
+# FID exists only for all duets together.
+DUET_COLUMNS = tuple(column for column in COLUMNS if not column[1].startswith("fid"))
 
 
 def markdown(numbers: Numbers, title: str, pictures: list[Path], videos: list[Path]) -> str:

@@ -2,7 +2,7 @@ import type { SolvedMotion } from '../skeleton/clip';
 import { SOLE } from '../skeleton/kinematics';
 import { gaussianFilter, windowMaximum } from '../math/statistics';
 import { JOINT_COUNT } from '../skeleton/skeleton';
-import { shiftFoot } from './shifted-foot';
+import { shiftFoot } from './shifted-limb';
 import { LEGS } from '../skeleton/limbs';
 
 /** Standard deviation of the way up and down again, seconds. */

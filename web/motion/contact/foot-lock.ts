@@ -1,9 +1,9 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { leastSquaresShift, type Track } from './least-squares-shift';
 import { separateLegs } from './leg-separation';
-import { shiftFoot } from './shifted-foot';
 import { LEGS, type LegJoints } from '../skeleton/limbs';
-import { bonesAt, maxLimbLength } from './two-bone-ik';
+import { bonesAt, shiftFoot } from './shifted-limb';
+import { maxLimbLength } from './two-bone-ik';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import { add, type Vec3, writeVec } from '../math/vec3';

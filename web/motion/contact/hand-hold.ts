@@ -3,7 +3,8 @@ import type { MotionClip, SolvedMotion } from '../skeleton/clip';
 import { ARMS, type LimbJoints } from '../skeleton/limbs';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import { gaussianFilter } from '../math/statistics';
-import { bonesAt, maxLimbLength, shiftEnd } from './two-bone-ik';
+import { bonesAt, shiftEnd } from './shifted-limb';
+import { maxLimbLength } from './two-bone-ik';
 
 /**
  * From the wrist to where a hand is held, on from the forearm, metres. Where captured dancers hold hands, points there
@@ -41,13 +42,14 @@ const STEADINESS = 0.067;
 export function holdHands(motion: SolvedMotion, partner: MotionClip): SolvedMotion {
   const rotations = motion.rotations.slice();
   const positions = motion.positions.slice();
-  for (const arm of ARMS) {
-    const shifts = shiftsOf(motion, partner, arm);
+  const [own, theirs] = [handsOf(motion), handsOf(partner)];
+  ARMS.forEach((arm, side) => {
+    const shifts = shiftsOf(motion, arm, own[side]!, theirs);
     for (let frame = 0; frame < motion.frames; frame++) {
       const shift = vectorAt(shifts, frame);
       if (shift.some(Boolean)) shiftEnd(motion, arm, frame, shift, { rotations, positions });
     }
-  }
+  });
   return { ...motion, rotations, positions };
 }
 
@@ -73,13 +75,27 @@ function vectorAt([x, y, z]: Columns, frame: number): Vec3 {
   return [x[frame]!, y[frame]!, z[frame]!];
 }
 
-/** By how much a wrist goes with the hands of the partner that it is near. */
-function shiftsOf(motion: SolvedMotion, partner: MotionClip, arm: LimbJoints): Columns {
-  const { positions, frames, fps } = motion;
-  const ways = ARMS.map((theirs) => {
-    const way = columns(frames, (frame) =>
-      sub(handAt(positions, arm, frame), handAt(partner.positions, theirs, frame)),
-    );
+/** Where the hand of each arm is held. */
+function handsOf({ positions, frames }: Pick<MotionClip, 'positions' | 'frames'>): Columns[] {
+  return ARMS.map((arm) =>
+    columns(frames, (frame) => {
+      const forearm = bonesAt(positions, arm, frame).lower;
+      const wrist = readVec(positions, frame * JOINT_COUNT + arm.end);
+      return add(wrist, scale(direction(forearm, ZERO), HAND));
+    }),
+  );
+}
+
+/** By how much a wrist goes with the hands of the partner that its hand is near. */
+function shiftsOf(
+  motion: SolvedMotion,
+  arm: LimbJoints,
+  own: Columns,
+  partnersHands: readonly Columns[],
+): Columns {
+  const { frames, fps } = motion;
+  const ways = partnersHands.map((hand) => {
+    const way = columns(frames, (frame) => sub(vectorAt(own, frame), vectorAt(hand, frame)));
     return { way, slow: filtered(way, SMOOTHING * fps) };
   });
   const shifts = columns(frames, (frame) => {
@@ -89,7 +105,7 @@ function shiftsOf(motion: SolvedMotion, partner: MotionClip, arm: LimbJoints): C
       const far = length(mean);
       if (far >= FAR) continue;
       const weight = 1 - smoothstep(NEAR, FAR, far);
-      const grip = scale(mean, Math.min(1, GRIP / far || 1));
+      const grip = scale(mean, Math.min(1, GRIP / far));
       sum = add(sum, scale(sub(grip, vectorAt(way, frame)), weight));
       weights += weight;
     }
@@ -99,19 +115,12 @@ function shiftsOf(motion: SolvedMotion, partner: MotionClip, arm: LimbJoints): C
   return filtered(shifts, STEADINESS * fps);
 }
 
-/** Where a hand is held in a frame, metres. */
-function handAt(positions: Float32Array, { middle, end }: LimbJoints, frame: number): Vec3 {
-  const row = frame * JOINT_COUNT;
-  const wrist = readVec(positions, row + end);
-  return add(wrist, scale(direction(sub(wrist, readVec(positions, row + middle)), ZERO), HAND));
-}
-
 /** As much of a wrist's shift as the arm reaches; less of one that is long, and of an arm that is folded. */
 function possible(motion: SolvedMotion, arm: LimbJoints, frame: number, wanted: Vec3): Vec3 {
   const { upper, lower } = bonesAt(motion.positions, arm, frame);
   const before = add(upper, lower);
   const after = add(before, scale(wanted, 1 - smoothstep(LONG, TOO_LONG, length(wanted))));
-  const reached = scale(after, Math.min(1, maxLimbLength(upper, lower) / length(after) || 1));
+  const reached = scale(after, Math.min(1, maxLimbLength(upper, lower) / length(after)));
   const whole = length(upper) + length(lower);
   const open = (way: Vec3): number => smoothstep(FOLDED, OPEN, length(way) / whole);
   return scale(sub(reached, before), Math.min(open(before), open(after)));

@@ -3,7 +3,7 @@ import { segmentDistance } from '../math/segments';
 import { gaussianFilter, runsOf } from '../math/statistics';
 import type { Vec3 } from '../math/vec3';
 import { JOINT_COUNT } from '../skeleton/skeleton';
-import { shiftFoot } from './shifted-foot';
+import { shiftFoot } from './shifted-limb';
 import { LEGS, type LegJoints } from '../skeleton/limbs';
 
 /** Least distance between the axes of a dancer's lower legs, and of their feet, metres. */

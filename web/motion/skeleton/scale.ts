@@ -5,6 +5,7 @@ import { rowDistance } from '../math/rows';
 import { median } from '../math/statistics';
 
 const SPINE = [J.pelvis, J.spine1, J.spine2, J.spine3, J.neck, J.head];
+
 /**
  * Body height: length of leg plus spine in metres, by which dancers are scaled to one another. The median over frames
  * of the mean leg (hip, knee, ankle) plus the chain from pelvis to head. It does not depend on the pose, unlike the

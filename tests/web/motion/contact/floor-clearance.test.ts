@@ -4,7 +4,7 @@ import { lowered, type SolvedMotion } from '../../../../web/motion/skeleton/clip
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { aboutAxis, writeQuat } from '../../../../web/motion/math/quat';
 import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
-import { at, expectSound, moves, top } from '../../support/moved-feet';
+import { at, expectSound, moves, top } from '../../support/moved-joints';
 import { eased, madeStander } from '../../support/made-stander';
 
 const FRAMES = 60;

@@ -9,7 +9,7 @@ import { FEET, J } from '../../../../web/motion/skeleton/skeleton';
 import { solve } from '../../../../web/motion/fit/ik';
 import { add, cross, distance, dot, length, sub, type Vec3 } from '../../../../web/motion/math/vec3';
 import { madeDancer } from '../../support/made-dancer';
-import { at, expectSound, KNEES, LEGS, moves, top } from '../../support/moved-feet';
+import { at, expectSound, KNEES, LEGS, moves, top } from '../../support/moved-joints';
 import { eased, madeStander } from '../../support/made-stander';
 
 /** Speeds over the floor in m/s, from each frame to the next. */

@@ -6,7 +6,7 @@ import { add, direction, distance, scale, sub, type Vec3 } from '../../../../web
 import type { MotionClip, SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { J, JOINT_COUNT, MIRROR } from '../../../../web/motion/skeleton/skeleton';
-import { at, expectSound, moves, top } from '../../support/moved-feet';
+import { at, expectSound, moves, top } from '../../support/moved-joints';
 import { eased, madeStander } from '../../support/made-stander';
 import { small } from '../../support/small-manifest';
 

@@ -6,7 +6,7 @@ import { segmentDistance } from '../../../../web/motion/math/segments';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
-import { at, expectSound, KNEES, moves, top } from '../../support/moved-feet';
+import { at, expectSound, KNEES, moves, top } from '../../support/moved-joints';
 import { eased, madeStander } from '../../support/made-stander';
 
 const FRAMES = 90;
