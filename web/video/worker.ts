@@ -8,8 +8,8 @@ import { openVideo } from './frames';
 import { type Observations, Recorder } from './observations';
 import { loadPoseGraphs, type PoseGraphs } from './pose/graphs';
 import { bodyBox } from './pose/detector';
-import { Cropper, type Picture } from './pose/picture';
-import { detectPersons, PersonTracker, type PersonPick } from './pose/tracker';
+import type { Picture } from './pose/picture';
+import { PersonTracker, type PersonPick } from './pose/tracker';
 import { adviceOn, confidenceOf } from './world/advice';
 import { type WorldOptions, reconstruct } from './world/reconstruct';
 
@@ -114,7 +114,7 @@ async function read(
       const tracked = await tracker.next(picture, time);
       recorder.add(time, tracked);
       if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
-      if (!asked && tracked.persons && tracked.persons.length > 0) {
+      if (!asked && tracked.persons.length > 0) {
         asked = true;
         const boxes = tracked.persons.map(bodyBox);
         if (boxes.length > 1) void report({ kind: 'persons', time, boxes, image: shown.of(picture) });
@@ -154,7 +154,7 @@ async function people({ file, graphs: list, time }: PeopleRequest): Promise<Peop
     if (first.done) return null;
     const { time: shownAt, picture } = first.value;
     const { width, height } = picture;
-    const { persons } = await detectPersons(graphs, new Cropper(), picture);
+    const { persons } = await new PersonTracker(graphs, null).next(picture, shownAt);
     const image = new Shrinker(width / height, Math.min(height, SHOWN_HEIGHT)).of(picture);
     return { time: shownAt, boxes: persons.map(bodyBox), image };
   } finally {

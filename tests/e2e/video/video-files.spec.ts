@@ -138,11 +138,10 @@ test('rotated pictures, MOV and uneven times at up to 120 pictures a second are 
 test('who is far from where the dancer was lost is not followed instead', async ({ browser }) => {
   const studio = await openStudio(browser);
   const shot = { ...SHOT, width: 640, height: 320, focal: 300, position: [-0.9, 1.3, 3.2] } satisfies Shot;
-  const seen = await studio.call(
-    'read',
-    await studio.call('filmSeveral', 'walking', shot, 1.3, [-0.8, 1.8], 0.8),
-  );
-  const alone = await studio.call('read', await studio.call('filmSeveral', 'walking', shot, 0.5, [9, 1.8]));
+  const other = { aside: 1.8 };
+  const cast = [{ aside: -0.8, until: 0.8 }, other];
+  const seen = await studio.call('read', await studio.call('filmSeveral', 'walking', shot, 1.3, cast));
+  const alone = await studio.call('read', await studio.call('filmSeveral', 'walking', shot, 0.5, [other]));
   await studio.close();
   // The other one would be found.
   expect(Math.max(...alone.presence)).toBeGreaterThan(0.5);
@@ -168,15 +167,19 @@ function skeletonAt(panel: Locator): Promise<number> {
   });
 }
 
-/** A video of two dancers beside each other, so many seconds; `times` when the first leaves and when the other comes. */
+/** A video of two dancers beside each other, so many seconds; the first leaves at `until`, the other comes at `from`. */
 async function filmTwo(
   browser: Browser,
   seconds: number,
-  ...times: [] | [until: number, from: number]
+  { until, from }: { readonly until?: number; readonly from?: number } = {},
 ): Promise<Buffer> {
   const studio = await openStudio(browser);
   const shot = { ...SHOT, width: 480, height: 320, focal: 300, position: [-0.7, 1.3, 3.2] } satisfies Shot;
-  const film = await studio.call('filmSeveral', 'walking', shot, seconds, [-0.8, 0.9], ...times);
+  const cast = [
+    { aside: -0.8, ...(until !== undefined && { until }) },
+    { aside: 0.9, ...(from !== undefined && { from }) },
+  ];
+  const film = await studio.call('filmSeveral', 'walking', shot, seconds, cast);
   await studio.close();
   return Buffer.from(film, 'base64');
 }
@@ -185,7 +188,7 @@ test('who comes into the picture later is followed from the moment in which they
   page,
   browser,
 }) => {
-  const buffer = await filmTwo(browser, 4, 9, 1);
+  const buffer = await filmTwo(browser, 4, { until: 9, from: 1 });
   const app = new App(page);
   await app.openWithoutPicture();
   await app.settled();
@@ -258,4 +261,40 @@ test('of several people the largest is followed, and another one who is clicked'
   await expect.poll(() => skeletonAt(panel)).toBeGreaterThan(0.5);
   await panel.getByRole('button', { name: 'Close' }).click();
   await app.until(({ covered }) => covered === 0);
+});
+
+test('a dancer who is small in a wide picture is found, and followed by a click where someone larger is seen', async ({
+  page,
+  browser,
+}) => {
+  const studio = await openStudio(browser);
+  // The dancer is a fifth as high as the picture, ten metres away.
+  const shot = { ...SHOT, width: 854, height: 480, focal: 640, position: [0, 1.3, 3.2] } satisfies Shot;
+  const [near, far] = [{ aside: -1.2 }, { aside: 2.5, away: 7 }];
+  const [alone, two] = [
+    await studio.call('filmSeveral', 'walking', shot, 2, [far]),
+    await studio.call('filmSeveral', 'walking', shot, 2, [near, far]),
+  ].map((film) => Buffer.from(film, 'base64'));
+  await studio.close();
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const panel = page.getByRole('region', { name: 'Video of the leader' });
+  const ready = /The dancer is the leader now; (9\d|100) % of the frames are clearly seen/;
+
+  await app.drop({ name: 'alone.webm', mimeType: 'video/webm', buffer: alone! });
+  await expect(panel.getByRole('status')).toHaveText(ready, { timeout: 60_000 });
+  await expect(panel.getByText('The dancer is small in the picture')).toBeVisible();
+  await expect.poll(() => skeletonAt(panel)).toBeCloseTo(0.68, 1);
+
+  await app.drop({ name: 'two.webm', mimeType: 'video/webm', buffer: two! });
+  await app.until(({ leader }) => leader?.name === 'two.webm');
+  await expect.poll(() => skeletonAt(panel)).toBeCloseTo(0.22, 1);
+  await panel.getByRole('button', { name: 'Follow another person' }).click();
+  await expect(panel.getByRole('button', { name: /Follow person \d from the largest/ })).toHaveCount(1);
+  const box = (await panel.locator('.persons').boundingBox())!;
+  await page.mouse.click(box.x + 0.68 * box.width, box.y + 0.5 * box.height);
+  await expect(panel.getByRole('progressbar')).toBeVisible();
+  await expect(panel.getByRole('status')).toHaveText(ready, { timeout: 60_000 });
+  await expect.poll(() => skeletonAt(panel)).toBeCloseTo(0.68, 1);
 });

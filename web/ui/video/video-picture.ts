@@ -108,9 +108,8 @@ export class VideoPicture {
     drawSkeleton(this.#canvas, null, image);
     image.close();
     setText(this.#another, 'Keep this person');
-    const found =
-      boxes.length > 0 ? 'Click the person to follow from this moment on' : 'Nobody is found here';
-    setText(this.#hint, `${found}, or choose another moment.`);
+    const found = boxes.length > 0 ? '' : 'Nobody is found here. ';
+    setText(this.#hint, `${found}Click the person to follow from this moment on, or choose another moment.`);
     this.#persons.replaceChildren(
       ...boxes.map(([left, top, right, bottom], i) => {
         const button = el('button', {

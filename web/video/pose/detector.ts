@@ -1,4 +1,4 @@
-import { type Region, regionAround } from './region';
+import { type Region, regionAround, type Square } from './region';
 
 /** Side of the detector's picture, pixels. */
 export const DETECTOR_SIDE = 224;
@@ -41,40 +41,36 @@ const ANCHORS = Float32Array.from(
 );
 
 /**
- * The persons that the detector saw, the largest first.
+ * What the detector took for persons, each of them several times.
  * @param boxes anchors x 12, and `scores`, one logit an anchor, as the graph returns them
- * @param toPicture from shares of the detector's square to pixels of the picture
+ * @param square what the detector saw
  */
-export function personsOf(
-  boxes: Float32Array,
-  scores: Float32Array,
-  toPicture: { readonly x: number; readonly y: number; readonly scale: number },
-): Person[] {
+export function personsOf(boxes: Float32Array, scores: Float32Array, { x, y, side }: Square): Person[] {
   const found: Person[] = [];
   scores.forEach((logit, anchor) => {
     if (!(logit > MIN_LOGIT)) return;
     const value = (i: number): number => boxes[anchor * BOX_WIDTH + i]! / DETECTOR_SIDE;
     const point = (i: number) => ({
-      x: toPicture.x + (value(i) + ANCHORS[2 * anchor]!) * toPicture.scale,
-      y: toPicture.y + (value(i + 1) + ANCHORS[2 * anchor + 1]!) * toPicture.scale,
+      x: x + (value(i) + ANCHORS[2 * anchor]!) * side,
+      y: y + (value(i + 1) + ANCHORS[2 * anchor + 1]!) * side,
     });
     const middle = point(0);
-    const [width, height] = [value(2) * toPicture.scale, value(3) * toPicture.scale];
+    const [width, height] = [value(2) * side, value(3) * side];
     found.push({
       score: 1 / (1 + Math.exp(-logit)),
       box: [middle.x - width / 2, middle.y - height / 2, middle.x + width / 2, middle.y + height / 2],
       region: regionAround(point(CENTRE), point(EDGE)),
     });
   });
-  return distinct(found).sort((a, b) => b.region.size - a.region.size);
+  return found;
 }
 
-/** Non-maximum suppression: of boxes that cover each other the one with the best score. */
-function distinct(persons: readonly Person[]): Person[] {
+/** Non-maximum suppression: of boxes that cover each other the one with the best score. The largest persons first. */
+export function distinct(persons: readonly Person[]): Person[] {
   const kept: Person[] = [];
   for (const person of [...persons].sort((a, b) => b.score - a.score))
     if (kept.every((other) => overlap(person.box, other.box) < MAX_OVERLAP)) kept.push(person);
-  return kept;
+  return kept.sort((a, b) => b.region.size - a.region.size);
 }
 
 /** Intersection over union of two boxes. */

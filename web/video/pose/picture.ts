@@ -1,7 +1,7 @@
 import type { VideoSample } from 'mediabunny';
 import { DETECTOR_SIDE } from './detector';
 import { LANDMARK_SIDE } from './landmarks';
-import type { Region } from './region';
+import type { Region, Square } from './region';
 
 /** A picture of a video, upright as it is shown. */
 export interface Picture {
@@ -47,24 +47,24 @@ export class Cropper {
     return channels(context, LANDMARK_SIDE, 1 / 255, 0);
   }
 
-  /** The whole picture as the detector takes it: 3 x 224 x 224, -1 to 1, with black bars. */
-  detectorInput(picture: Picture): {
+  /** A square of the picture as the detector takes it: 3 x 224 x 224, -1 to 1; black outside the picture. */
+  detectorInput(
+    picture: Picture,
+    { x, y, side }: Square,
+  ): {
     readonly input: Float32Array;
-    /** From shares of the detector's square to pixels of the picture. */
-    readonly toPicture: { readonly x: number; readonly y: number; readonly scale: number };
-    /** Mean of the picture, 0 to 1. */
+    /** Mean of what of the picture is in the square, 0 to 1. */
     readonly brightness: number;
   } {
     const context = this.#blank(DETECTOR_SIDE);
-    const side = Math.max(picture.width, picture.height);
-    const toPicture = { x: (picture.width - side) / 2, y: (picture.height - side) / 2, scale: side };
     context.scale(DETECTOR_SIDE / side, DETECTOR_SIDE / side);
-    context.translate(-toPicture.x, -toPicture.y);
+    context.translate(-x, -y);
     picture.draw(context);
     const input = channels(context, DETECTOR_SIDE, 2 / 255, -1);
-    const bars = (side * side) / (picture.width * picture.height);
     const mean = input.reduce((sum, value) => sum + (value + 1) / 2, 0) / input.length;
-    return { input, toPicture, brightness: mean * bars };
+    const inside = (from: number, length: number): number =>
+      (Math.min(from + side, length) - Math.max(from, 0)) / side;
+    return { input, brightness: mean / (inside(x, picture.width) * inside(y, picture.height)) };
   }
 
   #blank(side: number): OffscreenCanvasRenderingContext2D {

@@ -1,28 +1,29 @@
-import { personsOf, type Person } from './detector';
+import { distinct, type Person, personsOf } from './detector';
 import { type Landmarks, landmarksOf } from './landmarks';
 import { Cropper, type Picture } from './picture';
 import type { PoseGraphs } from './graphs';
-import type { Region } from './region';
+import type { Point, Region, Square } from './region';
+import {
+  nearestFirst,
+  type Sighting,
+  squareOfReach,
+  squaresAbout,
+  squaresOver,
+  standingAt,
+  wholePicture,
+  withinReach,
+} from './search';
 
 /** Presence below which the person counts as lost. */
 const MIN_PRESENCE = 0.5;
 /** While nobody is seen the detector, which takes as long as three poses, looks at every third picture. */
-const DETECT_EVERY = 3;
+const SEARCH_EVERY = 3;
+/** At these it looks at squares of the picture, too, of which there are about a dozen. */
+const SEARCH_CLOSELY_EVERY = 30;
 /** A sighting shorter than this may be of nobody, such as of a bush: it does not say where the person is, seconds. */
 export const MIN_SIGHTING = 0.3;
-/**
- * How far from where they were lost a person may be found, in sides of their region (about 2.4 m): at once, and more a
- * second. Otherwise whoever else is in the picture would be followed.
- */
-const REACH = { atOnce: 0.5, perSecond: 1 };
 /** A region smaller than this share of the picture's longer side holds nobody whose pose could be seen. */
 const MIN_REGION = 0.06;
-
-/** A point of the picture, pixels. */
-export interface Point {
-  readonly x: number;
-  readonly y: number;
-}
 
 /** Where a person stands who is to be followed from a moment on, seconds of the video. */
 export interface PersonPick extends Point {
@@ -33,18 +34,19 @@ export interface PersonPick extends Point {
 export interface Tracked {
   /** Null where the person is not seen. */
   readonly landmarks: Landmarks | null;
-  /** The persons in the picture, where the detector was asked. */
-  readonly persons: readonly Person[] | null;
-  /** Mean brightness of the picture, 0 to 1, where the detector was asked. */
+  /** The persons of whom this is one, the largest first; none where the person was not looked for. */
+  readonly persons: readonly Person[];
+  /** Mean brightness of the picture, 0 to 1, where the person was looked for. */
   readonly brightness: number | null;
 }
 
-/** Where and when a person was seen. */
-export interface Sighting {
-  readonly region: Region;
-  /** Seconds of the video. */
-  readonly time: number;
+/** Where the detector looks, and which of the persons there may be the one to follow, the likeliest first. */
+interface Search {
+  readonly squares: readonly Square[];
+  readonly candidates: (persons: readonly Person[]) => readonly Person[];
 }
+
+const NOT_SEEN: Tracked = { landmarks: null, persons: [], brightness: null };
 
 /**
  * Follows one person through the pictures of a video: the detector finds them, then each picture's landmarks say where
@@ -56,7 +58,8 @@ export class PersonTracker {
   /** When the sighting that lasts began. */
   #since = 0;
   #last: Sighting | null = null;
-  #undetected = 0;
+  /** Pictures since the person was seen. */
+  #unseen = 0;
 
   /** @param pick where the person stands who is to be followed; null takes the largest */
   constructor(
@@ -66,17 +69,73 @@ export class PersonTracker {
 
   /** @param time of the picture, seconds of the video */
   async next(picture: Picture, time: number): Promise<Tracked> {
-    if (this.#region)
-      return { ...(await this.#see(picture, time, this.#region)), persons: null, brightness: null };
-    if (this.#undetected++ % DETECT_EVERY > 0) return { landmarks: null, persons: null, brightness: null };
-    const { persons, brightness } = await detectPersons(this.graphs, this.#cropper, picture);
-    const found = this.#last ? sameAsLast(persons, this.#last, time) : nearest(persons, this.pick);
+    if (this.#region) return { ...NOT_SEEN, landmarks: await this.#see(picture, time, this.#region) };
+    const unseen = this.#unseen++;
+    if (unseen % SEARCH_EVERY > 0) return NOT_SEEN;
     this.#since = time;
-    const seen = found ? await this.#see(picture, time, found.region) : { landmarks: null };
-    return { ...seen, persons, brightness };
+    const [quick, ...close] = this.#searches(picture, time);
+    return this.#find(picture, time, unseen % SEARCH_CLOSELY_EVERY > 0 ? [quick] : [quick, ...close]);
   }
 
-  async #see(picture: Picture, time: number, region: Region): Promise<Pick<Tracked, 'landmarks'>> {
+  /** The first is done more often than those after it. */
+  #searches(picture: Picture, time: number): [Search, ...Search[]] {
+    const { pick } = this;
+    const last = this.#last;
+    const whole = [wholePicture(picture)];
+    if (last) {
+      const candidates: Search['candidates'] = (persons) => withinReach(persons, last, time);
+      const near = squareOfReach(last, time);
+      const first = near.side < whole[0]!.side ? [near] : whole;
+      return [
+        { squares: first, candidates },
+        ...squaresOver(picture).map((squares) => ({ squares, candidates })),
+      ];
+    }
+    if (pick) {
+      const candidates: Search['candidates'] = (persons) => standingAt(persons, pick);
+      return [
+        { squares: whole, candidates },
+        ...squaresAbout(pick, picture).map((square) => ({ squares: [square], candidates })),
+        { squares: whole, candidates: (persons) => nearestFirst(persons, pick) },
+      ];
+    }
+    const candidates: Search['candidates'] = (persons) => persons;
+    return [
+      { squares: whole, candidates },
+      ...squaresOver(picture).map((squares) => ({ squares, candidates })),
+    ];
+  }
+
+  async #find(picture: Picture, time: number, searches: readonly Search[]): Promise<Tracked> {
+    let brightest = 0;
+    for (const { squares, candidates } of searches) {
+      const { persons, brightness } = await this.#detect(picture, squares);
+      brightest = Math.max(brightest, brightness);
+      for (const { region } of candidates(persons)) {
+        const landmarks = await this.#see(picture, time, region);
+        if (landmarks) return { landmarks, persons, brightness: brightest };
+      }
+    }
+    return { ...NOT_SEEN, brightness: brightest };
+  }
+
+  /** The persons in squares of a picture, the largest first, and the mean brightness of the brightest square. */
+  async #detect(
+    picture: Picture,
+    squares: readonly Square[],
+  ): Promise<{ readonly persons: readonly Person[]; readonly brightness: number }> {
+    const found: Person[] = [];
+    let brightest = 0;
+    for (const square of squares) {
+      const { input, brightness } = this.#cropper.detectorInput(picture, square);
+      brightest = Math.max(brightest, brightness);
+      const { boxes, scores } = await this.graphs.detect(input);
+      found.push(...personsOf(boxes, scores, square));
+    }
+    return { persons: distinct(found), brightness: brightest };
+  }
+
+  async #see(picture: Picture, time: number, region: Region): Promise<Landmarks | null> {
     const landmarks = landmarksOf(
       await this.graphs.landmarks(this.#cropper.landmarkInput(picture, region)),
       region,
@@ -84,42 +143,12 @@ export class PersonTracker {
     const { next, presence } = landmarks;
     const seen = presence >= MIN_PRESENCE && isInside(next, picture);
     this.#region = seen ? next : null;
-    if (!seen) return { landmarks: null };
-    this.#undetected = 0;
+    if (!seen) return null;
+    this.#unseen = 0;
     if (time - this.#since >= MIN_SIGHTING) this.#last = { region: next, time };
-    return { landmarks };
+    return landmarks;
   }
 }
-
-/** The persons in a picture, the largest first, and its mean brightness, 0 to 1. */
-export async function detectPersons(
-  graphs: PoseGraphs,
-  cropper: Cropper,
-  picture: Picture,
-): Promise<{ readonly persons: readonly Person[]; readonly brightness: number }> {
-  const { input, toPicture, brightness } = cropper.detectorInput(picture);
-  const { boxes, scores } = await graphs.detect(input);
-  return { persons: personsOf(boxes, scores, toPicture), brightness };
-}
-
-/** The person nearest to where one was seen last, if they can have come so far. */
-export function sameAsLast(
-  persons: readonly Person[],
-  { region, time }: Sighting,
-  now: number,
-): Person | undefined {
-  const reach = region.size * (REACH.atOnce + REACH.perSecond * (now - time));
-  const found = nearest(persons, region);
-  return found && distance(found.region, region) <= reach ? found : undefined;
-}
-
-/** The person nearest to a point, or the largest without one. */
-function nearest(persons: readonly Person[], point: Point | null): Person | undefined {
-  if (!point) return persons[0];
-  return [...persons].sort((a, b) => distance(a.region, point) - distance(b.region, point))[0];
-}
-
-const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 
 function isInside({ x, y, size }: Region, { width, height }: Picture): boolean {
   return (

@@ -27,10 +27,11 @@ import { SOLE } from '../../../../web/motion/skeleton/kinematics';
 import type { Shot } from '../../../web/support/filmed/shots';
 import { createMannequin } from './mannequin';
 
-/** A dancer in the picture, shifted along x by metres, who is there from and until a time in seconds. */
+/** A dancer in the picture, shifted along x and backwards by metres, who is there from and until a time in seconds. */
 export interface Cast {
   readonly motion: SolvedMotion;
   readonly aside?: number;
+  readonly away?: number;
   readonly from?: number;
   readonly until?: number;
 }
@@ -134,7 +135,7 @@ export async function film(
   mannequins.forEach(({ mesh, rig }, i) => {
     scene.add(mesh);
     mesh.add(rig.root);
-    mesh.position.x = cast[i]?.aside ?? 0;
+    mesh.position.set(cast[i]?.aside ?? 0, 0, -(cast[i]?.away ?? 0));
   });
   const fov = (2 * Math.atan(shot.height / 2 / shot.focal) * 180) / Math.PI;
   const camera = new PerspectiveCamera(fov, shot.width / shot.height, 0.1, 40);

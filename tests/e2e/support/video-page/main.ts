@@ -21,21 +21,15 @@ const page = {
   async film(motion: MotionName, shot: Shot, seconds: number, format?: VideoFormat): Promise<string> {
     return base64(await film([{ motion: motionOf(motion) }], shot, seconds, format));
   },
-  /** A video of the same dancer several times, each shifted along x by metres; the first leaves after so many seconds, and the others come. */
+  /** A video of the same dancer several times, each in another place or at other times. */
   async filmSeveral(
     motion: MotionName,
     shot: Shot,
     seconds: number,
-    aside: readonly number[],
-    firstUntil = Infinity,
-    othersFrom = 0,
+    cast: readonly Omit<Cast, 'motion'>[],
   ): Promise<string> {
-    const cast = aside.map((x, i): Cast => ({
-      motion: motionOf(motion),
-      aside: x,
-      ...(i === 0 ? { until: firstUntil } : { from: othersFrom }),
-    }));
-    return base64(await film(cast, shot, seconds));
+    const all = cast.map((place): Cast => ({ ...place, motion: motionOf(motion) }));
+    return base64(await film(all, shot, seconds));
   },
   /** A video of one colour. */
   async blank(colour: string, seconds: number, format: VideoFormat): Promise<string> {
