@@ -1,5 +1,9 @@
+import type { Quat } from '../motion/math/quat';
+import { CameraTurn, type Circle, circleAbout, comparedSize } from './pose/camera-turn';
 import { LANDMARK_COUNT } from './pose/landmarks';
+import { GreyReader, type Picture } from './pose/picture';
 import type { Tracked } from './pose/tracker';
+import { DEFAULT_FOCAL } from './world/camera';
 
 /** What was seen in the pictures of a video, one row a picture that was read. */
 export interface Observations {
@@ -18,22 +22,33 @@ export interface Observations {
   readonly visibility: Float32Array;
   /** rows x 2, the middle of what the network saw, pixels. */
   readonly centre: Float32Array;
+  /** rows x 4, how the camera turned from the first picture on, as `CameraTurn` has it with the usual focal length. */
+  readonly turn: Float32Array;
   /** Greatest mean brightness of a picture without the person, 0 to 1; 1 when they were always seen. */
   readonly brightest: number;
 }
 
 /** Collects observations while a video is being read. */
 export class Recorder {
-  readonly #rows: { readonly time: number; readonly tracked: Tracked }[] = [];
+  readonly #rows: { readonly time: number; readonly tracked: Tracked; readonly turn: Quat }[] = [];
+  readonly #camera = new CameraTurn(DEFAULT_FOCAL);
+  readonly #grey: GreyReader;
+  /** Where the dancer was seen last. */
+  #dancer: Circle | null = null;
   #brightest: number | null = null;
 
   constructor(
     private readonly width: number,
     private readonly height: number,
-  ) {}
+  ) {
+    this.#grey = new GreyReader(comparedSize(width, height));
+  }
 
-  add(time: number, tracked: Tracked): void {
-    this.#rows.push({ time, tracked });
+  add(time: number, picture: Picture, tracked: Tracked): void {
+    const longer = Math.max(this.width, this.height);
+    if (tracked.landmarks) this.#dancer = circleAbout(tracked.landmarks.region, longer);
+    const turn = this.#camera.next(this.#grey.read(picture), this.#grey.size, this.#dancer);
+    this.#rows.push({ time, tracked, turn });
     if (tracked.brightness !== null) this.#brightest = Math.max(this.#brightest ?? 0, tracked.brightness);
   }
 
@@ -50,9 +65,11 @@ export class Recorder {
       world: numbers(3 * LANDMARK_COUNT),
       visibility: numbers(LANDMARK_COUNT),
       centre: numbers(2),
+      turn: numbers(4),
       brightest: this.#brightest ?? 1,
     };
-    this.#rows.forEach(({ tracked: { landmarks } }, row) => {
+    this.#rows.forEach(({ tracked: { landmarks }, turn }, row) => {
+      out.turn.set(turn, row * 4);
       if (!landmarks) return;
       out.presence[row] = landmarks.presence;
       out.image.set(landmarks.image, row * 2 * LANDMARK_COUNT);

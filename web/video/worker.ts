@@ -112,7 +112,7 @@ async function read(
     let asked = pick !== null;
     for await (const { time, picture } of video.pictures(pick?.time ?? 0, Infinity)) {
       const tracked = await tracker.next(picture, time);
-      recorder.add(time, tracked);
+      recorder.add(time, picture, tracked);
       if (isThumbnail(time)) void report({ kind: 'thumbnail', time, image: thumbnails.of(picture) });
       if (!asked && tracked.persons.length > 0) {
         asked = true;

@@ -49,6 +49,21 @@ export function normaliseQuat(q: Quat): Quat {
   return size > 0 ? [q[0] / size, q[1] / size, q[2] / size, q[3] / size] : IDENTITY;
 }
 
+/** Angle of a rotation, radians. */
+export function angleOf([x, y, z, w]: Quat): number {
+  return 2 * Math.atan2(Math.hypot(x, y, z), Math.abs(w));
+}
+
+/** The mean of rotations that are near to each other, at least one. */
+export function meanQuat(rotations: readonly Quat[]): Quat {
+  const sum = [0, 0, 0, 0] as [number, number, number, number];
+  for (const q of rotations) {
+    const near = quatDot(q, rotations[0]!) < 0 ? negate(q) : q;
+    near.forEach((value, i) => (sum[i]! += value));
+  }
+  return normaliseQuat(sum);
+}
+
 /** The vector v rotated by the unit quaternion q. */
 export function rotate(q: Quat, v: Vec3): Vec3 {
   const x = 2 * (q[1] * v[2] - q[2] * v[1]);

@@ -82,6 +82,30 @@ export class Cropper {
   }
 }
 
+/** Makes small pictures of grey values. */
+export class GreyReader {
+  readonly #context: OffscreenCanvasRenderingContext2D;
+
+  constructor(readonly size: { readonly width: number; readonly height: number }) {
+    this.#context = new OffscreenCanvas(size.width, size.height).getContext('2d', {
+      willReadFrequently: true,
+    })!;
+    this.#context.imageSmoothingQuality = 'medium';
+  }
+
+  /** height x width, 0 to 1. */
+  read(picture: Picture): Float32Array {
+    const { width, height } = this.size;
+    this.#context.setTransform(width / picture.width, 0, 0, height / picture.height, 0, 0);
+    picture.draw(this.#context);
+    const { data } = this.#context.getImageData(0, 0, width, height);
+    return Float32Array.from(
+      { length: width * height },
+      (_, i) => (data[4 * i]! + 2 * data[4 * i + 1]! + data[4 * i + 2]!) / (4 * 255),
+    );
+  }
+}
+
 /** RGB of a canvas, channel by channel, each value times `scale` plus `offset`. */
 function channels(
   context: OffscreenCanvasRenderingContext2D,

@@ -2,6 +2,7 @@ import { FPS } from '../../motion/skeleton/clip';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import { BODY, L } from './landmark-names';
 import { MAX_BRIDGE, type Series } from './series';
+import { turnedBy } from './still-camera';
 
 /** Visibility below which a landmark is guessed. */
 const HIDDEN = 0.5;
@@ -9,6 +10,9 @@ const HIDDEN = 0.5;
 const OFTEN = 0.15;
 /** Height of the dancer below which they are small, as a share of the picture's height. */
 const SMALL = 0.3;
+
+/** Turn of the camera that is worth a sentence, radians. */
+const TURNED = 0.05;
 
 /** How sure each frame is, 0 to 1: the mean visibility of trunk and limbs, 0 where the person is not seen. */
 export function confidenceOf({ visibility, seen, frames }: Series): Float32Array {
@@ -47,6 +51,11 @@ export function adviceOn(series: Series, flipped: number): string[] {
     );
   if (often((frame) => hidden(frame, [L.left_elbow, L.right_elbow, L.left_wrist, L.right_wrist])))
     advice.push('An arm is often hidden behind the body: its place there is a guess.');
+  const turned = turnedBy(series);
+  if (turned > TURNED)
+    advice.push(
+      `The camera turned by up to ${Math.round((180 / Math.PI) * turned)}°, which was taken out of the motion: on a stand it is more exact.`,
+    );
   if (flipped > 0.05 * frames)
     advice.push(
       `Front and back were hard to tell apart for ${(flipped / FPS).toFixed(1)} s: wear a colour that differs from the wall.`,

@@ -20,6 +20,7 @@ import { placeLegs } from './legs';
 import { holdRoot } from './root-hold';
 import { type Part, type Series, seriesOf } from './series';
 import { stancesOf } from './stance';
+import { asOfStillCamera } from './still-camera';
 
 /** What the visitor can correct. */
 export interface WorldOptions {
@@ -33,6 +34,7 @@ export interface WorldOptions {
 
 export interface Reconstruction {
   readonly motion: SolvedMotion;
+  /** As it was seen. */
   readonly series: Series;
   /** Median depth of the dancer in front of the camera, metres. */
   readonly distance: number;
@@ -59,8 +61,8 @@ export function reconstruct(observations: Observations, options: WorldOptions): 
       'The dancer is not seen in this part of the video.',
       'Choose a longer part, or another one.',
     );
-  const { series, changed } = undoFlips(raw);
-  const focal = options.focal * Math.max(series.width, series.height);
+  const focal = options.focal * Math.max(raw.width, raw.height);
+  const { series, changed } = undoFlips(asOfStillCamera(raw, focal));
   const smooth = { ...series, world: oneEuro(series.world, 3 * LANDMARK_COUNT, FPS, POSE_FILTER) };
   const tilted = toTrueSize(toCameraAxes(smooth, focal), options.height);
   const first = findGround(series, tilted, focal);
@@ -74,7 +76,7 @@ export function reconstruct(observations: Observations, options: WorldOptions): 
   const positions = jointsOf(upright(landmarks, ground));
   const clip: MotionClip = { fps: FPS, frames: series.frames, positions };
   const motion = liftFeet(holdRoot(solve(clip), cues.stances), 0);
-  return { motion, series, distance: median(depth), flipped: changed };
+  return { motion, series: raw, distance: median(depth), flipped: changed };
 }
 
 /** Stances, depth and floor. */

@@ -33,6 +33,8 @@ export interface Series {
   readonly visibility: Float64Array;
   /** frames x 2, pixels. */
   readonly centre: Float64Array;
+  /** frames x 4, as in the observations. */
+  readonly turn: Float64Array;
   /** 1 where the person is seen, 0 where the frame is bridged. */
   readonly seen: Uint8Array;
   /** All spans that were bridged; those longer than `MAX_BRIDGE` are guesses. */
@@ -76,12 +78,14 @@ export function seriesOf(observations: Observations, trim: Part | null = null): 
     world: 3 * LANDMARK_COUNT,
     visibility: LANDMARK_COUNT,
     centre: 2,
+    turn: 4,
   };
   const out = {
     image: new Float64Array(frames * columns.image),
     world: new Float64Array(frames * columns.world),
     visibility: new Float64Array(frames * columns.visibility),
     centre: new Float64Array(frames * columns.centre),
+    turn: new Float64Array(frames * columns.turn),
   };
   const seen = new Uint8Array(frames);
   const spacing = typicalSpacing(times);
@@ -93,7 +97,7 @@ export function seriesOf(observations: Observations, trim: Part | null = null): 
     const span = times[b]! - times[a]!;
     const share = Math.min(1, Math.max(0, (time - times[a]!) / span));
     seen[frame] = Number(span < 2.5 * spacing || share < 0.01 || share > 0.99);
-    for (const name of ['image', 'world', 'visibility', 'centre'] as const) {
+    for (const name of ['image', 'world', 'visibility', 'centre', 'turn'] as const) {
       const [from, size] = [observations[name], columns[name]];
       for (let i = 0; i < size; i++) {
         const value = from[a * size + i]!;

@@ -13,12 +13,15 @@ import {
 import {
   Color,
   DirectionalLight,
+  Euler,
   GridHelper,
+  Group,
   HemisphereLight,
   Mesh,
   MeshLambertMaterial,
   PerspectiveCamera,
   PlaneGeometry,
+  Quaternion,
   Scene,
   WebGLRenderer,
 } from 'three';
@@ -120,6 +123,47 @@ function knocking(seconds: number): AudioBuffer {
   return buffer;
 }
 
+/** A wall with things on it behind the dancer: of what stands still is seen how a camera turns. */
+function wall(): Group {
+  const group = new Group();
+  const add = (x: number, y: number, width: number, height: number, color: number, z = -4): void => {
+    const mesh = new Mesh(new PlaneGeometry(width, height), new MeshLambertMaterial({ color }));
+    mesh.position.set(x, y, z);
+    group.add(mesh);
+  };
+  add(0, 1.5, 16, 3.2, 0xb9b2a4, -4.05);
+  for (const [x, y, width, height, color] of WALL) add(x, y, width, height, color);
+  return group;
+}
+
+/** Doors, windows and pictures: middle, size in metres, colour. */
+const WALL = [
+  [-5.6, 1, 0.9, 2, 0x6b4f3a],
+  [-4.1, 1.7, 1.2, 0.8, 0xdfe8ef],
+  [-2.6, 1.6, 0.5, 0.7, 0x3f5d4a],
+  [-1.7, 1.9, 0.3, 0.3, 0x8c3a2e],
+  [-0.4, 1.6, 1, 0.6, 0x2f3e57],
+  [1.1, 1.8, 0.6, 0.9, 0xd3c27a],
+  [2.2, 1.4, 0.4, 0.4, 0x4a4a4a],
+  [3.4, 1.7, 1.2, 0.8, 0xdfe8ef],
+  [5, 1, 0.9, 2, 0x6b4f3a],
+  [-3.2, 0.4, 1.6, 0.8, 0x7d6a55],
+  [4.1, 0.3, 0.7, 0.6, 0x55606e],
+] as const;
+
+/** How a hand turns a camera that follows a dancer, to both sides by degrees. */
+function heldTurn(panned: number, time: number): Quaternion {
+  const degree = Math.PI / 180;
+  const wave = (hertz: number, phase: number): number => Math.sin(2 * Math.PI * hertz * time + phase);
+  return new Quaternion().setFromEuler(
+    new Euler(
+      degree * (1.5 * wave(0.4, 1) + 0.4 * wave(2.1, 0)),
+      degree * (panned * wave(0.25, 0) + 0.4 * wave(1.7, 2)),
+      degree * (0.8 * wave(0.5, 2) + 0.3 * wave(2.4, 1)),
+    ),
+  );
+}
+
 /** Films dancers. */
 export async function film(
   cast: readonly Cast[],
@@ -143,7 +187,10 @@ export async function film(
   camera.lookAt(...shot.target);
   // A phone that is turned writes turned pictures and says by how much players have to turn them back.
   if (shot.rotation !== undefined) camera.rotateZ((-shot.rotation * Math.PI) / 180);
+  if (shot.panned !== undefined) scene.add(wall());
+  const still = camera.quaternion.clone();
   const draw = (time: number): void => {
+    if (shot.panned !== undefined) camera.quaternion.multiplyQuaternions(still, heldTurn(shot.panned, time));
     mannequins.forEach((mannequin, i) => {
       mannequin.pose(time);
       const { from = 0, until = Infinity } = cast[i]!;

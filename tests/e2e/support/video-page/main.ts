@@ -54,7 +54,7 @@ const page = {
     const recorder = new Recorder(video.width, video.height);
     const begin = performance.now();
     for await (const { time, picture } of video.pictures(0, Infinity))
-      recorder.add(time, await tracker.next(picture, time));
+      recorder.add(time, picture, await tracker.next(picture, time));
     const seconds = (performance.now() - begin) / 1000;
     video.close();
     const o = recorder.observations();
@@ -68,6 +68,7 @@ const page = {
       world: plain(o.world),
       visibility: plain(o.visibility),
       centre: plain(o.centre),
+      turn: plain(o.turn),
     };
   },
 };

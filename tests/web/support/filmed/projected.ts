@@ -80,6 +80,7 @@ export function projected(
     visibility: new Float32Array(frames * LANDMARK_COUNT).fill(0.95),
     // The whole picture was seen, so that the axes are the camera's.
     centre: Float32Array.from({ length: 2 * frames }, (_, i) => (i % 2 === 0 ? width : height) / 2),
+    turn: Float32Array.from({ length: 4 * frames }, (_, i) => Number(i % 4 === 3)),
     brightest: 1,
   };
 }

@@ -9,6 +9,8 @@ const KEPT = [7, 8, 11, 12, 13, 14, 15, 16, 23, 24, 25, 26, 27, 28, 29, 30, 31, 
 const PIXEL = 1 / 16;
 const METRE = 1 / 8192;
 const SHARE = 1 / 32767;
+/** Parts of a quaternion below which a camera stands still. */
+const STILL = 0.003;
 
 interface Recording {
   readonly width: number;
@@ -18,6 +20,8 @@ interface Recording {
   readonly rows: number;
   /** Sixteen-bit numbers in base64: for each picture presence, centre, then image, world and visibility of `KEPT`. */
   readonly data: string;
+  /** The same of the camera's turns, in `SHARE`; left out where the camera stands still. */
+  readonly turn?: string;
 }
 
 const COLUMNS = 3 + KEPT.length * 6;
@@ -50,16 +54,29 @@ export function encodeRecording(
       numbers[row * COLUMNS + column] = Math.max(-32768, Math.min(32767, values[row * columns + at]! / step));
   });
   const spacing = (times[rows - 1]! - times[0]!) / (rows - 1);
-  const data = Buffer.from(numbers.buffer).toString('base64');
-  return `${JSON.stringify({ width, height, spacing, rows, data } satisfies Recording)}\n`;
+  const base64 = (values: Int16Array): string => Buffer.from(values.buffer).toString('base64');
+  const turn = seen.turn as ArrayLike<number>;
+  const turns = Int16Array.from({ length: 4 * rows }, (_, i) => Math.round(turn[i]! / SHARE));
+  const moved = turns.some((value, i) => i % 4 < 3 && Math.abs(value * SHARE) > STILL);
+  const recording = {
+    width,
+    height,
+    spacing,
+    rows,
+    data: base64(numbers),
+    ...(moved && { turn: base64(turns) }),
+  };
+  return `${JSON.stringify(recording satisfies Recording)}\n`;
 }
 
 /** @param name of the recording in tests/fixtures/video */
 export function recorded(name: string): Observations {
   const file = new URL(`../../../fixtures/video/${name}.json`, import.meta.url);
-  const { width, height, spacing, rows, data } = JSON.parse(readFileSync(file, 'utf8')) as Recording;
-  const bytes = Uint8Array.from(Buffer.from(data, 'base64'));
-  const numbers = new Int16Array(bytes.buffer);
+  const { width, height, spacing, rows, data, turn } = JSON.parse(readFileSync(file, 'utf8')) as Recording;
+  const sixteenBits = (base64: string): Int16Array =>
+    new Int16Array(Uint8Array.from(Buffer.from(base64, 'base64')).buffer);
+  const numbers = sixteenBits(data);
+  const turns = turn === undefined ? null : sixteenBits(turn);
   const out = {
     presence: new Float32Array(rows),
     centre: new Float32Array(rows * 2),
@@ -76,6 +93,9 @@ export function recorded(name: string): Observations {
     height,
     times: Float64Array.from({ length: rows }, (_, row) => row * spacing),
     ...out,
+    turn: Float32Array.from({ length: 4 * rows }, (_, i) =>
+      turns ? turns[i]! * SHARE : Number(i % 4 === 3),
+    ),
     brightest: 1,
   };
 }

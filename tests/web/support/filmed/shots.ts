@@ -1,6 +1,6 @@
 /** The videos that the accuracy of the motion from a video is measured with. */
 
-/** A camera that stands still and looks at a point; metres, y up. */
+/** A camera that looks at a point; metres, y up. */
 export interface Shot {
   readonly width: number;
   readonly height: number;
@@ -10,6 +10,8 @@ export interface Shot {
   readonly target: readonly [number, number, number];
   readonly fps: number;
   readonly clothed: boolean;
+  /** By how much a hand turns the camera to both sides, slowly, degrees; it trembles meanwhile. By default it stands still. */
+  readonly panned?: number;
   /** Bits a second; by default as many as a good picture takes. */
   readonly bitrate?: number;
   /** Clockwise turn that players are told to apply to the pictures, degrees. */
@@ -38,9 +40,10 @@ function filmed(
   seconds: number,
   height: number,
   depth: number,
+  panned?: number,
 ): FilmedMotion {
   return {
-    name: `${motion}-${height.toFixed(1)}`,
+    name: `${motion}-${height.toFixed(1)}${panned === undefined ? '' : '-panned'}`,
     motion,
     title,
     seconds,
@@ -52,6 +55,7 @@ function filmed(
       target: [0, 0.9, -depth],
       fps: 20,
       clothed: true,
+      ...(panned !== undefined && { panned }),
     },
   };
 }
@@ -62,6 +66,8 @@ export const FILMED: readonly FilmedMotion[] = [
   ...[LOW, CHEST, HIGH].map((height) => filmed('turning', 'turning, 0.45 turns a second', 6, height, 0)),
   filmed('spinning', 'turning, 0.9 turns a second', 4, CHEST, 0),
   ...[LOW, CHEST, HIGH].map((height) => filmed('walking', 'walking away and back', 6, height, 0.7)),
+  filmed('salsa', 'salsa, camera in a hand, turned by 12°', 6, CHEST, 0, 12),
+  filmed('walking', 'walking away and back, camera in a hand, turned by 12°', 6, CHEST, 0.7, 12),
 ];
 
 function person(view: number, side: string, shot: Pick<Shot, 'position' | 'target' | 'focal'>): FilmedMotion {

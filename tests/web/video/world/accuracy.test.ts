@@ -9,13 +9,16 @@ const document = readFileSync(new URL('../../../../docs/leader-from-video.md', i
 /** Limits: joints in metres, the path's length as a share, place as a share of the path, standing feet in m/s. */
 const MANNEQUIN = { pose: 0.08, path: 0.15, place: 0.15, feet: 0.1 };
 // The truth of the person is known to a few centimetres, and their stances last a quarter of a second.
+// A camera in a hand: what is measured of its turns trembles a little.
+const HELD = { ...MANNEQUIN, feet: 0.2 };
 const RECORDED = { pose: 0.11, path: 0.25, place: 0.18, feet: 0.5 };
 /** A row's numbers without its title. */
 const numbers = (row: string): number[] => [...row.replace(/^\| [^|]*/, '').matchAll(/[\d.]+/g)].map(Number);
 
 describe.each([...FILMED, ...PERSON])('$title, camera at $shot.position.1 m', (filmed) => {
   const found = accuracyOf(filmed);
-  const limits = PERSON.includes(filmed) ? RECORDED : MANNEQUIN;
+  const held = filmed.shot.panned === undefined ? MANNEQUIN : HELD;
+  const limits = PERSON.includes(filmed) ? RECORDED : held;
 
   it('has its joints where they were', () => {
     expect(found.pose).toBeLessThan(limits.pose);

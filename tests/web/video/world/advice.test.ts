@@ -26,6 +26,7 @@ function series(): Series {
     world: new Float64Array(FRAMES * LANDMARK_COUNT * 3),
     visibility: new Float64Array(FRAMES * LANDMARK_COUNT).fill(1),
     centre: new Float64Array(FRAMES * 2),
+    turn: Float64Array.from({ length: FRAMES * 4 }, (_, i) => Number(i % 4 === 3)),
     seen: new Uint8Array(FRAMES).fill(1),
     gaps: [],
   };
@@ -48,6 +49,13 @@ const FAULTS: Record<string, (video: Series, frame: number) => void> = {
 describe('advice on a video', () => {
   it('is none for a good one', () => {
     expect(adviceOn(series(), 0)).toEqual([]);
+  });
+
+  it('says that the camera turned, by how much, and that this was taken out', () => {
+    const video = series();
+    for (let frame = 50; frame < FRAMES; frame++) video.turn.set([0, 0.1, 0, 0.995], 4 * frame);
+    // Half of the frames each are so far from the middle.
+    expect(adviceOn(video, 0)).toEqual([expect.stringContaining('turned by up to 6°, which was taken out')]);
   });
 
   it.each(Object.entries(FAULTS))('says that %s in more than 15 of 100 frames', (words, fault) => {
