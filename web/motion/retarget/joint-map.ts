@@ -68,9 +68,22 @@ type Found = Pick<JointMap, 'convention' | 'by' | 'confidence' | 'doubts' | 'has
   readonly nodes: Map<JointName, number>;
 };
 
+/** The last joint of the single way that goes on from a neck, as `Neck1` after `Neck`; undefined where none does. */
+function aboveNeck(nodes: readonly SourceJoint[], neck: number | undefined): number | undefined {
+  let last: number | undefined;
+  for (let at = neck; at !== undefined;) {
+    const above = [...nodes.keys()].filter((node) => nodes[node]!.parent === at && !nodes[node]!.endSite);
+    at = above.length === 1 ? above[0] : undefined;
+    last = at ?? last;
+  }
+  return last;
+}
+
 /** The joints by the names of the convention of which most are found. */
 function findByNames(nodes: readonly SourceJoint[]): Found {
   const { convention, found } = bestConvention(nodes);
+  const head = found.has('head') ? undefined : aboveNeck(nodes, found.get('neck'));
+  if (head !== undefined) found.set('head', head);
   const hasSmplTrunk = convention.trunk !== undefined;
   return { convention: convention.name, by: 'names', confidence: 1, doubts: [], nodes: found, hasSmplTrunk };
 }

@@ -40,11 +40,18 @@ export interface Body {
   readonly toes: Readonly<Record<(typeof SIDES)[number], number | null>>;
 }
 
-/** The toe joint, or else the end site below the ankle; null where the file has neither. */
+/**
+ * The toe joint; else what is below the ankle: a joint that is called a toe, the only joint, or the end site. Null where
+ * the file has none of them. Where joints were chosen by hand, no other joint is taken.
+ */
 function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: (typeof SIDES)[number]): number | null {
+  const named = map.nodes.get(`${side}_foot`);
+  if (named !== undefined) return named;
   const ankle = map.nodes.get(`${side}_ankle`)!;
-  const end = nodes.findIndex(({ endSite, parent }) => endSite && parent === ankle);
-  return map.nodes.get(`${side}_foot`) ?? (end < 0 ? null : end);
+  const below = [...nodes.keys()].filter((node) => nodes[node]!.parent === ankle);
+  const end = below.find((node) => nodes[node]!.endSite) ?? null;
+  if (map.by === 'hand') return end;
+  return below.find((node) => /toe/i.test(nodes[node]!.name)) ?? (below.length === 1 ? below[0]! : end);
 }
 
 /** Nodes whose motion is read from the file. */

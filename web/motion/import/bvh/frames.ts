@@ -69,7 +69,11 @@ export function readFrames(
   }
   if (frameLines.length < stated) return endedAfter(stated, frameLines);
   const warnings =
-    extra > 0 ? [`${extra} frames beyond the ${stated} that the file states were left out.`] : [];
+    extra > 0
+      ? [
+          `${extra} ${extra === 1 ? 'frame' : 'frames'} beyond the ${stated} that the file states ${extra === 1 ? 'was' : 'were'} left out.`,
+        ]
+      : [];
   return { frameLines, warnings, truncated: false };
 }
 

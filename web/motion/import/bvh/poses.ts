@@ -21,15 +21,25 @@ function canonical(nodes: readonly BvhNode[], at: number): string[] {
   ];
 }
 
+/** Squared length of a vector. */
+const squared = (v: Vec3): number => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+
 /**
- * Whether a joint's position channels hold the translation from the parent, instead of what is added to its OFFSET.
+ * Whether the position channels of a file hold translations from the parent, instead of what is added to each OFFSET.
  *
- * Programs disagree. A joint hardly moves against its parent, so the reading that stays nearer to the offset is taken.
+ * Programs disagree. A joint hardly moves against its parent, so for each joint the reading that stays nearer to the
+ * offset is likely; hips that walk away below a root are outvoted by the other joints.
+ *
+ * @param joints offset and values over time of every joint below a root that has position channels
  */
-function includesOffset(offset: Vec3, values: readonly Vec3[]): boolean {
-  const squared = (v: Vec3): number => v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  const asTranslation = values.reduce((sum, value) => sum + squared(sub(value, offset)), 0);
-  return asTranslation < values.reduce((sum, value) => sum + squared(value), 0);
+function includeOffsets(
+  joints: readonly { readonly offset: Vec3; readonly values: readonly Vec3[] }[],
+): boolean {
+  const votes = joints.map(({ offset, values }) => {
+    const asTranslation = values.reduce((sum, value) => sum + squared(sub(value, offset)), 0);
+    return Math.sign(values.reduce((sum, value) => sum + squared(value), 0) - asTranslation);
+  });
+  return votes.reduce((sum, vote) => sum + vote, 0) > 0;
 }
 
 /**
@@ -62,19 +72,22 @@ export function readPoses(file: BvhFile, wanted: readonly number[]): LocalPoses 
       }
     });
   }
-  nodes.forEach((node, index) => {
+  const placed = nodes.flatMap((node, index) => {
     const all = wanted.map((_, frame) => frame * nodes.length + index);
     if (node.endSite) {
       for (const at of all) {
         writeVec(translations, at, node.offset);
         rotations[4 * at + 3] = 1;
       }
-    } else if (node.channels.some((channel) => channel.endsWith('position'))) {
-      const values = all.map((at) => sub(readVec(translations, at), node.offset));
-      // The place of a root is the channels' own.
-      if (node.parent < 0 || includesOffset(node.offset, values))
-        all.forEach((at, frame) => writeVec(translations, at, values[frame]!));
     }
+    if (!node.channels.some((channel) => channel.endsWith('position'))) return [];
+    const values = all.map((at) => sub(readVec(translations, at), node.offset));
+    return [{ ...node, all, values }];
   });
+  const included = includeOffsets(placed.filter(({ parent }) => parent >= 0));
+  for (const { parent, all, values } of placed) {
+    // The place of a root is the channels' own.
+    if (parent < 0 || included) all.forEach((at, frame) => writeVec(translations, at, values[frame]!));
+  }
   return { rotations, translations };
 }

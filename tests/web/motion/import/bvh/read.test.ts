@@ -216,6 +216,8 @@ describe('time', () => {
     const { clip, report } = leaderBvh(text.replace('Frames: 40', 'Frames: 35'));
     expect(clip.frames).toBe(35);
     expect(report.warnings).toEqual(['5 frames beyond the 35 that the file states were left out.']);
+    const single = leaderBvh(text.replace('Frames: 40', 'Frames: 39')).report;
+    expect(single.warnings).toEqual(['1 frame beyond the 39 that the file states was left out.']);
   });
 
   test('a dance at a multiple of its speed raises a warning', () => {
