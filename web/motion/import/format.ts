@@ -1,5 +1,5 @@
 /** Formats of motion files. */
-export type MotionFormat = 'bvh' | 'fbx' | 'gltf' | 'vmd' | 'amc' | 'c3d' | 'numpy' | 'json' | 'csv';
+export type MotionFormat = 'bvh' | 'fbx' | 'gltf' | 'vmd' | 'amc' | 'c3d' | 'numpy' | 'json' | 'csv' | 'trc';
 
 /** Bytes from which `motionFormat` tells a format. */
 export const FORMAT_BYTES = 512;
@@ -12,10 +12,12 @@ const ENDINGS: readonly (readonly [RegExp, MotionFormat])[] = [
   [/\.(amc|asf)$/i, 'amc'],
   [/\.c3d$/i, 'c3d'],
   [/\.(npz|npy)$/i, 'numpy'],
+  [/\.trc$/i, 'trc'],
 ];
 
 /** Endings of all files that are read, for the system's file chooser. */
-export const MOTION_ENDINGS = '.bvh,.fbx,.glb,.gltf,.bin,.vrm,.vrma,.vmd,.amc,.asf,.c3d,.npz,.npy,.json,.csv';
+export const MOTION_ENDINGS =
+  '.bvh,.fbx,.glb,.gltf,.bin,.vrm,.vrma,.vmd,.amc,.asf,.c3d,.npz,.npy,.json,.csv,.trc';
 
 /**
  * The format of a motion file from its first bytes, and from its name where they do not tell; null for other files.
@@ -29,6 +31,7 @@ export function motionFormat(head: Uint8Array, name: string): MotionFormat | nul
   if (text.startsWith('glTF')) return 'gltf';
   if (text.startsWith('Vocaloid Motion Data')) return 'vmd';
   if (text.startsWith('\u0093NUMPY')) return 'numpy';
+  if (text.startsWith('PathFileType')) return 'trc';
   if (text.startsWith('PK')) return /\.npz$/i.test(name) ? 'numpy' : null;
   // A word of 0x50 follows the place of the parameters, and a C3D has no other mark.
   if (head[1] === 0x50 && /\.c3d$/i.test(name)) return 'c3d';

@@ -42,7 +42,8 @@ export function tooFew(frames: number): AppError | null {
   );
 }
 
-type About = Pick<MotionSource, 'format' | 'frameRate' | 'rateAssumed' | 'unit' | 'upAxis'> &
+/** What a reader knows about a file beside its positions. */
+export type About = Pick<MotionSource, 'format' | 'frameRate' | 'rateAssumed' | 'unit' | 'upAxis'> &
   Partial<Pick<MotionSource, 'convention' | 'parts' | 'part' | 'warnings'>>;
 
 /**

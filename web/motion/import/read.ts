@@ -57,6 +57,10 @@ const READERS: Readonly<Record<MotionFormat, () => Promise<Reader>>> = {
     const { readCsv } = await import('./tables/csv');
     return ([file], part) => readCsv(text(file), part);
   },
+  trc: async () => {
+    const { readTrc } = await import('./tables/trc');
+    return ([file]) => readTrc(text(file));
+  },
 };
 
 /**
@@ -75,7 +79,7 @@ export async function readMotion(
     throw new AppError(
       'not-motion',
       'This is not a motion file in a format that can be read here.',
-      'Use BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.',
+      'Use BVH, FBX, glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON, CSV or TRC.',
     );
   }
   if (file.bytes.length > MAX_BYTES) {

@@ -205,7 +205,7 @@ export function emptyDropProblem(): Problem {
 
 const USABLE =
   'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, ' +
-  'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON or CSV.';
+  'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON, CSV or TRC.';
 
 export function unknownFileProblem(name: string): Problem {
   // Such as the BVH of both dancers that the page writes.

@@ -1,4 +1,5 @@
 import { LANDMARK_COUNT } from '../pose/landmarks';
+import { BALL_SHARE, HEAD_SHARE, NECK_UP } from '../../motion/skeleton/landmarks';
 import { J, JOINT_COUNT } from '../../motion/skeleton/skeleton';
 import { add, lerp, readVec, scale, sub, type Vec3, writeVec } from '../../motion/math/vec3';
 import { L } from './landmark-names';
@@ -6,14 +7,9 @@ import { L } from './landmark-names';
 /** Where joints lie between or beside landmarks, in shares of the trunk from the hips to the shoulders. */
 const PELVIS_UP = 0.17;
 const SPINE = [0.4, 0.6, 0.74] as const;
-const NECK_UP = 1.08;
-/** Neck to head joint, from neck to the middle of the ears. */
-const HEAD_SHARE = 0.6;
 /** Collar: from the spine below the neck towards the shoulder. */
 const COLLAR_SHARE = 0.4;
 const COLLAR_UP = 0.86;
-/** Ball of the foot: from the ankle towards the tip of the toes, which the landmark marks. */
-const BALL_SHARE = 0.62;
 
 /**
  * The 22 joints of a body from its 33 landmarks.

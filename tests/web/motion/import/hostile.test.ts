@@ -9,6 +9,7 @@ import { readNumpy } from '../../../../web/motion/import/numpy/read';
 import { readMotion } from '../../../../web/motion/import/read';
 import { readCsv } from '../../../../web/motion/import/tables/csv';
 import { readJsonMotion } from '../../../../web/motion/import/tables/json';
+import { readTrc } from '../../../../web/motion/import/tables/trc';
 import { readVmd } from '../../../../web/motion/import/vmd/read';
 import { leaderOf } from '../../../../web/motion/retarget/leader';
 import type { MotionSource } from '../../../../web/motion/retarget/source';
@@ -22,6 +23,7 @@ import { writeC3d } from '../../support/motion-files/c3d';
 import { writeFbxAscii, writeFbxBinary } from '../../support/motion-files/fbx';
 import { writeGlb } from '../../support/motion-files/glb';
 import { madeMotion, positionsOf } from '../../support/motion-files/made-motion';
+import { writeMotive, writeTrc } from '../../support/motion-files/markers';
 import { writeVmd } from '../../support/motion-files/vmd';
 
 const utf8 = (text: string): Uint8Array<ArrayBuffer> => new TextEncoder().encode(text);
@@ -52,6 +54,12 @@ const vmd = writeVmd([
   { bone: '左足ＩＫ', frame: 6, move: [0, 1, 1] },
 ]);
 
+const trc = writeTrc(
+  joints.joints.map(({ name }) => name),
+  joints.places,
+  'm',
+);
+
 /** A file to damage, whether its text or its bytes are damaged, and its reader. */
 const READERS: readonly (readonly [
   string,
@@ -69,6 +77,8 @@ const READERS: readonly (readonly [
   ['AMASS', amass, 'bytes', (bytes) => readNumpy(bytes, 'a.npz', 0)],
   ['JSON', utf8(json), 'text', (bytes) => readJsonMotion(text(bytes), 0)],
   ['CSV', utf8(writeCsv(joints)), 'text', (bytes) => readCsv(text(bytes), 0)],
+  ['CSV of Motive', utf8(writeMotive({ Anna: plain })), 'text', (bytes) => readCsv(text(bytes), 0)],
+  ['TRC', utf8(trc), 'text', (bytes) => readTrc(text(bytes))],
   ['FBX, binary', writeFbxBinary(plain), 'bytes', (bytes) => readFbx(bytes, 0)],
   ['FBX, text', writeFbxAscii(plain), 'text', (bytes) => readFbx(bytes, 0)],
   ['GLB', writeGlb(plain), 'bytes', (bytes) => readGltf([{ name: 'a.glb', bytes }], 0)],

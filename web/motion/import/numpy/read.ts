@@ -1,6 +1,8 @@
 import { sourceOfRotations } from './amass';
 import { changesLengths } from './bone-lengths';
-import { bodyOf, JOINT_COUNTS, sourceOfPositions, tooLong } from '../positions';
+import { LANDMARK_COUNTS, landmarksIn } from './landmarks';
+import { sourceOfPoints } from '../keypoints';
+import { bodyOf, JOINT_COUNTS, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { type DamageError, type NpzArray, openNpy, type StoredArray, unzipArrays } from '../../../common/npz';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
@@ -65,7 +67,7 @@ function jointShape(array: StoredArray): { frames: number; count: number } | nul
   const sizes = sizesOf(array);
   const [frames = 0, second = 0, third] = sizes;
   const count = sizes.length === 3 && third === 3 ? second : sizes.length === 2 ? second / 3 : 0;
-  return JOINT_COUNTS.includes(count) ? { frames, count } : null;
+  return [...JOINT_COUNTS, ...LANDMARK_COUNTS].includes(count) ? { frames, count } : null;
 }
 
 /**
@@ -150,8 +152,8 @@ function placesIn(arrays: Archive, frames: number): NpzArray | null {
 }
 
 /**
- * Reads .npy and .npz files: joints (T, 22, 3), (T, 55, 3) and alike or flat, and rotations of SMPL bodies as AMASS has
- * them.
+ * Reads .npy and .npz files: joints (T, 22, 3), (T, 55, 3) and alike or flat, points of a body in pictures such as
+ * (T, 33, 3), and rotations of SMPL bodies as AMASS has them.
  *
  * @param part number of the dancer in an archive with several arrays of joints
  * @throws {AppError} `unreadable-file`, `not-motion`, `too-long` or `too-few-frames`
@@ -178,9 +180,10 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const { frames, count } = jointShape(array)!;
   const error = tooLong(frames, count * 3);
   if (error) throw error;
-  const body = bodyOf(array.read().data, count)!;
+  const values = array.read().data;
+  const body = (bodyOf(values, count) ?? landmarksIn(values, count))!;
   const doubt = 'Bones change their lengths all the time: the values may be rotations, not places of joints.';
-  return sourceOfPositions(body, {
+  return sourceOfPoints(body, {
     format: isArchive ? 'NPZ' : 'NPY',
     ...rateOf(arrays),
     unit: null,
@@ -205,6 +208,6 @@ function noJoints(arrays: Archive): AppError {
   return new AppError(
     'not-motion',
     `No array in this file is a motion; it holds ${seen.join(', ') || 'none that can be read'}.`,
-    'A motion is an array (T, 22, 3) or (T, 55, 3) of joints in the order of SMPL, or poses and trans as AMASS has them.',
+    'A motion is an array (T, 22, 3) or (T, 55, 3) of joints in the order of SMPL, (T, 17, 3) or (T, 33, 3) of points of COCO or MediaPipe, or poses and trans as AMASS has them.',
   );
 }

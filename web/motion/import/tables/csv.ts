@@ -1,4 +1,6 @@
-import { sourceOfPositions, tooLong } from '../positions';
+import { sourceOfPoints } from '../keypoints';
+import { tooLong } from '../positions';
+import { isOfMotive, readMotive } from './motive';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
@@ -10,6 +12,10 @@ const SEPARATOR = /[,;\t]/;
 const COLUMN = /^(?:(leader|reactor|follower|dancer\d*)[_. :/])?(.{1,80}?)[_. :/]?\(?([xyz])\)?$/i;
 /** The title of a column of times, in seconds or with `ms` in milliseconds. */
 const TIME = /^(time|seconds|t)(\W.*|_ms)?$/i;
+/** What FreeMoCap writes before the joints of the body, where there are hands and a face beside it. */
+const BODY = /^body_/i;
+/** A cell of a joint that was not seen. */
+const NOT_SEEN = /^(nan|na|n\/a|null|none)?$/i;
 /** Largest number of columns. */
 const MAX_COLUMNS = 3000;
 
@@ -76,8 +82,8 @@ function readRows(
     const cells = row.split(separator);
     for (const { joint, axis, column } of wanted) {
       const cell = unquoted(cells[column] ?? '');
-      const value = cell === '' ? NaN : Number(cell);
-      if (!Number.isFinite(value)) throw badCell(frame, cell, titles[column]!);
+      const value = NOT_SEEN.test(cell) ? NaN : Number(cell);
+      if (!Number.isFinite(value) && !NOT_SEEN.test(cell)) throw badCell(frame, cell, titles[column]!);
       places[(frame * names.length + slots.get(joint)!) * 3 + axis] = value;
     }
     if (time >= 0) times.push(Number(unquoted(cells[time] ?? '')) / unitsPerSecond);
@@ -89,7 +95,7 @@ function badCell(frame: number, cell: string, title: string): AppError {
   return new AppError(
     'bad-number',
     `Frame ${frame + 1}: "${cell.slice(0, 24)}" is not a number (${title.slice(0, 40)}).`,
-    'Export the table again, with a decimal point and every cell filled.',
+    'Export the table again, with a decimal point.',
   );
 }
 
@@ -103,6 +109,7 @@ export function readCsv(text: string, part: number): MotionSource {
   const lines = linesOf(text);
   const comments = lines.filter((line) => line.startsWith('#'));
   const rows = lines.filter((line) => line.trim() !== '' && !line.startsWith('#'));
+  if (isOfMotive(rows[0] ?? '')) return readMotive(rows, part);
   const separator = SEPARATOR.exec(rows[0] ?? '')?.[0] ?? ',';
   const titles = (rows[0] ?? '').split(separator).map(unquoted);
   if (titles.length > MAX_COLUMNS) throw invalid(`it has ${titles.length} columns`);
@@ -110,15 +117,17 @@ export function readCsv(text: string, part: number): MotionSource {
   const dancers = [...new Set(columns.map(({ dancer }) => dancer))];
   const at = part < dancers.length ? part : 0;
   const mine = columns.filter(({ dancer }) => dancer === dancers[at]);
-  const names = [...new Set(mine.map(({ joint }) => joint))].filter(
+  const whole = [...new Set(mine.map(({ joint }) => joint))].filter(
     (joint) => new Set(mine.filter((one) => one.joint === joint).map(({ axis }) => axis)).size === 3,
   );
+  const body = whole.filter((name) => BODY.test(name));
+  const names = body.length > 0 ? body : whole;
   if (names.length < 3) throw invalid('its first line names no joints with x, y and z');
   const error = tooLong(rows.length - 1, names.length * 3);
   if (error) throw error;
   const { places, times } = readRows(rows.slice(1), separator, titles, mine, names);
   const rate = rateOf(comments, times);
-  return sourceOfPositions(
+  return sourceOfPoints(
     { joints: jointsOf(names), places },
     {
       format: 'CSV',

@@ -1,4 +1,5 @@
-import { sourceOfPositions, SMPL_JOINTS, tooLong } from '../positions';
+import { sourceOfPoints } from '../keypoints';
+import { SMPL_JOINTS, tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource, SourceJoint } from '../../retarget/source';
@@ -72,7 +73,7 @@ export function readJsonMotion(text: string, part: number): MotionSource {
   if (!frames) throw invalid('its "positions" hold no dancer');
   const joints = jointsOf(names, parents);
   const rate = typeof fps === 'number' ? fps : null;
-  return sourceOfPositions(
+  return sourceOfPoints(
     { joints, places: placesOf(frames, joints.length) },
     {
       format: 'JSON',
