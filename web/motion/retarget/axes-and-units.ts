@@ -39,7 +39,14 @@ export function findUp(upright: Vec3): UpAxis & { certain: boolean } {
 }
 
 export type UnitName =
-  'metres' | 'centimetres' | 'inches' | 'millimetres' | 'feet' | 'MMD units of 8 cm' | 'CMU units of 5.64 cm';
+  | 'metres'
+  | 'decimetres'
+  | 'centimetres'
+  | 'inches'
+  | 'millimetres'
+  | 'feet'
+  | 'MMD units of 8 cm'
+  | 'CMU units of 5.64 cm';
 
 export interface Unit {
   readonly name: string;
@@ -49,6 +56,8 @@ export interface Unit {
 /** Units in which bodies are found. */
 const UNITS: readonly { readonly name: UnitName; readonly metres: number }[] = [
   { name: 'metres', metres: 1 },
+  // The unit of MakeHuman.
+  { name: 'decimetres', metres: 0.1 },
   { name: 'centimetres', metres: 0.01 },
   { name: 'inches', metres: 0.0254 },
   { name: 'millimetres', metres: 0.001 },

@@ -80,6 +80,7 @@ describe('skeleton conventions', () => {
 describe('units and axes', () => {
   test.each([
     [1, 'metres'],
+    [10, 'decimetres'],
     [100, 'centimetres'],
     [1 / 0.0254, 'inches'],
     [1000, 'millimetres'],
