@@ -35,7 +35,7 @@ export function motionFormat(head: Uint8Array, name: string): MotionFormat | nul
   if (text.startsWith('PK')) return /\.npz$/i.test(name) ? 'numpy' : null;
   // A word of 0x50 follows the place of the parameters, and a C3D has no other mark.
   if (head[1] === 0x50 && /\.c3d$/i.test(name)) return 'c3d';
-  if (/^\s*\{/.test(text) && /\.json$/i.test(name)) return 'json';
+  if (/^\s*[{[]/.test(text) && /\.json$/i.test(name)) return 'json';
   if (/\.csv$/i.test(name) && /^(#[^\r\n]*[\r\n]+)*[^\r\n,;\t]*[,;\t]/.test(text)) return 'csv';
   if (isOtherFile(text)) return null;
   return ENDINGS.find(([ending]) => ending.test(name))?.[1] ?? null;

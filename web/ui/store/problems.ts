@@ -207,13 +207,25 @@ const USABLE =
   'A song is an mp3, wav, ogg, flac, m4a or opus file; a leader is a video or a motion file: BVH, FBX, ' +
   'glTF, VRMA, VMD, AMC with ASF, C3D, NPZ, NPY, JSON, CSV or TRC.';
 
-export function unknownFileProblem(name: string): Problem {
+/** What is to be done with files of motions that are not read, by their endings. */
+const OTHER_MOTIONS: readonly (readonly [RegExp, string])[] = [
   // Such as the BVH of both dancers that the page writes.
-  const unpack = /\.zip$/i.test(name) ? 'Unpack it and choose a file from it. ' : '';
+  [/\.zip$/i, 'Unpack it and choose a file from it. '],
+  [
+    /\.(pkl|pickle|pt|pth)$/i,
+    'A pickle may hold a program and is not opened here: load it in Python and save its arrays, such as smpl_poses and smpl_trans, with numpy.savez. ',
+  ],
+  [/\.(mot|sto|osim)$/i, 'It belongs to a model of OpenSim: choose the TRC of its markers. '],
+  [/\.tak$/i, 'Export the take in Motive as BVH, FBX or CSV. '],
+  [/\.(blend|ma|mb|max|c4d|uasset|unitypackage|iclone|duf)$/i, 'Export its animation as FBX, glTF or BVH. '],
+];
+
+export function unknownFileProblem(name: string): Problem {
+  const instead = OTHER_MOTIONS.find(([ending]) => ending.test(name))?.[1] ?? '';
   return {
     code: 'unknown-file',
     title: `${name} is neither a song, a video nor a motion.`,
-    hint: unpack + USABLE,
+    hint: instead + USABLE,
     remedy: 'any-file',
     refused: { kind: null, name },
   };

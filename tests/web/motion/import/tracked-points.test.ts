@@ -134,6 +134,16 @@ describe('points that are seen in pictures', () => {
     expect(file.report).toMatchObject({ unit: 'centimetres', convention: 'pose landmarks', warnings: [] });
   });
 
+  test.each([
+    ['{"version":1.3,"people":[{"person_id":[-1],"pose_keypoints_2d":[582.3,507.8,0.84]}]}'],
+    ['[{"image_id":"0.jpg","category_id":1,"keypoints":[582.3,507.8,0.84]}]'],
+  ])('JSON of OpenPose and AlphaPose is refused with the reason (%#)', async (json) => {
+    await expect(read('0.json', json)).rejects.toMatchObject({
+      code: 'not-motion',
+      message: expect.stringContaining('without depth') as string,
+    });
+  });
+
   test('points in a picture with how sure each is are refused', async () => {
     const rows = rowsOf([...FACE, ...LIMBS], 400).map((row) => row.map(([x, y]) => [x, y, 0.9]));
     const data = Float32Array.from(rows.flat(2));

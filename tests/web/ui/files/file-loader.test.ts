@@ -171,6 +171,17 @@ describe('reading files', () => {
     expect(store.getState().problem?.hint).toContain('Unpack it');
   });
 
+  it.each([
+    ['gBR_sBM_cAll_d04_mBR0_ch01.pkl', 'save its arrays, such as smpl_poses'],
+    ['subject.mot', 'choose the TRC of its markers'],
+    ['Take 2024.tak', 'Export the take in Motive'],
+    ['dance.blend', 'Export its animation as FBX, glTF or BVH'],
+  ])('says what to do with %s', async (name, hint) => {
+    await files.open([file(name, 'x')]);
+    expect(store.getState().problem).toMatchObject({ code: 'unknown-file' });
+    expect(store.getState().problem?.hint).toContain(hint);
+  });
+
   it('the newest file of a kind wins, even if an older one is ready later', async () => {
     const answers: (() => void)[] = [];
     readers.readLeader = ({ files: [source] }) =>

@@ -6,6 +6,9 @@ import type { MotionSource, SourceJoint } from '../../retarget/source';
 
 /** Largest number of joints of one dancer. */
 const MAX_JOINTS = 1000;
+/** What names points in a picture, and how far from its beginning a file is searched for it. */
+const IN_PICTURE = /"(pose_keypoints_2d|keypoints)"/;
+const IN_PICTURE_START = 4096;
 const METRES = { name: 'metres', metres: 1 } as const;
 
 function invalid(what: string): AppError {
@@ -62,6 +65,13 @@ export function readJsonMotion(text: string, part: number): MotionSource {
     throw invalid('it is not whole');
   }
   if (json === null || typeof json !== 'object') throw invalid('it holds no object');
+  if (IN_PICTURE.test(text.slice(0, IN_PICTURE_START))) {
+    throw new AppError(
+      'not-motion',
+      'This JSON file holds points in a picture, without depth, as OpenPose and AlphaPose write them.',
+      'Drop the video itself: a dancer in a video is read here.',
+    );
+  }
   const { fps, joints: names, parents, positions } = json as Record<string, unknown>;
   if (positions === null || typeof positions !== 'object') throw invalid('it has no "positions"');
   const dancers = isList(positions) ? [['dancer', positions] as const] : Object.entries(positions);
