@@ -48,7 +48,10 @@ function toeNode(nodes: readonly SourceJoint[], map: JointMap, side: (typeof SID
   const named = map.nodes.get(`${side}_foot`);
   if (named !== undefined) return named;
   const ankle = map.nodes.get(`${side}_ankle`)!;
-  const below = [...nodes.keys()].filter((node) => nodes[node]!.parent === ankle);
+  // A heel points backwards.
+  const below = [...nodes.keys()].filter(
+    (node) => nodes[node]!.parent === ankle && !/heel/i.test(nodes[node]!.name),
+  );
   const end = below.find((node) => nodes[node]!.endSite) ?? null;
   if (map.by === 'hand') return end;
   return below.find((node) => /toe/i.test(nodes[node]!.name)) ?? (below.length === 1 ? below[0]! : end);

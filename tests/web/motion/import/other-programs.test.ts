@@ -50,8 +50,14 @@ describe('joints beside those of a known convention', () => {
     const named = renamed(madeBody(xsens), { LeftToe: 'LeftBigToe', RightToe: 'RightBigToe' });
     const { report } = leaderBvh(madeBvh({ joints: [...named, ...heels] }).text);
     expect(report.joints).toMatchObject({ left_foot: 'LeftBigToe', right_foot: 'RightBigToe' });
-    const unnamed = [...renamed(madeBody(xsens), toes), ...heels];
+    const helpers = heels.map((heel) => ({ ...heel, name: heel.name.replace('Heel', 'Helper') }));
+    const unnamed = [...renamed(madeBody(xsens), toes), ...helpers];
     expect(leaderBvh(madeBvh({ joints: unnamed }).text).report.estimated).toContain('left_foot');
+    // A heel alone is no toe: the feet would point backwards.
+    const { toe, ...names } = xsens;
+    expect(toe).toBeDefined();
+    const alone = leaderBvh(madeBvh({ joints: [...madeBody(names), ...heels] }).text).report;
+    expect(alone).toMatchObject({ warnings: [], joints: { left_knee: 'LeftKnee', left_foot: null } });
   });
 
   test('a toe that was set to be estimated stays so', () => {

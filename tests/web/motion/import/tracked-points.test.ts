@@ -58,6 +58,14 @@ describe('points that are seen in pictures', () => {
     expect(worstMillimetres(file, seenParts)).toBeLessThan(WORST);
   });
 
+  test('a table with a line for every point is refused, and the right one named', async () => {
+    const text = 'frame,timestamp,model,keypoint,x,y,z,reprojection_error\n0,,body,nose,1,2,3,0.1\n';
+    await expect(read('recording_by_frame.csv', text)).rejects.toMatchObject({
+      code: 'not-motion',
+      hint: expect.stringContaining('mediapipe_body_3d_xyz.csv') as string,
+    });
+  });
+
   test('a skeleton that has a spine beside a nose keeps its own neck and head', async () => {
     const names = [...MEDIAPIPE, 'spine1', 'neck', 'head'];
     const { report } = await read('a.csv', table(names));

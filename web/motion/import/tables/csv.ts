@@ -27,6 +27,14 @@ function invalid(what: string): AppError {
   );
 }
 
+function byPoint(): AppError {
+  return new AppError(
+    'not-motion',
+    'This CSV file has a line for every point instead of one for every frame.',
+    'Of a recording of FreeMoCap use mediapipe_body_3d_xyz.csv, in its folder output_data.',
+  );
+}
+
 /** A title or value without the quotes about it. */
 const unquoted = (cell: string): string =>
   cell
@@ -122,7 +130,11 @@ export function readCsv(text: string, part: number): MotionSource {
   );
   const body = whole.filter((name) => BODY.test(name));
   const names = body.length > 0 ? body : whole;
-  if (names.length < 3) throw invalid('its first line names no joints with x, y and z');
+  if (names.length < 3) {
+    // FreeMoCap has a table with a line for every point of every frame, too.
+    if (titles.includes('keypoint')) throw byPoint();
+    throw invalid('its first line names no joints with x, y and z');
+  }
   const error = tooLong(rows.length - 1, names.length * 3);
   if (error) throw error;
   const { places, times } = readRows(rows.slice(1), separator, titles, mine, names);
