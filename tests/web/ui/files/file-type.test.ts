@@ -80,6 +80,11 @@ describe('the type of a file', () => {
     expect(fileKind(bytes('%PDF-1.7'), 'notes.pdf', 'application/pdf')).toBe('unknown');
     expect(fileKind(new Uint8Array(0), 'nothing', '')).toBe('unknown');
     expect(fileKind(bytes('PK\u0003\u0004'), 'notes.docx', '')).toBe('unknown');
-    expect(fileKind(bytes('[1, 2]'), 'list.json', 'application/json')).toBe('unknown');
+    expect(fileKind(bytes('[1, 2]'), 'list.txt', 'text/plain')).toBe('unknown');
+  });
+
+  it('is a leader for JSON, which says itself what it lacks', () => {
+    expect(fileKind(bytes('{"a": 1}'), 'list.json', 'application/json')).toBe('leader');
+    expect(fileKind(bytes('[1, 2]'), 'list.json', 'application/json')).toBe('leader');
   });
 });
