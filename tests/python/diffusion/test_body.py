@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import torch
 
 from export.tiny import tiny_model
@@ -10,6 +11,7 @@ from training.data.made import made_dancer
 from training.diffusion.body import measure_body, set_bodies
 from training.diffusion.react import Request, react
 from training.motion.rigid_body import bone_lengths
+from training.motion.skeleton import JOINTS
 
 
 def test_both_bodies_are_measured_on_dances_beside_the_other_dancer() -> None:
@@ -22,6 +24,17 @@ def test_both_bodies_are_measured_on_dances_beside_the_other_dancer() -> None:
     assert torch.equal(leader, measure_body(model, reactors, 1))
     assert not torch.equal(reactor, leader)
     assert not torch.allclose(reactor, before[0], atol=1e-3)
+
+
+def test_a_body_has_the_mean_lengths_of_the_decoded_bones(monkeypatch: pytest.MonkeyPatch) -> None:
+    decoded = torch.from_numpy(made_dancer(120, 5))
+    elbow, wrist = JOINTS.index("left_elbow"), JOINTS.index("left_wrist")
+    # A left forearm that is longer than the right one, by up to a half.
+    decoded[:, wrist] += torch.linspace(0, 0.5, 120)[:, None] * (decoded[:, wrist] - decoded[:, elbow])
+    monkeypatch.setattr("training.diffusion.body.decoded_joints", lambda *_: decoded)
+    lengths = measure_body(tiny_model(), [made_dancer(120, 1)], 0).norm(dim=-1)
+    assert torch.allclose(lengths[1:], bone_lengths(decoded[None])[0].mean(0)[1:], atol=1e-6)
+    assert lengths[wrist] > 1.2 * lengths[JOINTS.index("right_wrist")]
 
 
 def test_a_dance_has_the_measured_bones() -> None:

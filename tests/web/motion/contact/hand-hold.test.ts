@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { besidePartner } from '../../../../web/motion/contact/beside-partner';
 import { holdHands } from '../../../../web/motion/contact/hand-hold';
 import { aboutAxis, multiply, writeQuat } from '../../../../web/motion/math/quat';
-import { add, direction, distance, scale, sub, type Vec3 } from '../../../../web/motion/math/vec3';
+import { add, direction, distance, scale, sub, type Vec3, writeVec } from '../../../../web/motion/math/vec3';
 import type { MotionClip, SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { forwardKinematics } from '../../../../web/motion/skeleton/kinematics';
 import { J, JOINT_COUNT, MIRROR } from '../../../../web/motion/skeleton/skeleton';
@@ -72,8 +72,19 @@ function drift(motion: MotionClip, partner: MotionClip): number {
   return top(all.slice(1).map((way, i) => distance(way, all[i]!)));
 }
 
+/** Someone whose right hand stays at this point, and whose left arm is far away. */
+function withHandAt(point: Vec3): MotionClip {
+  const positions = new Float32Array(FRAMES * JOINT_COUNT * 3).fill(10);
+  for (let frame = 0; frame < FRAMES; frame++) {
+    writeVec(positions, frame * JOINT_COUNT + J.right_elbow, add(point, [0, 0, HAND + 0.25]));
+    writeVec(positions, frame * JOINT_COUNT + J.right_wrist, add(point, [0, 0, HAND]));
+  }
+  return { frames: FRAMES, fps: 30, positions };
+}
+
 const POSE: Pose = { forward: 1.2 };
 const still = dancer(() => POSE);
+const bent = dancer(() => ({ forward: 1.2, elbow: 1 }));
 /** How far apart two dancers stand whose hands are so far apart. */
 const apart = (gap: number): number => 2 * handOf(still, 0, J.left_elbow, J.left_wrist)[2] + gap;
 /** Hands that drift to and fro by some centimetres, one and a half times a second. */
@@ -113,6 +124,18 @@ describe('holdHands', () => {
     expect(top(gaps(still, partner).slice(40, -40))).toBeGreaterThan(0.13);
     expect(top(gaps(held, partner).slice(40, -40))).toBeLessThan(0.1);
     expectSound(still, held, ARMS);
+  });
+
+  it.each([
+    [0.03, 0],
+    [0.1, 0.05],
+    [0.2, 0.15],
+    // Halfway between the distances of hands that hold and that do not: half of the way to a grip.
+    [0.275, 0.225 / 2],
+    [0.35, 0],
+  ])('brings a hand that rests %f m from the hand of the partner nearer by %f m', (away, nearer) => {
+    const held = holdHands(bent, withHandAt(add(handOf(bent, 0, J.left_elbow, J.left_wrist), [0, away, 0])));
+    for (const move of moves(bent, held, J.left_wrist)) expect(move).toBeCloseTo(nearer, 4);
   });
 
   it('leaves hands that are far from those of the partner', () => {
@@ -170,6 +193,14 @@ describe('holdHands', () => {
     expect(top(gaps(folded, partner))).toBeLessThan(0.2);
     const held = holdHands(folded, partner);
     for (const joint of ARMS) expect(top(moves(folded, held, joint))).toBeLessThan(1e-6);
+  });
+
+  it('does not fold an arm towards a hand that is near its shoulder', () => {
+    const [hand, shoulder] = [handOf(bent, 0, J.left_elbow, J.left_wrist), at(bent, 0, J.left_shoulder)];
+    const way = scale(direction(sub(shoulder, hand), [0, 0, 0]), 0.25);
+    const held = holdHands(bent, withHandAt(add(hand, way)));
+    // An arm that stayed open would go by 0.15 m.
+    expect(top(moves(bent, held, J.left_wrist))).toBeLessThan(0.08);
   });
 
   it('stretches an arm no farther than it reaches', () => {
