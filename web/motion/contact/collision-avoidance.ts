@@ -66,7 +66,7 @@ export function sampleStep(fps: number): number {
 
 /**
  * Collision avoidance between two dancers: where trunks, heads or legs would overlap, the whole dancer is shifted level
- * with the floor by at most 0.63 m, along the cheapest smooth path (viterbi-path.ts). Arms may overlap. Rotations,
+ * with the floor by at most 0.56 m, along the cheapest smooth path (viterbi-path.ts). Arms may overlap. Rotations,
  * heights and bone lengths stay. More than 1.5 s away from an overlap nothing changes but for the filter, and a motion
  * without overlap is returned as it is. Pure.
  *
