@@ -182,11 +182,16 @@ describe('Pipeline', () => {
   it('looks for the part in view when it begins to make it, and makes no whole that is no longer wanted', async () => {
     await pipeline.generate(request(600));
     let now = 100;
+    const decoded: number[] = [];
     const session: ModelSession = {
       ...model.session,
       step: (input) => {
         now = 103;
         return model.session.step(input);
+      },
+      decode: (input) => {
+        decoded.push(input.leader.length / 66);
+        return model.session.decode(input);
       },
     };
     const late = new Pipeline(model.manifest, session, () => now);
@@ -204,6 +209,9 @@ describe('Pipeline', () => {
     // Three seconds after frame 60 it is at frame 150.
     expect(from).toBeLessThanOrEqual(150);
     expect(from).toBeGreaterThan(120);
+    // Of the 600 frames only those are decoded that the part depends on.
+    expect(decoded).toHaveLength(1);
+    expect(decoded[0]).toBeLessThan(420);
   });
 
   it('brings the leader to the reference height and the partner back to the size of the leader', async () => {
