@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import pytest
 import torch
+import torch.nn.functional as F
 
 from export.tiny import tiny_model
 from training.config import ConditionConfig, DenoiserConfig
 from training.denoiser.condition import ConditionEncoder, condition_dropout
 from training.denoiser.denoiser import Conditioning, Denoiser
-from training.denoiser.transformer import ChannelDropout, alibi_bias, phase, sinusoidal
+from training.denoiser.transformer import Attention, ChannelDropout, alibi_bias, phase, sinusoidal
 from training.diffusion.model import Model
 
 BLOCK = 60
@@ -75,6 +76,18 @@ def test_without_the_causal_mask_a_token_sees_all_that_are_valid(model: Model) -
     seen = gradient[0].abs().sum((1, 2))
     assert (seen[:50] > 0).all(), "also tokens that come later"
     assert torch.equal(seen[50:], torch.zeros(10)), "but no padding"
+
+
+def test_attention_is_scaled_by_the_root_of_a_heads_width() -> None:
+    torch.manual_seed(0)
+    attention = Attention(24, 4)
+    x, memory, bias = 3 * torch.randn(2, 7, 24), 3 * torch.randn(2, 7, 24), torch.randn(4, 7, 7)
+    key, value = attention.key_value(memory).chunk(2, dim=-1)
+    heads = (part.unflatten(-1, (4, 6)).transpose(1, 2) for part in (attention.query(x), key, value))
+    mixed = F.scaled_dot_product_attention(*heads, attn_mask=bias)
+    assert torch.allclose(
+        attention(x, memory, bias), attention.out(mixed.transpose(1, 2).flatten(2)), atol=1e-5
+    )
 
 
 def test_a_head_with_a_slope_looks_less_at_tokens_that_are_farther_away() -> None:

@@ -56,6 +56,20 @@ def test_description_does_not_depend_on_the_room():
     )
 
 
+def test_description_has_five_frames_of_walking_and_turning():
+    still = made_duet("a", 1).leader[:1]
+    still -= still[:, :1]
+    x, z = heading(still)[0]
+    walking = np.concatenate([moved(still, 0, (0.03 * t * x, 0.03 * t * z)) for t in range(10)])
+    assert leader_description(walking)[:, -4:] == pytest.approx(
+        np.tile([0, 0, 5 * 0.03, 0], (10, 1)), abs=1e-5
+    )
+    turning = np.concatenate([moved(still, 2 * t, (0, 0)) for t in range(10)])
+    assert leader_description(turning)[:, -4:] == pytest.approx(
+        np.tile([0, 0, 0, 5 * np.radians(2)], (10, 1)), abs=1e-5
+    )
+
+
 def test_nearest_neighbour_finds_the_same_dance_at_another_place():
     """A leader of the training duets, turned, moved and cut, gets the same reactor, turned and moved."""
     train = [made_duet(name, seed) for seed, name in enumerate("abc")]

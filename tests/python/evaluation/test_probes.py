@@ -90,3 +90,6 @@ def test_a_single_duet_has_no_other_leader_and_no_other_song(held_out: list[Held
     }
     assert set(both) - set(alone) == others
     assert alone["change_half_beat"] > 0
+    raised = both["root_error_other_leader_mm"] / both["root_error_mm"] - 1
+    assert both["other_leader_raises_root_error"] == pytest.approx(raised)
+    assert both["song_over_leader"] == pytest.approx(both["change_other_song"] / both["change_other_leader"])
