@@ -176,6 +176,14 @@ def test_a_bone_that_shrinks_and_grows_again_the_other_way_turns_there() -> None
     assert torch.allclose(bone_lengths(steady), bone_lengths(decoded), atol=1e-5)
 
 
+def test_bones_that_are_decoded_nearly_as_long_as_they_should_be_move_as_decoded() -> None:
+    _, reactor = pair(60)
+    lengths = bone_lengths(reactor).mean(-2)
+    certain, unsure = (constant_bones(reactor, share * lengths)[None] for share in (0.81, 0.7))
+    assert torch.allclose(steady_bones(certain, lengths), certain, atol=1e-5)
+    assert (steady_bones(unsure, lengths) - unsure).abs().max() > 1e-3
+
+
 def test_the_lower_toe_keeps_its_height_when_legs_are_lengthened() -> None:
     """Feet that bones of their mean length would push through the floor stay where they were."""
     reactor = pair(120)[1] + torch.tensor([0.0, 0.1, 0.0])
