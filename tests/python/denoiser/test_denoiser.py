@@ -218,6 +218,36 @@ def test_memory_of_a_window_equals_that_of_the_clip() -> None:
     assert torch.allclose(first[:, field : field + 12], whole[:, :12], atol=1e-5)
 
 
+def test_features_count_in_standard_deviations_from_their_mean_in_training() -> None:
+    made = encoder(ConditionConfig())
+    leader, music, role, valid = (
+        torch.randn(1, 80, 68),
+        torch.randn(1, 80, 54),
+        torch.zeros(1),
+        torch.ones(1, 80),
+    )
+    leader[..., 5] = 2.0
+
+    @torch.no_grad()
+    def memory(scale: float, shift: float) -> torch.Tensor:
+        features, song = (scale * values + shift for values in (leader, music))
+        made.set_statistics(features[0], song[0])
+        return made(features, song, valid, role)
+
+    plain = memory(1, 0)
+    assert plain.isfinite().all(), "a feature that never changes has no deviation"
+    assert torch.allclose(memory(5, 3), plain, atol=1e-3)
+
+
+def test_unfamiliarity_is_in_standard_deviations_of_the_features_of_training() -> None:
+    made = encoder(ConditionConfig())
+    features = 5 * torch.randn(800, 68) + 3
+    made.set_statistics(features, torch.randn(80, 54))
+    assert made.unfamiliarity(features[None]).mean() == pytest.approx(1, abs=0.01)
+    away = features.mean(0) + features.std(0) * torch.linspace(0, 3, 20).repeat_interleave(4)[:, None]
+    assert torch.allclose(made.unfamiliarity(away[None])[0], torch.linspace(0, 3, 20), atol=1e-4)
+
+
 def test_features_of_invalid_music_frames_have_no_effect() -> None:
     made = encoder(ConditionConfig())
     leader, role = torch.randn(1, 80, 68), torch.zeros(1)

@@ -95,6 +95,17 @@ def test_the_share_of_windows_at_the_ends_of_clips_is_that_asked_for(clip: Clip)
         assert expected / 1.6 < final < expected * 1.6
 
 
+def test_a_dance_shorter_than_a_block_is_one_window_from_its_beginning(clip: Clip) -> None:
+    block = len(clip) + 5
+    made = Windows([clip], block, MARGIN, STRIDE, PLAIN)
+    for ends in (0.0, 1.0):
+        batch = made.batch(12, np.random.default_rng(0), short=0.0, song_ends=0.0, ends=ends)
+        for n in range(12):
+            assert batch.valid[n].tolist() == [1.0] * len(clip) + [0.0] * 5
+            assert torch.equal(batch.latents[n, :-5], clip.latents)
+            assert torch.equal(batch.leader[n, : -5 * STRIDE], clip.leader)
+
+
 def test_yaw_turns_heading_streams_and_features(hfsq: Autoencoder, clip: Clip) -> None:
     music = [np.zeros((160, 54))]
     turned = make_clip(made_duet(160, 0), music, 0.0, hfsq, FrameConfig(), blur=6.0, yaw=0.3)
