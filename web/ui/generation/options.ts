@@ -1,7 +1,7 @@
 import { mountVariationCards } from './variation-cards';
 import { allVariationsMade } from '../store/actions/variations';
 import { loadedRole, generatedRole } from '../store/roles';
-import { textButton } from '../widgets/button';
+import { setDisabled, textButton } from '../widgets/button';
 import { el, setText, combineDisposers } from '../widgets/dom';
 import { icon } from '../widgets/icons';
 import { mountHeightBox } from './height-box';
@@ -94,7 +94,7 @@ function createGenerateButton(store: Store, services: Services): Controls {
   return {
     elements: [button],
     show: (state) => {
-      button.disabled = !canGenerate(state) || state.job !== null;
+      setDisabled(button, !canGenerate(state) || state.job !== null);
       setText(button, state.reaction ? 'Generate again' : 'Generate');
       button.title = generateTitle(state);
     },
@@ -112,7 +112,7 @@ function createVariationsButton(store: Store, services: Services): Controls {
     elements: [button],
     show: (state) => {
       const making = state.variations?.making ?? false;
-      button.disabled = !making && !canGenerate(state);
+      setDisabled(button, !making && !canGenerate(state));
       setText(
         button,
         making ? 'Cancel' : allVariationsMade(state.variations) ? 'Three others' : 'Three reactions',

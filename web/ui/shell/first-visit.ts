@@ -1,7 +1,7 @@
 import { textButton } from '../widgets/button';
 import { OFFERED_LEADERS } from '../files/offered';
 import { duration } from '../store/format';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
 import { howItWorks, opensHowItWorks } from './how-it-works';
 import { icon } from '../widgets/icons';
 import { danceDuration } from '../store/selectors';
@@ -66,7 +66,7 @@ export const mountFirstVisit: Mount = (root, store, services) => {
   root.append(block);
 
   const show = (state: AppState): void => {
-    block.hidden = !state.firstVisit;
+    setHidden(block, !state.firstVisit, document.querySelector('.play'));
     root.classList.toggle('visiting', state.firstVisit);
     play.hidden = state.demo === 'missing';
     play.disabled = state.demo !== 'ready';

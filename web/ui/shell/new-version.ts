@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { apply, watch } from '../store/store';
 import { updateSet } from '../store/actions/view';
@@ -27,7 +27,7 @@ export const mountNewVersion: Mount = (root, store, services) => {
       store,
       (state) => state.update,
       (update) => {
-        note.hidden = !update;
+        setHidden(note, !update, document.querySelector('.play'));
         // Set when it is shown, so that it is read out.
         setText(text, update ? 'A new version is ready.' : '');
       },

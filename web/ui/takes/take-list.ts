@@ -13,17 +13,20 @@ import { takeOnStage } from '../store/take';
 export class TakeList {
   readonly root: HTMLElement;
   readonly #store: Store;
+  readonly #heading: HTMLElement;
   /** Rows by the id of their take, in the order of the takes. */
   #rows: ReadonlyMap<string, TakeRow> = new Map();
   /** The take whose row Tab leads to: the one that had the focus last, else the one on the stage. */
   #current: string | null = null;
   readonly #stopFading: () => void;
 
-  constructor(store: Store) {
+  /** @param heading names the list, and gets the focus when the last take is deleted */
+  constructor(store: Store, heading: HTMLElement) {
     this.#store = store;
+    this.#heading = heading;
     this.root = el('div', {
       class: 'takes',
-      attributes: { role: 'grid', 'aria-labelledby': 'takes-head' },
+      attributes: { role: 'grid', 'aria-labelledby': heading.id },
       on: {
         keydown: (event) => {
           if (!this.#press(event)) return;
@@ -42,7 +45,7 @@ export class TakeList {
     this.#stopFading = fadeEnds(this.root);
   }
 
-  /** Shows the takes of this state; a deleted row that had the focus hands it to the row in its place. */
+  /** Shows the takes of this state; a deleted row that had the focus hands it to the row in its place, the last one to the heading. */
   show(state: AppState): void {
     const { takes } = state;
     const hasFocus = this.root.contains(document.activeElement);
@@ -52,7 +55,8 @@ export class TakeList {
     else if (!isThere) this.#current = takeOnStage(state)?.id ?? takes[0]?.id ?? null;
     this.#updateRows(takes);
     for (const take of takes) this.#rows.get(take.id)?.show(take, state, take.id === this.#current);
-    if (deleted) this.#focus(this.#current);
+    if (deleted && this.#current) this.#focus(this.#current);
+    else if (deleted) this.#heading.focus();
     this.root.hidden = takes.length === 0;
   }
 

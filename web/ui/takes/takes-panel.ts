@@ -1,5 +1,5 @@
 import { textButton, closeButton } from '../widgets/button';
-import { el, listen, setText, combineDisposers, rememberFocus } from '../widgets/dom';
+import { el, listen, setHidden, setText, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -11,7 +11,8 @@ import { mountUndo } from './undo';
 
 /** The section of takes in the panel; on the phone a sheet over the page. */
 export const mountTakes: Mount = (root, store, services) => {
-  const list = new TakeList(store);
+  const heading = el('h2', { text: 'Takes', attributes: { id: 'takes-head', tabindex: -1 } });
+  const list = new TakeList(store, heading);
   const empty = el('p', {
     class: 'empty-line',
     text: 'Each new dance is kept here as a take. Mark two takes A and B to compare them at the same moment.',
@@ -20,17 +21,10 @@ export const mountTakes: Mount = (root, store, services) => {
   const count = el('span', { class: 'muted' });
   const close = createPhoneClose(store);
   const clear = createClearButton(store);
-  const head = el(
-    'div',
-    { class: 'head' },
-    el('h2', { text: 'Takes', attributes: { id: 'takes-head' } }),
-    count,
-    clear,
-    createProjectButton(store),
-  );
+  const head = el('div', { class: 'head' }, heading, count, clear, createProjectButton(store));
   const section = el(
     'section',
-    { class: 'sec takes-sec', attributes: { 'aria-labelledby': 'takes-head' } },
+    { class: 'sec takes-sec', attributes: { 'aria-labelledby': heading.id } },
     head,
     list.root,
     coming,
@@ -49,7 +43,7 @@ export const mountTakes: Mount = (root, store, services) => {
     empty.hidden = !coming.hidden || takes.some(({ reaction }) => reaction.label === null);
     const all = takes.length + missing.length;
     setText(count, all > 1 ? String(all) : '');
-    clear.hidden = !hasTakesToClear(state);
+    setHidden(clear, !hasTakesToClear(state), heading);
   };
   return combineDisposers(
     watchAll(

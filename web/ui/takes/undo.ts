@@ -1,4 +1,4 @@
-import { iconButton } from '../widgets/button';
+import { iconButton, setDisabled } from '../widgets/button';
 import { listen, combineDisposers } from '../widgets/dom';
 import type { IconName } from '../widgets/icons';
 import type { Mount, Services } from '../store/services';
@@ -20,8 +20,8 @@ export const mountUndo: Mount = (root, store, services) => {
       store,
       (state) => [state.history, state.asked],
       (state) => {
-        undo.disabled = state.history.past.length === 0 && askedLast(state) === null;
-        redo.disabled = state.history.future.length === 0;
+        setDisabled(undo, state.history.past.length === 0 && askedLast(state) === null);
+        setDisabled(redo, state.history.future.length === 0);
       },
     ),
     () => {

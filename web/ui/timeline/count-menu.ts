@@ -3,7 +3,7 @@ import { panelToggled } from '../store/actions/view';
 import { barAt, countedBeats, countingOf, isOf, tempoText } from '../store/counting';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
-import { textButton } from '../widgets/button';
+import { setDisabled, textButton } from '../widgets/button';
 import { combineDisposers, el, onPressOutside, setAttribute, setText } from '../widgets/dom';
 import { radioGroup } from '../widgets/radio-group';
 
@@ -120,7 +120,7 @@ function createMenu(store: Store): {
     setText(tempo, tempoText(song, countings));
     bars.show(beatsPerBar);
     rates.show(rate);
-    found.disabled = !countings.some((counting) => isOf(counting, song));
+    setDisabled(found, !countings.some((counting) => isOf(counting, song)));
     setAttribute(click, 'aria-pressed', String(settingOne));
     setText(hint, settingOne ? 'Now click the beat in the ruler or on the song; Esc cancels.' : '');
   };

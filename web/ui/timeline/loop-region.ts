@@ -1,4 +1,4 @@
-import { el, setAttribute, setVariable, combineDisposers } from '../widgets/dom';
+import { el, setAttribute, setHidden, setVariable, combineDisposers } from '../widgets/dom';
 import { draggable } from '../widgets/drag';
 import { clockTime } from '../store/format';
 import { beatBeside, countedBeats, snapped } from '../store/counting';
@@ -14,7 +14,9 @@ import { timelineClicked } from './timeline-click';
 interface LoopPlaces {
   /** A drag here draws a region from beat to beat, with Alt from any time to any other; a click jumps, a double click removes the region. */
   readonly ruler: HTMLElement;
-  /** Lies over all lanes and holds the band. */
+  /** Gets the focus of a handle that goes. */
+  readonly playhead: HTMLElement;
+  /** Lies over all lanes and holds the band; not the playhead, since nothing inside a slider is told to screen readers. */
   readonly overlay: HTMLElement;
   readonly scale: () => TimeScale;
 }
@@ -44,14 +46,13 @@ export class LoopRegion {
   constructor(store: Store, services: Services, places: LoopPlaces) {
     this.#store = store;
     this.#places = places;
-    const { ruler, overlay } = places;
+    const { ruler, overlay, playhead } = places;
     overlay.append(this.#band, this.#handles.from, this.#handles.to);
     const clear = (): void => {
       if (store.getState().playback.region) apply(store, regionSet(null));
     };
-    ruler.addEventListener('dblclick', clear);
-    // Its first click may move the playhead's handle under the pointer.
-    overlay.addEventListener('dblclick', clear);
+    // The first click on the ruler may move the playhead's handle under the pointer.
+    for (const place of [ruler, overlay, playhead]) place.addEventListener('dblclick', clear);
     this.dispose = combineDisposers(
       watchAll(
         store,
@@ -77,7 +78,8 @@ export class LoopRegion {
     const place = (time: number): number => (scale.width > 0 ? scale.x(time) / scale.width : 0);
     for (const end of ENDS) {
       const at = region ? place(region[end]) : 0;
-      this.#handles[end].hidden = !region || at < -TOLERANCE || at > 1 + TOLERANCE;
+      const isOutside = at < -TOLERANCE || at > 1 + TOLERANCE;
+      setHidden(this.#handles[end], !region || isOutside, this.#places.playhead);
       if (region) showHandle(this.#handles[end], at, region[end], state);
     }
     this.#band.hidden = !region || region.to <= scale.from || region.from >= scale.to;

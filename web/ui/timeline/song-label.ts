@@ -1,5 +1,5 @@
 import { textButton } from '../widgets/button';
-import { el, setText } from '../widgets/dom';
+import { el, setHidden, setText } from '../widgets/dom';
 import { percent } from '../store/format';
 import { shiftAdvice, frameCountText, shiftText, signed } from '../store/song-shift';
 import type { AppState } from '../store/state';
@@ -12,7 +12,8 @@ interface SongLabel {
   readonly show: (state: AppState) => void;
 }
 
-export function createSongLabel(store: Store): SongLabel {
+/** @param handle the slider of the shift, which gets the focus of a button that goes */
+export function createSongLabel(store: Store, handle: HTMLElement): SongLabel {
   const back = textButton('shifted', '', () => {
     apply(store, shiftSet(0));
   });
@@ -33,12 +34,12 @@ export function createSongLabel(store: Store): SongLabel {
     root,
     show: (state) => {
       const { shift } = state;
-      back.hidden = shift === 0;
+      setHidden(back, shift === 0, handle);
       setText(back, `${signed(shift)} ×`);
       back.setAttribute('aria-label', `Song shift ${frameCountText(shift)}: move it back`);
       back.title = `The song is moved by ${shiftText(shift, state)}. Click to move it back.`;
       const fit = shiftAdvice(state);
-      align.hidden = !fit?.better;
+      setHidden(align, !fit?.better, handle);
       none.hidden = !fit || fit.better !== null;
       if (!fit) return;
       if (!fit.better) {

@@ -42,7 +42,6 @@ export function mountTimeline(
   /** The shift of the song while it is being dragged, frames. */
   let draggedShift: number | null = null;
   const ruler = createRulerLane();
-  const songLabel = createSongLabel(store);
   const songLane = new SongLane(store, services, {
     scale,
     onDragShift: (shift) => {
@@ -50,6 +49,7 @@ export function mountTimeline(
       redraw.request();
     },
   });
+  const songLabel = createSongLabel(store, songLane.handle);
   const dancers = new DancerLanes();
   const lanes = el(
     'div',
@@ -59,8 +59,14 @@ export function mountTimeline(
   root.append(lanes);
   const mounted = moreLanes.map((mount) => mount(lanes, store, services, visibleSpan));
   const playhead = new Playhead(lanes, store, services, scale);
-  lanes.append(playhead.root);
-  const loop = new LoopRegion(store, services, { ruler: ruler.root, overlay: playhead.root, scale });
+  const overlay = el('div', { class: 'loop-place' });
+  lanes.append(playhead.root, overlay);
+  const loop = new LoopRegion(store, services, {
+    ruler: ruler.root,
+    playhead: playhead.root,
+    overlay,
+    scale,
+  });
 
   const redraw = oncePerFrame(() => {
     const state = store.getState();

@@ -1,5 +1,5 @@
 import { iconButton, textButton } from '../widgets/button';
-import { el, setText, combineDisposers } from '../widgets/dom';
+import { el, setHidden, setText, combineDisposers } from '../widgets/dom';
 import { clockTime, rate } from '../store/format';
 import { icon } from '../widgets/icons';
 import { isReading, danceDuration, firstNote } from '../store/selectors';
@@ -35,7 +35,7 @@ export const mountTransport: Mount = (root, store, services) => {
   const speed = createSpeedMenu(store);
   const loop = createLoopButton(store);
   const note = el('span', { class: 'file-note' });
-  const halfRate = createHalfRateButton(store, services);
+  const halfRate = createHalfRateButton(store, services, play.element);
   const zoom = createZoomControl(store);
   const line = el(
     'div',
@@ -97,8 +97,15 @@ function halfRateOf({ leader }: AppState): number | null {
   return leader?.file.report.halfRate ?? null;
 }
 
-/** Reads the leader again at half the frame rate, where the dancer moves faster than people do. */
-function createHalfRateButton(store: Store, { rereadLeader }: Services): Control<HTMLButtonElement> {
+/**
+ * Reads the leader again at half the frame rate, where the dancer moves faster than people do.
+ * @param next gets the focus when the button goes
+ */
+function createHalfRateButton(
+  store: Store,
+  { rereadLeader }: Services,
+  next: HTMLElement,
+): Control<HTMLButtonElement> {
   const element = textButton(
     'half-rate',
     '',
@@ -110,7 +117,7 @@ function createHalfRateButton(store: Store, { rereadLeader }: Services): Control
     { title: 'The leader moves faster than people do: the frame rate of the file may be wrong' },
   );
   const dispose = watch(store, halfRateOf, (fps) => {
-    element.hidden = fps === null;
+    setHidden(element, fps === null, next);
     setText(element, fps === null ? '' : `Leader too fast? Read it at ${rate(fps)} fps`);
   });
   return { element, dispose };

@@ -1,4 +1,4 @@
-import { iconButton } from '../widgets/button';
+import { iconButton, setDisabled } from '../widgets/button';
 import { el } from '../widgets/dom';
 import { danceDuration } from '../store/selectors';
 import { apply, type Store, watchAll } from '../store/store';
@@ -59,9 +59,9 @@ export function createZoomControl(store: Store): {
         const part = max > 1 ? Math.log(times) / Math.log(max) : 0;
         slider.value = String(Math.round(part * SLIDER_STEPS));
         slider.setAttribute('aria-valuetext', `${times.toFixed(1)} times`);
-        for (const each of [slider, into]) each.disabled = max <= 1 || whole === 0;
-        into.disabled ||= part > 1 - 1e-6;
-        out.disabled = fit.disabled = state.zoom === null;
+        slider.disabled = max <= 1 || whole === 0;
+        setDisabled(into, slider.disabled || part > 1 - 1e-6);
+        for (const each of [out, fit]) setDisabled(each, state.zoom === null);
       },
     ),
   };

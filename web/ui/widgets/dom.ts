@@ -47,6 +47,16 @@ export function setVariable(element: HTMLElement, name: `--${string}`, value: nu
 }
 
 /**
+ * Hides or shows an element. Where the focus is inside when it goes, `next` gets it: browsers would drop it, and whoever
+ * uses keys or a screen reader would be at the top of the page.
+ */
+export function setHidden(element: HTMLElement, hidden: boolean, next: HTMLElement | null): void {
+  const hasFocus = hidden && element.contains(document.activeElement);
+  element.hidden = hidden;
+  if (hasFocus) next?.focus();
+}
+
+/**
  * Remembers what has the focus, for a panel that opens.
  * @returns gives the focus back when the panel closes, if it is inside; to be called before the panel is hidden
  */

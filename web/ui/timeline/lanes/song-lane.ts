@@ -35,6 +35,11 @@ export class SongLane {
     this.#wave.draw(state, picture);
   }
 
+  /** The slider that shifts the song. */
+  get handle(): HTMLElement {
+    return this.#shift.handle;
+  }
+
   /** Brightens the waveform up to `time`, seconds of the dance. */
   showPlayed(time: number, scale: TimeScale): void {
     this.#wave.showPlayed(time, scale);

@@ -1,7 +1,7 @@
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { App } from './support/app-page';
-import { expect, test } from './support/fixtures';
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
 
 /**
  * What axe finds against WCAG 2.2 AA and its own best practices: everything in the dark theme, from which the light one
