@@ -16,7 +16,8 @@ export function createMiniFader(
   on: FaderEvents,
   describe: (value: number, range: FaderRange) => string,
 ): MiniFader {
-  const value = el('output');
+  // The input says it already, in more words.
+  const value = el('output', { attributes: { 'aria-live': 'off' } });
   const input = el('input', {
     attributes: { type: 'range', 'aria-label': label, title: `${hint} Double click for the default.` },
   });

@@ -106,6 +106,9 @@ export class PairView {
   showTime(seconds: number, duration: number, playing: boolean): void {
     this.#slider.max = String(duration);
     this.#slider.value = String(seconds);
+    // Screen readers read out each change of the slider that has the focus, over the music.
+    if (!playing || this.#slider !== document.activeElement)
+      this.#slider.setAttribute('aria-valuetext', `${seconds.toFixed(1)} seconds`);
     setText(this.#clock, `${seconds.toFixed(1)} / ${duration.toFixed(1)} s`);
     setText(this.#play, playing ? 'Pause' : 'Play');
   }

@@ -42,10 +42,19 @@ export class Playhead {
       this.#listen(lanes),
       watchAll(
         store,
-        (state) => [state.playback.time, state.zoom, state.leader, state.song, state.shift, state.countings],
+        ({ playback, zoom, leader, song, shift, countings }) => [
+          playback.time,
+          playback.playing,
+          zoom,
+          leader,
+          song,
+          shift,
+          countings,
+        ],
         (state) => {
           this.draw();
-          this.#describe(state);
+          // Screen readers read out each change of the slider that has the focus, over the music.
+          if (!state.playback.playing || this.root !== document.activeElement) this.#describe(state);
         },
       ),
     );

@@ -37,6 +37,7 @@ export class VideoPicture {
         this.#persons.replaceChildren();
         drawSkeleton(this.#canvas, null);
         this.#video.currentTime = this.#moment.valueAsNumber;
+        this.#sayMoment();
       },
       change: () => {
         this.#look();
@@ -104,6 +105,7 @@ export class VideoPicture {
     const { width, height } = this.#size;
     this.#choice.hidden = false;
     this.#moment.valueAsNumber = this.#time = time;
+    this.#sayMoment();
     this.#video.pause();
     drawSkeleton(this.#canvas, null, image);
     image.close();
@@ -130,6 +132,11 @@ export class VideoPicture {
         return button;
       }),
     );
+  }
+
+  /** Tells screen readers the moment that can be chosen. */
+  #sayMoment(): void {
+    this.#moment.setAttribute('aria-valuetext', `${this.#moment.valueAsNumber.toFixed(1)} seconds`);
   }
 
   #look(): void {

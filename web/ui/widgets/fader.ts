@@ -55,7 +55,8 @@ function curvePath(layer: Layer): string {
  */
 export function createFader(control: Control, { name, label, hint }: FaderTexts, on: FaderEvents): Fader {
   const hintId = `hint-${control}`;
-  const value = el('output', { class: 'val' });
+  // The input says it already, in more words.
+  const value = el('output', { class: 'val', attributes: { 'aria-live': 'off' } });
   const aside = el('small', { class: 'note' });
   const large = control === 'coarse' || control === 'fine';
   const well = el(
