@@ -27,7 +27,7 @@ export interface Look {
 
 export const LOOKS: Readonly<Record<Theme, Look>> = {
   dark: {
-    leader: 0x4b9bd4,
+    leader: 0x2f79b5,
     reactor: 0xf08a4b,
     coarse: 0xffb27d,
     other: 0xf0705a,
@@ -46,7 +46,7 @@ export const LOOKS: Readonly<Record<Theme, Look>> = {
     contact: 0.55,
   },
   light: {
-    leader: 0x3d8fca,
+    leader: 0x2672ab,
     reactor: 0xe97e42,
     coarse: 0xe06a22,
     other: 0xc8432c,

@@ -45,28 +45,6 @@ for (const theme of ['dark', 'light'] as const) {
   });
 }
 
-test('a high contrast palette of the system shows playhead, switches and buttons', async ({ page }) => {
-  await page.emulateMedia({ forcedColors: 'active', colorScheme: 'dark' });
-  const app = new App(page);
-  await app.openWithoutPicture();
-  await app.settled();
-  const drawn = await page.evaluate(() => {
-    const text = getComputedStyle(document.body).color;
-    return (
-      [
-        ['.head-line', '::after'],
-        ['.switch .knob', '::before'],
-        ['.play', undefined],
-        ['.legend .dot', undefined],
-      ] as const
-    ).map(([selector, part]) => {
-      const element = document.querySelector(selector);
-      return element && getComputedStyle(element, part).backgroundColor === text;
-    });
-  });
-  expect(drawn).toEqual([true, true, true, true]);
-});
-
 test('whoever has set a larger text in the browser gets the page larger as a whole', async ({
   page,
   playwright,
