@@ -173,6 +173,7 @@ const services: Services = {
     stage?.focusOn(MEASURED[measure], seconds);
   },
   frameBoth: () => stage?.frameBoth(),
+  stepCamera: (turn, factor) => stage?.stepCamera(turn, factor),
   ...createDownloads(store, {
     openVideoStage: stage && ((size) => openCamera(stage, store, size, createOffscreenStage)),
     openBesideVideo: () => {

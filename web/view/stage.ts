@@ -191,6 +191,11 @@ export class Stage {
     if (this.softwareRendered) this.loop.hold();
   }
 
+  /** Turns the camera about what it looks at (radians) and changes its distance by a factor. */
+  stepCamera(turn: number, factor: number): void {
+    this.view.rig.step(turn, factor);
+  }
+
   /** Brings both dancers into the picture. */
   frameBoth(): void {
     this.view.rig.frame(this.view.pose(), this.view.time);

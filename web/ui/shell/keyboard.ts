@@ -16,6 +16,9 @@ import { settingOneSet } from '../store/actions/counting';
 import { canSwapTakes, takesSwapped, takeStarred } from '../store/actions/takes';
 import { takeOnStage } from '../store/take';
 
+/** What one press does to the camera: a turn in radians, and a factor of its distance. */
+const [CAMERA_TURN, CAMERA_FACTOR] = [Math.PI / 12, 1.15];
+
 /** Where the page moves the focus itself, whatever was pressed before. */
 const DIALOGS = '[role="dialog"], [role="alertdialog"]';
 
@@ -50,6 +53,7 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     const ownsSpace = target.matches('input[type="checkbox"], input[type="radio"], summary');
     if (event.key === ' ' && ownsSpace) return;
     if ((event.key === ' ' || event.key === 'Enter') && isPressedByKeys(target)) return;
+    if (!store.getState().letterKeys && isLetterKey(event.key)) return;
     if (press(event, store, services)) event.preventDefault();
   };
   // A clicked button keeps the focus, and releasing Space would press it again.
@@ -71,6 +75,9 @@ export function mountKeyboard(store: Store, services: Services): () => void {
     listen(window, 'pointerdown', () => void (keyIsLast = byKey = false), { capture: true }),
   );
 }
+
+/** Whether it is the key of a letter, a digit or a sign, which speech input may type by mistake. */
+const isLetterKey = (key: string): boolean => key.length === 1 && key !== ' ';
 
 /**
  * Whether the key is Tab on the picture, where it flips the compared takes. Only a click brings the focus there, so that
@@ -123,6 +130,10 @@ const ACTIONS: Readonly<Record<string, (key: KeyPress) => void>> = {
   t: ({ store }) => toggleCamera(store, 'top'),
   x: ({ store }) => toggleCamera(store, 'side'),
   a: ({ services }) => services.frameBoth(),
+  ',': ({ services }) => services.stepCamera(-CAMERA_TURN, 1),
+  '.': ({ services }) => services.stepCamera(CAMERA_TURN, 1),
+  u: ({ services }) => services.stepCamera(0, 1 / CAMERA_FACTOR),
+  j: ({ services }) => services.stepCamera(0, CAMERA_FACTOR),
   s: ({ store, state }) => {
     const take = takeOnStage(state);
     if (take) apply(store, takeStarred(take.id));

@@ -2,8 +2,8 @@ import { closeButton } from '../widgets/button';
 import { el, combineDisposers, rememberFocus } from '../widgets/dom';
 import type { Mount } from '../store/services';
 import { OVERLAYS } from './overlay-menu';
-import { apply, watch } from '../store/store';
-import { panelToggled } from '../store/actions/view';
+import { apply, type Store, watch } from '../store/store';
+import { letterKeysSet, panelToggled } from '../store/actions/view';
 
 const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Space'], 'Play or pause'],
@@ -27,6 +27,8 @@ const KEYS: readonly (readonly [readonly string[], string])[] = [
   [['Ctrl S'], 'Save the project'],
   [['F', 'T', 'X'], 'Follow, top or side view; press again for orbit'],
   [['A'], 'Frame both dancers'],
+  [[',', '.'], 'Turn the camera about the dancers'],
+  [['U', 'J'], 'Camera nearer, farther'],
   [OVERLAYS.map(({ key }) => key), OVERLAYS.map(({ label }) => label).join(', ')],
   [['E'], 'Download'],
   [['Esc'], 'Cancel, close what is open, or remove the loop'],
@@ -38,6 +40,7 @@ export const mountKeysDialog: Mount = (root, store) => {
   const close = closeButton(() => {
     apply(store, panelToggled('keys'));
   });
+  const letterKeys = createLetterSwitch(store);
   const rows = KEYS.flatMap(([keys, what]) => [
     el('dt', {}, ...keys.map((key) => el('kbd', { text: key }))),
     el('dd', { text: what }),
@@ -46,6 +49,7 @@ export const mountKeysDialog: Mount = (root, store) => {
     'section',
     { class: 'float keys', attributes: { role: 'dialog', 'aria-label': 'Keyboard shortcuts' } },
     el('div', { class: 'head' }, el('h2', { text: 'Keyboard' }), close),
+    letterKeys.element,
     el('dl', {}, ...rows),
   );
   dialog.hidden = true;
@@ -62,8 +66,31 @@ export const mountKeysDialog: Mount = (root, store) => {
         if (open) close.focus();
       },
     ),
+    letterKeys.dispose,
     () => {
       dialog.remove();
     },
   );
 };
+
+/** Whoever speaks to the computer, or hits keys by mistake, can do without letters as shortcuts (WCAG 2.1.4). */
+function createLetterSwitch(store: Store): { readonly element: HTMLElement; readonly dispose: () => void } {
+  const box = el('input', {
+    attributes: { type: 'checkbox' },
+    on: {
+      change: () => {
+        apply(store, letterKeysSet(box.checked));
+      },
+    },
+  });
+  return {
+    element: el('label', {}, box, 'Letters, digits and signs are shortcuts'),
+    dispose: watch(
+      store,
+      (state) => state.letterKeys,
+      (on) => {
+        box.checked = on;
+      },
+    ),
+  };
+}

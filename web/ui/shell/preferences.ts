@@ -19,6 +19,7 @@ const schema = v.object({
   loop: v.fallback(v.boolean(), false),
   footLock: v.fallback(v.boolean(), true),
   seedLocked: v.fallback(v.boolean(), false),
+  letterKeys: v.fallback(v.boolean(), true),
   /** False for who has used the page: they are not greeted as newcomers while their work is looked up. */
   firstVisit: v.fallback(v.boolean(), true),
   shown: v.fallback(
@@ -38,19 +39,16 @@ const schema = v.object({
 type Preferences = v.InferOutput<typeof schema>;
 
 const restored =
-  ({ theme, camera, speed, loop, footLock, seedLocked, firstVisit, shown: overlays }: Preferences): Change =>
+  ({ theme, speed, loop, shown: overlays, ...others }: Preferences): Change =>
   (state) => ({
+    ...others,
     theme: theme ?? state.theme,
-    camera,
-    footLock,
-    seedLocked,
-    firstVisit,
     overlays,
     playback: { ...state.playback, speed, loop },
   });
 
 const chosen = (
-  { camera, footLock, seedLocked, firstVisit, overlays, playback: { speed, loop } }: AppState,
+  { camera, footLock, seedLocked, letterKeys, firstVisit, overlays, playback: { speed, loop } }: AppState,
   theme: Theme | null,
 ): Preferences => ({
   theme,
@@ -59,6 +57,7 @@ const chosen = (
   loop,
   footLock,
   seedLocked,
+  letterKeys,
   firstVisit,
   shown: overlays,
 });

@@ -112,6 +112,8 @@ export interface Services {
   readonly showMoment: (measure: keyof Report, seconds: number) => void;
   /** Frames both dancers in the picture. */
   readonly frameBoth: () => void;
+  /** Turns the camera about the dancers (radians) and changes its distance by a factor. */
+  readonly stepCamera: (turn: number, factor: number) => void;
   /** Writes the chosen motion in this format and hands it to the browser's downloads. */
   readonly saveMotion: (format: MotionFormat) => void;
   /** How a video would be written with the present choices; null when this browser can write none. */

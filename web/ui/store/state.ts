@@ -255,6 +255,8 @@ export interface AppState {
   readonly variations: Variations | null;
   /** Whether the seed stays when a reaction is generated again. */
   readonly seedLocked: boolean;
+  /** Whether letters, digits and signs are shortcuts. */
+  readonly letterKeys: boolean;
   /** The newest first; the one whose reaction is `reaction` is on the stage. */
   readonly takes: readonly Take[];
   /** The highest number that a take has had. */

@@ -41,6 +41,7 @@ export function initialState(theme: Theme): AppState {
     earlier: null,
     variations: null,
     seedLocked: false,
+    letterKeys: true,
     takes: [],
     takesMade: 0,
     other: null,

@@ -109,7 +109,7 @@ function flipByKey(store: Store): () => void {
   return combineDisposers(
     listen(window, 'keydown', (event) => {
       if (!isB(event) || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (event.repeat || pressedAt !== null || isTyping(event)) return;
+      if (event.repeat || pressedAt !== null || isTyping(event) || !store.getState().letterKeys) return;
       const before = store.getState().reaction;
       apply(store, takesSwapped());
       if (store.getState().reaction !== before) pressedAt = event.timeStamp;

@@ -107,6 +107,15 @@ export class CameraRig {
     this.follower.followAs(before, couple);
   }
 
+  /** Turns about the target (radians) and changes the distance by a factor, as a gesture of the person would. */
+  step(turn: number, factor: number): void {
+    this.beginGesture();
+    const { shot } = this.orbit;
+    this.orbit.shot = { ...shot, heading: shot.heading + turn, distance: shot.distance * factor };
+    this.endGesture();
+    this.onChange();
+  }
+
   /** Moves back or closer for a picture of another shape, unless the person chose the distance. */
   refit(couple: Couple): void {
     if (this.follower.ownDistance) return this.onChange();

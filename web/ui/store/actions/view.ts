@@ -21,6 +21,10 @@ export function themeSet(theme: Theme): Change {
   return () => ({ theme });
 }
 
+export function letterKeysSet(letterKeys: boolean): Change {
+  return () => ({ letterKeys });
+}
+
 export function cameraSet(camera: View): Change {
   return () => ({ camera });
 }

@@ -1,0 +1,56 @@
+import { App } from '../support/app-page';
+import { expect, test } from '../support/fixtures';
+
+test('letters as shortcuts can be switched off, also for later visits; Space and Escape stay', async ({
+  page,
+}) => {
+  const app = new App(page);
+  await app.openWithoutPicture();
+  await app.settled();
+  const letters = page.getByRole('checkbox', { name: 'Letters, digits and signs are shortcuts' });
+  const loops = (): Promise<boolean> => app.read(({ playback }) => playback.loop);
+
+  await page.keyboard.press('?');
+  await letters.focus();
+  await page.keyboard.press('Space');
+  await page.keyboard.press('Escape');
+  await expect(letters).toBeHidden();
+  for (const key of ['l', '?', '3', ']']) await page.keyboard.press(key);
+  expect(await loops()).toBe(false);
+  expect(await app.read(({ openPanel, playback }) => [openPanel, playback.speed])).toEqual([null, 1]);
+  await page.evaluate('document.activeElement.blur()');
+  await page.keyboard.press('Space');
+  await app.until(({ playback }) => playback.playing);
+
+  await page.reload();
+  await app.settled();
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('l');
+  expect(await loops()).toBe(false);
+  await page.getByRole('button', { name: 'Keyboard shortcuts' }).click();
+  await letters.check();
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('l');
+  expect(await loops()).toBe(true);
+});
+
+test.describe('on a small window, where the processor draws', () => {
+  test.use({ viewport: { width: 780, height: 420 } });
+
+  test('keys turn the camera and bring it nearer', async ({ page }) => {
+    const app = new App(page);
+    await app.open();
+    await app.settled();
+    await page.getByRole('button', { name: 'Play the demo' }).click();
+    await page.keyboard.press('Space');
+    const shot = (): Promise<{ heading: number; distance: number }> =>
+      page.evaluate('window.reactdance.stage.framing().shot');
+    const before = await shot();
+    for (const key of ['.', '.', 'u']) await page.keyboard.press(key);
+    await expect.poll(async () => (await shot()).heading - before.heading).toBeCloseTo(Math.PI / 6, 2);
+    expect((await shot()).distance / before.distance).toBeCloseTo(1 / 1.15, 2);
+    for (const key of [',', ',', 'j']) await page.keyboard.press(key);
+    await expect.poll(async () => (await shot()).heading - before.heading).toBeCloseTo(0, 2);
+    expect((await shot()).distance / before.distance).toBeCloseTo(1, 2);
+  });
+});
