@@ -93,6 +93,7 @@ test('two fingers zoom stage and timeline, and the page does not scroll', async 
     expect(lowest, 'the feet are above the tools').toBeLessThan(height - tools.height);
     const door = page.getByRole('button', { name: /^Takes/ });
     await door.tap();
+    await expect(page.getByRole('dialog', { name: 'Takes' })).toBeVisible();
     await expect(page.getByRole('grid', { name: 'Takes' })).toBeVisible();
     await door.tap();
     await expect(page.getByRole('grid', { name: 'Takes' })).toBeHidden();
@@ -143,5 +144,20 @@ test('a small phone shows the whole first-visit block, and then stage and both f
       const after = (await page.locator(right).boundingBox())!;
       expect(before.x + before.width, left).toBeLessThanOrEqual(after.x);
     }
+  });
+});
+
+test.describe('on a tablet', () => {
+  test.use({ viewport: { width: 768, height: 1024 } });
+
+  test('the rows of the quality strip are as far apart as fingers need', async ({ page }) => {
+    const app = new App(page);
+    await app.openWithoutPicture();
+    await app.settled();
+    const labels = await page.locator('.lane-label.quality:visible').all();
+    expect(labels).toHaveLength(4);
+    const tops = await Promise.all(labels.map(async (label) => (await label.boundingBox())!.y));
+    tops.sort((a, b) => a - b);
+    for (const [above, top] of tops.slice(1).entries()) expect(top - tops[above]!).toBeGreaterThanOrEqual(24);
   });
 });

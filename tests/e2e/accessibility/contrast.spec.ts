@@ -53,7 +53,9 @@ test('a high contrast palette shows the focus on whatever has it, and which danc
   expect(new Set([leader, reactor, words]).size).toBe(3);
 });
 
-test('at 400 % all of the download menu is in the window', async ({ page }) => {
+test('at 400 % all of the download menu is in the window, and keys still move song and loop', async ({
+  page,
+}) => {
   await page.setViewportSize({ width: 320, height: 256 });
   const app = new App(page);
   await app.openWithoutPicture();
@@ -62,4 +64,19 @@ test('at 400 % all of the download menu is in the window', async ({ page }) => {
   const menu = page.getByRole('dialog', { name: 'Download' });
   await expect(menu).toBeVisible();
   expect(await menu.evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)).toBe(0);
+
+  await page.keyboard.press('Escape');
+  for (const [key, name] of [
+    ['Home', 'Song shift'],
+    ['i', 'Loop start'],
+  ] as const) {
+    await page.evaluate('document.activeElement.blur()');
+    await page.keyboard.press(key);
+    const slider = page.getByRole('slider', { name });
+    await slider.focus();
+    await page.keyboard.press('ArrowRight');
+    await expect(slider).toBeFocused();
+  }
+  expect(await app.read(({ shift }) => shift)).toBe(1);
+  expect(await app.read(({ playback }) => playback.region?.from)).toBeGreaterThan(0);
 });

@@ -1,5 +1,13 @@
 import { textButton, closeButton } from '../widgets/button';
-import { el, listen, setHidden, setText, combineDisposers, rememberFocus } from '../widgets/dom';
+import {
+  el,
+  listen,
+  setAttribute,
+  setHidden,
+  setText,
+  combineDisposers,
+  rememberFocus,
+} from '../widgets/dom';
 import type { Mount } from '../store/services';
 import type { AppState } from '../store/state';
 import { apply, type Store, watch, watchAll } from '../store/store';
@@ -87,6 +95,8 @@ function watchSheet(section: HTMLElement, close: HTMLElement, store: Store): () 
       if (open) giveBackFocus = rememberFocus();
       else giveBackFocus(section);
       section.classList.toggle('open', open);
+      // Only where it covers the page is it what its button says that it opens.
+      setAttribute(section, 'role', open && 'dialog');
       if (open) close.focus();
     },
   );
