@@ -9,7 +9,7 @@ import {
   VideoSampleSink,
 } from 'mediabunny';
 import { AppError } from '../common/error';
-import { type Picture, pictureOf } from './pose/picture';
+import { type Picture, PictureCopier, pictureOf } from './pose/picture';
 
 /** Pictures a second that are read of a faster video. */
 const MAX_RATE = 30;
@@ -120,13 +120,14 @@ async function* pictures(
 ): AsyncGenerator<{ readonly time: number; readonly picture: Picture }> {
   const sink = new VideoSampleSink(track);
   const isRead = pictureChoice();
+  const copier = new PictureCopier();
   let time = Math.max(0, from);
   try {
     for await (const sample of sink.samples(time, to)) {
       try {
         time = sample.timestamp;
         if (time < 0 || !isRead(time)) continue;
-        yield { time, picture: pictureOf(sample) };
+        yield { time, picture: copier.copyOf(pictureOf(sample)) };
       } finally {
         sample.close();
       }

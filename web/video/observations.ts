@@ -1,7 +1,8 @@
 import type { Quat } from '../motion/math/quat';
 import { CameraTurn, type Circle, circleAbout, comparedSize } from './pose/camera-turn';
+import { GreyReader } from './pose/grey';
 import { LANDMARK_COUNT } from './pose/landmarks';
-import { GreyReader, type Picture } from './pose/picture';
+import type { Picture } from './pose/picture';
 import type { Tracked } from './pose/tracker';
 import { DEFAULT_FOCAL } from './world/camera';
 

@@ -10,12 +10,11 @@ import {
 } from '../../motion/math/quat';
 import { median } from '../../motion/math/statistics';
 import { direction, length, type Vec3, X_AXIS } from '../../motion/math/vec3';
+import { type Grey, halved, withoutLocalMean } from './grey';
 import type { Point, Region } from './region';
 
 /** Longer side of the pictures that are compared, pixels. */
 const SIDE = 128;
-/** Reach of the mean that is taken out of a picture, so that exposure and vignettes do not matter, pixels. */
-const LOCAL_REACH = 8;
 /** Steps of Gauss-Newton on the picture at a quarter of its size, at half of it, and at its own. */
 const STEPS = [8, 6, 4];
 /** An error that counts a quarter, over the median of all: larger ones are of what moves by itself. */
@@ -51,12 +50,6 @@ export function circleAbout({ x, y, size }: Region, longer: number): Circle {
   return { x: x / longer, y: y / longer, radius: (DANCER * size) / longer };
 }
 
-interface Grey {
-  readonly width: number;
-  readonly height: number;
-  readonly values: Float32Array;
-}
-
 interface Compared {
   /** At the sizes of `STEPS`. */
   readonly levels: readonly Grey[];
@@ -71,16 +64,10 @@ interface Differences {
   readonly rows: Float64Array;
 }
 
-/** The differences where edges are: elsewhere a picture lies well anywhere. */
-interface Edges {
-  /** Sizes of the errors. */
-  readonly errors: Float64Array;
-  /** Changes of grey value a radian. */
-  readonly strengths: Float64Array;
-  /** 1 where grey values change more across than down. */
-  readonly upright: Uint8Array;
-  /** Of the strengths of all pixels. */
-  readonly mean: number;
+/** Of the edges in one direction, weighted by the square of their strength. */
+interface Share {
+  readonly aligned: number;
+  readonly all: number;
 }
 
 interface Key extends Compared {
@@ -123,7 +110,7 @@ export class CameraTurn {
     }
     let between = multiply(conjugate(key.turn), this.#turn);
     const laid = differences(picture, key, OWN_SIZE, between, this.focal);
-    if (edgesOf(laid).mean < BLANK) {
+    if (meanOf(strengthsOf(laid)) < BLANK) {
       this.#keys[this.#keys.indexOf(key)] = { ...picture, turn: this.#turn };
       return this.#turn;
     }
@@ -207,25 +194,34 @@ function differences(
 }
 
 /**
- * Whether a picture lies on a key as it is. Upright edges and level ones are asked apart: long lines on a floor lie well
+ * Whether a picture lies on a key as it is. Level edges and upright ones are asked apart: long lines on a floor lie well
  * however far a camera pans.
  */
-function isAligned(differences: Differences): boolean {
-  const { errors, strengths, upright } = edgesOf(differences);
-  const aligned = [0, 0];
-  const all = [0, 0];
-  strengths.forEach((strength, i) => {
-    const direction = upright[i]!;
-    all[direction]! += strength ** 2;
-    if (errors[i]! < ALIGNED * strength + NOISE) aligned[direction]! += strength ** 2;
-  });
-  return all.every((sum, i) => aligned[i]! >= MOST * sum || sum < FEW * all[1 - i]!);
+function isAligned({ errors, rows }: Differences): boolean {
+  // A turn up or down moves level edges, one to the side upright ones.
+  const [level, upright] = [0, 1].map((turn) => {
+    const strengths = errors.map((_, i) => Math.abs(rows[3 * i + turn]!));
+    const mean = meanOf(strengths);
+    let [aligned, all] = [0, 0];
+    strengths.forEach((strength, i) => {
+      if (strength <= mean) return;
+      all += strength ** 2;
+      const tolerance = ALIGNED * Math.hypot(rows[3 * i]!, rows[3 * i + 1]!) + NOISE;
+      if (Math.abs(errors[i]!) < tolerance) aligned += strength ** 2;
+    });
+    return { aligned, all };
+  }) as [Share, Share];
+  const most = Math.max(level.all, upright.all);
+  return [level, upright].every(({ aligned, all }) => aligned >= MOST * all || all < FEW * most);
 }
 
 /** The rotation vector by which a picture lies better: weighted least squares of rows x change = -errors. */
 function turnThatFits(differences: Differences): Vec3 {
   const { errors, rows } = differences;
-  const { errors: sizes } = edgesOf(differences);
+  // Where edges are: elsewhere a picture lies well anywhere.
+  const strengths = strengthsOf(differences);
+  const mean = meanOf(strengths);
+  const sizes = errors.filter((_, i) => strengths[i]! > mean).map(Math.abs);
   const scale = (sizes.length > 0 ? TOLERANCE * median(sizes) : 0) + NOISE;
   let [xx, xy, xz, yy, yz, zz] = [RIDGE, 0, 0, RIDGE, 0, RIDGE];
   let [bx, by, bz] = [0, 0, 0];
@@ -253,19 +249,13 @@ function turnThatFits(differences: Differences): Vec3 {
   ];
 }
 
-function edgesOf({ errors, rows }: Differences): Edges {
-  const strengths = errors.map((_, i) => Math.hypot(rows[3 * i]!, rows[3 * i + 1]!));
-  const mean = strengths.reduce((sum, value) => sum + value, 0) / Math.max(1, strengths.length);
-  const isEdge = (_: number, i: number): boolean => strengths[i]! > mean;
-  const upright = Uint8Array.from(errors, (_, i) =>
-    Number(Math.abs(rows[3 * i + 1]!) > Math.abs(rows[3 * i]!)),
-  );
-  return {
-    errors: errors.filter(isEdge).map(Math.abs),
-    strengths: strengths.filter(isEdge),
-    upright: upright.filter(isEdge),
-    mean,
-  };
+/** Changes of grey value a radian. */
+function strengthsOf({ errors, rows }: Differences): Float64Array {
+  return errors.map((_, i) => Math.hypot(rows[3 * i]!, rows[3 * i + 1]!));
+}
+
+function meanOf(values: Float64Array): number {
+  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }
 
 /** Whether a pixel is in a circle. */
@@ -276,43 +266,3 @@ function inside(circle: Circle | null, longer: number): (x: number, y: number) =
 }
 
 const turnBy = (change: Vec3): Quat => aboutAxis(direction(change, X_AXIS), length(change));
-
-/** A picture of half the size; its sides are even. */
-function halved({ width, height, values }: Grey): Grey {
-  const out = { width: width / 2, height: height / 2, values: new Float32Array((width * height) / 4) };
-  for (let y = 0; y < out.height; y++)
-    for (let x = 0; x < out.width; x++) {
-      const at = 2 * y * width + 2 * x;
-      out.values[y * out.width + x] =
-        (values[at]! + values[at + 1]! + values[at + width]! + values[at + width + 1]!) / 4;
-    }
-  return out;
-}
-
-/** A picture without the mean of each pixel's surroundings. */
-function withoutLocalMean({ width, height, values }: Grey): Grey {
-  const across = runningMean(values, width, height, 1, width);
-  const mean = runningMean(across, height, width, width, 1);
-  return { width, height, values: values.map((value, i) => value - mean[i]!) };
-}
-
-/** Mean over `LOCAL_REACH` pixels on each side along lines, `step` from pixel to pixel and `next` from line to line. */
-function runningMean(
-  values: Float32Array,
-  length: number,
-  lines: number,
-  step: number,
-  next: number,
-): Float32Array {
-  const out = new Float32Array(values.length);
-  for (let line = 0; line < lines; line++) {
-    const at = (i: number): number => line * next + i * step;
-    let [sum, from, to] = [0, 0, 0];
-    for (let i = 0; i < length; i++) {
-      for (; to < Math.min(length, i + LOCAL_REACH + 1); to++) sum += values[at(to)]!;
-      for (; from < i - LOCAL_REACH; from++) sum -= values[at(from)]!;
-      out[at(i)] = sum / (to - from);
-    }
-  }
-  return out;
-}

@@ -31,6 +31,32 @@ export function pictureOf(sample: VideoSample): Picture {
   };
 }
 
+/** Copies pictures, so that a browser makes RGB of each once, however often it is drawn. */
+export class PictureCopier {
+  #context: OffscreenCanvasRenderingContext2D | null = null;
+
+  /** The same picture; valid until the next one is copied. It is copied when it is drawn for the first time. */
+  copyOf(picture: Picture): Picture {
+    const { width, height } = picture;
+    let copied = false;
+    return {
+      width,
+      height,
+      draw: (context) => {
+        this.#context ??= new OffscreenCanvas(width, height).getContext('2d', {
+          alpha: false,
+          willReadFrequently: true,
+        })!;
+        const { canvas } = this.#context;
+        if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+        if (!copied) picture.draw(this.#context);
+        copied = true;
+        context.drawImage(canvas, 0, 0);
+      },
+    };
+  }
+}
+
 /** Cuts what a network sees out of pictures. */
 export class Cropper {
   readonly #canvases = new Map<number, OffscreenCanvasRenderingContext2D>();
@@ -79,30 +105,6 @@ export class Cropper {
     context.fillStyle = '#000';
     context.fillRect(0, 0, side, side);
     return context;
-  }
-}
-
-/** Makes small pictures of grey values. */
-export class GreyReader {
-  readonly #context: OffscreenCanvasRenderingContext2D;
-
-  constructor(readonly size: { readonly width: number; readonly height: number }) {
-    this.#context = new OffscreenCanvas(size.width, size.height).getContext('2d', {
-      willReadFrequently: true,
-    })!;
-    this.#context.imageSmoothingQuality = 'medium';
-  }
-
-  /** height x width, 0 to 1. */
-  read(picture: Picture): Float32Array {
-    const { width, height } = this.size;
-    this.#context.setTransform(width / picture.width, 0, 0, height / picture.height, 0, 0);
-    picture.draw(this.#context);
-    const { data } = this.#context.getImageData(0, 0, width, height);
-    return Float32Array.from(
-      { length: width * height },
-      (_, i) => (data[4 * i]! + 2 * data[4 * i + 1]! + data[4 * i + 2]!) / (4 * 255),
-    );
   }
 }
 
