@@ -29,7 +29,7 @@ export function checkSeen(observations: Observations): void {
     throw new AppError(
       'no-person',
       'No person was found in the video.',
-      'Film one dancer from head to feet, in light, with a camera that stands still.',
+      'Film one dancer from head to feet, in light, with a camera that stays in its place.',
     );
   }
   const seconds = secondsSeen(rows, times);
