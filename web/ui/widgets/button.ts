@@ -52,7 +52,13 @@ export function textButton(
 export function setDisabled(button: HTMLButtonElement, disabled: boolean): void {
   const held = disabled && button === document.activeElement;
   if (held && !isHeld(button))
-    button.addEventListener('blur', () => { setDisabled(button, isHeld(button)); }, { once: true }); // prettier-ignore
+    button.addEventListener(
+      'blur',
+      () => {
+        setDisabled(button, isHeld(button));
+      },
+      { once: true },
+    );
   button.disabled = disabled && !held;
   setAttribute(button, 'aria-disabled', held && 'true');
 }
