@@ -68,7 +68,10 @@ export function howItWorks(): HTMLElement {
     el(
       'ul',
       {},
-      item('A phone', 'film one dancer, whole in the picture; the phone may turn with them, but stays in its place.'),
+      item(
+        'A phone',
+        'film one dancer, whole in the picture; the phone may turn with them, but stays in its place.',
+      ),
       item('Blender', 'select the armature, then File, Export, Motion Capture (.bvh).'),
       item('Mixamo', 'download a dance as FBX.'),
       item('Motion capture', 'suits, and apps that watch a video, can save BVH: Rokoko and DeepMotion do.'),
