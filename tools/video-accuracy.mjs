@@ -40,7 +40,7 @@ async function record() {
   const { encodeRecording } = await load('recording.ts');
   const executablePath = await findBrowser();
   if (executablePath === undefined) throw new Error('No Chromium was found; name one in CHROMIUM.');
-  await mkdir(RECORDINGS, { recursive: true });
+  await mkdir(path.join(RECORDINGS, 'mannequin'), { recursive: true });
   const site = await servePage(PAGE, { '/models/': path.join(root, 'web/public/models') });
   const browser = await chromium.launch({ executablePath, args: ['--no-sandbox'] });
   try {

@@ -22,7 +22,7 @@ export type MotionName = 'salsa' | 'slow' | 'turning' | 'spinning' | 'walking' |
 
 /** A video whose motion is known. */
 export interface FilmedMotion {
-  /** Name of its recording. */
+  /** Name of its recording in tests/fixtures/video. */
   readonly name: string;
   readonly motion: MotionName;
   readonly title: string;
@@ -43,7 +43,7 @@ function filmed(
   panned?: number,
 ): FilmedMotion {
   return {
-    name: `${motion}-${height.toFixed(1)}${panned === undefined ? '' : '-panned'}`,
+    name: `mannequin/${motion}-${height.toFixed(1)}${panned === undefined ? '' : '-panned'}`,
     motion,
     title,
     seconds,
@@ -72,7 +72,7 @@ export const FILMED: readonly FilmedMotion[] = [
 
 function person(view: number, side: string, shot: Pick<Shot, 'position' | 'target' | 'focal'>): FilmedMotion {
   return {
-    name: `person-${view}`,
+    name: `person/${view}`,
     motion: 'balancing',
     title: `a person balancing, from ${side}`,
     seconds: 1.6,
