@@ -1,3 +1,5 @@
+import { aboutAxis, multiply, type Quat, rotate } from '../../motion/math/quat';
+import { readVec, writeVec, X_AXIS, Y_AXIS } from '../../motion/math/vec3';
 import { LANDMARK_COUNT } from '../pose/landmarks';
 import type { Series } from './series';
 
@@ -12,25 +14,33 @@ const MAX_DEPTH = 60;
 const MIN_VISIBILITY = 0.3;
 
 /**
+ * From the axes of what the network saw, which looks straight at a point of the picture, to those of the camera.
+ * @param x, y of the point, pixels
+ * @param focal pixels
+ */
+export function lookingAt(
+  x: number,
+  y: number,
+  { width, height }: Pick<Series, 'width' | 'height'>,
+  focal: number,
+): Quat {
+  const [right, down] = [(x - width / 2) / focal, (y - height / 2) / focal];
+  const [yaw, pitch] = [Math.atan(right), Math.atan2(down, Math.hypot(1, right))];
+  return multiply(aboutAxis(Y_AXIS, yaw), aboutAxis(X_AXIS, -pitch));
+}
+
+/**
  * Turns the landmarks from the axes of what the network saw, which looks straight at the person, to those of the
  * camera, which looks past them. In place.
  * @param focal focal length, pixels
  */
-export function toCameraAxes({ world, centre, frames, width, height }: Series, focal: number): Float64Array {
+export function toCameraAxes(series: Series, focal: number): Float64Array {
+  const { world, centre, frames } = series;
   const out = new Float64Array(world.length);
   for (let frame = 0; frame < frames; frame++) {
-    const x = (centre[2 * frame]! - width / 2) / focal;
-    const y = (centre[2 * frame + 1]! - height / 2) / focal;
-    const [yaw, pitch] = [Math.atan(x), Math.atan2(y, Math.hypot(1, x))];
-    const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
-    for (let i = frame * LANDMARK_COUNT; i < (frame + 1) * LANDMARK_COUNT; i++) {
-      const [a, b, c] = [world[3 * i]!, world[3 * i + 1]!, world[3 * i + 2]!];
-      // First about x, downwards, then about y, to the right.
-      const [down, away] = [b * cp + c * sp, -b * sp + c * cp];
-      out[3 * i] = a * cy + away * sy;
-      out[3 * i + 1] = down;
-      out[3 * i + 2] = -a * sy + away * cy;
-    }
+    const turn = lookingAt(centre[2 * frame]!, centre[2 * frame + 1]!, series, focal);
+    for (let i = frame * LANDMARK_COUNT; i < (frame + 1) * LANDMARK_COUNT; i++)
+      writeVec(out, i, rotate(turn, readVec(world, i)));
   }
   return out;
 }

@@ -10,9 +10,9 @@ import {
   readQuat,
   rotate,
 } from '../../motion/math/quat';
-import { direction, Z_AXIS } from '../../motion/math/vec3';
+import { direction, readVec, writeVec, Z_AXIS } from '../../motion/math/vec3';
 import { LANDMARK_COUNT } from '../pose/landmarks';
-import { DEFAULT_FOCAL } from './camera';
+import { DEFAULT_FOCAL, lookingAt } from './camera';
 import type { Series } from './series';
 
 /** A camera that never turns by more than this stands still; what is measured of it is noise. Radians. */
@@ -22,7 +22,8 @@ const MIN_COSINE = 0.1;
 
 /**
  * What a camera that stands still would have seen: landmarks are where the rays through them meet the picture of a
- * camera that looks where this one looked on average. The same where the camera hardly turned.
+ * camera that looks where this one looked on average, and those in metres are turned with it. The same where the camera
+ * hardly turned.
  * @param focal pixels
  */
 export function asOfStillCamera(series: Series, focal: number): Series {
@@ -33,8 +34,10 @@ export function asOfStillCamera(series: Series, focal: number): Series {
   const back = conjugate(meanQuat(turns));
   const image = series.image.slice();
   const centre = series.centre.slice();
+  const world = series.world.slice();
   turns.forEach((turn, frame) => {
     const q = multiply(back, turn);
+    const looking = lookingAt(centre[2 * frame]!, centre[2 * frame + 1]!, series, focal);
     const move = (points: Float64Array, i: number): void => {
       const ray = rotate(q, [
         (points[2 * i]! - width / 2) / focal,
@@ -45,10 +48,16 @@ export function asOfStillCamera(series: Series, focal: number): Series {
       points[2 * i] = (ray[0] / depth) * focal + width / 2;
       points[2 * i + 1] = (ray[1] / depth) * focal + height / 2;
     };
-    for (let i = 0; i < LANDMARK_COUNT; i++) move(image, frame * LANDMARK_COUNT + i);
     move(centre, frame);
+    // The network saw the body as upright as the camera was held.
+    const still = lookingAt(centre[2 * frame]!, centre[2 * frame + 1]!, series, focal);
+    const held = multiply(conjugate(still), multiply(q, looking));
+    for (let i = frame * LANDMARK_COUNT; i < (frame + 1) * LANDMARK_COUNT; i++) {
+      move(image, i);
+      writeVec(world, i, rotate(held, readVec(world, i)));
+    }
   });
-  return { ...series, image, centre };
+  return { ...series, image, centre, world };
 }
 
 /** Greatest angle between how the camera was turned on average and in a frame, radians. */

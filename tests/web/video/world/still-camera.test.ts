@@ -8,9 +8,9 @@ import {
   rotate,
   writeQuat,
 } from '../../../../web/motion/math/quat';
-import { direction, type Vec3, X_AXIS, Y_AXIS, Z_AXIS } from '../../../../web/motion/math/vec3';
+import { direction, type Vec3, writeVec, X_AXIS, Y_AXIS, Z_AXIS } from '../../../../web/motion/math/vec3';
 import { LANDMARK_COUNT } from '../../../../web/video/pose/landmarks';
-import { DEFAULT_FOCAL } from '../../../../web/video/world/camera';
+import { DEFAULT_FOCAL, lookingAt, toCameraAxes } from '../../../../web/video/world/camera';
 import type { Series } from '../../../../web/video/world/series';
 import { asOfStillCamera, turnedBy } from '../../../../web/video/world/still-camera';
 
@@ -27,9 +27,11 @@ const turnAt = (frame: number, most: number): Quat => {
 };
 
 /** Landmarks in front of a camera that turns by radians, with a focal length in pixels. */
-function seen(most: number, focal: number): { series: Series; still: Float64Array } {
+function seen(most: number, focal: number): { series: Series; still: Float64Array; body: Float64Array } {
   const image = new Float64Array(FRAMES * LANDMARK_COUNT * 2);
   const still = image.slice();
+  const world = new Float64Array(FRAMES * LANDMARK_COUNT * 3);
+  const body = world.slice();
   const turn = new Float64Array(FRAMES * 4);
   const project = ([x, y, z]: Vec3): [number, number] => [
     (x / z) * focal + WIDTH / 2,
@@ -44,6 +46,15 @@ function seen(most: number, focal: number): { series: Series; still: Float64Arra
       image.set(project(rotate(conjugate(q), point)), at);
       still.set(project(rotate(conjugate(middle), point)), at);
     }
+    // The network looks straight at the first landmark, and sees a body in metres about it.
+    const [x, y] = [image[2 * frame * LANDMARK_COUNT]!, image[2 * frame * LANDMARK_COUNT + 1]!];
+    const looking = lookingAt(x, y, { width: WIDTH, height: HEIGHT }, focal);
+    for (let i = 0; i < LANDMARK_COUNT; i++) {
+      const metres: Vec3 = [0.02 * i - 0.3, 0.8 - 0.05 * i, 0.1 * Math.sin(i)];
+      const at = frame * LANDMARK_COUNT + i;
+      writeVec(world, at, rotate(conjugate(multiply(q, looking)), metres));
+      writeVec(body, at, rotate(conjugate(middle), metres));
+    }
     // As it is measured with the usual focal length: slopes are in proportion.
     const ahead = rotate(q, Z_AXIS);
     const factor = focal / (DEFAULT_FOCAL * WIDTH);
@@ -56,7 +67,7 @@ function seen(most: number, focal: number): { series: Series; still: Float64Arra
     frames: FRAMES,
     start: 0,
     image,
-    world: new Float64Array(0),
+    world,
     visibility: new Float64Array(0),
     centre: Float64Array.from(
       { length: 2 * FRAMES },
@@ -66,7 +77,7 @@ function seen(most: number, focal: number): { series: Series; still: Float64Arra
     seen: new Uint8Array(FRAMES).fill(1),
     gaps: [],
   };
-  return { series, still };
+  return { series, still, body };
 }
 
 /** The rotation of Z to a direction without a twist. */
@@ -79,13 +90,16 @@ function swing([x, y, z]: Vec3): Quat {
 it.each([DEFAULT_FOCAL, 1.3])(
   'shows landmarks as if the camera had not turned, with a focal length of %f',
   (focal) => {
-    const { series, still } = seen(0.25, focal * WIDTH);
-    const { image, centre } = asOfStillCamera(series, focal * WIDTH);
+    const { series, still, body } = seen(0.25, focal * WIDTH);
+    const found = asOfStillCamera(series, focal * WIDTH);
+    const { image, centre } = found;
     image.forEach((value, i) => expect(Math.abs(value - still[i]!)).toBeLessThan(0.5));
     centre.forEach((value, i) => {
       const first = 2 * LANDMARK_COUNT * (i >> 1) + (i % 2);
       expect(Math.abs(value - still[first]!)).toBeLessThan(0.5);
     });
+    const inCamera = toCameraAxes(found, focal * WIDTH);
+    inCamera.forEach((value, i) => expect(Math.abs(value - body[i]!)).toBeLessThan(0.002));
     expect(turnedBy(series)).toBeGreaterThan(0.15);
   },
 );
