@@ -1,41 +1,50 @@
+import { lerp, readVec, type Vec3, writeVec } from '../math/vec3';
 import type { Positions } from './positions';
 
 /** Share of missing places from which on a warning says so. */
 const MENTIONED = 0.02;
 
 /**
+ * A joint's places over time; where it was not seen, between those before and after. Null where it was never seen.
+ * @param isSeen of each place
+ */
+export function closedGaps(places: readonly Vec3[], isSeen: readonly boolean[]): Vec3[] | null {
+  const seen = [...places.keys()].filter((frame) => isSeen[frame]);
+  if (seen.length === 0) return null;
+  let next = 0;
+  return places.map((_, frame) => {
+    while (next < seen.length - 1 && seen[next]! < frame) next++;
+    const after = seen[next]!;
+    const before = after > frame && next > 0 ? seen[next - 1]! : after;
+    return lerp(places[before]!, places[after]!, after > before ? (frame - before) / (after - before) : 0);
+  });
+}
+
+/**
  * Positions in which a place that was not seen (not a number) lies between those before and after. Joints that were never
  * seen are left out.
  */
 export function withoutGaps({ joints, places }: Positions): Positions & { readonly warnings: string[] } {
-  const width = joints.length * 3;
-  const frames = places.length / width;
-  const isSeen = (frame: number, joint: number): boolean =>
-    [0, 1, 2].every((axis) => !Number.isNaN(places[frame * width + joint * 3 + axis]));
-  const all = Array.from({ length: frames }, (_, frame) => frame);
-  const seen = joints.map((_, joint) => all.filter((frame) => isSeen(frame, joint)));
-  const kept = [...joints.keys()].filter((joint) => seen[joint]!.length > 0);
-  const out = new Float32Array(frames * kept.length * 3);
+  if (!places.some(Number.isNaN)) return { joints, places, warnings: [] };
+  const frames = places.length / (joints.length * 3);
   let missing = 0;
-  kept.forEach((joint, to) => {
-    const known = seen[joint]!;
-    missing += frames - known.length;
-    let next = 0;
-    for (let frame = 0; frame < frames; frame++) {
-      while (next < known.length - 1 && known[next]! < frame) next++;
-      const after = known[next]!;
-      const before = after > frame && next > 0 ? known[next - 1]! : after;
-      const share = after > before ? (frame - before) / (after - before) : 0;
-      for (let axis = 0; axis < 3; axis++) {
-        const [a, b] = [before, after].map((at) => places[at * width + joint * 3 + axis]!) as [
-          number,
-          number,
-        ];
-        out[(frame * kept.length + to) * 3 + axis] = a + (b - a) * share;
-      }
-    }
+  const tracks = joints.flatMap((joint, index) => {
+    const given = Array.from({ length: frames }, (_, frame) =>
+      readVec(places, frame * joints.length + index),
+    );
+    const isSeen = given.map((place) => !place.some(Number.isNaN));
+    const track = closedGaps(given, isSeen);
+    if (!track) return [];
+    missing += isSeen.filter((seen) => !seen).length;
+    return [{ joint, index, track }];
   });
-  const share = missing / (frames * kept.length);
+  const out = new Float32Array(frames * tracks.length * 3);
+  tracks.forEach(({ track }, to) => {
+    track.forEach((place, frame) => {
+      writeVec(out, frame * tracks.length + to, place);
+    });
+  });
+  const share = missing / (frames * tracks.length);
   const warnings =
     share >= MENTIONED
       ? [
@@ -43,9 +52,9 @@ export function withoutGaps({ joints, places }: Positions): Positions & { readon
         ]
       : [];
   // A parent that was never seen is none.
-  const parentOf = (joint: number): number => kept.indexOf(joints[joint]!.parent);
+  const parentOf = (parent: number): number => tracks.findIndex(({ index }) => index === parent);
   return {
-    joints: kept.map((joint) => ({ ...joints[joint]!, parent: parentOf(joint) })),
+    joints: tracks.map(({ joint }) => ({ ...joint, parent: parentOf(joint.parent) })),
     places: out,
     warnings,
   };

@@ -72,6 +72,22 @@ export const ALL_UNITS: readonly { readonly name: UnitName; readonly metres: num
   { name: 'MMD units of 8 cm', metres: 0.08 },
 ];
 
+/** Words of files for units. */
+const UNIT_WORDS: Readonly<Record<string, UnitName>> = {
+  m: 'metres',
+  meters: 'metres',
+  cm: 'centimetres',
+  centimeters: 'centimetres',
+  mm: 'millimetres',
+  millimeters: 'millimetres',
+};
+
+/** The unit that a file states with a word such as `mm` or `Millimeters`; null for other words. */
+export function unitOfWord(word: string): Unit | null {
+  const name = UNIT_WORDS[word.toLowerCase()];
+  return ALL_UNITS.find((unit) => unit.name === name) ?? null;
+}
+
 /** Leg plus trunk plus neck of an adult, and the middle and the ends of the accepted range, metres. */
 const ADULT_SIZE = 1.45;
 const MIDDLE_SIZE = 1.18;

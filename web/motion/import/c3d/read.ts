@@ -1,5 +1,6 @@
 import { type C3d, readC3dFile } from './file';
 import { jointsOfMarkers, NEEDED, OPTIONAL } from './plug-in-gait';
+import { closedGaps } from '../gaps';
 import { sourceOfPositions } from '../positions';
 import { AppError } from '../../../common/error';
 import { checkedRate } from '../../retarget/frame-rate';
@@ -15,20 +16,13 @@ const SUBJECT = /^(.*?)[:_](?=[^:_]+$)/;
 const markerOf = (label: string): string => label.replace(SUBJECT, '').toUpperCase();
 const subjectOf = (label: string): string => SUBJECT.exec(label)?.[1] ?? '';
 
-/** A marker's places over time; where it was not seen, between those before and after. Null where it was never seen. */
+/** A marker's places over time without gaps; null where it was never seen. */
 function filled({ places, frames, labels }: C3d, marker: number): Vec3[] | null {
-  const at = (frame: number): Vec3 => readVec(places, frame * labels.length + marker);
-  const seen = Array.from({ length: frames }, (_, frame) => frame).filter((frame) =>
-    at(frame).every(Number.isFinite),
+  const given = Array.from({ length: frames }, (_, frame) => readVec(places, frame * labels.length + marker));
+  return closedGaps(
+    given,
+    given.map((place) => place.every(Number.isFinite)),
   );
-  if (seen.length === 0) return null;
-  let next = 0;
-  return Array.from({ length: frames }, (_, frame) => {
-    while (next < seen.length - 1 && seen[next]! < frame) next++;
-    const [before, after] = [seen[Math.max(0, seen[next]! > frame ? next - 1 : next)]!, seen[next]!];
-    const share = after > before ? Math.min(1, Math.max(0, (frame - before) / (after - before))) : 0;
-    return lerp(at(before), at(after), share);
-  });
 }
 
 /** The needed markers that a subject lacks. */

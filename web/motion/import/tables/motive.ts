@@ -1,15 +1,10 @@
 import { sourceOfPoints } from '../keypoints';
 import { tooLong } from '../positions';
 import { AppError } from '../../../common/error';
-import type { Unit } from '../../retarget/axes-and-units';
+import { unitOfWord } from '../../retarget/axes-and-units';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource } from '../../retarget/source';
 
-const UNITS: Readonly<Record<string, Unit>> = {
-  meters: { name: 'metres', metres: 1 },
-  centimeters: { name: 'centimetres', metres: 0.01 },
-  millimeters: { name: 'millimetres', metres: 0.001 },
-};
 /** Most lines before the first frame. */
 const HEAD_LINES = 12;
 
@@ -72,7 +67,7 @@ export function readMotive(lines: readonly string[], part: number): MotionSource
       format: 'CSV of Motive',
       frameRate: () => checkedRate(rate > 0 ? rate : ASSUMED_FPS),
       rateAssumed: !(rate > 0),
-      unit: UNITS[stated('Length Units').toLowerCase()] ?? null,
+      unit: unitOfWord(stated('Length Units')),
       upAxis: 'y',
       parts: dancers.length > 1 ? dancers.map((dancer) => dancer.slice(0, 80)) : [],
       part: at,

@@ -2,15 +2,10 @@ import { sourceOfPoints } from '../keypoints';
 import { tooLong } from '../positions';
 import { AppError } from '../../../common/error';
 import { linesOf } from '../../../common/lines';
-import type { Unit } from '../../retarget/axes-and-units';
+import { unitOfWord } from '../../retarget/axes-and-units';
 import { ASSUMED_FPS, checkedRate } from '../../retarget/frame-rate';
 import type { MotionSource } from '../../retarget/source';
 
-const UNITS: Readonly<Record<string, Unit>> = {
-  m: { name: 'metres', metres: 1 },
-  cm: { name: 'centimetres', metres: 0.01 },
-  mm: { name: 'millimetres', metres: 0.001 },
-};
 /** Lines before the first frame: two of the file, its values, the markers, and the axes of each. */
 const HEAD_LINES = 5;
 /** Cells of a line before those of the first marker: frame and time. */
@@ -59,7 +54,7 @@ export function readTrc(text: string): MotionSource {
       format: 'TRC',
       frameRate: () => checkedRate(rate > 0 ? rate : ASSUMED_FPS),
       rateAssumed: !(rate > 0),
-      unit: UNITS[stated('units').toLowerCase()] ?? null,
+      unit: unitOfWord(stated('units')),
       upAxis: null,
     },
   );
