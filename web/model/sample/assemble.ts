@@ -1,7 +1,6 @@
 /** From blended latents to the solved dancer: a whole dance, or a part of it as it is in the whole. */
 import { yieldToEvents } from '../../common/yield-to-events';
 import { besidePartner } from '../../motion/contact/beside-partner';
-import { sampleStep } from '../../motion/contact/collision-avoidance';
 import { resized } from '../../motion/contact/body-size';
 import { withFootLock } from '../../motion/contact/foot-lock';
 import { solve } from '../../motion/fit/ik';
@@ -47,8 +46,8 @@ export class Assembler {
 
   /**
    * Some seconds of a dance, as they are in the whole to a tenth of a millimetre. On each side the decoder's receptive
-   * field is decoded and solved with them and cut off: within it the ends of a clip fade from decoded joints, from the
-   * shifts of locked feet and, but for one part in a hundred, from the choice of shifts against collisions.
+   * field is decoded and solved with them and cut off: within it the ends of a clip fade from decoded joints and from the
+   * shifts of locked feet and against collisions.
    * @param from first frame; rounded down to where a part can begin
    * @param length frames from there on; fewer at the end of the dance
    */
@@ -59,8 +58,7 @@ export class Assembler {
   ): Promise<GeneratedMotion & { readonly from: number }> {
     const { leader } = dance;
     const { stride, receptive_field } = this.manifest.latent;
-    const grid = stride * sampleStep(leader.fps);
-    const down = (frame: number): number => Math.max(0, Math.floor(frame / grid) * grid);
+    const down = (frame: number): number => Math.max(0, Math.floor(frame / stride) * stride);
     const margin = receptive_field.decode * stride;
     const first = down(from);
     const end = Math.min(leader.frames, Math.ceil(from + length));

@@ -1,105 +1,106 @@
-import { type BodyRule, capsuleBody, candidatePairs, penetrationDepth, shiftedDepths } from './capsules';
+import { type BodyRule, type CapsuleBody, capsuleBody, candidatePairs, penetrationDepth } from './capsules';
+import { gaussianFilter, windowMaximum } from '../math/statistics';
 import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
-import { type LevelShift, SHIFT_COLUMNS, SHIFTS, viterbiPath } from './viterbi-path';
-import { gaussianFilter, type Run, runsOf } from '../math/statistics';
-import type { JointName } from '../skeleton/skeleton';
+import { headingOf } from '../skeleton/heading';
+import { JOINT_COUNT, type JointName } from '../skeleton/skeleton';
 
 /** Joints that end the bones of the arms. Partners hold each other, so arms may overlap. */
 const ARMS: ReadonlySet<JointName> = new Set(['left_elbow', 'left_wrist', 'right_elbow', 'right_wrist']);
-/** Time between two samples of the shift, and how long before and after an overlap it may differ from zero, seconds. */
-const SAMPLE_INTERVAL = 0.1;
-const MARGIN = 1.5;
-/** Cost of a squared penetration depth, where a squared shift costs 1. */
-const PENETRATION_COST = 20_000;
-/** Standard deviation of the Gaussian filter over the shift, in seconds and in samples. */
+/** The direction away from the other dancer is measured from a point this far behind their pelvis, metres. */
+const BEHIND = 0.2;
+/** Standard deviation of the Gaussian filter over that direction, seconds. */
+const DIRECTION_SMOOTHING = 0.6;
+/** Longest shift, metres. */
+const MAX_SHIFT = 0.6;
+/** A shift may be longer than necessary by so much, metres. */
+const PRECISION = 0.002;
+/** Factor on the necessary shift, of which the filter takes some away. */
+const SPARE = 1.25;
+/** How long before and after a frame its shift is held, and standard deviation of the filter over the shift, seconds. */
+const HOLD = 0.3;
 const SMOOTHING = 0.2;
-const SMOOTHING_SAMPLES = Math.round(SMOOTHING / SAMPLE_INTERVAL);
 
-/** Runs of samples no farther than `margin` samples from an overlap, `to` excluded. */
-function runsAround(overlaps: readonly boolean[], margin: number): Run[] {
-  return runsOf(overlaps, 2 * margin + 1).map(({ from, to }) => ({
-    from: Math.max(0, from - margin),
-    to: Math.min(overlaps.length, to + margin),
-  }));
+/** Unit vectors level with the floor, one a frame. */
+interface Directions {
+  readonly x: Float64Array;
+  readonly z: Float64Array;
 }
 
-/**
- * Cost of every one of `SHIFTS` at a sample. The deepest penetration within one standard deviation of the filter
- * counts, since the path is smoothed afterwards.
- */
-function costsOf(depths: readonly Float64Array[], sample: number): Float64Array {
-  const window = depths.slice(Math.max(0, sample - SMOOTHING_SAMPLES), sample + SMOOTHING_SAMPLES + 1);
-  const deepest = new Float64Array(SHIFTS.length);
-  for (const row of window) {
-    for (let shift = 0; shift < row.length; shift++) deepest[shift] = Math.max(deepest[shift]!, row[shift]!);
+/** Away from the other dancer, smoothly over time; the way that they face where both stand in one place. */
+function directionsAway(motion: MotionClip, other: MotionClip): Directions {
+  const { frames, fps } = motion;
+  const [x, z] = [new Float64Array(frames), new Float64Array(frames)];
+  const width = 3 * JOINT_COUNT;
+  for (let frame = 0; frame < frames; frame++) {
+    const root = frame * width;
+    const heading = headingOf(other.positions.subarray(root, root + width));
+    x[frame] = motion.positions[root]! - other.positions[root]! + BEHIND * Math.sin(heading);
+    z[frame] = motion.positions[root + 2]! - other.positions[root + 2]! + BEHIND * Math.cos(heading);
   }
-  for (let shift = 0; shift < deepest.length; shift++) {
-    const { x, z } = SHIFTS[shift]!;
-    const depth = deepest[shift]!;
-    deepest[shift] = PENETRATION_COST * depth * depth + x * x + z * z;
-  }
-  return deepest;
+  const [smoothX, smoothZ] = [x, z].map((along) => gaussianFilter(along, DIRECTION_SMOOTHING * fps)) as [
+    Float64Array,
+    Float64Array,
+  ];
+  const length = smoothX.map((along, frame) => Math.hypot(along, smoothZ[frame]!) || 1);
+  return {
+    x: smoothX.map((along, frame) => along / length[frame]!),
+    z: smoothZ.map((along, frame) => along / length[frame]!),
+  };
 }
 
 /**
- * Samples `step` frames apart, interpolated linearly to every frame and smoothed.
- * @param deviation of the Gaussian filter, frames
+ * How far the second dancer has to go in a direction until no overlap is left, metres; 0 where there is none. By
+ * conservative advancement (Mirtich, Impulse-based dynamic simulation, 1996, section 2.3): a step as long as the overlap
+ * is deep cannot pass its end.
  */
-function everyFrame(
-  samples: readonly number[],
-  step: number,
-  frames: number,
-  deviation: number,
-): Float64Array {
-  const linear = Float64Array.from({ length: frames }, (_, frame) => {
-    const sample = Math.floor(frame / step);
-    const value = samples[sample]!;
-    return value + ((samples[sample + 1] ?? value) - value) * (frame / step - sample);
-  });
-  return gaussianFilter(linear, deviation);
-}
-
-/** Frames between two samples of the shift. */
-export function sampleStep(fps: number): number {
-  return Math.max(1, Math.round(SAMPLE_INTERVAL * fps));
+function shiftOut(
+  a: CapsuleBody,
+  b: CapsuleBody,
+  frame: number,
+  [x, z]: readonly number[],
+  deep: number,
+): number {
+  if (penetrationDepth(a, b, candidatePairs(a, b, frame)) <= deep) return 0;
+  const pairs = candidatePairs(a, b, frame, MAX_SHIFT);
+  let shift = 0;
+  while (shift < MAX_SHIFT) {
+    const depth = penetrationDepth(a, b, pairs, { x: shift * x!, z: shift * z! });
+    if (depth <= deep) break;
+    shift += depth - deep + PRECISION;
+  }
+  return shift;
 }
 
 /**
- * Collision avoidance between two dancers: where trunks, heads or legs would overlap, the whole dancer is shifted level
- * with the floor by at most 0.56 m, along the cheapest smooth path (viterbi-path.ts). Arms may overlap. Rotations,
- * heights and bone lengths stay. More than 1.5 s away from an overlap nothing changes but for the filter, and a motion
- * without overlap is returned as it is. Pure.
+ * Collision avoidance between two dancers: where trunks, heads or legs would overlap, the whole dancer is shifted away
+ * from the other one, level with the floor, by at most 0.6 m. Arms may overlap. Rotations, heights and bone lengths stay.
+ * A motion without overlap is returned as it is. Pure.
+ *
+ * The direction comes from where both stand and the length from the overlap, so that motions that differ little are
+ * shifted alike: while guidance is changed, the dancer goes smoothly with it. The exception is a dancer whose pelvis
+ * comes close to the point `BEHIND` the other's, from which no direction leads away: some overlap is left there.
  *
  * @param motion the dancer who is shifted
  * @param other the dancer who stays, of the same frames and rate
  * @param rule capsules of the bodies, and the depth from which an overlap counts
  */
 export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: BodyRule): SolvedMotion {
-  const { frames, fps } = motion;
+  const { fps } = motion;
   const withoutArms = {
     ...rule,
     capsules: rule.capsules.filter(({ from, to }) => !ARMS.has(from) && !ARMS.has(to)),
   };
-  const step = sampleStep(fps);
-  const [a, b] = [capsuleBody(other, withoutArms, step), capsuleBody(motion, withoutArms, step)];
-  const overlaps = Array.from(
-    { length: Math.ceil(frames / step) },
-    (_, sample) => penetrationDepth(a, b, candidatePairs(a, b, sample)) > rule.deep,
-  );
-  if (!overlaps.includes(true)) return motion;
-  const path: LevelShift[] = overlaps.map(() => ({ x: 0, z: 0 }));
-  for (const { from, to } of runsAround(overlaps, Math.round(MARGIN / SAMPLE_INTERVAL))) {
-    const depths = Array.from({ length: to - from }, (_, i) => shiftedDepths(a, b, from + i, SHIFT_COLUMNS));
-    const costs = depths.map((_, sample) => costsOf(depths, sample));
-    path.splice(from, to - from, ...viterbiPath(costs, { start: from > 0, end: to < overlaps.length }));
-  }
-  const along = (axis: 'x' | 'z'): Float64Array =>
-    everyFrame(
-      path.map((shift) => shift[axis]),
-      step,
-      frames,
+  const [a, b] = [capsuleBody(other, withoutArms), capsuleBody(motion, withoutArms)];
+  const away = directionsAway(motion, other);
+  const necessary = away.x.map((x, frame) => shiftOut(a, b, frame, [x, away.z[frame]!], rule.deep));
+  if (!necessary.some(Boolean)) return motion;
+  const long = necessary.map((shift) => Math.min(MAX_SHIFT, SPARE * shift));
+  const held = windowMaximum(long, Math.round(HOLD * fps));
+  const [x, z] = [away.x, away.z].map((along) =>
+    gaussianFilter(
+      along.map((share, frame) => share * held[frame]!),
       SMOOTHING * fps,
-    );
-  const [x, z] = [along('x'), along('z')];
+    ),
+  ) as [Float64Array, Float64Array];
   return shiftedLevel(motion, x, z);
 }

@@ -6,10 +6,8 @@ import {
   capsuleBody,
   candidatePairs,
   penetrationDepth,
-  shiftedDepths,
 } from '../../../../web/motion/contact/capsules';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
-import { SHIFTS, viterbiPath } from '../../../../web/motion/contact/viterbi-path';
 import { avoidCollisions } from '../../../../web/motion/contact/collision-avoidance';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { eased, madeStander } from '../../support/made-stander';
@@ -80,15 +78,28 @@ describe('avoidCollisions', () => {
   });
 
   test('passes a dancer in the way on one side, slowly', () => {
-    const reactor = stander((f) => [0.03, 1.5 - 3 * eased(f, 60, 240)]);
+    const reactor = stander((f) => [1.5 - 3 * eased(f, 60, 240), 0.03]);
     expect(top(overlaps(leader, reactor))).toBeGreaterThan(0.1);
     const apart = avoidCollisions(reactor, leader, rule);
     expect(top(overlaps(leader, apart))).toBeLessThan(0.02);
     const aside = shiftsOf(reactor, apart);
-    const sides = aside.map(([x]) => x).filter((x) => Math.abs(x) > 0.02);
+    const sides = aside.map(([, z]) => z).filter((z) => Math.abs(z) > 0.02);
     expect(new Set(sides.map(Math.sign)).size).toBe(1);
     const steps = aside.slice(1).map(([x, z], f) => Math.hypot(x - aside[f]![0], z - aside[f]![1]));
     expect(top(steps) * apart.fps).toBeLessThan(1);
+  });
+
+  test('shifts motions that differ little alike', () => {
+    const shifts = Array.from({ length: 16 }, (_, i) => {
+      const reactor = stander((f) => [0.1 + 0.4 * Math.sin(f / 40), i * 0.03 - 0.1]);
+      return shiftsOf(reactor, avoidCollisions(reactor, leader, rule));
+    });
+    expect(top(shifts.flat().map(([x, z]) => Math.hypot(x, z)))).toBeGreaterThan(0.25);
+    const changes = shifts.slice(1).map((shift, i) => {
+      const before = shifts[i]!;
+      return top(shift.map(([x, z], f) => Math.hypot(x - before[f]![0], z - before[f]![1])));
+    });
+    expect(top(changes)).toBeLessThan(0.15);
   });
 
   test('shifts by a constant where dancers overlap from the first frame to the last', () => {
@@ -122,76 +133,19 @@ describe('avoidCollisions', () => {
   });
 });
 
-test('the depth at a shift is that of the shifted body', () => {
-  const axis = Array.from({ length: 25 }, (_, i) => (i - 12) / 20);
-  const columns = axis.map((x, i) => ({ first: i * axis.length, x, z: Float64Array.from(axis) }));
-  // Every second of three frames is sampled.
-  const standing = (x: number, z: number): SolvedMotion =>
-    madeStander({ frames: 3, path: (frame) => [x + frame / 40, z] });
-  const [a, b] = [standing(0, 0), standing(0.05, 0.06)];
-  const bodies = [capsuleBody(a, rule, 2), capsuleBody(b, rule, 2)] as const;
-  for (const sample of [0, 1]) {
-    const depths = shiftedDepths(...bodies, sample, columns);
-    const expected = axis.flatMap((x) =>
-      axis.map((z) => {
-        const [still, moved] = [capsuleBody(a, rule), capsuleBody(standing(0.05 + x, 0.06 + z), rule)];
-        return penetrationDepth(still, moved, candidatePairs(still, moved, 2 * sample));
-      }),
-    );
-    expect(depths).toHaveLength(expected.length);
-    depths.forEach((depth, shift) => expect(depth).toBeCloseTo(expected[shift]!, 6));
-    expect(expected.filter((depth) => depth > 0.02).length).toBeGreaterThan(50);
-    expect(expected).toContain(0);
-  }
-});
-
-describe('viterbiPath', () => {
-  const free = (): Float64Array => Float64Array.from(SHIFTS, ({ x, z }) => x * x + z * z);
-  const indexOf = (x: number, z: number): number =>
-    SHIFTS.findIndex((p) => Math.abs(p.x - x) < 1e-9 && Math.abs(p.z - z) < 1e-9);
-
-  test('has no shift where nothing overlaps', () => {
-    expect(viterbiPath([free(), free(), free()], { start: false, end: false })).toEqual(
-      Array(3).fill({ x: 0, z: 0 }),
-    );
-  });
-
-  test('is the cheapest of all paths of three samples, by exhaustive search', () => {
-    const bumpy = (seed: number): Float64Array =>
-      Float64Array.from(SHIFTS, (_, i) => 1 + Math.sin(seed + 12.9898 * i) * Math.cos(seed * i));
-    const costs = [bumpy(1), bumpy(2), bumpy(3)];
-    const cost = (path: readonly { x: number; z: number }[]): number =>
-      path.reduce((sum, { x, z }, i) => {
-        const last = path[i - 1];
-        const step = last ? 50 * ((x - last.x) ** 2 + (z - last.z) ** 2) : 0;
-        return sum + costs[i]![indexOf(x, z)]! + step;
-      }, 0);
-    let least = Infinity;
-    const near = (p: (typeof SHIFTS)[number]) =>
-      SHIFTS.filter(({ x, z }) => Math.hypot(x - p.x, z - p.z) < 0.2);
-    for (const b of SHIFTS) {
-      for (const a of near(b)) for (const c of near(b)) least = Math.min(least, cost([a, b, c]));
-    }
-    expect(cost(viterbiPath(costs, { start: false, end: false }))).toBeCloseTo(least, 9);
-  });
-
-  test('shifts by at most 0.56 m, in steps of at most 0.2 m, whatever staying costs', () => {
-    expect(top(SHIFTS.map(({ x, z }) => Math.hypot(x, z)))).toBeCloseTo(0.56, 9);
-    const drawnTo = (to: number): Float64Array =>
-      Float64Array.from(SHIFTS, ({ x, z }) => 1e6 * ((x - to) ** 2 + z ** 2));
-    const path = viterbiPath([drawnTo(0), drawnTo(0.56), drawnTo(0.56)], { start: false, end: false });
-    const steps = path.slice(1).map(({ x, z }, i) => Math.hypot(x - path[i]!.x, z - path[i]!.z));
-    expect(top(steps)).toBeCloseTo(0.14, 9);
-  });
-
-  test('begins and ends with a shift of zero where it has to, whatever that costs', () => {
-    const wall = free();
-    wall[indexOf(0, 0)] = 1000;
-    const path = viterbiPath([wall, wall, wall], { start: true, end: true });
-    expect([path[0], path[2]]).toEqual([
-      { x: 0, z: 0 },
-      { x: 0, z: 0 },
-    ]);
-    expect(path[1]).not.toEqual({ x: 0, z: 0 });
-  });
+test('the depth at a shift is that of the shifted body, of all pairs within reach', () => {
+  const axis = Array.from({ length: 13 }, (_, i) => (i - 6) / 10);
+  const standing = (x: number, z: number): SolvedMotion => madeStander({ frames: 1, path: () => [x, z] });
+  const [a, b] = [capsuleBody(standing(0, 0), rule), capsuleBody(standing(0.4, 0.3), rule)];
+  const pairs = candidatePairs(a, b, 0, Math.hypot(0.6, 0.6));
+  const depths = axis.flatMap((x) => axis.map((z) => penetrationDepth(a, b, pairs, { x, z })));
+  const expected = axis.flatMap((x) =>
+    axis.map((z) => {
+      const moved = capsuleBody(standing(0.4 + x, 0.3 + z), rule);
+      return penetrationDepth(a, moved, candidatePairs(a, moved, 0));
+    }),
+  );
+  depths.forEach((depth, shift) => expect(depth).toBeCloseTo(expected[shift]!, 6));
+  expect(expected.filter((depth) => depth > 0.02).length).toBeGreaterThan(30);
+  expect(expected).toContain(0);
 });
