@@ -142,6 +142,14 @@ describe('points that are seen in pictures', () => {
     expect(file.report).toMatchObject({ unit: 'centimetres', convention: 'pose landmarks', warnings: [] });
   });
 
+  test.each([[[33, 4]], [[33 * 4]]])('MediaPipe with how sure each point is, frames x %j', async (sizes) => {
+    const points = Array.from({ length: 33 }, (_, i) => orders.at(-1)![2][i] ?? null);
+    const data = Float32Array.from(rowsOf(points, 100).flatMap((row) => row.flatMap((at) => [...at, 0.9])));
+    const file = await read('a.npy', npyBytes({ shape: [seen.frames, ...sizes], data }));
+    expect(worstMillimetres(file, seenParts)).toBeLessThan(WORST);
+    expect(file.report.convention).toBe('pose landmarks');
+  });
+
   test.each([
     ['{"version":1.3,"people":[{"person_id":[-1],"pose_keypoints_2d":[582.3,507.8,0.84]}]}'],
     ['[{"image_id":"0.jpg","category_id":1,"keypoints":[582.3,507.8,0.84]}]'],

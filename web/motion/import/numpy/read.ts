@@ -62,12 +62,21 @@ const sizesOf = ({ shape }: StoredArray): readonly number[] =>
 const firstOf = (arrays: Archive, names: readonly string[]): StoredArray | null =>
   names.map((name) => arrays.get(name)).find((found) => found !== undefined) ?? null;
 
-/** Frames and joints of an array of joints, (T, J, 3), (1, T, J, 3) or (T, 3 J); null for another array. */
-function jointShape(array: StoredArray): { frames: number; count: number } | null {
-  const sizes = sizesOf(array);
-  const [frames = 0, second = 0, third] = sizes;
-  const count = sizes.length === 3 && third === 3 ? second : sizes.length === 2 ? second / 3 : 0;
-  return [...JOINT_COUNTS, ...LANDMARK_COUNTS].includes(count) ? { frames, count } : null;
+/** Numbers of joints by the values of each: points of a body in pictures may have a fourth, how sure they are. */
+const COUNTS: ReadonlyMap<number, readonly number[]> = new Map([
+  [3, [...JOINT_COUNTS, ...LANDMARK_COUNTS]],
+  [4, LANDMARK_COUNTS],
+]);
+
+/** Sizes of an array of joints, (T, J, 3), (1, T, J, 3) or (T, 3 J), with 4 for 3 as well; null for another array. */
+function jointShape(array: StoredArray): { frames: number; count: number; width: number } | null {
+  const [frames = 0, second = 0, third, ...more] = sizesOf(array);
+  if (more.length > 0) return null;
+  for (const [width, counts] of COUNTS) {
+    const count = third === undefined ? second / width : third === width ? second : 0;
+    if (counts.includes(count)) return { frames, count, width };
+  }
+  return null;
 }
 
 /**
@@ -153,7 +162,7 @@ function placesIn(arrays: Archive, frames: number): NpzArray | null {
 
 /**
  * Reads .npy and .npz files: joints (T, 22, 3), (T, 55, 3) and alike or flat, points of a body in pictures such as
- * (T, 33, 3), and rotations of SMPL bodies as AMASS has them.
+ * (T, 33, 3) or (T, 33, 4), and rotations of SMPL bodies as AMASS has them.
  *
  * @param part number of the dancer in an archive with several arrays of joints
  * @throws {AppError} `unreadable-file`, `not-motion`, `too-long` or `too-few-frames`
@@ -177,10 +186,10 @@ export function readNumpy(bytes: Uint8Array, name: string, part: number): Motion
   const chosen = dancers[part] ?? dancers[0];
   const array = chosen === undefined ? undefined : arrays.get(chosen);
   if (chosen === undefined || !array) throw noJoints(arrays);
-  const { frames, count } = jointShape(array)!;
-  const error = tooLong(frames, count * 3);
+  const { frames, count, width } = jointShape(array)!;
+  const error = tooLong(frames, count * width);
   if (error) throw error;
-  const values = array.read().data;
+  const values = array.read().data.filter((_, i) => i % width < 3);
   const body = (bodyOf(values, count) ?? landmarksIn(values, count))!;
   const doubt = 'Bones change their lengths all the time: the values may be rotations, not places of joints.';
   return sourceOfPoints(body, {
