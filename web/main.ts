@@ -32,7 +32,7 @@ import { OfferedLeaders } from './ui/files/offered';
 import { readParameters } from './ui/files/parameters';
 import { createCoarseLayer } from './ui/generation/coarse-layer';
 import { createEarlierDance } from './ui/generation/earlier-dance';
-import { mountFootLock } from './ui/generation/foot-lock';
+import { mountMotionSwitches } from './ui/generation/motion-switches';
 import { Generation } from './ui/generation/generation';
 import { mountOptions } from './ui/generation/options';
 import { mountProgress } from './ui/generation/progress';
@@ -220,7 +220,7 @@ for (const mount of [
   mount(stageHost, store, services);
 mountTransport(place('time'), store, services);
 mountTimeline(place('time'), store, services, [mountVideoLane(videoTrack), mountQualityStrip]);
-for (const mount of [mountGuidance, mountOptions, mountFootLock, mountTakes, mountImportReport])
+for (const mount of [mountGuidance, mountOptions, mountMotionSwitches, mountTakes, mountImportReport])
   mount(place('panel'), store, services);
 mountImportPanel(rememberedJoints)(document.body, store, services);
 mountKeysDialog(document.body, store, services);

@@ -34,7 +34,7 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
   await expect(lock).toBeChecked();
   await expect(lock).toHaveAccessibleDescription('Keeps planted feet from sliding');
   const locked = await app.onScreen();
-  await page.getByRole('button', { name: 'Swap roles' }).focus();
+  await page.getByRole('switch', { name: 'Hold hands' }).focus();
   await page.keyboard.press('Tab');
   await expect(lock).toBeFocused();
   await page.keyboard.press('Space');
@@ -53,6 +53,22 @@ test('the foot lock is switched by key, and stage and file follow at once', asyn
     await page.keyboard.press('Escape');
     await lock.click();
   }
+});
+
+test('hands that hold are set free at once, which undo takes back', async ({ page }) => {
+  const app = new App(page);
+  await app.open(SHIPPED);
+  await app.settled();
+  const hands = page.getByRole('switch', { name: 'Hold hands' });
+  await expect(hands).toBeChecked();
+  await hands.click();
+  await expect(hands).not.toBeChecked();
+  await app.until(({ reaction, job }) => reaction?.label === null && !job);
+  const free = await app.reactor();
+  await page.keyboard.press('Control+z');
+  await expect(hands).toBeChecked();
+  await app.until(({ reaction, job }) => reaction?.inputs.settings.holdHands && !job);
+  expect(maxDistance(await app.reactor(), free)).toBeGreaterThan(0.05);
 });
 
 test('while a new leader waits for its partner, the lane shows no curve of the one before', async ({

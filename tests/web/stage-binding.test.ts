@@ -31,6 +31,7 @@ const take = (id: string): Take => {
     seed: 1,
     role: 'reactor' as Role,
     height: null,
+    holdHands: true,
   };
   const inputs: Inputs = { leader: dancer, song: null, shift: 0, settings };
   const reaction = { motion: still(30), latents: null, inputs, label: null, seconds: 1 };

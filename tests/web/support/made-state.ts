@@ -21,6 +21,7 @@ export const madeSettings: Settings = {
   seed: 1,
   role: 'reactor',
   height: null,
+  holdHands: true,
 };
 
 /** A motion without movement, all joints in one place. */

@@ -9,11 +9,11 @@ import type { ModelSession } from '../load/session';
 import type { Manifest } from '../manifest';
 import { bodyFactor } from './body-factor';
 import { decodeClip, type DecodeOptions } from './decoder';
-import type { ModelInput, Size, Source } from './inputs';
+import type { ModelInput, SolveSettings, Source } from './inputs';
 import type { GeneratedMotion } from './results';
 
-/** What is decoded, latents and gains as in `DecodeInput`, the leader at their own size, and who dances at which height. */
-export interface Dance extends Size, Pick<Source, 'role'> {
+/** What is decoded, latents and gains as in `DecodeInput`, the leader at their own size, who dances, and how it is solved. */
+export interface Dance extends SolveSettings, Pick<Source, 'role'> {
   readonly latents: Float32Array;
   readonly gains: Float32Array;
   readonly input: ModelInput;
@@ -22,7 +22,7 @@ export interface Dance extends Size, Pick<Source, 'role'> {
 
 /** Decodes and solves dances on a session. */
 export class Assembler {
-  /** The whole dance that was decoded last: of the same latents another size needs no pass of the network. */
+  /** The whole dance that was decoded last: of the same latents another height needs no pass of the network. */
   #decoded: { readonly latents: Float32Array; readonly clip: MotionClip } | undefined;
 
   constructor(
@@ -109,7 +109,7 @@ export class Assembler {
       resized(clip, factor, leader, skeleton.floor.toe_rest),
       offsets.map((value) => value * factor),
     );
-    return besidePartner(solved, leader, quality);
+    return besidePartner(solved, leader, quality, { holding: dance.holdHands });
   }
 }
 

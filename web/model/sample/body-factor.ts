@@ -2,7 +2,7 @@ import { FPS } from '../../motion/skeleton/clip';
 import { CROWN, restPositions, SOLE, standingHeight } from '../../motion/skeleton/kinematics';
 import { bodyHeight } from '../../motion/skeleton/scale';
 import type { Manifest } from '../manifest';
-import type { Size, Source } from './inputs';
+import type { SolveSettings, Source } from './inputs';
 
 /**
  * By what the decoded body is multiplied, so that the dancer has the height that was asked for; by default the one that
@@ -14,7 +14,7 @@ import type { Size, Source } from './inputs';
 export function bodyFactor(
   offsets: Float32Array,
   scale: number,
-  { height, role }: Size & Pick<Source, 'role'>,
+  { height, role }: Pick<SolveSettings, 'height'> & Pick<Source, 'role'>,
   { reference_height, reactor_height }: Manifest['skeleton'],
 ): number {
   // What is under the toes and above the head keeps its size.

@@ -33,10 +33,12 @@ export function sameSource(a: Source, b: Source): boolean {
   );
 }
 
-/** How tall the dancer is who is generated. */
-export interface Size {
+/** Settings of what is done after decoding: another one needs no pass of the network. */
+export interface SolveSettings {
   /** From the floor to the crown of the head, metres; in proportion to the loaded dancer when not given. */
   readonly height?: number | undefined;
+  /** Whether hands hold the loaded dancer's where they are near; they do when not given. */
+  readonly holdHands?: boolean | undefined;
 }
 
 /** Least and greatest height that can be asked for, metres. */
@@ -46,7 +48,7 @@ export const HEIGHTS = { min: 0.5, max: 2.5 };
 export const SEEDS = { min: 0, max: 2 ** 32 - 1 };
 
 /** How it is danced. */
-export interface DanceSettings extends Weights, Size {
+export interface DanceSettings extends Weights, SolveSettings {
   /** Its lowest 32 bits count. */
   readonly seed: number;
 }
@@ -54,8 +56,8 @@ export interface DanceSettings extends Weights, Size {
 /** What to generate, and from what. */
 export interface GenerateRequest extends Source, DanceSettings {}
 
-/** Whether two requests ask for the same dance, at whatever height. */
-export function sameButHeight(a: GenerateRequest, b: GenerateRequest): boolean {
+/** Whether two requests ask for the same joints, with whatever settings of solving. */
+export function sameDecoded(a: GenerateRequest, b: GenerateRequest): boolean {
   return (
     sameSource(a, b) &&
     a.seed === b.seed &&
@@ -78,7 +80,7 @@ export interface SeedsRequest {
 }
 
 /** A reaction that was generated before, of which the coarse layer is to be decoded alone. */
-export interface CoarseRequest extends Size, Pick<Source, 'role'> {
+export interface CoarseRequest extends SolveSettings, Pick<Source, 'role'> {
   /** The leader that it was generated for, at the size of their file. */
   readonly leader: MotionClip;
   /** latents x layers x channels, normalised, as this model generated them. */

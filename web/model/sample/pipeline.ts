@@ -13,7 +13,7 @@ import {
   type GenerateRequest,
   type ModelInput,
   prepareInput,
-  sameButHeight,
+  sameDecoded,
   sameSource,
   type SeedsRequest,
   type Source,
@@ -51,8 +51,8 @@ export class Pipeline {
   }
 
   /**
-   * Samples the branches that the weights need and are not there yet, blends, decodes and solves; where only the height
-   * differs from the request before, it only solves. With `options.playhead` the part that is on view is handed over
+   * Samples the branches that the weights need and are not there yet, blends, decodes and solves; where only settings of
+   * solving differ from the request before, it only solves. With `options.playhead` the part that is on view is handed over
    * first.
    * @throws {AppError} `bad-request` or `not-finite`
    * @throws the signal's reason
@@ -128,7 +128,7 @@ export class Pipeline {
       onCondition: stageProgress(onProgress, 'condition'),
       onStep: stageProgress(onProgress, 'step'),
     });
-    const { leader, role, height } = request;
+    const { leader, role, height, holdHands } = request;
     return {
       latents: blend(branches, request, latent),
       gains: layerGains(request.guidance, latent),
@@ -136,15 +136,16 @@ export class Pipeline {
       leader,
       role,
       height,
+      holdHands,
       unfamiliarity: branches.unfamiliarity,
     };
   }
 
-  /** The dance that was answered last at the height that is asked for, where nothing else has changed. */
+  /** The dance that was answered last, solved as it is asked for, where nothing else has changed. */
   #sampled(request: GenerateRequest): SampledDance | null {
-    if (!this.#last || !sameButHeight(this.#last.request, request)) return null;
+    if (!this.#last || !sameDecoded(this.#last.request, request)) return null;
     checkSettings(request, this.manifest);
-    return { ...this.#last.dance, height: request.height };
+    return { ...this.#last.dance, height: request.height, holdHands: request.holdHands };
   }
 
   /** The source as the graphs take it; made once while the same objects are asked for. */

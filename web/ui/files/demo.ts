@@ -91,7 +91,7 @@ export async function loadDemo(store: Store, files: Files, folder: URL, readers:
         apply(store, playbackSet({ time: demo.poster }));
         // In the same task as its leader, or the page would begin to make a reaction of its own.
         if (reactor && motion) {
-          const settings = { ...reactor.settings, height: null };
+          const settings = { ...reactor.settings, height: null, holdHands: true };
           showing = showReaction(store, { ...reactor, motion, leader, settings }, songLoading, readers);
         }
       }

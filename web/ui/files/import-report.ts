@@ -185,12 +185,13 @@ function rateSelect(leader: LoadedLeader, services: Services): HTMLElement {
 }
 
 function reactionFacts({ motion, inputs, label, seconds }: Reaction): HTMLElement[] {
-  const { seed, role } = inputs.settings;
+  const { seed, role, holdHands } = inputs.settings;
   return [
     group(role, roleName(role)),
     ...fact('From', `seed ${seed}`),
     ...fact('Guidance', guidanceText(inputs.settings)),
     ...fact('Height', heightText(motion, inputs.settings)),
+    ...fact('Hands', holdHands ? 'held where they are near' : 'as generated'),
     ...fact('Made', label ?? (seconds === null ? 'ready-made' : `here, in ${seconds.toFixed(1)} s`)),
     ...(label === null
       ? fact('Bones', `constant length, ${millimetres(motion.fitError)} off the model’s joints`)

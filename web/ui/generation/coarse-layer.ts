@@ -57,8 +57,8 @@ export function createCoarseLayer(store: Store, model: () => Promise<Generator>)
       const generator = await model();
       for (const { inputs, latents } of missing) {
         const { leader, settings } = inputs;
-        const { role, height } = settings;
-        const request = { leader: leader.file.clip, latents, role, height: height ?? undefined };
+        const { role, height, holdHands } = settings;
+        const request = { leader: leader.file.clip, latents, role, height: height ?? undefined, holdHands };
         const { motion, locked } = await generator.coarse(request, { signal });
         cacheLocked(motion, locked);
         decodedMotions.set(latents, motion);

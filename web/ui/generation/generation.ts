@@ -194,6 +194,7 @@ export function requestFor({ song, leader, shift, settings }: Inputs, manifest: 
     seed: settings.seed,
     role: settings.role,
     height: settings.height ?? undefined,
+    holdHands: settings.holdHands,
   };
 }
 

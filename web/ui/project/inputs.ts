@@ -26,8 +26,8 @@ export function restoredInputs(
   leader: LoadedLeader,
   song: LoadedSong | null,
 ): RestoredInputs {
-  // In proportion, where a height is missing.
-  const own = state.settings && { ...state.settings, height: null };
+  // In proportion where a height is missing, and held hands where nothing is said of them.
+  const own = state.settings && { ...state.settings, height: null, holdHands: true };
   const present = currentInputs({ ...state, leader, song, settings: own });
   if (!present || !state.manifest) throw new Error('Inputs are restored once the settings are there.');
   const alike = conform(storedInputs(present), stored) as Omit<Inputs, 'leader' | 'song'>;
@@ -70,5 +70,6 @@ function fitted(settings: Settings, { guidance }: Manifest): Settings {
     seed: clampedTo(Math.round(settings.seed), SEEDS),
     role: settings.role === 'leader' ? 'leader' : 'reactor',
     height: settings.height === null ? null : clampedTo(settings.height, HEIGHTS),
+    holdHands: settings.holdHands,
   };
 }

@@ -50,6 +50,8 @@ export interface Settings {
   readonly role: Role;
   /** Height of the generated dancer, from the floor to the crown, metres; null in proportion to the loaded one. */
   readonly height: number | null;
+  /** Whether the generated dancer's hands hold the loaded one's where they are near. */
+  readonly holdHands: boolean;
 }
 
 /** The settings that are weights of guidance: they act on latents that have been sampled. */

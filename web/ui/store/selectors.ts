@@ -45,6 +45,7 @@ export function sameSettings(a: Settings, b: Settings): boolean {
     a.music === b.music &&
     a.variety === b.variety &&
     a.height === b.height &&
+    a.holdHands === b.holdHands &&
     sameGuidance(a.guidance, b.guidance)
   );
 }
@@ -55,10 +56,10 @@ export function sameInputs(a: Inputs | null, b: Inputs | null): boolean {
   return sameFiles && sameSettings(a.settings, b.settings);
 }
 
-/** Whether two requests have the same sampled latents, or the same inputs: only weights of guidance or height differ. */
+/** Whether two requests have the same sampled latents, or the same inputs: weights and settings of solving may differ. */
 export function differOnlyInWeights(a: Inputs, b: Inputs): boolean {
-  const { guidance, music, variety, height } = b.settings;
-  return sameInputs({ ...a, settings: { ...a.settings, guidance, music, variety, height } }, b);
+  const { seed, role } = a.settings;
+  return sameInputs({ ...a, settings: { ...b.settings, seed, role } }, b);
 }
 
 /** Whether the reaction on the stage is the one that files and settings ask for. */

@@ -28,7 +28,7 @@ export function takeText({ reaction }: Take, { leader, song, manifest }: AppStat
     ...(settings.variety === manifest?.guidance.variety.default
       ? []
       : [`${plain(settings.variety)} variety`]),
-    ...heightText(settings),
+    ...bodyText(settings),
   ].join(', ');
 }
 
@@ -40,7 +40,7 @@ export function fullTakeText({ reaction: { inputs } }: Take): string {
     song ? `with ${song.name}` : 'without a song',
     ...shiftText(inputs),
     guidanceText(settings),
-    ...heightText(settings),
+    ...bodyText(settings),
     `seed ${settings.seed}`,
   ].join(', ');
 }
@@ -50,9 +50,12 @@ function shiftText({ shift, leader }: Inputs): string[] {
   return shift === 0 ? [] : [`song ${seconds} s ${shift > 0 ? 'later' : 'earlier'}`];
 }
 
-/** `170 cm tall`, where it is not in proportion. */
-function heightText({ height }: Settings): string[] {
-  return height === null ? [] : [`${centimetres(height)} cm tall`];
+/** `170 cm tall`, where it is not in proportion, and `free hands`, where they do not hold the other dancer's. */
+function bodyText({ height, holdHands }: Settings): string[] {
+  return [
+    ...(height === null ? [] : [`${centimetres(height)} cm tall`]),
+    ...(holdHands ? [] : ['free hands']),
+  ];
 }
 
 /** `2`, `1.5`, `0.05`: no trailing zeros. */

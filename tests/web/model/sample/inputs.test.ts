@@ -3,7 +3,7 @@ import {
   checkSource,
   type GenerateRequest,
   prepareInput,
-  sameButHeight,
+  sameDecoded,
 } from '../../../../web/model/sample/inputs';
 import { small } from '../../support/small-manifest';
 
@@ -78,8 +78,9 @@ describe('the leader in the model', () => {
 describe('two requests', () => {
   const one = request(8, { frames: 12, start: 3 });
 
-  it('are for the same dance where only the height differs', () => {
-    expect(sameButHeight(one, { ...one, guidance: one.guidance.slice(), height: 1.8 })).toBe(true);
+  it('are for the same joints where only height and hands differ', () => {
+    const other = { ...one, guidance: one.guidance.slice(), height: 1.8, holdHands: false };
+    expect(sameDecoded(one, other)).toBe(true);
   });
 
   it.each<[string, Partial<GenerateRequest>]>([
@@ -93,6 +94,6 @@ describe('two requests', () => {
     ['variety', { variety: 0.5 }],
     ['guidance', { guidance: one.guidance.map((_, i) => (i === 5 ? 1 : 0)) }],
   ])('are for another dance with another %s', (_, changes) => {
-    expect(sameButHeight(one, { ...one, ...changes })).toBe(false);
+    expect(sameDecoded(one, { ...one, ...changes })).toBe(false);
   });
 });

@@ -9,9 +9,10 @@ import type { ModelSession } from '../../../../web/model/load/session';
 import type { Manifest } from '../../../../web/model/manifest';
 import type { MotionClip } from '../../../../web/motion/skeleton/clip';
 import { withFootLock } from '../../../../web/motion/contact/foot-lock';
+import { holdHands } from '../../../../web/motion/contact/hand-hold';
 import { danceDistance } from '../../../../web/motion/skeleton/difference';
 import { standingHeight } from '../../../../web/motion/skeleton/kinematics';
-import { readVec } from '../../../../web/motion/math/vec3';
+import { readVec, writeVec } from '../../../../web/motion/math/vec3';
 import { bodyHeight } from '../../../../web/motion/skeleton/scale';
 import { J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { scaled } from '../../support/made-dancer';
@@ -361,6 +362,35 @@ describe('Pipeline', () => {
     // One pass of the decoder, which does not push the dance out of memory.
     await counted.generate({ ...plain, height: 1.8 });
     expect(passes).toBe(before + 1);
+  });
+
+  it('lets hands hold the leader’s or leaves them as generated, without another pass of the network', async () => {
+    let passes = 0;
+    const { session, manifest } = model;
+    const decode: ModelSession['decode'] = (input) => ((passes += 1), session.decode(input));
+    const pipeline = new Pipeline(manifest, { ...session, decode }, () => 0);
+    const alone = request(241);
+    const apart = await pipeline.generate(alone);
+    // A leader whose forearms are where the partner's are, and swing about there.
+    const positions = alone.leader.positions.slice();
+    for (let frame = 0; frame < 241; frame++)
+      for (const joint of [J.left_elbow, J.left_wrist, J.right_elbow, J.right_wrist]) {
+        const [x, y, z] = readVec(apart.motion.positions, frame * JOINT_COUNT + joint);
+        writeVec(positions, frame * JOINT_COUNT + joint, [x + 0.1 * Math.sin(frame / 2), y, z]);
+      }
+    const plain = { ...alone, leader: { ...alone.leader, positions } };
+    const held = await pipeline.generate(plain);
+    const before = passes;
+    const free = await pipeline.generate({ ...plain, holdHands: false });
+    expect(passes).toBe(before);
+    expect(maxDifference(free.motion.positions, held.motion.positions)).toBeGreaterThan(0.0005);
+    expect(holdHands(free.motion, plain.leader).positions).toEqual(held.motion.positions);
+    const coarse = { leader: plain.leader, latents: held.latents };
+    const [one, other] = [
+      await pipeline.coarse(coarse),
+      await pipeline.coarse({ ...coarse, holdHands: false }),
+    ];
+    expect(maxDifference(one.motion.positions, other.motion.positions)).toBeGreaterThan(0.0005);
   });
 
   it.each(['reactor', 'leader'] as const)(

@@ -9,6 +9,7 @@ const settings = {
   seed: 1204,
   role: 'reactor' as const,
   height: null,
+  holdHands: true,
 };
 const inputs = { leader: leader(90), song: song(3), shift: 0, settings };
 

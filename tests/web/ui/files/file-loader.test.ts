@@ -239,7 +239,7 @@ describe('reading files', () => {
 
       undoLast(store, files);
       expect(store.getState()).toMatchObject({
-        settings: { seed: 11, height: null },
+        settings: { seed: 11, height: null, holdHands: true },
         reading: { [kind]: { name } },
       });
       undoLast(store, files);

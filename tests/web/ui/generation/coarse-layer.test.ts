@@ -77,6 +77,7 @@ describe('the coarse layer', () => {
       latents: shown.latents,
       role: 'reactor',
       height: undefined,
+      holdHands: true,
     });
     const motion = still(60);
     model.calls[0]?.answer(motion);

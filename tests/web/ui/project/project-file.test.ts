@@ -70,6 +70,7 @@ function filled(): change.Store {
   react(2);
   change.apply(store, change.seedSet(99));
   change.apply(store, change.heightSet(1.7));
+  change.apply(store, change.holdHandsSet(false));
   change.apply(store, shiftSet(7));
   react(3);
   change.apply(store, takeStarred('t1'));
@@ -328,6 +329,7 @@ describe('a part that cannot be read any more', () => {
       seed: 5,
       role: 'reactor',
       height: null,
+      holdHands: true,
     });
   });
 });

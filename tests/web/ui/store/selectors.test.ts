@@ -14,6 +14,7 @@ const settings: Settings = {
   seed: 1204,
   role: 'reactor',
   height: null,
+  holdHands: true,
 };
 const state = (more: Partial<AppState>): AppState => ({
   ...initialState('dark'),

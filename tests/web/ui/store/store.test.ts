@@ -22,6 +22,7 @@ describe('settings', () => {
       seed: 7,
       role: 'reactor',
       height: null,
+      holdHands: true,
     });
   });
 

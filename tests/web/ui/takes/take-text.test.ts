@@ -15,6 +15,7 @@ const settings = {
   seed: 1204,
   role: 'reactor' as const,
   height: null,
+  holdHands: true,
 };
 const inputs: Inputs = { leader: leader(300), song: song(10), shift: 0, settings };
 const page: AppState = { ...initialState('dark'), manifest: small, leader: inputs.leader, song: inputs.song };
@@ -42,6 +43,7 @@ test.each<[string, Partial<Inputs>]>([
   [`to my very own lea…, ${guided}`, { leader: leader(90, 'my very own leader.bvh') }],
   [`${guided}, ${music - 0.25} music`, { settings: { ...settings, music: music - 0.25 } }],
   [`${guided}, 1.5 variety`, { settings: { ...settings, variety: 1.5 } }],
+  [`${guided}, free hands`, { settings: { ...settings, holdHands: false } }],
   [`${guided}, 172 cm tall`, { settings: { ...settings, height: 1.716 } }],
 ])('what sets a take apart comes first: %s', (words, more) => {
   expect(takeText(take(more), page)).toBe(words);

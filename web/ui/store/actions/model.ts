@@ -18,6 +18,7 @@ export function manifestLoaded(manifest: Manifest, seed: number): Change {
       seed: settings && seedLocked ? settings.seed : seed,
       role: 'reactor',
       height: null,
+      holdHands: true,
     },
   });
 }

@@ -127,6 +127,11 @@ export function heightSet(height: number | null): Change {
   };
 }
 
+/** Sets whether the generated dancer's hands hold the loaded one's. */
+export function holdHandsSet(holdHands: boolean): Change {
+  return ({ settings }) => (settings ? { settings: { ...settings, holdHands } } : {});
+}
+
 export function seedSet(seed: number): Change {
   return ({ settings }) => {
     if (!settings || !Number.isFinite(seed)) return {};
