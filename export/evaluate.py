@@ -27,7 +27,7 @@ from export.manifest import quality_rules
 from export.runtime import open_model
 from training.checkpoint import load_model, solos_seen
 from training.command_line import run_program
-from training.config import check_limits
+from training.config import STRIDE, check_limits
 from training.data.bvh.file import FRAME_RATES
 from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
@@ -248,6 +248,7 @@ def main(options: Options) -> None:
         reactor_generator(CachedModel(model), options.steps),
         held_out,
         duets.train,
+        STRIDE * sampling.block,
         replace(options.settings, seen_leaders=seen),
         given,
         SOLVERS if options.solve else None,

@@ -35,11 +35,12 @@ def measure_controls(
     dances: Sequence[ControlledDance],
     defaults: Mapping[str, float],
     seeds: Sequence[int],
+    block: int,
     solve: Solver | None = None,
 ) -> dict[str, list[dict[str, float]]]:
     """For each control the rows of its `travel`, means over dances and seeds; the other controls at their defaults.
-    What is measured against the truth is the mean over the dances that have one. solve: the skeleton that is drawn,
-    to measure that in place of the generated joints.
+    What is measured against the truth is the mean over the dances that have one. block: frames of the model's
+    blocks. solve: the skeleton that is drawn, to measure that in place of the generated joints.
 
     `value` and everything of `_measure`; for music also songs_apart_mm (pose, beside the same dance to another song
     where there is one), for variety seeds_apart_mm (pose, between the seeds).
@@ -70,7 +71,7 @@ def measure_controls(
             rows = []
             for dance, usual in zip(dances, before, strict=True):
                 made = make(dance, {control: value})
-                row = mean_report([_measure(dance, *pair) for pair in zip(usual, made, strict=True)])
+                row = mean_report([_measure(dance, *pair, block) for pair in zip(usual, made, strict=True)])
                 if control == "music" and dance.other_music is not None:
                     other = make(dance, {control: value}, other_song=True)
                     pairs = [between_seeds(pair)["pose_mm"] for pair in zip(made, other, strict=True)]
@@ -88,7 +89,7 @@ def _mean_where_measured(rows: Sequence[Mapping[str, float]]) -> dict[str, float
     return {key: float(np.mean([row[key] for row in rows if key in row])) for key in keys}
 
 
-def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dict[str, float]:
+def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray, block: int) -> dict[str, float]:
     """A dance beside the one at the defaults, both (T, 22, 3) metres, and beside the truth where there is one.
 
     pose_moved_mm and root_moved_mm: mean distance from the usual dance, of joints relative to the root and of the
@@ -118,7 +119,7 @@ def _measure(dance: ControlledDance, usual: np.ndarray, made: np.ndarray) -> dic
         return row
     feet, true_feet = foot_skating(made), foot_skating(truth)
     overlap, true_overlap = (penetration(leader, motion)["ipr_capsules"] for motion in (made, truth))
-    if len(seams := boundaries(len(made))):
+    if len(seams := boundaries(len(made), block)):
         row["seams_ratio"] = seam_ratio([seam_sample(truth, made, seams)])["ratio"]
     return row | {
         "mpjpe_mm": mpjpe(truth, made),

@@ -55,6 +55,7 @@ def evaluate(
     generate: ReactorGenerator,
     held_out: Sequence[HeldOutDuet],
     train: Sequence[Duet],
+    block: int,
     settings: Settings | None = None,
     given: Mapping[str, Motions] | None = None,
     solvers: Mapping[str, Solver] | None = None,
@@ -66,7 +67,8 @@ def evaluate(
 ) -> Evaluation:
     """Every measure in one run.
 
-    train: duets that the baselines learn from. given: further rows whose motions exist already, such as
+    train: duets that the baselines learn from. block: frames of the blocks that the model generates, at whose
+    boundaries seams are measured. given: further rows whose motions exist already, such as
     reconstructions. solvers: each gives a row of its name, the generated motions on a skeleton of constant bone
     lengths; the last is what is drawn and exported, and controls are measured on it. out_of_distribution: leaders of
     other dances, without a partner. controlled: further leaders beside whom controls are moved.
@@ -99,7 +101,7 @@ def evaluate(
     numbers["other_dances"] = measure_other_dances(held_out, train)
     frames = float(np.mean([len(i.duet) for i in held_out]))
     numbers["seconds"] = {"mean": float(np.mean(seconds)), "frames": frames}
-    numbers |= _probes(generate, held_out, rows, settings, log)
+    numbers |= _probes(generate, held_out, rows, block, settings, log)
     if settings.controls:
         log("controls")
         assert control_defaults is not None, "controls need the model's defaults"
@@ -108,6 +110,7 @@ def evaluate(
             _controlled(held_out, out_of_distribution, controlled, settings),
             control_defaults,
             settings.seeds,
+            block,
             drawn,
         )
     if settings.guidance_grid and guided_at_every_step:
@@ -166,13 +169,14 @@ def _probes(
     generate: ReactorGenerator,
     held_out: Sequence[HeldOutDuet],
     rows: Mapping[str, Motions],
+    block: int,
     settings: Settings,
     log: Log,
 ) -> dict[str, Any]:
     """Block boundaries, responses to conditions and, where the settings ask for them, the longer experiments."""
     generated = rows[GENERATED]
     log("block boundaries")
-    numbers: dict[str, Any] = {"seams": measure_seams(generate, held_out, generated, settings)}
+    numbers: dict[str, Any] = {"seams": measure_seams(generate, held_out, generated, block, settings)}
     log("responses to conditions")
     numbers["responses"] = measure_responses(generate, held_out, generated, settings)
     if settings.two_sample:

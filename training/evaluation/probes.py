@@ -20,20 +20,24 @@ from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator,
 
 
 def measure_seams(
-    generate: ReactorGenerator, held_out: Sequence[HeldOutDuet], generated: Motions, settings: Settings
+    generate: ReactorGenerator,
+    held_out: Sequence[HeldOutDuet],
+    generated: Motions,
+    block: int,
+    settings: Settings,
 ) -> dict[str, float]:
     """Boundary jitter ratio (`seam_ratio`) over all duets, seeds and starts, and the paper's boundary jitter
     beside the truth's at the same frames, mm per frame^2.
 
-    generated: the reactors of the whole duets, one per seed of the settings. Where the start is cut off, which
-    moves the boundaries, the model generates again.
+    generated: the reactors of the whole duets, one per seed of the settings. block: frames of the
+    model's blocks. Where the start is cut off, which moves the boundaries, the model generates again.
     """
     samples, jitter, true_jitter = [], [], []
     for item in held_out:
         for start in settings.seam_starts:
             leader, truth = item.duet.leader[start:], item.duet.reactor[start:]
             music = None if item.music is None else item.music[start:]
-            seams = boundaries(len(leader), settings.seam_spacing)
+            seams = boundaries(len(leader), block)
             if len(seams) == 0:
                 continue
             for index, seed in enumerate(settings.seeds):

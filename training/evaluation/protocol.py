@@ -73,7 +73,6 @@ class Settings:
     """How much is measured."""
 
     seeds: tuple[int, ...] = (0, 1, 2, 3, 4)
-    seam_spacing: int = 240  # frames between block boundaries
     seam_starts: tuple[int, ...] = (0, 60, 120, 180)  # frames cut off the start, to move the boundaries
     response_seeds: int = 3  # seeds with which conditions are changed
     two_sample: bool = True  # train networks to tell generated from true windows

@@ -18,7 +18,7 @@ from safetensors import safe_open
 
 from training.baselines.trained import load_baseline
 from training.checkpoint import load_hfsq, load_model
-from training.config import write_json
+from training.config import STRIDE, DenoiserConfig, write_json
 from training.data.music_pairing import Variant, build_music_bank
 from training.data.sources import read_split
 from training.data.splits import Split
@@ -33,6 +33,8 @@ from training.hfsq.reconstruct import reconstruct
 
 CHANCE = "nearest neighbour"
 """The reactor of the training window whose leader is nearest: what needs no training."""
+BLOCK = STRIDE * DenoiserConfig().block
+"""Frames of a block; no row has other blocks."""
 Generate = Callable[[HeldOutDuet, int], np.ndarray]
 """A reactor (T, 22, 3) metres beside the leader of a duet, by a seed."""
 Numbers = dict[str, Any]
@@ -138,14 +140,16 @@ def held_out_duets(data: Data) -> list[HeldOutDuet]:
 
 
 def measured(held_out: Sequence[HeldOutDuet], motions: Motions) -> Numbers:
-    """`measure_row` and the paper's jitter at block boundaries; motions: several of each duet."""
+    """`measure_row` and the paper's jitter at block boundaries, which are at the same frames in every row; motions:
+    several of each duet.
+    """
     row = measure_row(held_out, motions)
     mean, interval = dict(row["mean"]), dict(row["interval"])
     made = [motions[item.duet.name] for item in held_out]
-    long = [of_duet for of_duet in made if len(boundaries(len(of_duet[0])))]
+    long = [of_duet for of_duet in made if len(boundaries(len(of_duet[0]), BLOCK))]
     if long:
         by_seed = [
-            float(np.mean([paper_jitter(motion, boundaries(len(motion))) for motion in of_seed]))
+            float(np.mean([paper_jitter(motion, boundaries(len(motion), BLOCK)) for motion in of_seed]))
             for of_seed in zip(*long, strict=True)
         ]
         mean["jitter"] = float(np.mean(by_seed))

@@ -89,7 +89,7 @@ def test_travel_has_both_ends_the_quarters_between_and_the_default(control: str,
 def test_every_control_moves_what_it_moves_and_the_others_stay_at_their_defaults(
     dances: list[ControlledDance],
 ):
-    found = measure_controls(generate, dances, DEFAULTS, (0, 1))
+    found = measure_controls(generate, dances, DEFAULTS, (0, 1), 240)
     assert list(found) == list(CONTROLS)
     pose = 1000 * OTHERS / len(JOINTS)  # mm by which the mean joint moves where the others move by 1 m
     for control, rows in found.items():
@@ -122,7 +122,7 @@ def test_every_control_moves_what_it_moves_and_the_others_stay_at_their_defaults
 
 
 def test_measures_against_the_truth_are_of_the_dances_that_have_one(dances: list[ControlledDance]):
-    rows = measure_controls(generate, dances, DEFAULTS, (0,))["coarse"]
+    rows = measure_controls(generate, dances, DEFAULTS, (0,), 240)["coarse"]
     dance, true = dances[0], dances[0].reactor
     assert true is not None
     for row in (rows[0], rows[-1]):
@@ -134,10 +134,10 @@ def test_measures_against_the_truth_are_of_the_dances_that_have_one(dances: list
         assert row["contact_ratio"] == pytest.approx(1)
         assert row["overlap_points"] == 0
         assert "seams_ratio" not in row, "four seconds are one block"
-    alone = measure_controls(generate, dances[1:], DEFAULTS, (0,))["coarse"][0]
+    alone = measure_controls(generate, dances[1:], DEFAULTS, (0,), 240)["coarse"][0]
     assert "mpjpe_mm" not in alone
     inside = replace(dance, reactor=true - np.array([0.0, 0.0, 0.9]))
-    (near, *_, far) = measure_controls(generate, [inside], DEFAULTS, (0,))["coarse"]
+    (near, *_, far) = measure_controls(generate, [inside], DEFAULTS, (0,), 240)["coarse"]
     assert near["overlap_points"] == far["overlap_points"] == -100
 
 
@@ -151,7 +151,7 @@ def test_the_echo_of_the_leaders_beats_is_that_of_the_delay():
     ):
         return np.roll(leader, round(music_guidance or 0), axis=0) + np.array([0.0, 0.0, 0.8])
 
-    rows = measure_controls(late, [ControlledDance(leader, None, None, None)], DEFAULTS, (0,))["music"]
+    rows = measure_controls(late, [ControlledDance(leader, None, None, None)], DEFAULTS, (0,), 240)["music"]
     for row in rows:
         assert row["bed_forward"] == pytest.approx(np.exp(-(round(row["value"]) ** 2) / 18), abs=0.05)
 
@@ -187,6 +187,7 @@ def test_evaluation_moves_the_controls_beside_held_out_duets_and_named_leaders(
         recorded,
         held_out,
         train,
+        240,
         settings,
         out_of_distribution=leaders,
         controlled=[Solo("demo", made_duet(240, 7).leader)],
@@ -212,6 +213,7 @@ def test_evaluation_moves_the_controls_beside_held_out_duets_and_named_leaders(
             generate_mirrored,
             held_out[:1],
             train,
+            240,
             replace(settings, controlled_leaders=("nobody",)),
             out_of_distribution=leaders,
             control_defaults=DEFAULTS,
@@ -228,7 +230,7 @@ def test_block_boundaries_are_measured_where_there_are_some():
     (at_rest,), (jumped,) = (
         {
             row["seams_ratio"]
-            for row in measure_controls(lambda *_, motion=motion, **__: motion, [dance], DEFAULTS, (0,))[
+            for row in measure_controls(lambda *_, motion=motion, **__: motion, [dance], DEFAULTS, (0,), 240)[
                 "fine"
             ]
         }
@@ -246,8 +248,8 @@ def test_what_is_drawn_is_measured_where_a_solver_is_given(dances: list[Controll
         asked.append((len(motions), float(leader[0, 0, 0])))
         return [motion * np.array([1, 0.5, 1]) for motion in motions]
 
-    raw = measure_controls(generate, dances, DEFAULTS, (0, 1))["fine"][0]
-    drawn = measure_controls(generate, dances, DEFAULTS, (0, 1), lowered)["fine"][0]
+    raw = measure_controls(generate, dances, DEFAULTS, (0, 1), 240)["fine"][0]
+    drawn = measure_controls(generate, dances, DEFAULTS, (0, 1), 240, lowered)["fine"][0]
     assert {count for count, _ in asked} == {2}
     assert len({place for _, place in asked}) == len(dances)
     assert drawn["pose_moved_mm"] == pytest.approx(raw["pose_moved_mm"] / 2)

@@ -30,6 +30,7 @@ def test_evaluation_of_a_known_generator(held_out: list[HeldOutDuet], train: lis
         generate_mirrored,
         held_out,
         train,
+        240,
         replace(QUICK, two_sample=True, seen_leaders=("indian",)),
         given,
         solvers={"solved": lambda motions, leader: [motion + 0.001 for motion in motions]},
@@ -136,14 +137,14 @@ def test_what_cannot_be_measured_is_refused_before_anything_is_generated(train: 
 
     short, long = ([HeldOutDuet(made_duet(frames, 1), None)] for frames in (150, 200))
     with pytest.raises(ValueError, match="1 clips of 4 s, one every 2 s, and a FID needs two"):
-        evaluate(generate, short, train)
+        evaluate(generate, short, train, 240)
     with pytest.raises(ValueError, match="all duets are held out"):
-        evaluate(generate, long, [])
+        evaluate(generate, long, [], 240)
 
 
 def test_required_thresholds_are_checked(held_out: list[HeldOutDuet], train: list[Duet]):
     numbers = evaluate(
-        generate_mirrored, held_out, train, replace(QUICK, seeds=(0,), response_seeds=1)
+        generate_mirrored, held_out, train, 240, replace(QUICK, seeds=(0,), response_seeds=1)
     ).numbers
     results = {result.name: result for result in check_required(numbers)}
     assert "reconstruction MPJPE, mm" not in results  # there is no such row to hold

@@ -32,7 +32,7 @@ def test_seams_are_found_at_block_boundaries(held_out: list[HeldOutDuet]):
 
     whole = {i.duet.name: [jumping(i.duet.leader, None, 0)] for i in held_out}
     settings = Settings(seeds=(0,), seam_starts=(0, 60, 120))
-    found = measure_seams(jumping, held_out, whole, settings)
+    found = measure_seams(jumping, held_out, whole, 240, settings)
     assert found["seams"] == 2 + 2 + 1 + 2 + 1 + 1
     assert found["ratio"] > 3
     assert found["paper_jitter_mm"] > found["paper_jitter_truth_mm"]
@@ -44,10 +44,10 @@ def test_seams_are_found_at_block_boundaries(held_out: list[HeldOutDuet]):
             i.duet.reactor[-len(leader) :] for i in held_out if np.array_equal(i.duet.leader[-1], leader[-1])
         )
 
-    seamless = measure_seams(true, held_out, {i.duet.name: [i.duet.reactor] for i in held_out}, settings)
+    seamless = measure_seams(true, held_out, {i.duet.name: [i.duet.reactor] for i in held_out}, 240, settings)
     assert seamless["ratio"] == pytest.approx(1.0)  # compared with the truth at the same frames
     assert seamless["paper_jitter_mm"] == pytest.approx(seamless["paper_jitter_truth_mm"])
-    between = measure_seams(jumping, held_out, whole, replace(settings, seam_spacing=200, seam_starts=(0,)))
+    between = measure_seams(jumping, held_out, whole, 200, replace(settings, seam_starts=(0,)))
     assert between["ratio"] == pytest.approx(1.0, abs=0.01)
 
 

@@ -28,6 +28,8 @@ from training.checkpoint import (
 )
 from training.data.sources import read_split
 from training.data.splits import Split
+from training.denoiser.denoiser import Denoiser
+from training.diffusion.model import Model
 from training.distill import student_diffusion
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.duet import duet_metrics
@@ -101,16 +103,38 @@ def test_every_argument_of_a_generator_reaches_the_model() -> None:
     assert not np.allclose(usual, fewer(**given), atol=1e-4)
 
 
-def test_the_program_measures_an_exported_model(tmp_path: Path):
+def write_duets_and_checkpoint(folder: Path, model: Model) -> Path:
+    """duets.npz with train, val, one and two, 300 frames each, and the checkpoint of a model, which is returned."""
     duets = [made_duet(300, seed, name) for seed, name in enumerate(("train", "val", "one", "two"))]
     archive = {
         f"{d.name}/{role}": m for d in duets for role, m in (("leader", d.leader), ("follower", d.reactor))
     }
-    np.savez(tmp_path / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
-    tiny, checkpoint = tiny_model(), tmp_path / "checkpoint"
-    save_hfsq(checkpoint, tiny.hfsq, tiny.frame, {})
-    save_denoiser(checkpoint, tiny.hfsq, tiny.denoiser, tiny.diffusion, {})
-    write_card(checkpoint, tiny.reference_height, 1.4, 1.2)
+    np.savez(folder / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
+    checkpoint = folder / "checkpoint"
+    save_hfsq(checkpoint, model.hfsq, model.frame, {})
+    save_denoiser(checkpoint, model.hfsq, model.denoiser, model.diffusion, {})
+    write_card(checkpoint, model.reference_height, 1.4, 1.2)
+    return checkpoint
+
+
+def test_seams_are_looked_for_at_the_ends_of_the_models_own_blocks(tmp_path: Path):
+    tiny = tiny_model()
+    config = replace(tiny.denoiser.config, block=30)
+    denoiser = Denoiser(tiny.hfsq.latent_width, tiny.hfsq.layers, config)
+    checkpoint = write_duets_and_checkpoint(tmp_path, replace(tiny, denoiser=denoiser))
+    settings = Settings(seeds=(0,), seam_starts=(0,), response_seeds=1, two_sample=False)
+    main(
+        Options(
+            data=tmp_path / "duets.npz", out=tmp_path / "out", checkpoint=checkpoint, val=("val",),
+            test=("one", "two"), pictures=False, videos=False, music=False, settings=settings,
+        )
+    )  # fmt: skip
+    seams = json.loads((tmp_path / "out/metrics.json").read_text())["seams"]["seams"]
+    assert seams == 2 * 2, "frames 120 and 240 of two duets"
+
+
+def test_the_program_measures_an_exported_model(tmp_path: Path):
+    checkpoint = write_duets_and_checkpoint(tmp_path, tiny_model())
     main(
         Options(
             data=tmp_path / "duets.npz", out=tmp_path / "out", model=TINY, checkpoint=checkpoint,

@@ -24,7 +24,7 @@ def velocity_change(motion: np.ndarray) -> np.ndarray:
     return change
 
 
-def boundaries(frames: int, block: int = 240) -> np.ndarray:
+def boundaries(frames: int, block: int) -> np.ndarray:
     """Frames of a clip at which a new block begins: block, 2 * block, ..."""
     return np.arange(block, frames, block)
 

@@ -28,7 +28,7 @@ def test_velocity_change_of_a_parabola():
 
 def test_a_jump_at_the_boundary_is_a_seam_and_between_two_it_is_not():
     truth = smooth(1000)
-    seams = boundaries(1000)
+    seams = boundaries(1000, 240)
     assert list(seams) == [240, 480, 720, 960]
     assert list(boundaries(500, 120)) == [120, 240, 360, 480]
     same = seam_ratio([seam_sample(truth, truth, seams)])
@@ -45,12 +45,15 @@ def test_a_jump_at_the_boundary_is_a_seam_and_between_two_it_is_not():
 def test_seams_of_many_motions_add_up_by_frames():
     truth = smooth(500)
     still = np.zeros_like(truth)
-    samples = [seam_sample(truth, truth, boundaries(500)), seam_sample(truth, still, boundaries(500))]
+    samples = [
+        seam_sample(truth, truth, boundaries(500, 240)),
+        seam_sample(truth, still, boundaries(500, 240)),
+    ]
     result = seam_ratio(samples)
     assert result["seams"] == 4
     assert result["ratio"] == pytest.approx(0.5)
     assert result["own"] == pytest.approx(1.0)
-    slow = seam_ratio([seam_sample(truth, 0.5 * truth, boundaries(500))])
+    slow = seam_ratio([seam_sample(truth, 0.5 * truth, boundaries(500, 240))])
     assert (slow["ratio"], slow["own"]) == pytest.approx((0.5, 1.0))
 
 
@@ -63,6 +66,6 @@ def test_paper_jitter_sees_thirty_frames():
 
 
 def test_the_interior_is_eight_frames_away_from_the_seams():
-    sample = seam_sample(smooth(500), smooth(500), boundaries(500))
+    sample = seam_sample(smooth(500), smooth(500), boundaries(500, 240))
     assert sample.frames == 2 * 4
     assert sample.inside_frames == 498 - 2 * 16
