@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +34,7 @@ from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
 from training.diffusion.react import Request, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
-from training.loop.run import Run, fast_precision
+from training.loop.run import fast_precision
 from training.motion.floor import put_on_floor
 
 
@@ -99,50 +98,6 @@ def test_precision_follows_the_machine(data: Path, tmp_path: Path, monkeypatch: 
         assert fast_precision() == precision
 
 
-def steps_logged(folder: Path) -> list[int]:
-    return [json.loads(line)["step"] for line in (folder / "log.jsonl").read_text().splitlines()]
-
-
-def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
-    """Weights and log are those of a training that did not stop."""
-    whole, stopped = stage1(data, tmp_path / "whole", steps=4), stage1(data, tmp_path / "stopped", steps=4)
-    train_hfsq.main(whole)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, 3, OSError("no space left")))
-        with pytest.raises(OSError, match="no space left"):
-            train_hfsq.main(stopped)
-    assert torch.load(stopped.out / "hfsq" / "state.ckpt", weights_only=False)["step"] == 2
-    assert max(steps_logged(stopped.out / "hfsq")) == 3
-    train_hfsq.main(replace(stopped, resume=True))
-    assert steps_logged(stopped.out / "hfsq") == steps_logged(whole.out / "hfsq")
-    weights, expected = (load_hfsq(options.out)[0].state_dict() for options in (stopped, whole))
-    for name, value in expected.items():
-        assert torch.equal(weights[name], value), name
-
-
-def test_no_step_is_lost_by_an_interruption_or_at_the_end(data: Path, tmp_path: Path) -> None:
-    options = stage1(data, tmp_path, steps=4, evaluate_every=100)
-
-    def saved_step() -> int:
-        return torch.load(tmp_path / "hfsq" / "state.ckpt", weights_only=False)["step"]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("training.train_hfsq.Run._step", stop_before(Run._step, 3, KeyboardInterrupt()))
-        with pytest.raises(SystemExit, match="stopped after step 3; go on with --resume"):
-            train_hfsq.main(options)
-    assert saved_step() == 3
-    train_hfsq.main(replace(options, resume=True))
-    assert steps_logged(tmp_path / "hfsq") == [1, 2, 3, 4, 4], "the last row is the measures"
-    assert saved_step() == 4
-
-
-def test_a_training_does_not_go_on_with_another_network(data: Path, tmp_path: Path) -> None:
-    train_hfsq.main(stage1(data, tmp_path))
-    other = stage1(data, tmp_path, resume=True, steps=4, hfsq=replace(HFSQ, groups=4))
-    with pytest.raises(ValueError, match=r"these options differ: .*--hfsq\.groups \(it was 2\)"):
-        train_hfsq.main(other)
-
-
 def test_a_denoiser_does_not_go_with_a_stage_1_that_was_trained_again(
     data: Path, trained: Path, tmp_path: Path
 ) -> None:
@@ -162,23 +117,6 @@ def test_a_denoiser_does_not_go_with_a_stage_1_that_was_trained_again(
 def test_a_training_with_all_duets_held_out_says_so(data: Path, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"nothing is left of .* add --learn-all"):
         train_hfsq.main(stage1(data, tmp_path, val=("made_0", "made_1")))
-
-
-def stop_before(step_of: Callable[..., None], step: int, error: BaseException) -> Callable[..., None]:
-    """A training step that fails with an error after `step` of them."""
-
-    def stopping(run: Run, batch: object) -> None:
-        if run.schedule.step == step:
-            raise error
-        step_of(run, batch)
-
-    return stopping
-
-
-def test_a_training_in_the_folder_of_an_earlier_one_begins_its_own_log(data: Path, tmp_path: Path) -> None:
-    for _ in range(2):
-        train_hfsq.main(stage1(data, tmp_path))
-    assert steps_logged(tmp_path / "hfsq").count(1) == 1
 
 
 def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> None:

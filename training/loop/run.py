@@ -13,6 +13,7 @@ import torch
 from lightning_fabric import Fabric
 from torch import nn
 
+from training.data.naming import naming
 from training.loop.ema import Ema, M
 from training.loop.logger import Logger
 from training.loop.options import LoopOptions, Precision
@@ -36,12 +37,25 @@ def fast_precision() -> Precision:
     return "bf16-mixed" if torch.accelerator.is_available() or tiles else "32-true"
 
 
+MAY_DIFFER = (
+    "devices", "evaluate-every", "log-every", "minutes", "music-cache", "music-guidance", "out", "precision", "resume",
+    "steps", "threads",
+)  # fmt: skip
+"""Options that a training may go on with in other values: those of its length, its machine and its report, and the
+default weight of a student, of which nothing is learnt."""
+
+
 def flat_options(options: Any, prefix: str = "") -> dict[str, str]:
-    """The options by the names that they have on the command line, `hfsq.groups`, as text."""
+    """The options by the names that they have on the command line, `hfsq.groups`, as text. Of a path only that it was
+    given, since a folder may have been moved.
+    """
     flat: dict[str, str] = {}
     for each in fields(options):
         value, name = getattr(options, each.name), prefix + each.name.replace("_", "-")
-        flat |= flat_options(value, f"{name}.") if is_dataclass(value) else {name: str(value)}
+        if is_dataclass(value):
+            flat |= flat_options(value, f"{name}.")
+        else:
+            flat[name] = "given" if isinstance(value, Path) else str(value)
     return flat
 
 
@@ -154,22 +168,23 @@ class Run(Generic[M]):
             part.replace(self.state)
 
     def load(self) -> None:
-        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved, and ValueError for a state of
-        another network.
+        """Inverse of `save`, strict. Raises FileNotFoundError where nothing was saved, and ValueError for a damaged
+        state and for a training whose other options were not those of this one: the checkpoint would say of its weights
+        what is not true.
         """
         if not self.state.exists():
             raise FileNotFoundError(f"{self.state} is missing: there is nothing to go on from with --resume")
-        parts = {"model": self.stage, "optimizer": self.optimizer}
-        try:
+        with naming(self.state):
+            before, now = self.fabric.load(self.state)["options"], flat_options(self.options)
+            differ = [name for name in before | now if before.get(name) != now.get(name)]
+            if wrong := [name for name in differ if name not in MAY_DIFFER]:
+                were = ", ".join(f"--{name} (it was {before.get(name, 'not there')})" for name in wrong)
+                raise ValueError(
+                    f"--resume goes on with the same training, but these options differ: {were}; give them as they "
+                    "were, or begin another training from its checkpoint with --init"
+                )
+            parts = {"model": self.stage, "optimizer": self.optimizer}
             rest = self.fabric.load(self.state, parts, strict=True)
-        except RuntimeError as error:
-            before, now = self.fabric.load(self.state).get("options", {}), flat_options(self.options)
-            differ = ", ".join(
-                f"--{key} (it was {before[key]})" for key in before if before[key] != now.get(key)
-            )
-            raise ValueError(
-                f"{self.state} is of another network, so --resume cannot go on with it; these options differ: {differ}"
-            ) from error
-        self.ema.module.load_state_dict(rest["ema"], strict=True)
+            self.ema.module.load_state_dict(rest["ema"], strict=True)
         self.ema.updates = rest["updates"]
         self.schedule.step, self.schedule.spent = rest["step"], rest["spent"]
