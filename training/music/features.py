@@ -23,13 +23,20 @@ def load_audio(path: str | Path, recipe: AudioRecipe) -> np.ndarray:
 
     Raises
     ------
+    FileNotFoundError
     ValueError
-        That names the file when it is not there or holds none of libsndfile's formats.
+        That names the file when it holds none of libsndfile's formats, no sample, or samples that are not finite.
     """
+    if not Path(path).exists():
+        raise FileNotFoundError(f"{path} does not exist")
     try:
         channels, rate = soundfile.read(path, dtype="float32", always_2d=True)
     except soundfile.LibsndfileError as error:
         raise ValueError(f"{path} cannot be read as a song: {error}") from error
+    if len(channels) == 0:
+        raise ValueError(f"{path} cannot be read as a song: it holds no sound")
+    if not np.isfinite(channels).all():
+        raise ValueError(f"{path} cannot be read as a song: it holds samples that are not finite")
     return librosa.resample(
         channels.mean(axis=1), orig_sr=rate, target_sr=recipe.sample_rate, res_type="soxr_hq"
     )

@@ -107,6 +107,17 @@ def test_load_audio_takes_the_mean_of_the_channels_at_the_recipe_rate(tmp_path: 
     np.testing.assert_allclose(audio[1000:-1000], (sine(440, 1) / 2)[1000:-1000], atol=1e-4)
 
 
+def test_a_song_that_cannot_be_used_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.mp3 does not exist"):
+        load_audio(tmp_path / "nowhere.mp3", RECIPE)
+    (tmp_path / "text.mp3").write_text("no song")
+    for name, samples in (("empty.wav", np.zeros(0)), ("nan.wav", np.full(100, np.nan))):
+        soundfile.write(tmp_path / name, samples, 44100, subtype="FLOAT")
+    for name, why in (("text.mp3", ""), ("empty.wav", "no sound"), ("nan.wav", "not finite")):
+        with pytest.raises(ValueError, match=rf"{name} cannot be read as a song: .*{why}"):
+            load_audio(tmp_path / name, RECIPE)
+
+
 def test_recipe_is_unchanged_by_json_and_has_the_frames_of_the_motion() -> None:
     block = json.loads(json.dumps(RECIPE.to_dict()))
     assert block == RECIPE.to_dict()
