@@ -98,9 +98,15 @@ def verify(
     """Differences for clips of so many blocks, the last one not full: of the graphs in single precision from the
     rounded model, of those with 8-bit products from it (int8), and of the rounded model from the one given (rounding).
     log: told of each length before it is verified, since the longest takes minutes. Raises ValueError beyond the
-    tolerances.
+    tolerances, and for a folder that was exported from a network of other sizes.
     """
     single, int8 = open_model(folder, backend="webgpu"), open_model(folder, backend="wasm")
+    for name in ("block", "layers", "channels"):
+        there, here = getattr(single.sampling, name), getattr(model.sampling, name)
+        if there != here:
+            raise ValueError(
+                f"{folder} was exported from another checkpoint: its manifest has {name} {there}, the checkpoint {here}"
+            )
     rounded = round_convolutions(model)
     latent = single.manifest["latent"]
     results: dict[int, dict[str, float]] = {}

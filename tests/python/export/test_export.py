@@ -20,6 +20,7 @@ from export.manifest import make_card, manifest
 from export.runtime import Exported, open_model
 from export.verify import tolerance, verify
 from training.data.made import made_dancer
+from training.denoiser.denoiser import Denoiser
 from training.diffusion.model import Model
 from training.diffusion.react import Request, react
 
@@ -88,6 +89,14 @@ def test_onnxruntime_agrees_with_pytorch() -> None:
 def test_verification_notices_other_weights() -> None:
     with pytest.raises(ValueError, match="differ from PyTorch"):
         verify(tiny.tiny_model(seed=1), FIXTURE, (1,))
+
+
+def test_a_model_of_other_sizes_than_the_checkpoint_is_named() -> None:
+    model = tiny.tiny_model()
+    config = replace(model.denoiser.config, block=30)
+    other = replace(model, denoiser=Denoiser(model.hfsq.latent_width, model.hfsq.layers, config))
+    with pytest.raises(ValueError, match="another checkpoint: its manifest has block 60, the checkpoint 30"):
+        verify(other, FIXTURE, (1,))
 
 
 @pytest.mark.parametrize(
