@@ -43,7 +43,8 @@ def read_npz(path: Path | str) -> list[Duet]:
     with naming(path), _open(path) as archive:
         _check_header(archive, path)
         roles = ("leader", "follower")
-        names = sorted({key.rpartition("/")[0] for key in archive.files if key.rpartition("/")[2] in roles})
+        keys = [key.rpartition("/") for key in archive.files]
+        names = sorted({name for name, _, role in keys if name and role in roles})
         if not names:
             raise ValueError(f"{path}: no NAME/leader and NAME/follower in it")
         duets = []

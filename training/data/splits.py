@@ -24,7 +24,7 @@ def summary(duets: Split, window: int) -> str:
     short = sum(len(duet) < window for duet in duets.train)
     return (
         f"{len(read)} duets: {len(duets.train)} to train on, {songs} of them with a song of their own, "
-        f"{short} shorter than a window of {window / FPS:g} s; "
+        f"{short} shorter than a window of {window / FPS:.3g} s; "
         f"{len(duets.val)} for validation, {len(duets.test)} for test"
     )
 

@@ -66,12 +66,15 @@ def test_what_holds_no_duets_is_named(tmp_path: Path) -> None:
     np.save(tmp_path / "leader.npy", made_dancer(20, 1))
     with pytest.raises(ValueError, match=r"leader\.npy holds no duets"):
         read_duets(tmp_path / "leader.npy")
+    save(tmp_path / "page.npz", leader=made_dancer(20, 1), reactor=made_dancer(20, 2))
+    with pytest.raises(ValueError, match=r"page\.npz: no NAME/leader and NAME/follower in it"):
+        read_duets(tmp_path / "page.npz")
 
 
 def test_what_was_read_is_said_in_a_line() -> None:
     song, silent = replace(made_duet(40, 1), song=Path("a.mp3")), made_duet(30, 2)
     assert summary(Split((song, silent), (made_duet(40, 3),), ()), window=40) == (
-        "3 duets: 2 to train on, 1 of them with a song of their own, 1 shorter than a window of 1.33333 s; "
+        "3 duets: 2 to train on, 1 of them with a song of their own, 1 shorter than a window of 1.33 s; "
         "1 for validation, 0 for test"
     )
 
