@@ -68,13 +68,15 @@ def main(options: Options) -> None:
     fabric.seed_everything(options.seed + fabric.global_rank, verbose=False)
     hfsq, frame = load_hfsq(options.out)
     latents = latents_digest(hfsq)
+    torch.manual_seed(options.seed)  # the same initial weights on every rank
+    # Before data and music are read, which takes minutes: both refuse another number of layers than stage 1 has.
+    denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
+    stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
     duets = read_duets_to_train(options, fabric, STRIDE * options.denoiser.block)
     bank = music_of(options, duets)
     condition = options.denoiser.condition
     clips = duet_clips(options, condition, duets, bank, hfsq, frame)
-
-    torch.manual_seed(options.seed)  # the same initial weights on every rank
-    denoiser = initial_denoiser(options, hfsq, clips)
+    begin_with(denoiser, options, hfsq, clips)
     before = earlier_training(options.init, "denoiser")
     clips += solo_clips(options, condition, hfsq, frame)
     windows = Windows(
@@ -83,7 +85,6 @@ def main(options: Options) -> None:
     optimizer = torch.optim.AdamW(
         denoiser.parameters(), lr=options.learning_rate, weight_decay=options.weight_decay
     )
-    stage = Stage2(denoiser, hfsq, options.diffusion, options.loss)
     run = Run(fabric, stage, denoiser, optimizer, options, options.out / "denoiser", warmup=200)
     # The saved state has its own stage 1, which --resume has just loaded.
     if latents_digest(hfsq) != latents:
@@ -116,15 +117,13 @@ def main(options: Options) -> None:
     fabric.barrier()
 
 
-def initial_denoiser(options: Options, hfsq: Autoencoder, clips: list[Clip]) -> Denoiser:
-    """Random weights with the clips' statistics, or those of another checkpoint."""
-    denoiser = Denoiser(hfsq.latent_width, hfsq.layers, options.denoiser)
+def begin_with(denoiser: Denoiser, options: Options, hfsq: Autoencoder, clips: list[Clip]) -> None:
+    """Gives a denoiser the statistics of clips, or the weights of another checkpoint, and its range of latents."""
     if options.init:
         start_from(denoiser, options.init, "denoiser")
     else:
         denoiser.condition.set_statistics(*feature_values(clips))
     denoiser.lowest, denoiser.highest = hfsq.latent_range()
-    return denoiser
 
 
 class Stage2(nn.Module):

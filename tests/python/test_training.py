@@ -114,6 +114,14 @@ def test_a_denoiser_does_not_go_with_a_stage_1_that_was_trained_again(
     load_model(folder)
 
 
+def test_another_number_of_layers_than_that_of_stage_1_is_refused_before_data_are_read(trained: Path) -> None:
+    loss = DenoiserLossConfig(windows=2, layers=(1.0, 0.5, 0.25))
+    with pytest.raises(ValueError, match="the 2 residual layers of stage 1 need 2 depths"):
+        train_denoiser.main(
+            stage2(Path("nowhere"), trained, denoiser=replace(DENOISER, depths=(1, 1, 1)), loss=loss)
+        )
+
+
 def test_a_training_with_all_duets_held_out_says_so(data: Path, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"nothing is left of .* add --learn-all"):
         train_hfsq.main(stage1(data, tmp_path, val=("made_0", "made_1")))

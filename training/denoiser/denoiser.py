@@ -113,7 +113,9 @@ class Denoiser(nn.Module):
     def __init__(self, latent_width: int, layers: int, config: DenoiserConfig) -> None:
         super().__init__()
         if len(config.depths) != layers:
-            raise ValueError(f"{layers} residual layers need {layers} depths, got {config.depths}")
+            raise ValueError(
+                f"the {layers} residual layers of stage 1 need {layers} depths (--denoiser.depths), got {config.depths}"
+            )
         if config.width % config.heads:
             raise ValueError(f"a width of {config.width} cannot be shared by {config.heads} heads")
         if len(config.alibi_slopes) != config.heads:

@@ -44,7 +44,9 @@ class Hfsq(nn.Module):
         super().__init__()
         groups, layers, width, dims = config.groups, config.layers, config.group_width, len(config.levels)
         if len(config.scales) != layers:
-            raise ValueError(f"{layers} residual layers need {layers} scales, got {len(config.scales)}")
+            raise ValueError(
+                f"{layers} residual layers need {layers} scales (--hfsq.scales), got {config.scales}"
+            )
         self.groups, self.layers, self.width = groups, layers, groups * width
         self.latent_width = groups * dims
         self.scales = config.scales

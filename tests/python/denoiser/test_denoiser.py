@@ -309,7 +309,9 @@ def test_three_layers_need_three_depths() -> None:
         torch.ones(1, 3), torch.ones(1, 3),
     )  # fmt: skip
     assert out.shape == (1, BLOCK, 3, 12)
-    with pytest.raises(ValueError, match="3 residual layers need 3 depths"):
+    with pytest.raises(
+        ValueError, match=r"3 residual layers of stage 1 need 3 depths \(--denoiser\.depths\)"
+    ):
         Denoiser(12, 3, DenoiserConfig(width=16))
 
 

@@ -248,7 +248,7 @@ def test_the_residual_cascade_is_equation_1() -> None:
 
 
 def test_scales_must_match_layers() -> None:
-    with pytest.raises(ValueError, match="3 residual layers need 3 scales"):
+    with pytest.raises(ValueError, match=r"3 residual layers need 3 scales \(--hfsq\.scales\)"):
         Hfsq(HfsqConfig(layers=3))
 
 
