@@ -25,7 +25,7 @@ from rich.console import Console
 
 from export.manifest import quality_rules
 from export.runtime import open_model
-from training.checkpoint import load_model, solos_seen
+from training.checkpoint import duets_seen, load_model, solos_seen
 from training.command_line import run_program
 from training.config import STRIDE, check_limits
 from training.data.bvh.file import FRAME_RATES
@@ -38,6 +38,7 @@ from training.diffusion.react import Request, react
 from training.evaluation.evaluate import evaluate
 from training.evaluation.out_of_distribution import read_leaders
 from training.evaluation.protocol import HeldOutDuet, Motions, ReactorGenerator, Settings, Solver
+from training.evaluation.report.conditions import commit, machine
 from training.evaluation.report.report import write_report
 from training.evaluation.rows import generate_motions
 from training.hfsq.reconstruct import reconstruct
@@ -141,15 +142,6 @@ def reactor_generator(
     return generate
 
 
-def commit() -> str | None:
-    """The commit the program runs from, None outside a repository."""
-    try:
-        out = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=True)
-    except (OSError, subprocess.CalledProcessError):
-        return None
-    return out.stdout.strip()
-
-
 def solve_with_node(motions: Sequence[np.ndarray], leader: np.ndarray, *flags: str) -> list[np.ndarray]:
     """Motions (T, 22, 3) on the skeleton that the page draws and exports, kept out of the leader's body (T, 22, 3):
     web/motion under Node, files in between. flags: of tools/solve.mjs.
@@ -203,7 +195,11 @@ def main(options: Options) -> None:
         torch.set_num_threads(options.threads)
     duets = read_split(options.data, options.val, options.test, options.fps)
     held_out = paired_duets(options, duets)
-    facts: dict[str, Any] = {"data": options.data.name, "split": {"val": options.val, "test": options.test}}
+    split = {part: [duet.name for duet in getattr(duets, part)] for part in ("train", "val", "test")}
+    facts: dict[str, Any] = {"data": options.data.name, "split": split, "machine": machine()}
+    # The names of DD100's own test part are in no training's options.
+    named = options.test if options.measure == "test" else options.val
+    facts["seen"] = duets_seen(options.checkpoint, named) if options.checkpoint else ()
 
     given: dict[str, Motions] = {}
     checkpoint = load_model(options.checkpoint) if options.checkpoint else None

@@ -6,6 +6,7 @@ import ast
 import hashlib
 import json
 import shutil
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -102,20 +103,42 @@ def solos_seen(folder: Path) -> tuple[str, ...]:
     from included; ("",) for all of an archive, none without solos.
     """
     found: set[str] = set()
+    for options in _options_of_trainings(folder):
+        if options.get("solo") not in (None, "None"):
+            found.update(ast.literal_eval(options.get("solo_prefixes", "('',)")))
+    return tuple(sorted(found))
 
-    def visit(value: Any) -> None:
+
+def duets_seen(folder: Path, names: Collection[str]) -> tuple[str, ...]:
+    """Those of the names of duets that some training of a checkpoint did not hold out, the earlier ones that it went on
+    from included: with --learn-all all of them, else those that neither its --val nor its --test names.
+    """
+    seen: set[str] = set()
+    for options in _options_of_trainings(folder):
+        if options.get("learn_all") == "True":
+            seen.update(names)
+        else:
+            held_out = (ast.literal_eval(options.get(part, "()")) for part in ("val", "test"))
+            seen.update(set(names).difference(*held_out))
+    return tuple(name for name in names if name in seen)
+
+
+def _options_of_trainings(folder: Path) -> Iterator[dict[str, str]]:
+    """The options of every training of both stages of a checkpoint, as its provenance has them."""
+
+    def visit(value: Any) -> Iterator[dict[str, str]]:
         if isinstance(value, list):
             for item in value:
-                visit(item)
+                yield from visit(item)
         elif isinstance(value, dict):
-            if value.get("solo") not in (None, "None"):
-                found.update(ast.literal_eval(value.get("solo_prefixes", "('',)")))
-            for item in value.values():
-                visit(item)
+            for key, item in value.items():
+                if key == "options":
+                    yield item
+                else:
+                    yield from visit(item)
 
     for name in ("hfsq", "denoiser"):
-        visit(read_config(folder, name)["provenance"])
-    return tuple(sorted(found))
+        yield from visit(read_config(folder, name)["provenance"])
 
 
 def load_hfsq(folder: Path) -> tuple[Autoencoder, FrameConfig]:

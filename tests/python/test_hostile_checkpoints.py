@@ -13,6 +13,7 @@ from torch import nn
 from tests.python.support.mutations import damaged_bytes, damaged_text, fuzz
 from training.checkpoint import (
     copy_card,
+    duets_seen,
     load_denoiser,
     read_card,
     read_config,
@@ -63,6 +64,22 @@ def test_solos_of_every_training_that_a_checkpoint_comes_from_are_seen(tmp_path:
     assert solos_seen(tmp_path) == ("indian", "modern")
     write({"options": {"solo": "solo.npz"}}, alone)
     assert solos_seen(tmp_path) == ("",), "all of the archive"
+
+
+def test_duets_that_a_training_did_not_hold_out_are_seen(tmp_path: Path) -> None:
+    names = ("val", "test", "other")
+
+    def seen(hfsq: dict, denoiser: dict) -> tuple[str, ...]:
+        for name, provenance in (("hfsq", hfsq), ("denoiser", denoiser)):
+            (tmp_path / f"{name}.json").write_text(json.dumps({"provenance": provenance}))
+        return duets_seen(tmp_path, names)
+
+    held_out = {"options": {"val": "('val',)", "test": "('test', 'other')", "learn_all": "False"}}
+    assert seen(held_out, held_out) == ()
+    assert seen(held_out, {"options": {"val": "('val',)", "test": "('test',)"}}) == ("other",)
+    assert seen({"options": {"val": "('val',)", "test": "()"}}, held_out) == ("test", "other")
+    everything = {"options": {"val": "('val',)", "test": "('test',)", "learn_all": "True"}}
+    assert seen(held_out, held_out | {"before": {"checkpoints": [held_out, everything]}}) == names
 
 
 def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) -> None:

@@ -104,15 +104,18 @@ def test_every_argument_of_a_generator_reaches_the_model() -> None:
 
 
 def write_duets_and_checkpoint(folder: Path, model: Model) -> Path:
-    """duets.npz with train, val, one and two, 300 frames each, and the checkpoint of a model, which is returned."""
+    """Writes duets.npz with train, val, one and two, 300 frames each, and the checkpoint of a model that held out val
+    and one alone; it is returned.
+    """
     duets = [made_duet(300, seed, name) for seed, name in enumerate(("train", "val", "one", "two"))]
     archive = {
         f"{d.name}/{role}": m for d in duets for role, m in (("leader", d.leader), ("follower", d.reactor))
     }
     np.savez(folder / "duets.npz", **archive)  # pyright: ignore[reportArgumentType]
     checkpoint = folder / "checkpoint"
-    save_hfsq(checkpoint, model.hfsq, model.frame, {})
-    save_denoiser(checkpoint, model.hfsq, model.denoiser, model.diffusion, {})
+    provenance = {"options": {"val": "('val',)", "test": "('one',)"}}
+    save_hfsq(checkpoint, model.hfsq, model.frame, provenance)
+    save_denoiser(checkpoint, model.hfsq, model.denoiser, model.diffusion, provenance)
     write_card(checkpoint, model.reference_height, 1.4, 1.2)
     return checkpoint
 
@@ -133,7 +136,7 @@ def test_seams_are_looked_for_at_the_ends_of_the_models_own_blocks(tmp_path: Pat
     assert seams == 2 * 2, "frames 120 and 240 of two duets"
 
 
-def test_the_program_measures_an_exported_model(tmp_path: Path):
+def test_the_program_measures_an_exported_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     checkpoint = write_duets_and_checkpoint(tmp_path, tiny_model())
     main(
         Options(
@@ -146,6 +149,13 @@ def test_the_program_measures_an_exported_model(tmp_path: Path):
     )  # fmt: skip
     stored = json.loads((tmp_path / "out/metrics.json").read_text())
     assert stored["runtime"] == "onnxruntime"
+    assert stored["split"] == {"train": ["train"], "val": ["val"], "test": ["one", "two"]}
+    assert stored["seen"] == ["two"]
+    report = (tmp_path / "out/report.md").read_text()
+    assert "Data duets.npz, training: train; validation: val; test: one, two. Model tiny under" in report
+    assert f"Machine: {stored['machine']}." in report
+    assert "**Not held out: two." in report
+    assert "Not held out: two." in " ".join(capsys.readouterr().out.split())
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] > 0
     weights = {"coarse": 0.0, "fine": 0.0, "music": 1.0, "variety": 1.0}
     how = {"steps": 4, "last_time": 0.25, "extrapolation": [0.0, 0.0, 0.0]}

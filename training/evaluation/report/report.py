@@ -18,6 +18,7 @@ from training.evaluation.evaluate import Evaluation
 from training.evaluation.limits import ThresholdResult
 from training.evaluation.out_of_distribution import OutOfDistributionDance
 from training.evaluation.protocol import GENERATED, TRUTH, HeldOutDuet
+from training.evaluation.report.conditions import seen_sentences
 from training.evaluation.report.filmstrip import filmstrip
 from training.evaluation.report.report_text import COLUMNS, markdown
 from training.evaluation.report.spectra import draw_spectra
@@ -147,10 +148,12 @@ def write_report(
     (out / "metrics.json").write_text(json.dumps(_json_values(head | numbers | results), indent=1) + "\n")
     drawn = draw(held_out, evaluation, out, FILMSTRIPS) if pictures else []
     filmed = film(held_out, evaluation, out) if videos else []
-    (out / "report.md").write_text(markdown(numbers, title, drawn, filmed))
+    (out / "report.md").write_text(markdown(head | numbers, title, drawn, filmed))
     console = Console(width=200)
     console.print(screen_table(numbers))
     for result in required:
         mark = "[green]reached[/green]" if result.passed else "[red]missed[/red]"
         console.print(f"{mark}  {result.name}: {number(result.value)} ({result.limits})")
+    for sentence in seen_sentences(facts):
+        console.print(f"[red]{sentence}[/red]")
     return required

@@ -15,6 +15,7 @@ from training.evaluation.out_of_distribution import (
     MAX_TOE_HEIGHT,
     MIN_TOE_HEIGHT,
 )
+from training.evaluation.report.conditions import conditions
 from training.evaluation.report.paper_table import paper_table
 from training.evaluation.report.tables import markdown_table, number
 from training.evaluation.thresholds import check_required, check_targets
@@ -67,6 +68,7 @@ def _summary(numbers: Numbers) -> Sections:
     return [
         f"Held-out duets {', '.join(f'{k} ({v} frames)' for k, v in numbers['trials'].items())}; "
         f"seeds {', '.join(map(str, numbers['seeds']))}. Values are means over duets and seeds.",
+        *conditions(numbers),
         "## Required",
         _threshold_table(check_required(numbers)),
         "## Main table",
