@@ -22,9 +22,10 @@ def summary(duets: Split, window: int) -> str:
     read = (*duets.train, *duets.val, *duets.test)
     songs = sum(duet.song is not None for duet in duets.train)
     short = sum(len(duet) < window for duet in duets.train)
+    minutes = sum(len(duet) for duet in read) / FPS / 60
     return (
-        f"{len(read)} duets: {len(duets.train)} to train on, {songs} of them with a song of their own, "
-        f"{short} shorter than a window of {window / FPS:.3g} s; "
+        f"{len(read)} duets of {minutes:.1f} minutes: {len(duets.train)} to train on, "
+        f"{songs} of them with a song of their own, {short} shorter than a window of {window / FPS:.3g} s; "
         f"{len(duets.val)} for validation, {len(duets.test)} for test"
     )
 

@@ -131,6 +131,18 @@ def test_a_folder_with_wrong_frame_times_can_be_trained_on(tmp_path: Path) -> No
         read_split(tmp_path / "rumba_leader.bvh", (), (), fps=30.0)
 
 
+def test_partners_of_as_many_frames_at_different_rates_are_refused(tmp_path: Path) -> None:
+    """A header is wrong: at its rate that dancer would move twice as fast as the other."""
+    dancer = MadeDancer(frames=80, seed=2)
+    for role, fps in (("leader", 60), ("reactor", 30)):
+        write_bvh(tmp_path / f"rumba_{role}.bvh", dancer, "own", unit=1.0, fps=fps)
+    with pytest.raises(ValueError, match=r"leader\.bvh has 80 frames at 60 fps and .* at 30 fps: .* --fps"):
+        read_bvh_folder(tmp_path)
+    assert len(read_bvh_folder(tmp_path, fps=60)[0]) == 40
+    write_bvh(tmp_path / "rumba_reactor.bvh", MadeDancer(frames=40, seed=2), "own", unit=1.0, fps=30)
+    assert len(read_bvh_folder(tmp_path)[0]) == 40, "a recording at another rate"
+
+
 def test_no_file_of_a_folder_is_passed_over_silently(tmp_path: Path) -> None:
     """Capitals in endings do not matter, and a dancer without a partner is named."""
     for name in ("rumba_Leader.BVH", "rumba_reactor.bvh"):

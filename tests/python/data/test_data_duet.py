@@ -74,7 +74,7 @@ def test_what_holds_no_duets_is_named(tmp_path: Path) -> None:
 def test_what_was_read_is_said_in_a_line() -> None:
     song, silent = replace(made_duet(40, 1), song=Path("a.mp3")), made_duet(30, 2)
     assert summary(Split((song, silent), (made_duet(40, 3),), ()), window=40) == (
-        "3 duets: 2 to train on, 1 of them with a song of their own, 1 shorter than a window of 1.33 s; "
+        "3 duets of 0.1 minutes: 2 to train on, 1 of them with a song of their own, 1 shorter than a window of 1.33 s; "
         "1 for validation, 0 for test"
     )
 

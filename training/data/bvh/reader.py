@@ -16,6 +16,8 @@ from training.motion.floor import put_on_floor
 from training.music.features import SONG_SUFFIXES
 
 _ROLES = ("leader", "reactor")
+_SAME = 1.02
+"""Ratio up to which numbers of frames, or frame rates, are the same: 30 and 29.97, but not 24 and 25."""
 _MOST_DIFFERENCE = 2.0
 """Of the sizes of two dancers; of metres, inches and centimetres the nearest two are 2.54 apart."""
 
@@ -75,13 +77,27 @@ def _find_songs(folder: Path) -> dict[str, Path]:
 
 
 def _read_together(paths: list[Path], fps: float | None) -> list[np.ndarray]:
-    """Dancers of one world, (T, 22, 3) each; files of one recording have one unit, one up axis and one beginning."""
+    """Dancers of one world, (T, 22, 3) each; files of one recording have one unit, one up axis and one beginning.
+
+    Raises ValueError for a bad file, for bodies of too different sizes, and where the same number of frames is said to
+    be of different rates: one of the two dancers would move too fast.
+    """
     files, rests, bodies = [], [], []
     for path in paths:
         with naming(path):
             file = parse_bvh(path)
             rests.append(rest_frames(file))
             files.append(file)
+    counts, rates = [len(file.values) for file in files], [file.fps for file in files]
+    if fps is None and max(counts) < _SAME * min(counts) and max(rates) > _SAME * min(rates):
+        stated = (
+            f"{path} has {count} frames at {file.fps:g} fps"
+            for path, file, count in zip(paths, files, counts, strict=True)
+        )
+        raise ValueError(
+            f"{' and '.join(stated)}: as many frames at different rates are not one dance; one of the headers is "
+            "wrong, so correct its Frame Time, or give the rate of both with --fps"
+        )
     for path, file in zip(paths, files, strict=True):
         with naming(path):
             bodies.append(read_body(replace(file, values=file.values[max(rests) :]), fps))
