@@ -195,6 +195,7 @@ def main(options: Options) -> None:
         torch.set_num_threads(options.threads)
     duets = read_split(options.data, options.val, options.test, options.fps)
     held_out = paired_duets(options, duets)
+    options.out.mkdir(parents=True, exist_ok=True)  # before all is measured, which takes minutes
     split = {part: [duet.name for duet in getattr(duets, part)] for part in ("train", "val", "test")}
     facts: dict[str, Any] = {"data": options.data.name, "split": split, "machine": machine()}
     # The names of DD100's own test part are in no training's options.

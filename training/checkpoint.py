@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any
 
+from safetensors import safe_open
 from safetensors.torch import load_model as load_weights
 from safetensors.torch import save_file
 from torch import Tensor, nn
@@ -160,6 +161,16 @@ def start_from(module: nn.Module, folder: Path, name: str) -> None:
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: train it first, or give another --checkpoint folder")
     with naming(path):
+        with safe_open(str(path), "pt") as file:
+            there = {key: tuple(file.get_slice(key).get_shape()) for key in file.keys()}  # noqa: SIM118
+        here = {key: tuple(value.shape) for key, value in module.state_dict().items()}
+        if differ := sorted(key for key in there | here if there.get(key) != here.get(key)):
+            key = differ[0]
+            raise ValueError(
+                f"its weights are of another network than was asked for: {len(differ)} tensors differ, of which "
+                f"{key} is {there.get(key, 'missing')} there and {here.get(key, 'missing')} here; "
+                f"{path.with_suffix('.json')} says how its network was made"
+            )
         load_weights(module, str(path), strict=True)
         for key, value in module.state_dict().items():
             bad = value.isnan() if key in UNBOUNDED else ~value.isfinite()

@@ -94,6 +94,14 @@ def test_weights_of_a_denoiser_are_loaded_whole_or_not_at_all(tmp_path: Path) ->
             load_denoiser(tmp_path, hfsq)
 
 
+def test_weights_of_a_wider_network_are_named_in_one_sentence(tmp_path: Path) -> None:
+    save_weights(tmp_path, "small", nn.Linear(4, 4), {})
+    with pytest.raises(
+        ValueError, match=r"2 tensors differ, of which bias is \(4,\) there and \(8,\) here; .*small\.json"
+    ):
+        start_from(nn.Linear(4, 8), tmp_path, "small")
+
+
 def test_a_card_keeps_what_a_person_wrote_and_takes_the_numbers_of_the_newest_training(
     tmp_path: Path,
 ) -> None:

@@ -11,12 +11,12 @@ from pathlib import Path
 def naming(path: Path) -> Iterator[None]:
     """Turns every error of a damaged file into a ValueError whose message begins with the file's name.
 
-    A missing file stays a FileNotFoundError. All other errors are taken, since numpy, zipfile, tokenize and
-    safetensors raise over a dozen kinds for wrong content; the first one stays as the cause.
+    Errors of a file that is missing, a folder or not to be read stay what they are. All others are taken, since numpy,
+    zipfile, tokenize and safetensors raise over a dozen kinds for wrong content; the first one stays as the cause.
     """
     try:
         yield
-    except FileNotFoundError:
+    except (FileNotFoundError, IsADirectoryError, PermissionError):
         raise
     except ValueError as error:
         raise ValueError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error

@@ -43,6 +43,11 @@ def test_bvh(tmp_path: Path) -> None:
     assert refused > 0
 
 
+def test_a_folder_in_the_place_of_a_file_is_no_damaged_file(tmp_path: Path) -> None:
+    with pytest.raises(IsADirectoryError):
+        read_solo(tmp_path)
+
+
 @pytest.mark.parametrize("solo", [True, False], ids=["solo", "duet"])
 def test_npz(tmp_path: Path, solo: bool) -> None:
     path = tmp_path / "dances.npz"
