@@ -49,6 +49,8 @@ def test_training_resumes_where_it_stopped(data: Path, tmp_path: Path) -> None:
             train_hfsq.main(stopped)
     assert torch.load(stopped.out / "hfsq" / "state.ckpt", weights_only=False)["step"] == 2
     assert max(steps_logged(stopped.out / "hfsq")) == 3
+    with (stopped.out / "hfsq" / "log.jsonl").open("a") as log:
+        log.write('{"step": 3, "minu')  # as a killed program leaves it
     train_hfsq.main(replace(stopped, resume=True))
     assert steps_logged(stopped.out / "hfsq") == steps_logged(whole.out / "hfsq")
     weights, expected = (load_hfsq(options.out)[0].state_dict() for options in (stopped, whole))

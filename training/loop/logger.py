@@ -31,7 +31,9 @@ class Logger:
         return self.folder / "log.jsonl"
 
     def _rows(self) -> list[dict[str, float]]:
-        return [json.loads(line) for line in self._log.read_text().splitlines()] if self._log.exists() else []
+        """The rows of the log, without a last line that a killed program has not finished."""
+        lines = self._log.read_text().splitlines(keepends=True) if self._log.exists() else []
+        return [json.loads(line) for line in lines if line.endswith("\n")]
 
     def add(self, values: dict[str, Tensor]) -> None:
         for name, value in values.items():
