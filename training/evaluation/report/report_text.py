@@ -66,7 +66,7 @@ def _summary(numbers: Numbers) -> Sections:
     ]
     seconds = numbers["seconds"]
     return [
-        f"Held-out duets {', '.join(f'{k} ({v} frames)' for k, v in numbers['trials'].items())}; "
+        f"Measured duets: {', '.join(f'{k} ({v} frames)' for k, v in numbers['trials'].items())}; "
         f"seeds {', '.join(map(str, numbers['seeds']))}. Values are means over duets and seeds.",
         *conditions(numbers),
         "## Required",
