@@ -9,6 +9,7 @@ import {
   VideoSampleSink,
 } from 'mediabunny';
 import { AppError } from '../common/error';
+import type { PictureSize } from '../common/picture';
 import { type Picture, PictureCopier, pictureOf } from './pose/picture';
 
 /** Pictures a second that are read of a faster video. */
@@ -54,14 +55,14 @@ export async function openVideo(file: Blob): Promise<VideoFile> {
     if (!lastPacket) throw notAVideo();
     if (end - start > MAX_DURATION) throw tooLong(end - start);
     const sound = await input.getPrimaryAudioTrack();
+    const size = { width: await track.getDisplayWidth(), height: await track.getDisplayHeight() };
     return {
       start,
       end,
       last: lastPacket.timestamp,
-      width: await track.getDisplayWidth(),
-      height: await track.getDisplayHeight(),
+      ...size,
       soundStart: sound && (await shownFrom(sound)),
-      pictures: (from, to) => pictures(track, from, to),
+      pictures: (from, to) => pictures(track, size, from, to),
       close: () => {
         input.dispose();
       },
@@ -115,6 +116,7 @@ export function pictureChoice(): (time: number) => boolean {
 
 async function* pictures(
   track: InputVideoTrack,
+  size: PictureSize,
   from: number,
   to: number,
 ): AsyncGenerator<{ readonly time: number; readonly picture: Picture }> {
@@ -127,7 +129,7 @@ async function* pictures(
       try {
         time = sample.timestamp;
         if (time < 0 || !isRead(time)) continue;
-        yield { time, picture: copier.copyOf(pictureOf(sample)) };
+        yield { time, picture: copier.copyOf(pictureOf(sample, size)) };
       } finally {
         sample.close();
       }

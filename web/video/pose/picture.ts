@@ -1,4 +1,5 @@
 import type { VideoSample } from 'mediabunny';
+import type { PictureSize } from '../../common/picture';
 import { DETECTOR_SIDE } from './detector';
 import { LANDMARK_SIDE } from './landmarks';
 import type { Region, Square } from './region';
@@ -11,9 +12,12 @@ export interface Picture {
   draw(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D): void;
 }
 
-/** The picture of a decoded sample; rotation metadata and pixels that are not square are taken into account. */
-export function pictureOf(sample: VideoSample): Picture {
-  const { displayWidth: width, displayHeight: height, squarePixelWidth, squarePixelHeight } = sample;
+/**
+ * The picture of a decoded sample; rotation metadata and pixels that are not square are taken into account.
+ * @param size that of the whole video as it is shown, pixels: WebKit decodes to another one where pixels are not square
+ */
+export function pictureOf(sample: VideoSample, { width, height }: PictureSize): Picture {
+  const [across, down] = sample.rotation % 180 === 0 ? [width, height] : [height, width];
   return {
     width,
     height,
@@ -24,37 +28,57 @@ export function pictureOf(sample: VideoSample): Picture {
       context.translate(width / 2, height / 2);
       if (sample.flip) context.scale(-1, 1);
       context.rotate((sample.rotation * Math.PI) / 180);
-      const [x, y] = [-squarePixelWidth / 2, -squarePixelHeight / 2];
-      context.drawImage(sample.toCanvasImageSource(), x, y, squarePixelWidth, squarePixelHeight);
+      context.drawImage(sample.toCanvasImageSource(), -across / 2, -down / 2, across, down);
       context.restore();
     },
   };
 }
 
-/** Copies pictures, so that a browser makes RGB of each once, however often it is drawn. */
+/**
+ * Copies pictures, so that a browser makes RGB of each once, however often it is drawn. Where one is drawn much smaller,
+ * a copy is halved first, as often as needed: Firefox and WebKit otherwise leave out pixels, whatever
+ * `imageSmoothingQuality` says.
+ */
 export class PictureCopier {
-  #context: OffscreenCanvasRenderingContext2D | null = null;
+  /** The copy, and each time half of it. */
+  readonly #copies: OffscreenCanvasRenderingContext2D[] = [];
 
   /** The same picture; valid until the next one is copied. It is copied when it is drawn for the first time. */
   copyOf(picture: Picture): Picture {
     const { width, height } = picture;
-    let copied = false;
+    let made = 0;
     return {
       width,
       height,
       draw: (context) => {
-        this.#context ??= new OffscreenCanvas(width, height).getContext('2d', {
-          alpha: false,
-          willReadFrequently: true,
-        })!;
-        const { canvas } = this.#context;
-        if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-        if (!copied) picture.draw(this.#context);
-        copied = true;
-        context.drawImage(canvas, 0, 0);
+        const { a, b } = context.getTransform();
+        const wanted = halvings(Math.hypot(a, b));
+        for (; made <= wanted; made++) {
+          const copy = this.#blank(made, width, height);
+          if (made === 0) picture.draw(copy);
+          else copy.drawImage(this.#copies[made - 1]!.canvas, 0, 0, copy.canvas.width, copy.canvas.height);
+        }
+        context.drawImage(this.#copies[wanted]!.canvas, 0, 0, width, height);
       },
     };
   }
+
+  /** Where the copy of a picture goes that is halved so many times. */
+  #blank(times: number, width: number, height: number): OffscreenCanvasRenderingContext2D {
+    const size = { width: Math.ceil(width / 2 ** times), height: Math.ceil(height / 2 ** times) };
+    const context = (this.#copies[times] ??= new OffscreenCanvas(size.width, size.height).getContext('2d', {
+      alpha: false,
+      willReadFrequently: true,
+    })!);
+    const { canvas } = context;
+    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
+    return context;
+  }
+}
+
+/** How often a picture that is drawn at this scale can be halved and is still no smaller than it is drawn. */
+function halvings(scale: number): number {
+  return scale > 0 ? Math.max(0, Math.floor(-Math.log2(scale))) : 0;
 }
 
 /** Cuts what a network sees out of pictures. */

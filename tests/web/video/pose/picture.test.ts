@@ -1,6 +1,6 @@
 import { type Rotation, VideoSample } from 'mediabunny';
 import { afterEach, expect, test, vi } from 'vitest';
-import { pictureOf } from '../../../../web/video/pose/picture';
+import { PictureCopier, pictureOf } from '../../../../web/video/pose/picture';
 
 /** A decoded picture of 4 x 2 square pixels. */
 class Frame {
@@ -76,11 +76,72 @@ test.each([
   (rotation, flip, size, topLeft, bottomRight) => {
     vi.stubGlobal('VideoFrame', Frame);
     const sample = new VideoSample(new Frame() as unknown as VideoFrame, { rotation, flip });
-    const picture = pictureOf(sample);
+    const [width = 0, height = 0] = size;
+    const picture = pictureOf(sample, { width, height });
     const context = new Context();
     picture.draw(context as unknown as OffscreenCanvasRenderingContext2D);
     sample.close();
-    expect([picture.width, picture.height]).toEqual(size);
     expect(context.drawn).toEqual({ size: [4, 2], topLeft, bottomRight });
   },
 );
+
+test('a picture has the size of its video, whatever size it is decoded to', () => {
+  vi.stubGlobal('VideoFrame', Frame);
+  const sample = new VideoSample(new Frame() as unknown as VideoFrame, { rotation: 90 });
+  const picture = pictureOf(sample, { width: 8, height: 12 });
+  const context = new Context();
+  picture.draw(context as unknown as OffscreenCanvasRenderingContext2D);
+  sample.close();
+  expect([picture.width, picture.height]).toEqual([8, 12]);
+  expect(context.drawn).toEqual({ size: [12, 8], topLeft: [8, 0], bottomRight: [0, 12] });
+});
+
+/** Draws nothing, and knows from which canvas and how often it was asked to. */
+class Canvas {
+  readonly drawn: Canvas[] = [];
+  scale = 1;
+  constructor(
+    public width: number,
+    public height: number,
+  ) {}
+  getContext(): unknown {
+    return {
+      canvas: this,
+      getTransform: () => ({ a: 0, b: this.scale }),
+      drawImage: (from: Canvas) => this.drawn.push(from),
+    };
+  }
+}
+
+test('a picture that is drawn much smaller is halved before, so that no browser leaves out pixels', () => {
+  vi.stubGlobal('OffscreenCanvas', Canvas);
+  const source = new Canvas(0, 0);
+  const copy = new PictureCopier().copyOf({
+    width: 60,
+    height: 33,
+    draw: (context) => {
+      context.drawImage(source as unknown as OffscreenCanvas, 0, 0);
+    },
+  });
+  const drawnFrom = (scale: number): Canvas => {
+    const target = new Canvas(10, 10);
+    target.scale = scale;
+    copy.draw(target.getContext() as OffscreenCanvasRenderingContext2D);
+    return target.drawn[0]!;
+  };
+  const sizes = [2, 1, 0.51, 0.5, 0.3, 0.1].map((scale) => {
+    const { width, height } = drawnFrom(scale);
+    return [width, height];
+  });
+  expect(sizes).toEqual([
+    [60, 33],
+    [60, 33],
+    [60, 33],
+    [30, 17],
+    [30, 17],
+    [8, 5],
+  ]);
+  // Each is made once, of the one before.
+  expect(drawnFrom(1).drawn).toEqual([source]);
+  expect(drawnFrom(0.5).drawn).toEqual([drawnFrom(1)]);
+});
