@@ -29,6 +29,7 @@ export type ErrorCode =
   | 'video-insecure'
   | 'video-unread'
   | 'video-damaged'
+  | 'video-stalled'
   | 'video-too-long'
   | 'video-too-short'
   | 'video-black'

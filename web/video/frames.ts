@@ -16,6 +16,8 @@ import { type Picture, PictureCopier, pictureOf } from './pose/picture';
 const MAX_RATE = 30;
 /** How much earlier than it is due a picture may come, seconds: rates vary a little. */
 const TOLERANCE = 0.25 / MAX_RATE;
+/** Longest time to wait for a picture. */
+const MAX_WAIT_MS = 30_000;
 /** Longest video, seconds. */
 export const MAX_DURATION = 600;
 
@@ -33,7 +35,7 @@ export interface VideoFile {
   readonly soundStart: number | null;
   /**
    * The pictures between two moments in order, at most 30 a second. Each is valid until the next one is asked for.
-   * @throws {AppError} `video-damaged` where a picture can't be decoded
+   * @throws {AppError} `video-damaged` where a picture can't be decoded, `video-stalled` where none comes
    */
   pictures(from: number, to: number): AsyncGenerator<{ readonly time: number; readonly picture: Picture }>;
   /** Ends decoding. */
@@ -125,7 +127,7 @@ async function* pictures(
   const copier = new PictureCopier();
   let time = Math.max(0, from);
   try {
-    for await (const sample of sink.samples(time, to)) {
+    for await (const sample of inTime(sink.samples(time, to))) {
       try {
         time = sample.timestamp;
         if (time < 0 || !isRead(time)) continue;
@@ -135,7 +137,32 @@ async function* pictures(
       }
     }
   } catch (cause) {
-    throw damaged(time, cause);
+    throw cause instanceof AppError ? cause : damaged(time, cause);
+  }
+}
+
+/**
+ * What comes from a decoder, in order.
+ * @throws {AppError} `video-stalled` where nothing comes for `MAX_WAIT_MS`: WebKitGTK waits forever at the time 0 of a
+ *   video that was cut without a loss
+ */
+export async function* inTime<T>(decoded: AsyncIterator<T, unknown>): AsyncGenerator<T> {
+  try {
+    for (;;) {
+      let timer: ReturnType<typeof setTimeout> | undefined;
+      const late = new Promise<never>((_, reject) => {
+        timer = setTimeout(() => {
+          reject(stalled());
+        }, MAX_WAIT_MS);
+      });
+      const next = await Promise.race([decoded.next(), late]).finally(() => {
+        clearTimeout(timer);
+      });
+      if (next.done) return;
+      yield next.value;
+    }
+  } finally {
+    await decoded.return?.();
   }
 }
 
@@ -172,10 +199,25 @@ function undecodable(codec: string | null): AppError {
       'Convert it to H.264 MP4, or open the page in Safari. To film in H.264, choose Settings > Camera > Formats > ' +
         'Most Compatible on an iPhone, or turn off HEVC or “high efficiency” in the camera’s settings on Android.',
     );
+  // Such as 10 bits or all colours, which cameras and editors write; a codec of the usual kind every browser has.
+  if (codec === 'avc')
+    return new AppError(
+      'video-codec',
+      'This browser cannot decode this kind of H.264.',
+      'Save the video as H.264 MP4 with 8 bits and 4:2:0 (yuv420p), or open the page in another browser.',
+    );
   return new AppError(
     'video-codec',
     `This browser cannot decode the video’s codec${codec ? ` (${codec})` : ''}.`,
     'Save the video as H.264 MP4 or as VP9 WebM, or open the page in another browser.',
+  );
+}
+
+function stalled(): AppError {
+  return new AppError(
+    'video-stalled',
+    'This browser has stopped decoding the video.',
+    'Open the page in another browser, or save the video anew with a program that edits videos, then choose that.',
   );
 }
 

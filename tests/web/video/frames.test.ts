@@ -9,7 +9,7 @@ import {
   WebMOutputFormat,
 } from 'mediabunny';
 import { afterEach, expect, test, vi } from 'vitest';
-import { openVideo, pictureChoice } from '../../../web/video/frames';
+import { inTime, openVideo, pictureChoice } from '../../../web/video/frames';
 
 /** Ten pictures, 10 a second, that hold nothing; those who open the file see no difference. */
 async function emptyVideo(
@@ -47,6 +47,7 @@ function decodes(supported: boolean): void {
 
 afterEach(() => {
   vi.unstubAllGlobals();
+  vi.useRealTimers();
 });
 
 /** Pictures that are read of ten seconds, whose times vary by up to 3 ms to either side. */
@@ -76,6 +77,39 @@ test('of HEVC, in which phones record, it is said how to film otherwise', async 
     message: expect.stringContaining('HEVC') as unknown,
     hint: expect.stringContaining('Most Compatible') as unknown,
   });
+});
+
+test('of H.264 that is not decoded it is said which kind is, and not to save it as H.264', async () => {
+  decodes(false);
+  await expect(openVideo(await avc())).rejects.toMatchObject({
+    code: 'video-codec',
+    hint: expect.stringContaining('8 bits and 4:2:0') as unknown,
+  });
+});
+
+test('a decoder that gives nothing more is not waited for forever, and one that is given time is', async () => {
+  vi.useFakeTimers();
+  let ended = false;
+  const decoder: AsyncIterator<number> = {
+    next: vi
+      .fn()
+      .mockResolvedValueOnce({ done: false, value: 1 })
+      .mockImplementation(() => new Promise(() => undefined)),
+    return: () => {
+      ended = true;
+      return Promise.resolve({ done: true, value: undefined });
+    },
+  };
+  const pictures = inTime(decoder);
+  expect(await pictures.next()).toEqual({ done: false, value: 1 });
+  // A network that takes long is not the decoder's delay.
+  await vi.advanceTimersByTimeAsync(60_000);
+  const next = expect(pictures.next()).rejects.toMatchObject({ code: 'video-stalled' });
+  await vi.advanceTimersByTimeAsync(29_000);
+  expect(ended).toBe(false);
+  await vi.advanceTimersByTimeAsync(2_000);
+  await next;
+  expect(ended).toBe(true);
 });
 
 test('a codec that is not known is named as the file names it', async () => {
