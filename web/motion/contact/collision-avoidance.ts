@@ -50,21 +50,21 @@ function directionsAway(motion: MotionClip, other: MotionClip): Directions {
 
 /**
  * How far the second dancer has to go in a direction until no overlap is left, metres; 0 where there is none. By
- * conservative advancement (Mirtich, Impulse-based dynamic simulation, 1996, section 2.3): a step as long as the overlap
- * is deep cannot pass its end.
+ * sphere tracing (Hart, Sphere tracing: a geometric method for the antialiased ray tracing of implicit surfaces, 1996):
+ * a step as long as the overlap is deep cannot pass its end.
  */
 function shiftOut(
   a: CapsuleBody,
   b: CapsuleBody,
   frame: number,
-  [x, z]: readonly number[],
+  direction: { readonly x: number; readonly z: number },
   deep: number,
 ): number {
   if (penetrationDepth(a, b, candidatePairs(a, b, frame)) <= deep) return 0;
   const pairs = candidatePairs(a, b, frame, MAX_SHIFT);
   let shift = 0;
   while (shift < MAX_SHIFT) {
-    const depth = penetrationDepth(a, b, pairs, { x: shift * x!, z: shift * z! });
+    const depth = penetrationDepth(a, b, pairs, { x: shift * direction.x, z: shift * direction.z });
     if (depth <= deep) break;
     shift += depth - deep + PRECISION;
   }
@@ -92,7 +92,7 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
   };
   const [a, b] = [capsuleBody(other, withoutArms), capsuleBody(motion, withoutArms)];
   const away = directionsAway(motion, other);
-  const necessary = away.x.map((x, frame) => shiftOut(a, b, frame, [x, away.z[frame]!], rule.deep));
+  const necessary = away.x.map((x, frame) => shiftOut(a, b, frame, { x, z: away.z[frame]! }, rule.deep));
   if (!necessary.some(Boolean)) return motion;
   const long = necessary.map((shift) => Math.min(MAX_SHIFT, SPARE * shift));
   const held = windowMaximum(long, Math.round(HOLD * fps));
