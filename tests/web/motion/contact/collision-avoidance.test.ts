@@ -102,6 +102,31 @@ describe('avoidCollisions', () => {
     expect(top(changes)).toBeLessThan(0.15);
   });
 
+  test('goes aside and back smoothly, and stays a while, for a moment of overlap', () => {
+    const reactor = stander((f) => [0, f >= 149 && f < 152 ? 0.1 : 0.9]);
+    const aside = shiftsOf(reactor, avoidCollisions(reactor, leader, rule)).map(([x, z]) => Math.hypot(x, z));
+    expect(top(aside)).toBeGreaterThan(0.1);
+    for (const f of [142, 150, 158]) expect(aside[f]).toBeGreaterThan(0.65 * top(aside));
+    expect(top(aside.slice(0, 110).concat(aside.slice(190)))).toBeLessThan(1e-6);
+    const turns = aside.slice(2).map((shift, f) => Math.abs(shift - 2 * aside[f + 1]! + aside[f]!));
+    expect(top(turns) * 30 * 30).toBeLessThan(3);
+  });
+
+  test('shifts by at most 0.6 m', () => {
+    const wide = { ...rule, capsules: rule.capsules.map((capsule) => ({ ...capsule, radius: 0.5 })) };
+    const reactor = stander(() => [0, 0.1]);
+    const aside = shiftsOf(reactor, avoidCollisions(reactor, leader, wide)).map(([x, z]) => Math.hypot(x, z));
+    for (const shift of aside) expect(shift).toBeCloseTo(0.6, 5);
+  });
+
+  test('keeps its direction while the dancer sways', () => {
+    const reactor = stander((f) => [0.12 * Math.sin((f * 2 * Math.PI) / 20), 0.1]);
+    const angles = shiftsOf(reactor, avoidCollisions(reactor, leader, rule))
+      .slice(60, 240)
+      .map(([x, z]) => Math.abs(Math.atan2(x, z)));
+    expect((top(angles) * 180) / Math.PI).toBeLessThan(4);
+  });
+
   test('shifts by a constant where dancers overlap from the first frame to the last', () => {
     const reactor = stander(() => [0, 0.1]);
     const apart = avoidCollisions(reactor, leader, rule);
