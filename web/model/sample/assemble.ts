@@ -22,7 +22,7 @@ export interface Dance extends SolveSettings, Pick<Source, 'role'> {
 
 /** Decodes and solves dances on a session. */
 export class Assembler {
-  /** The whole dance that was decoded last: of the same latents another height needs no pass of the network. */
+  /** The whole dance that was decoded last: other settings of solving need no pass of the network. */
   #decoded: { readonly latents: Float32Array; readonly clip: MotionClip } | undefined;
 
   constructor(

@@ -90,6 +90,12 @@ export function candidatePairs(a: CapsuleBody, b: CapsuleBody, frame: number, re
   return pairs;
 }
 
+/** A vector level with the floor. */
+export interface LevelVector {
+  readonly x: number;
+  readonly z: number;
+}
+
 /**
  * Narrow phase of the collision test: the deepest overlap of these pairs, metres, 0 where there is none.
  * @param shift of the second body, level with the floor, metres
@@ -98,7 +104,7 @@ export function penetrationDepth(
   a: CapsuleBody,
   b: CapsuleBody,
   pairs: readonly CapsulePair[],
-  { x, z }: { readonly x: number; readonly z: number } = { x: 0, z: 0 },
+  { x, z }: LevelVector = { x: 0, z: 0 },
 ): number {
   let depth = 0;
   for (const pair of pairs) {

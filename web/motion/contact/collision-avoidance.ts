@@ -1,4 +1,11 @@
-import { type BodyRule, type CapsuleBody, capsuleBody, candidatePairs, penetrationDepth } from './capsules';
+import {
+  type BodyRule,
+  type CapsuleBody,
+  capsuleBody,
+  candidatePairs,
+  type LevelVector,
+  penetrationDepth,
+} from './capsules';
 import { gaussianFilter, windowMaximum } from '../math/statistics';
 import { type MotionClip, shiftedLevel, type SolvedMotion } from '../skeleton/clip';
 import { headingOf } from '../skeleton/heading';
@@ -37,10 +44,8 @@ function directionsAway(motion: MotionClip, other: MotionClip): Directions {
     x[frame] = motion.positions[root]! - other.positions[root]! + BEHIND * Math.sin(heading);
     z[frame] = motion.positions[root + 2]! - other.positions[root + 2]! + BEHIND * Math.cos(heading);
   }
-  const [smoothX, smoothZ] = [x, z].map((along) => gaussianFilter(along, DIRECTION_SMOOTHING * fps)) as [
-    Float64Array,
-    Float64Array,
-  ];
+  const deviation = DIRECTION_SMOOTHING * fps;
+  const [smoothX, smoothZ] = [gaussianFilter(x, deviation), gaussianFilter(z, deviation)];
   const length = smoothX.map((along, frame) => Math.hypot(along, smoothZ[frame]!) || 1);
   return {
     x: smoothX.map((along, frame) => along / length[frame]!),
@@ -57,16 +62,16 @@ function shiftOut(
   a: CapsuleBody,
   b: CapsuleBody,
   frame: number,
-  direction: { readonly x: number; readonly z: number },
+  direction: LevelVector,
   deep: number,
 ): number {
-  if (penetrationDepth(a, b, candidatePairs(a, b, frame)) <= deep) return 0;
+  let depth = penetrationDepth(a, b, candidatePairs(a, b, frame));
+  if (depth <= deep) return 0;
   const pairs = candidatePairs(a, b, frame, MAX_SHIFT);
   let shift = 0;
-  while (shift < MAX_SHIFT) {
-    const depth = penetrationDepth(a, b, pairs, { x: shift * direction.x, z: shift * direction.z });
-    if (depth <= deep) break;
+  while (depth > deep && shift < MAX_SHIFT) {
     shift += depth - deep + PRECISION;
+    depth = penetrationDepth(a, b, pairs, { x: shift * direction.x, z: shift * direction.z });
   }
   return shift;
 }
@@ -96,11 +101,10 @@ export function avoidCollisions(motion: SolvedMotion, other: MotionClip, rule: B
   if (!necessary.some(Boolean)) return motion;
   const long = necessary.map((shift) => Math.min(MAX_SHIFT, SPARE * shift));
   const held = windowMaximum(long, Math.round(HOLD * fps));
-  const [x, z] = [away.x, away.z].map((along) =>
+  const shiftAlong = (direction: Float64Array): Float64Array =>
     gaussianFilter(
-      along.map((share, frame) => share * held[frame]!),
+      direction.map((share, frame) => share * held[frame]!),
       SMOOTHING * fps,
-    ),
-  ) as [Float64Array, Float64Array];
-  return shiftedLevel(motion, x, z);
+    );
+  return shiftedLevel(motion, shiftAlong(away.x), shiftAlong(away.z));
 }

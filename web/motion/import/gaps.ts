@@ -4,6 +4,16 @@ import type { Positions } from './positions';
 /** Share of missing places from which on a warning says so. */
 const MENTIONED = 0.02;
 
+/** A cell of a table for a joint that was not seen. */
+const NOT_SEEN = /^(nan|na|n\/a|null|none)?$/i;
+
+/** The number in a cell of a table; not a number where the joint was not seen, null for any other text. */
+export function coordinateIn(cell: string): number | null {
+  if (NOT_SEEN.test(cell)) return NaN;
+  const value = Number(cell);
+  return Number.isFinite(value) ? value : null;
+}
+
 /**
  * A joint's places over time; where it was not seen, between those before and after. Null where it was never seen.
  * @param isSeen of each place

@@ -1,3 +1,4 @@
+import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
 import { tooLong } from '../positions';
 import { isOfMotive, readMotive } from './motive';
@@ -14,8 +15,6 @@ const COLUMN = /^(?:(leader|reactor|follower|dancer\d*)[_. :/])?(.{1,80}?)[_. :/
 const TIME = /^(time|seconds|t)(\W.*|_ms)?$/i;
 /** What FreeMoCap writes before the joints of the body, where there are hands and a face beside it. */
 const BODY = /^body_/i;
-/** A cell of a joint that was not seen. */
-const NOT_SEEN = /^(nan|na|n\/a|null|none)?$/i;
 /** Largest number of columns. */
 const MAX_COLUMNS = 3000;
 
@@ -90,8 +89,8 @@ function readRows(
     const cells = row.split(separator);
     for (const { joint, axis, column } of wanted) {
       const cell = unquoted(cells[column] ?? '');
-      const value = NOT_SEEN.test(cell) ? NaN : Number(cell);
-      if (!Number.isFinite(value) && !NOT_SEEN.test(cell)) throw badCell(frame, cell, titles[column]!);
+      const value = coordinateIn(cell);
+      if (value === null) throw badCell(frame, cell, titles[column]!);
       places[(frame * names.length + slots.get(joint)!) * 3 + axis] = value;
     }
     if (time >= 0) times.push(Number(unquoted(cells[time] ?? '')) / unitsPerSecond);

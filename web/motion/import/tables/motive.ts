@@ -1,3 +1,4 @@
+import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
 import { tooLong } from '../positions';
 import { AppError } from '../../../common/error';
@@ -53,8 +54,8 @@ export function readMotive(lines: readonly string[], part: number): MotionSource
     mine.forEach(({ column }, joint) => {
       for (let axis = 0; axis < 3; axis++) {
         const cell = cells[column + axis]?.trim() ?? '';
-        const value = cell === '' ? NaN : Number(cell);
-        if (cell !== '' && !Number.isFinite(value))
+        const value = coordinateIn(cell);
+        if (value === null)
           throw refused(`is damaged: "${cell.slice(0, 24)}" in frame ${frame + 1} is not a number`);
         places[(frame * mine.length + joint) * 3 + axis] = value;
       }

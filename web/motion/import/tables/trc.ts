@@ -1,3 +1,4 @@
+import { coordinateIn } from '../gaps';
 import { sourceOfPoints } from '../keypoints';
 import { tooLong } from '../positions';
 import { AppError } from '../../../common/error';
@@ -41,9 +42,8 @@ export function readTrc(text: string): MotionSource {
     const cells = cellsOf(row).slice(FIRST);
     for (let i = 0; i < width; i++) {
       const cell = cells[i] ?? '';
-      const value = cell === '' || /^nan$/i.test(cell) ? NaN : Number(cell);
-      if (cell !== '' && !/^nan$/i.test(cell) && !Number.isFinite(value))
-        throw damaged(`"${cell.slice(0, 24)}" in frame ${frame + 1} is not a number`);
+      const value = coordinateIn(cell);
+      if (value === null) throw damaged(`"${cell.slice(0, 24)}" in frame ${frame + 1} is not a number`);
       places[frame * width + i] = value;
     }
   });
