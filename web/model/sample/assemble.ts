@@ -66,7 +66,7 @@ export class Assembler {
     const range = { start: begin / stride, end: Math.ceil(Math.min(leader.frames, end + margin) / stride) };
     const clip = await this.decode(dance, { range, overlap: 0 });
     const motion = this.#solve(clip, dance, partOfClip(leader, begin, clip.frames));
-    const locked = withFootLock(motion);
+    const locked = withFootLock(motion, begin);
     const inner = (solved: SolvedMotion): SolvedMotion => partOf(solved, first - begin, end - begin);
     return { from: first, motion: inner(motion), locked: inner(locked) };
   }

@@ -64,8 +64,14 @@ export function footContacts(clip: MotionClip, rule: ContactRule): FootContacts 
   return { inContact, speed };
 }
 
+/** Speed over the floor of the slowest joint of both feet, m/s, from each frame to the next; frames - 1 numbers. */
+export function slowestFootSpeed(clip: MotionClip): Float64Array {
+  const speeds = FEET.map((joint) => jointTrack(clip, joint).horizontal);
+  return speeds[0]!.map((_, frame) => Math.min(...speeds.map((speed) => speed[frame]!)));
+}
+
 /** Thresholds of the speed over the floor, m/s: a contact falls below the first, and ends above the second. */
-const CONTACT_SPEED = 0.5;
+export const CONTACT_SPEED = 0.5;
 export const RELEASE_SPEED = 0.9;
 /** A joint in contact rises or sinks slower than this, m/s. */
 const VERTICAL_SPEED = 0.2;

@@ -1,6 +1,6 @@
 import type { ContactInterval } from '../../motion/contact/foot-contacts';
 import { lockFeet } from '../../motion/contact/foot-lock';
-import { leastSquaresShift } from '../../motion/contact/least-squares-shift';
+import { contactWeights, leastSquaresShift } from '../../motion/contact/least-squares-shift';
 import { addEvenness, solvePentadiagonal } from '../../motion/math/pentadiagonal';
 import { percentile } from '../../motion/math/statistics';
 import { shiftedLevel, type SolvedMotion } from '../../motion/skeleton/clip';
@@ -26,7 +26,7 @@ export function holdRoot(motion: SolvedMotion, stances: readonly Stances[]): Sol
   const shift = (axis: 0 | 2): Float64Array =>
     leastSquaresShift(
       stances.map(({ joint, intervals }) => ({
-        contacts: intervals,
+        weights: contactWeights(grounded.frames, intervals),
         positions: column(grounded, joint, axis),
       })),
       new Float64Array(grounded.frames).fill(PLACE_WEIGHT),

@@ -148,8 +148,23 @@ describe('Pipeline', () => {
     expect(guided.locked.offsets).toEqual(plain.motion.offsets);
   });
 
-  it.each([0, 5.2, 11, 19.9])('shows the part in view first, as it is in the whole (at %f s)', async (at) => {
-    const weights = { guidance: new Float32Array(6).fill(0.5), musicGuidance: 2 };
+  it.each([
+    [0, 0],
+    [5.2, 0],
+    [11, 0],
+    [19.9, 0],
+    // So fast that the partner steps.
+    [19.9, 1.5],
+  ])('shows the part in view first, as it is in the whole (at %f s, %f m/s)', async (at, travel) => {
+    const { leader } = request(600);
+    const positions = leader.positions.map((value, i) =>
+      i % 3 === 0 ? value + (Math.floor(i / 66) * travel) / 30 : value,
+    );
+    const weights = {
+      guidance: new Float32Array(6).fill(0.5),
+      musicGuidance: 2,
+      leader: { ...leader, positions },
+    };
     const playhead = { frame: at * 30, at: 0, rate: 0 };
     const previews: Preview[] = [];
     const onPreview = (preview: Preview): void => void previews.push(preview);

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { lockFeet } from '../../../../web/motion/contact/foot-lock';
-import { leastSquaresShift } from '../../../../web/motion/contact/least-squares-shift';
+import { contactWeights, leastSquaresShift } from '../../../../web/motion/contact/least-squares-shift';
 import { type Limb, twoBoneIk } from '../../../../web/motion/contact/two-bone-ik';
 import { contactIntervals } from '../../../../web/motion/contact/foot-contacts';
 import { rotate } from '../../../../web/motion/math/quat';
@@ -178,26 +178,27 @@ describe('the least-squares shift', () => {
       { length: 40 },
       (_, t) => 0.1 * Math.sin(t / 3) + 0.02 * Math.cos(t * t),
     );
-    const tracks = [
-      { positions, contacts: [{ first: 0, last: 12 }] },
-      {
-        positions: positions.map((position) => position ** 2),
-        contacts: [
-          { first: 8, last: 15 },
-          { first: 30, last: 39 },
-        ],
-      },
+    const contacts = [
+      [{ first: 0, last: 12 }],
+      [
+        { first: 8, last: 15 },
+        { first: 30, last: 39 },
+      ],
     ];
+    const tracks = [positions, positions.map((position) => position ** 2)].map((positions, joint) => ({
+      positions,
+      weights: contactWeights(40, contacts[joint]!),
+    }));
     const zeroWeights = Float64Array.from({ length: 40 }, (_, t) => 1 + (t % 5));
     const cost = (shift: Float64Array): number => {
       let sum = 0;
       shift.forEach((s, t) => (sum += zeroWeights[t]! * s * s));
-      for (const { positions: from, contacts } of tracks) {
-        for (const { first, last } of contacts) {
+      tracks.forEach(({ positions: from }, joint) => {
+        for (const { first, last } of contacts[joint]!) {
           for (let t = first; t < last; t++)
             sum += 100 * (from[t + 1]! + shift[t + 1]! - from[t]! - shift[t]!) ** 2;
         }
-      }
+      });
       for (let t = 1; t < 39; t++) sum += 12 * (shift[t - 1]! - 2 * shift[t]! + shift[t + 1]!) ** 2;
       return sum;
     };

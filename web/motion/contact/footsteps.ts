@@ -1,0 +1,69 @@
+import { gaussianFilter } from '../math/statistics';
+import { length, type Vec3 } from '../math/vec3';
+import type { SolvedMotion } from '../skeleton/clip';
+import { LEGS } from '../skeleton/limbs';
+import { CONTACT_SPEED, RELEASE_SPEED, slowestFootSpeed } from './foot-contacts';
+import { CONTACT_WEIGHT, footShift } from './least-squares-shift';
+import { shiftFoot } from './shifted-limb';
+
+/** Standard deviation of the Gaussian filter over that speed, seconds. */
+const SPEED_SMOOTHING = 2 / 30;
+/** A step of the left and a step of the right foot together, seconds. */
+const STEP_CYCLE = 16 / 30;
+/** How high a foot is lifted in a step, metres. */
+const STEP_HEIGHT = 0.08;
+/** A shorter shift is left out, metres: it would not be seen. */
+const LEAST_SHIFT = 1e-5;
+/** Weight of the shift's second difference: a foot that flies to its next place does not jerk. */
+const SMOOTHNESS_WEIGHT = 30;
+
+/**
+ * How far a dancer slides on both feet, from each frame to the next; frames - 1 numbers. It is 0 up to the speed at which
+ * the foot lock holds a foot and 1 from that on at which it lets it go. Captured salsa dancers are above the first in 1 %
+ * of the frames.
+ */
+function slidingOf(motion: SolvedMotion): Float64Array {
+  return gaussianFilter(slowestFootSpeed(motion), SPEED_SMOOTHING * motion.fps).map((speed) =>
+    Math.min(1, Math.max(0, (speed - CONTACT_SPEED) / (RELEASE_SPEED - CONTACT_SPEED))),
+  );
+}
+
+/**
+ * Footstep synthesis: a dancer who slides over the floor on both feet, as one whose partner travels farther than the legs
+ * were made to step, steps instead. In turn, each foot stands for half of the cycle and is lifted to its next place in the
+ * other half, the more so the faster both slide; elsewhere nothing changes. Joints above the knees do not move, feet keep
+ * their rotations. Pure.
+ *
+ * Which foot stands is told by the time in the dance alone, so motions that differ little step alike: while guidance is
+ * changed, the feet go smoothly with it.
+ *
+ * @param firstFrame of the whole dance, where the motion is a part of it
+ */
+export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedMotion {
+  const { frames, fps } = motion;
+  if (frames < 2) return motion;
+  const sliding = slidingOf(motion);
+  if (!sliding.some(Boolean)) return motion;
+  const rotations = motion.rotations.slice();
+  const positions = motion.positions.slice();
+  LEGS.forEach((leg, side) => {
+    /** How far a foot is through its half of the cycle: negative while it stands, up to 1 while it flies. */
+    const flight = (frame: number): number =>
+      2 * (((firstFrame + frame) / fps / STEP_CYCLE + side / 2) % 1) - 1;
+    const held = sliding.map((share, frame) => (flight(frame) < 0 ? CONTACT_WEIGHT * share : 0));
+    const raised = Float64Array.from({ length: frames }, (_, frame) => {
+      const lift = Math.sin(Math.PI * Math.max(0, flight(frame))) ** 2;
+      return STEP_HEIGHT * lift * sliding[Math.min(frame, frames - 2)]!;
+    });
+    const { x, z } = footShift(motion, leg, {
+      weights: () => held,
+      smoothness: SMOOTHNESS_WEIGHT,
+    });
+    for (let frame = 0; frame < frames; frame++) {
+      const shift: Vec3 = [x[frame]!, raised[frame]!, z[frame]!];
+      if (length(shift) < LEAST_SHIFT) continue;
+      shiftFoot(motion, leg, frame, { ankle: shift, toe: shift }, { rotations, positions });
+    }
+  });
+  return { ...motion, rotations, positions };
+}
