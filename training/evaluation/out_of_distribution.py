@@ -23,6 +23,7 @@ from training.evaluation.metrics.penetration import DEEP, depth, penetration
 from training.evaluation.metrics.speed import joint_speed
 from training.evaluation.protocol import HeldOutDuet, ReactorGenerator, Settings, Solver, fit_length
 from training.motion.floor import lower_toe
+from training.motion.skeleton import FEET
 
 # Metres above the leader's floor between which the lower of the two toe joints has to be in 98 % of frames. A
 # planted toe rests at 0.03; true reactors of the salsa stay within 0.01 and 0.09.
@@ -38,12 +39,15 @@ GLIDE_SPEED = 1.5  # m/s, a root may always have it
 ROUNDING = 1e-3  # of the speed of a root that is held to just that limit in single precision
 MAX_ACCELERATION = 100.0  # m/s^2, of any joint
 TIPTOE_HEIGHT = 0.08  # metres, of the lower toe, while the bodies overlap
+SLIDE_SPEED = 0.6  # m/s over the floor, of the slowest joint of both feet
 FAULTS = {
     "gliding_share": f"gliding: the root faster than {GLIDE_RATIO:g} times the leader's greatest speed within "
     f"{GLIDE_REACH:g} s, and than {GLIDE_SPEED:g} m/s",
     "snapping_share": f"snapping: a joint accelerates by more than {MAX_ACCELERATION:g} m/s²",
     "floating_share": f"floating: lower toe above {MAX_TOE_HEIGHT:g} m",
     "tiptoe_share": f"on tiptoe inside the leader: lower toe above {TIPTOE_HEIGHT:g} m while bodies overlap",
+    "sliding_share": f"sliding on both feet: each of their joints faster than {SLIDE_SPEED:g} m/s over the floor, the "
+    f"lower toe below {TIPTOE_HEIGHT:g} m",
 }
 """Measures of `measure_faults` and what they mean."""
 
@@ -105,21 +109,26 @@ def measure_faults(leader: np.ndarray, reactor: np.ndarray) -> dict[str, float]:
     """Shares of the frames in which something looks wrong about a reactor as it is drawn beside a leader, both
     (T, 22, 3) metres on the floor y = 0; FAULTS says what each means.
     """
-    root, leading = (
-        np.linalg.norm(np.diff(motion[:, 0, [0, 2]], axis=0), axis=1) * FPS for motion in (reactor, leader)
-    )
+    root, leading = (_level_speed(motion[:, 0]) for motion in (reactor, leader))
     allowed = np.maximum(
         GLIDE_SPEED, GLIDE_RATIO * maximum_filter1d(leading, 2 * round(GLIDE_REACH * FPS) + 1, mode="nearest")
     )
     acceleration = np.linalg.norm(np.diff(reactor, n=2, axis=0), axis=2).max(axis=1) * FPS**2
     toe = lower_toe(reactor)
     overlapping = depth(leader, reactor) > DEEP
+    slowest = _level_speed(reactor[:, FEET]).min(axis=1)
     return {
         "gliding_share": float((root > allowed * (1 + ROUNDING)).mean()),
         "snapping_share": float((acceleration > MAX_ACCELERATION).mean()),
         "floating_share": float((toe > MAX_TOE_HEIGHT).mean()),
         "tiptoe_share": float(((toe > TIPTOE_HEIGHT) & overlapping).mean()),
+        "sliding_share": float(((slowest > SLIDE_SPEED) & (toe[:-1] < TIPTOE_HEIGHT)).mean()),
     }
+
+
+def _level_speed(points: np.ndarray) -> np.ndarray:
+    """Speed over the floor from each frame to the next, m/s; points (T, ..., 3) metres, (T - 1, ...) returned."""
+    return np.linalg.norm(np.diff(points[..., [0, 2]], axis=0), axis=-1) * FPS
 
 
 def measure_out_of_distribution(

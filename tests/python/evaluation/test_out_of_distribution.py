@@ -140,6 +140,17 @@ def test_a_partner_floats_or_stands_on_tiptoe_inside_the_leader(still: np.ndarra
     assert faults(still, lifted(0.07, away=0.1)) == {"tiptoe_share": 1}
 
 
+def test_a_partner_slides_on_both_feet_unless_one_of_them_stands_or_both_are_in_the_air(still: np.ndarray):
+    way = np.arange(121)[:, None, None] / 30 * np.array([1.0, 0.0, 0.0])  # 1 m/s
+    assert "sliding_share" not in faults(still, near(still + 0.55 * way))
+    carried = near(still + 0.65 * way)
+    assert faults(still, carried) == {"sliding_share": 1}
+    standing = carried.copy()
+    standing[:60, TOES[0]] = standing[0, TOES[0]]
+    assert faults(still, standing)["sliding_share"] == pytest.approx(61 / 120)
+    assert "sliding_share" not in faults(still, carried + np.array([0.0, 0.06, 0.0]))
+
+
 def test_leaders_are_reported_apart_by_whether_they_were_seen_in_training(tmp_path: Path):
     held_out = [
         HeldOutDuet(made_duet(60, 1, "a"), np.full((60, 54), 1.0)),

@@ -3,7 +3,7 @@ import { length, type Vec3 } from '../math/vec3';
 import type { SolvedMotion } from '../skeleton/clip';
 import { LEGS } from '../skeleton/limbs';
 import { CONTACT_SPEED, RELEASE_SPEED, slowestFootSpeed } from './foot-contacts';
-import { CONTACT_WEIGHT, footShift } from './least-squares-shift';
+import { footShift } from './least-squares-shift';
 import { shiftFoot } from './shifted-limb';
 
 /** Standard deviation of the Gaussian filter over that speed, seconds. */
@@ -14,8 +14,12 @@ const STEP_CYCLE = 16 / 30;
 const STEP_HEIGHT = 0.08;
 /** A shorter shift is left out, metres: it would not be seen. */
 const LEAST_SHIFT = 1e-5;
-/** Weight of the shift's second difference: a foot that flies to its next place does not jerk. */
-const SMOOTHNESS_WEIGHT = 30;
+/**
+ * Weights of a slide while a foot stands and of the shift's second difference, both above the foot lock's: shifts are long
+ * here, and a foot that flies to its next place is not to jerk.
+ */
+const STAND_WEIGHT = 400;
+const SMOOTHNESS_WEIGHT = 60;
 
 /**
  * How far a dancer slides on both feet, from each frame to the next; frames - 1 numbers. It is 0 up to the speed at which
@@ -50,7 +54,7 @@ export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedM
     /** How far a foot is through its half of the cycle: negative while it stands, up to 1 while it flies. */
     const flight = (frame: number): number =>
       2 * (((firstFrame + frame) / fps / STEP_CYCLE + side / 2) % 1) - 1;
-    const held = sliding.map((share, frame) => (flight(frame) < 0 ? CONTACT_WEIGHT * share : 0));
+    const held = sliding.map((share, frame) => (flight(frame) < 0 ? STAND_WEIGHT * share : 0));
     const raised = Float64Array.from({ length: frames }, (_, frame) => {
       const lift = Math.sin(Math.PI * Math.max(0, flight(frame))) ** 2;
       return STEP_HEIGHT * lift * sliding[Math.min(frame, frames - 2)]!;

@@ -8,7 +8,7 @@ import { bonesAt } from './shifted-limb';
 import { maxLimbLength } from './two-bone-ik';
 
 /** Weights of a slide during contact and of the shift's second difference over time; that of a shift of zero is about 1. */
-export const CONTACT_WEIGHT = 100;
+const CONTACT_WEIGHT = 100;
 const SMOOTHNESS_WEIGHT = 12;
 /** Passes of iteratively reweighted least squares. */
 const PASSES = 3;
