@@ -37,6 +37,8 @@ interface Schema extends DBSchema {
   page: { key: 'now'; value: StoredPage };
 }
 
+export type Database = IDBPDatabase<Schema>;
+
 export const PARTS = ['songs', 'leaders', 'motions', 'takes'] as const;
 export const STORES = [...PARTS, 'page'] as const;
 export type Part = (typeof PARTS)[number];
@@ -56,7 +58,7 @@ export function isNewer(error: unknown): error is DOMException {
  * that is reloaded or ends the next moment is sure of what was committed, and of nothing else.
  */
 export async function atOnce(
-  database: IDBPDatabase<Schema>,
+  database: Database,
   request: (
     transaction: IDBPTransaction<Schema, typeof STORES, 'readwrite'>,
     send: (request: Promise<unknown>) => void,
@@ -83,8 +85,8 @@ export async function atOnce(
 }
 
 /** Opens the database once, and again after it was closed. */
-export function connection(name: string): () => Promise<IDBPDatabase<Schema>> {
-  let opening: Promise<IDBPDatabase<Schema>> | null = null;
+export function connection(name: string): () => Promise<Database> {
+  let opening: Promise<Database> | null = null;
   const reset = (): void => {
     opening = null;
   };

@@ -1,4 +1,14 @@
-import { atOnce, connection, isFull, type Part, PARTS, recordsOf, type SongRecord, STORES } from './database';
+import {
+  atOnce,
+  connection,
+  type Database,
+  isFull,
+  type Part,
+  PARTS,
+  recordsOf,
+  type SongRecord,
+  STORES,
+} from './database';
 import type { FoundProject } from './records';
 import type { StoredLeader, StoredMotion, StoredPage, StoredProject, StoredTake } from './stored-project';
 
@@ -45,6 +55,8 @@ export class ProjectDatabase implements ProjectStorage {
   private own: Ids = noIds();
   private storedTakes = new Map<string, StoredTake>();
   private storedPage: StoredPage | null = null;
+  /** The database whose content is known; the browser may close it and delete what sites keep while the page is open. */
+  private known: Database | null = null;
   /** The last write did not fit. */
   private isFull = false;
 
@@ -53,7 +65,8 @@ export class ProjectDatabase implements ProjectStorage {
   }
 
   async read(): Promise<FoundProject | null> {
-    const transaction = (await this.open()).transaction(STORES);
+    const database = await this.open();
+    const transaction = database.transaction(STORES);
     const [page, songs, leaders, motions, takes] = await Promise.all([
       transaction.objectStore('page').get('now'),
       transaction.objectStore('songs').getAll(),
@@ -65,10 +78,14 @@ export class ProjectDatabase implements ProjectStorage {
     this.present = idsOf({ songs, leaders, motions, takes });
     this.storedTakes = new Map(takes.map((take) => [take.id, take]));
     this.storedPage = page ?? null;
+    this.known = database;
     return page || takes.length > 0 ? { page, songs, leaders, motions, takes } : null;
   }
 
   async write(project: StoredProject): Promise<void> {
+    const database = await this.open();
+    if (this.known && this.known !== database) await this.read();
+    this.known = database;
     const wanted = idsOf(project);
     for (const part of PARTS) for (const id of wanted[part]) this.own[part].add(id);
     const songs = this.missing('songs', project.songs);

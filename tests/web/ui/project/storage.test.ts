@@ -1,6 +1,6 @@
 import { isFull, isNewer } from '../../../../web/ui/project/database';
 import 'fake-indexeddb/auto';
-import { openDB } from 'idb';
+import { deleteDB, openDB } from 'idb';
 import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { checked } from '../../../../web/ui/project/records';
 import { storedProject, VERSION } from '../../../../web/ui/project/stored-project';
@@ -57,6 +57,20 @@ it('a write that fails in the middle changes nothing', async () => {
   await expect(database.write({ ...broken, takes })).rejects.toThrow();
   expect((await read('atomic')).takes.map(({ id }) => id)).toEqual(['a']);
   expect(await count('atomic', 'motions')).toBe(1);
+});
+
+it('writes everything again after the browser has deleted what it kept', async () => {
+  const database = new ProjectDatabase('deleted');
+  const store = withTakes('a');
+  await database.read();
+  await database.write(storedProject(store.getState()));
+  await deleteDB('deleted');
+  change.apply(store, takeRenamed('a', 'Softer hands'));
+  await database.write(storedProject(store.getState()));
+  const { songs, leaders, motions, takes, page } = await read('deleted');
+  expect(takes).toMatchObject([{ id: 'a', name: 'Softer hands' }]);
+  expect([songs, leaders, motions].map(({ length }) => length)).toEqual([1, 1, 1]);
+  expect(page).not.toBeNull();
 });
 
 describe('a storage with room for one motion', () => {
