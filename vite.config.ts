@@ -95,7 +95,13 @@ export default defineConfig({
     emptyOutDir: true,
     target: 'es2023',
     // It would warn of the time that brotli takes, each time.
-    rolldownOptions: { checks: { pluginTimings: false } },
+    rolldownOptions: {
+      checks: { pluginTimings: false },
+      output: {
+        // GitHub Pages leaves out files whose names begin with "_", as the bundler's own do.
+        chunkFileNames: ({ name }) => `assets/${name.replace(/^_+/, '')}-[hash].js`,
+      },
+    },
     // data: addresses would need a hole in the policy.
     assetsInlineLimit: 0,
     // three and onnxruntime are this large; both are needed before anything is seen.

@@ -1,5 +1,5 @@
 /** The page offline: the second visit works without the server, and the visitor can clear the caches. */
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import type { Locator, Page } from '@playwright/test';
 import { writeServiceWorker } from '../../../tools/vite/service-worker.mjs';
@@ -7,6 +7,11 @@ import { App } from '../support/app-page';
 import { bvh, csv } from '../support/files';
 import { expect } from '../support/fixtures';
 import { test } from '../support/host';
+
+test('no file has a name that GitHub Pages leaves out: without one of them nothing is cached', ({ host }) => {
+  const paths = readdirSync(host.root, { recursive: true, encoding: 'utf8' });
+  expect(paths.filter((file) => /^[._#]|~$/.test(path.basename(file)))).toEqual([]);
+});
 
 /** Waits until the service worker has cached the page. */
 async function serviceWorkerReady(page: Page): Promise<void> {
