@@ -5,6 +5,8 @@ wanted.then(
   (error: unknown) => {
     console.error(error);
     document.body.textContent =
-      'A part of this page could not be loaded. Check the connection, then reload the page.';
+      origin === 'null'
+        ? 'The frame that shows this page is sandboxed, so the page cannot run in it. Open it in a tab of its own.'
+        : 'A part of this page could not be loaded. Check the connection, then reload the page.';
   },
 );

@@ -9,13 +9,21 @@ export interface TabLockApis {
 }
 
 /** What this browser has of them. */
-export function tabLockApis({ navigator, BroadcastChannel }: typeof globalThis): TabLockApis {
+export function tabLockApis(scope: Pick<typeof globalThis, 'navigator' | 'BroadcastChannel'>): TabLockApis {
   const name = ownName('reactdance.project');
-  return {
-    name,
-    locks: navigator.locks,
-    channel: (BroadcastChannel as typeof BroadcastChannel | undefined) && new BroadcastChannel(name),
-  };
+  return { name, locks: scope.navigator.locks, channel: openChannel(scope, name) };
+}
+
+function openChannel(
+  { BroadcastChannel }: Partial<Pick<typeof globalThis, 'BroadcastChannel'>>,
+  name: string,
+): TabLockApis['channel'] {
+  try {
+    return BroadcastChannel && new BroadcastChannel(name);
+  } catch {
+    // Firefox forbids it with all that sites keep.
+    return undefined;
+  }
 }
 
 interface Owner {
