@@ -14,6 +14,7 @@ export interface Backend {
 /** What the browser offers, as far as the choice depends on it. */
 export interface Environment {
   readonly gpu?: Pick<GPU, 'requestAdapter'> | undefined;
+  readonly isSecureContext: boolean;
   readonly crossOriginIsolated: boolean;
   readonly hardwareConcurrency: number;
 }
@@ -28,6 +29,7 @@ export function environment(scope: typeof globalThis): Environment {
   const navigator = scope.navigator as Navigator & { gpu?: GPU };
   return {
     gpu: navigator.gpu,
+    isSecureContext: scope.isSecureContext,
     crossOriginIsolated: scope.crossOriginIsolated,
     hardwareConcurrency: navigator.hardwareConcurrency,
   };
@@ -48,10 +50,15 @@ type Adapter = Partial<Pick<GPUAdapter, 'info'>>;
 
 /** The adapter, or the reason why there is none worth using. */
 async function probe(
-  gpu: Environment['gpu'],
+  { gpu, isSecureContext }: Environment,
   software: boolean,
 ): Promise<{ adapter: Adapter } | { without: string }> {
-  if (gpu === undefined) return { without: 'this browser has no WebGPU' };
+  if (gpu === undefined)
+    return {
+      without: isSecureContext
+        ? 'this browser has no WebGPU'
+        : 'WebGPU works over https or on localhost only',
+    };
   let adapter: Adapter | null;
   try {
     adapter = await inTime(gpu.requestAdapter({ powerPreference: 'high-performance' }), ADAPTER_MS);
@@ -85,7 +92,7 @@ export async function chooseBackend(
   const onProcessor = threads === 1 ? 'Processor, one thread' : `Processor, ${threads} threads`;
   if (preference === 'wasm')
     return { name: 'wasm', reason: `${onProcessor}: chosen in the address of the page.`, threads };
-  const probed = await probe(environment.gpu, preference === 'webgpu');
+  const probed = await probe(environment, preference === 'webgpu');
   if ('without' in probed) return { name: 'wasm', reason: `${onProcessor}: ${probed.without}.`, threads };
   return { name: 'webgpu', reason: `WebGPU on ${describe(probed.adapter.info)}.`, threads };
 }

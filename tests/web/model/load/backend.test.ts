@@ -12,6 +12,7 @@ function machine(adapter: Partial<GPUAdapterInfo> | null | Error, isolated = tru
               adapter === null ? null : ({ info: { isFallbackAdapter: false, ...adapter } } as GPUAdapter),
             ),
     },
+    isSecureContext: true,
     crossOriginIsolated: isolated,
     hardwareConcurrency: cores,
   };
@@ -30,8 +31,13 @@ describe('chooseBackend', () => {
   it.each<[string, Environment, RegExp]>([
     [
       'no WebGPU',
-      { crossOriginIsolated: true, hardwareConcurrency: 2 },
+      { isSecureContext: true, crossOriginIsolated: true, hardwareConcurrency: 2 },
       /one thread: this browser has no WebGPU/,
+    ],
+    [
+      'plain http',
+      { isSecureContext: false, crossOriginIsolated: false, hardwareConcurrency: 8 },
+      /one thread: WebGPU works over https or on localhost only/,
     ],
     ['no adapter', machine(null), /found no graphics adapter/],
     ['a software adapter', machine({ ...card, isFallbackAdapter: true }), /only a software adapter/],
