@@ -54,7 +54,6 @@ interface Tree {
   readonly names: readonly string[];
   readonly places: readonly Vec3[];
   readonly children: readonly (readonly number[])[];
-  readonly parents: readonly number[];
   /** The child with which the longest way from each joint outwards begins; none for a tip. */
   readonly longest: readonly (number | undefined)[];
 }
@@ -73,7 +72,7 @@ function treeOf(joints: readonly SourceJoint[], places: readonly Vec3[]): Tree {
     }
   }
   const names = joints.map(({ name }) => name);
-  return { names, places, children, parents: joints.map(({ parent }) => parent), longest };
+  return { names, places, children, longest };
 }
 
 /** The joints of the longest way outwards from a joint, itself first. */
@@ -170,7 +169,7 @@ function misfit(tree: Tree, legs: Pair, arms: Pair): number | null {
   return errors[0]! + errors[1]! + (1 + bend) + 2 * (2 - legs.symmetry - arms.symmetry);
 }
 
-/** Neck and head: the way from the arms' fork that goes on from the trunk and carries none of the limbs. */
+/** Neck and head: the way from the arms' fork that goes on from the trunk and is none of the limbs. */
 function neckAndHead(
   joints: readonly SourceJoint[],
   tree: Tree,
@@ -179,14 +178,10 @@ function neckAndHead(
 ): { neck?: number; head?: number } {
   const trunk = direction(sub(middle(tree, arms, 0), middle(tree, legs, 0)), ZERO);
   const limbs = new Set([...arms.chains, ...legs.chains].map(([first]) => first));
-  const carriesLegs = (joint: number): boolean => {
-    for (let at = legs.fork; at >= 0; at = tree.parents[at]!) if (at === joint) return true;
-    return false;
-  };
   // Hair may hang down from a head, so that either the joint or the tip beyond it goes on.
   const towards = (place: Vec3): number => dot(direction(sub(place, tree.places[arms.fork]!), ZERO), trunk);
   const along = (child: number): number => Math.max(towards(tree.places[child]!), towards(tip(tree, child)));
-  const [up] = tree.children[arms.fork]!.filter((child) => !limbs.has(child) && !carriesLegs(child)).toSorted(
+  const [up] = tree.children[arms.fork]!.filter((child) => !limbs.has(child)).toSorted(
     (a, b) => along(b) - along(a),
   );
   if (up === undefined || along(up) < 0.5) return {};

@@ -99,6 +99,35 @@ describe('a body found by its shape', () => {
     expectBody(neckless);
   });
 
+  test('whose neck begins at the place of the chest', () =>
+    expectBody(
+      body.map((joint) => (joint.name.endsWith('Neck') ? { ...joint, offset: [0, 0, 0] as const } : joint)),
+    ));
+
+  test('has no head where what hangs on the chest goes down', () => {
+    const cloaked = [
+      ...body.filter(({ name }) => !/Neck|Head/.test(name)),
+      { name: 'cloak', parent: 'mixamorig:Spine2', offset: [0, -0.1, -0.1] as const },
+    ];
+    const made = unnamed(cloaked, (_, index) => `${index}`);
+    const { nodes } = mapByStructure(made.joints, made.places)!;
+    expect([nodes.has('left_wrist'), nodes.has('neck'), nodes.has('head')]).toEqual([true, false, false]);
+  });
+
+  test('whose root is in the chest', () => {
+    const chest = 'mixamorig:Spine2';
+    const trunk = [chest, 'mixamorig:Spine1', 'mixamorig:Spine', 'mixamorig:Hips'];
+    const above = trunk.map((name) => body.find((joint) => joint.name === name)!.offset);
+    expectBody(
+      body.map((joint): MadeJoint => {
+        const at = trunk.indexOf(joint.name);
+        if (at < 0) return joint;
+        const [x, y, z] = at === 0 ? ([0, -1.3, 0] as const) : above[at - 1]!;
+        return { name: joint.name, parent: trunk[at - 1] ?? null, offset: [-x, -y, -z] };
+      }),
+    );
+  });
+
   test('whose sides nothing tells is doubted', () => {
     const names: BodyNames = {
       ...{ root: 'n0', spine: ['n1', 'n2', 'n3'], neck: 'n4', head: 'n5', sides: ['a', 'b'] },
@@ -159,12 +188,41 @@ describe('a body found by its shape', () => {
 
   test('whose names and feet disagree about the sides is doubted', () => {
     const swapped = unnamed(body, (name, index) => `${name.includes('Left') ? 'right' : 'left'} ${index}`);
-    expect(mapJoints(swapped.joints, swapped.places).doubts.join()).toContain('Names and feet disagree');
+    const { doubts, nodes } = mapJoints(swapped.joints, swapped.places);
+    expect(doubts.join()).toContain('Names and feet disagree about left and right; the feet were used');
+    expect(swapped.truth[nodes.get('left_knee')!]).toBe('mixamorig:LeftLeg');
     const agreed = unnamed(body, (name, index) => `${name.includes('Left') ? 'left' : 'right'} ${index}`);
     expect(mapJoints(agreed.joints, agreed.places).doubts).toHaveLength(1);
   });
 
-  test.each(['UpLeg', 'Arm'])('none without its %s', (part) => {
+  /** The body without names whose bones that end at some joints are so many times as long. */
+  const scaled = (part: RegExp, factor: number) =>
+    unnamed(
+      body.map((joint) =>
+        part.test(joint.name)
+          ? {
+              ...joint,
+              offset: joint.offset.map((value) => value * factor) as unknown as MadeJoint['offset'],
+            }
+          : joint,
+      ),
+      (_, index) => `骨${index}`,
+    );
+
+  test('whose left arm is a tenth shorter is less certain', () => {
+    const made = scaled(/Left(ForeArm|Hand)$/, 0.9);
+    expect(mapJoints(made.joints, made.places).confidence).toBeCloseTo(0.8 * 0.9, 5);
+  });
+
+  test.each([
+    ['a left arm a quarter shorter', /Left(ForeArm|Hand)$/, 0.75],
+    ['arms of a tenth of the length', /(ForeArm|Hand)$/, 0.1],
+  ])('none with %s', (_, part, factor) => {
+    const made = scaled(part, factor);
+    expect(mapByStructure(made.joints, made.places)).toBeNull();
+  });
+
+  test.each(['UpLeg', 'Arm', 'Hand'])('none without its %s', (part) => {
     const lost = new Set<string>();
     for (const { name, parent } of body)
       if (new RegExp(`(Left|Right)${part}$`).test(name) || lost.has(parent ?? '')) lost.add(name);
