@@ -18,7 +18,15 @@ import torch
 from tests.python.support.duets import made_duet
 from tests.python.support.small_training import DENOISER, HFSQ, stage1, stage2, write_duets
 from training import generate, train_denoiser, train_hfsq
-from training.checkpoint import MEASURED, load_denoiser, load_hfsq, load_model, read_card, solos_seen
+from training.checkpoint import (
+    MEASURED,
+    load_denoiser,
+    load_hfsq,
+    load_model,
+    read_card,
+    read_config,
+    solos_seen,
+)
 from training.checkpoints import average
 from training.config import (
     DenoiserConfig,
@@ -30,12 +38,14 @@ from training.config import (
 )
 from training.data.duet import Solo
 from training.data.made import made_dancer
+from training.data.sources import read_split
 from training.denoiser.clips import Augmentation, Clip, solo_pair_clips
-from training.diffusion.react import Request, react
+from training.diffusion.react import Request, at_height, react
 from training.evaluation import no_latent_baseline
 from training.hfsq.reconstruct import reconstruct
 from training.loop.run import fast_precision
 from training.motion.floor import put_on_floor
+from training.motion.skeleton import body_height
 
 
 @pytest.fixture(scope="module")
@@ -58,12 +68,28 @@ def test_both_stages_leave_a_checkpoint_a_log_and_curves(trained: Path) -> None:
     assert frame.sigma == 15
     assert not any(p.requires_grad for p in hfsq.parameters())
     assert (hfsq.latent_std != 1).all(), "the latents' statistics are measured and stored"
+    assert all(stream.std != 1 for stream in hfsq.each), "and those of the streams"
     assert (denoiser.condition.leader.std != 1).any()
     for stage in ("hfsq", "denoiser"):
         assert (trained / stage / "curves.png").stat().st_size > 1000
         rows = [json.loads(line) for line in (trained / stage / "log.jsonl").read_text().splitlines()]
         assert any("val/mpjpe_mm" in row or "val/all/mpjpe_mm" in row for row in rows)
         assert list((trained / stage).glob("events.out.tfevents*")), "TensorBoard"
+
+
+def test_a_checkpoint_says_how_it_reconstructs_the_validation_duets(data: Path, trained: Path) -> None:
+    hfsq, frame = load_hfsq(trained)
+    duets = read_split(data, ("made_1",), ("made_2",))
+    stated = read_config(trained, "hfsq")["provenance"]["validation"]
+    rows = [json.loads(line) for line in (trained / "hfsq" / "log.jsonl").read_text().splitlines()]
+    logged = [row for row in rows if "val/all/mpjpe_mm" in row]
+    assert len(logged) == 2, "as it trains and at its end"
+    for name, value in train_hfsq.evaluate(hfsq, duets.val, frame).items():
+        assert stated[name] == pytest.approx(value, rel=1e-2)  # weights are kept in half precision
+        assert [row[name] for row in logged] == [stated[name]] * 2
+    assert stated["val/all/mpjpe_mm"] != pytest.approx(
+        train_hfsq.evaluate(hfsq, duets.test, frame)["val/all/mpjpe_mm"], rel=1e-2
+    )
 
 
 def test_a_dance_is_generated_as_asked(data: Path, trained: Path, tmp_path: Path) -> None:
@@ -144,7 +170,8 @@ def test_weights_that_do_not_fit_are_refused(trained: Path, tmp_path: Path) -> N
 
 def test_training_starts_from_another_checkpoint(data: Path, trained: Path, tmp_path: Path) -> None:
     """Decoders learn and latents stay, so that the first checkpoint's denoiser fits and learns too."""
-    train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True))
+    # On another duet, whose statistics are others.
+    train_hfsq.main(stage1(data, tmp_path, init=trained, keep_latents=True, val=("made_0",)))
     before, after = load_hfsq(trained)[0].state_dict(), load_hfsq(tmp_path)[0].state_dict()
     changed = {name for name in before if not torch.equal(before[name], after[name])}
     assert {name.split(".")[2] for name in changed if name.startswith("streams.")} == {"decoder"}
@@ -280,7 +307,31 @@ def test_statistics_and_weights_come_from_training_duets_alone(
         ).read_bytes()
 
 
-def test_all_duets_are_learnt_where_asked(data: Path, tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def everything(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Trained on all three duets."""
+    out = tmp_path_factory.mktemp("everything")
+    train_hfsq.main(stage1(data, out, learn_all=True))
+    train_denoiser.main(stage2(data, out, learn_all=True))
+    return out
+
+
+def test_a_card_has_the_mean_heights_and_the_farthest_leader_of_the_training(
+    data: Path, everything: Path
+) -> None:
+    model, card = load_model(everything), read_card(everything)
+    split = read_split(data, ("made_1",), ("made_2",))
+    duets = split.train + split.val + split.test
+    for name, role in (("reference_height", "leader"), ("reactor_height", "reactor")):
+        heights = [body_height(getattr(duet, role)) for duet in duets]
+        assert card[name] == pytest.approx(np.mean(heights), abs=1e-4)
+    leaders = [at_height(duet.leader, card["reference_height"]) for duet in duets]
+    known = [float(model.unfamiliarity(leader).mean()) for leader in leaders]
+    assert card["unfamiliar_from"] == pytest.approx(1.15 * max(known), abs=0.01)
+    assert max(known) > 1.02 * min(known)
+
+
+def test_all_duets_are_learnt_where_asked(data: Path, everything: Path, tmp_path: Path) -> None:
     """The same weights as of a training in which no duet but the held-out ones' copies is held out."""
     with np.load(data) as archive:
         arrays = {name: archive[name] for name in archive.files}
@@ -288,13 +339,9 @@ def test_all_duets_are_learnt_where_asked(data: Path, tmp_path: Path) -> None:
         arrays |= {f"held_{i}/{role}": arrays[f"made_{i}/{role}"] for i in (1, 2)}
     copied = tmp_path / "copied.npz"
     np.savez(copied, **arrays)
-    everything, copies = tmp_path / "everything", tmp_path / "copies"
-    for path, out, changes in (
-        (data, everything, {"learn_all": True}),
-        (copied, copies, {"val": ("held_1",), "test": ("held_2",)}),
-    ):
-        train_hfsq.main(stage1(path, out, **changes))
-        train_denoiser.main(stage2(path, out, **changes))
+    copies = tmp_path / "copies"
+    train_hfsq.main(stage1(copied, copies, val=("held_1",), test=("held_2",)))
+    train_denoiser.main(stage2(copied, copies, val=("held_1",), test=("held_2",)))
     for name in ("hfsq", "denoiser"):
         learnt, expected = ((out / f"{name}.safetensors").read_bytes() for out in (everything, copies))
         assert learnt == expected

@@ -13,7 +13,7 @@ from training.data.duet import Solo
 from training.data.made import made_dancer
 from training.hfsq.autoencoder import Autoencoder
 from training.hfsq.reconstruct import reconstruct
-from training.hfsq.statistics import set_input_statistics, set_latent_statistics
+from training.hfsq.statistics import bins_used, set_input_statistics, set_latent_statistics
 from training.hfsq.windows import Clip, Streams, Windows, training_clips
 from training.motion.streams import STREAM_WIDTHS
 
@@ -96,3 +96,19 @@ def test_a_reconstruction_of_one_layer_leaves_the_fine_one_out() -> None:
             stream.quantiser.up[1] += 1  # pyright: ignore
     assert np.array_equal(reconstruct(model, duet, FRAME, 1), coarse)
     assert np.abs(reconstruct(model, duet, FRAME) - whole).max() > 1e-3
+
+
+def test_the_share_of_bins_in_use_is_counted_by_layer() -> None:
+    """The first of four dimensions, with eight levels, has all of them; the others, with five, and the fine layer have
+    one."""
+    torch.manual_seed(0)
+    model = Autoencoder(SMALL).eval()
+    with torch.no_grad():
+        for stream in model.each:
+            stream.quantiser.down[0, ..., 1:] = 0  # pyright: ignore
+            stream.quantiser.down[1] = 0  # pyright: ignore
+    streams = tuple(50 * torch.randn(1200, width) for width in STREAM_WIDTHS)
+    clip = Clip((streams[0], streams[1], streams[2]), (streams[0], streams[1], streams[2]))
+    coarse, fine = bins_used(model, [clip])
+    assert coarse == pytest.approx((8 / 8 + 3 / 5) / 4, abs=0.02)
+    assert fine == pytest.approx((1 / 8 + 3 / 5) / 4)
