@@ -13,6 +13,9 @@ from training.config import STRIDE, ConditionConfig, check_latent_frames
 from training.denoiser.clips import Clip
 from training.music.recipe import MUSIC_FEATURES
 
+SHORTEST = 8
+"""Latent frames of the shortest window that is cut short; whole blocks that are shorter stay whole."""
+
 
 class Batch(NamedTuple):
     """N windows of one block. Context arrays have a margin of latent frames on both sides, zero outside the
@@ -83,7 +86,9 @@ class Windows:
         stop = min(start + block, len(clip))
         first, last = 0, len(clip)  # latent frames of the clip that this window has
         if random.random() < short:
-            last = stop = start + int(random.integers(8, block + 1)) if stop - start == block else stop
+            if stop - start == block:
+                stop = start + int(random.integers(min(SHORTEST, block), block + 1))
+            last = stop
         if random.random() < short:
             first = start
         low, high = start - margin, start + block + margin

@@ -10,12 +10,15 @@ import torch
 
 from tests.python.support.duets import made_duet
 from training.config import STRIDE, ConditionConfig, FrameConfig, HfsqConfig
-from training.data.augment import warped_length
+from training.data.augment import mirror_motion, warped_length
+from training.data.duet import Solo
+from training.data.made import made_dancer
 from training.data.music_pairing import Variant
-from training.denoiser.clips import Augmentation, Clip, augmented_clips, make_clip
+from training.denoiser.clips import Augmentation, Clip, augmented_clips, make_clip, solo_pair_clips
 from training.denoiser.windows import Windows
 from training.hfsq.autoencoder import Autoencoder
 from training.motion.leader_frame import smoothed_heading
+from training.motion.skeleton import body_height
 from training.motion.streams import from_streams, to_streams
 
 BLOCK, MARGIN = 6, 2
@@ -134,6 +137,11 @@ def test_a_window_cut_short_knows_nothing_beyond_either_end(clip: Clip) -> None:
         assert batch.latents[n, :length].any()
 
 
+def test_blocks_too_short_to_be_cut_stay_whole(clip: Clip) -> None:
+    batch = windows(clip, PLAIN).batch(20, np.random.default_rng(0), short=1.0)
+    assert batch.valid.all()
+
+
 def test_the_share_of_songs_that_stop_is_that_asked_for(clip: Clip) -> None:
     batch = windows(clip, PLAIN).batch(300, np.random.default_rng(0), short=0.0, song_ends=0.5, ends=0.0)
     inside = batch.inside.repeat_interleave(STRIDE, dim=1)
@@ -168,3 +176,41 @@ def test_duets_are_danced_at_every_tempo_mirrored_in_both_roles_to_the_music_of_
         frames = slice(start, start + len(clip.leader))
         assert torch.allclose(clip.leader, torch.from_numpy(leader[frames]), atol=1e-5)
         assert torch.allclose(clip.reactor, torch.from_numpy(reactor[frames]), atol=1e-5)
+
+
+def yaw_of(clip: Clip) -> float:
+    """Degrees by which the frame of reference is turned from the leader's heading, the same in all frames."""
+    x, z = smoothed_heading(clip.leader, FrameConfig()).unbind(-1)
+    turned_x, turned_z = clip.heading.unbind(-1)
+    yaw = torch.atan2(z * turned_x - x * turned_z, x * turned_x + z * turned_z).rad2deg()
+    assert yaw.std() < 1e-2
+    return float(yaw.mean())
+
+
+def test_every_copy_of_a_duet_has_its_own_grid_offset_leader_size_and_yaw(hfsq: Autoencoder) -> None:
+    duet = made_duet(160, 0, "one")
+    music = np.arange(160, dtype=np.float32)[:, None].repeat(54, axis=1)
+    options = Augmentation(tempos=(1.0,), mirror=False, roles=False, scales=(0.9, 1.1), yaw=20.0, copies=40)
+    bank = {"one": {Variant(1.0, "synth", 0): music}}
+    clips = augmented_clips([duet], bank, hfsq, FrameConfig(), options, ConditionConfig(), seed=1)
+    sizes = [body_height(clip.leader.numpy()) / body_height(duet.leader) for clip in clips]
+    for values, low, high in ((sizes, 0.9, 1.1), ([yaw_of(clip) for clip in clips], -20, 20)):
+        assert low - 1e-3 <= min(values) < low + 0.2 * (high - low)
+        assert high - 0.2 * (high - low) < max(values) <= high + 1e-3
+    starts = [int(clip.music[0][0, 0]) for clip in clips]
+    assert set(starts) == {0, 1, 2, 3}
+    for clip, start in zip(clips, starts, strict=True):
+        assert torch.equal(clip.reactor, torch.from_numpy(duet.reactor[start : start + len(clip.reactor)]))
+
+
+def test_pairs_of_a_solo_dance_are_silent_mirrored_too_and_turned(hfsq: Autoencoder) -> None:
+    solo = Solo("alone", made_dancer(160, 3))
+    clips = solo_pair_clips([solo], 5, hfsq, FrameConfig(), ConditionConfig(), seed=1)
+    assert len(clips) == 10
+    for clip, motion in zip(clips, [solo.motion, mirror_motion(solo.motion)] * 5, strict=True):
+        frames = len(clip.leader)
+        assert any(torch.equal(clip.leader, torch.from_numpy(motion[c : c + frames])) for c in range(4))
+        assert (clip.music, clip.role) == ([], 0.0)
+    yaws = [yaw_of(clip) for clip in clips]
+    assert -20.001 < min(yaws) < -5
+    assert 5 < max(yaws) < 20.001
