@@ -189,9 +189,8 @@ class WeightedSquares:
         self.weights = valid[:, :, None, None] * by_layer[:, None]
 
     def __call__(self, error: Tensor) -> Tensor:
-        # A difference over time counts where both frames are valid.
-        weights = self.weights[: len(error)]
-        weights = weights if error.shape[1] == weights.shape[1] else weights[:, 1:] * weights[:, :-1].sign()
+        # A difference over time counts where both frames are valid: the later one, since padding comes last.
+        weights = self.weights[: len(error), -error.shape[1] :]
         return (error.square() * weights).sum() / (weights.sum().clamp(min=1) * error.shape[-1])
 
 

@@ -76,6 +76,21 @@ def test_a_student_that_samples_as_the_teacher_does_has_no_loss_and_another_has(
     assert all(float(value) > 1e-6 for value in parts.values()), parts
 
 
+def test_a_student_is_asked_where_its_only_step_begins_and_of_one_noise_for_all_branches(
+    tiny: Model, batch: Batch
+) -> None:
+    student = copy.deepcopy(tiny.denoiser)
+    asked: list[tuple[torch.Tensor, ...]] = []
+    student.register_forward_pre_hook(lambda _, given: asked.append(given))
+    Distillation(student, tiny.denoiser, tiny.diffusion)(batch)
+    ((noise, time, *_),) = asked
+    one_step = student_diffusion(tiny.diffusion, None)
+    (only,) = replace(tiny, diffusion=one_step).sampling.ddim()
+    assert time.tolist() == pytest.approx([only.time] * len(time))
+    for branch in noise.split(len(batch.latents))[1:]:
+        assert torch.equal(branch, noise[: len(batch.latents)])
+
+
 def test_frames_that_no_dance_fills_do_not_count(tiny: Model, batch: Batch) -> None:
     stage = Distillation(tiny.denoiser, tiny.denoiser, tiny.diffusion)
     mean = distill.WeightedSquares(batch.valid, 2)
@@ -84,6 +99,10 @@ def test_frames_that_no_dance_fills_do_not_count(tiny: Model, batch: Batch) -> N
     # Of both layers, the finer at half weight: a mean.
     assert float(mean(error)) == pytest.approx(1.0)
     assert float(mean(error.diff(dim=1))) == 0.0
+    error[:, :, 1] = 0
+    assert float(mean(error)) == pytest.approx(1 / 1.5), (
+        "the coarse layer has twice the weight of the fine one"
+    )
     loss, _ = stage(batch)
     assert loss.isfinite()
 

@@ -107,6 +107,7 @@ def test_residual_masking_hides_upper_layers_and_perturbs_the_base() -> None:
     kept = (masked[:, 0, :, 0] != 0).sum(1)
     assert set(kept.tolist()) == {1, 2}, "one or two of three layers survive"
     assert (masked[:, :, 0] - 1).std() == pytest.approx(0.1, rel=0.05)
+    assert (masked[:, 1:, 0] != masked[:, :-1, 0]).all(), "every frame has noise of its own"
     assert torch.equal(masked[kept == 2][:, :, 1], codes[kept == 2][:, :, 1])
     untouched, hidden = progressive_masking(codes, MaskingConfig(residual=0.0, code=0.0))
     assert not hidden.any()

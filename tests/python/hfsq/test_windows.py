@@ -50,6 +50,13 @@ def test_windows_are_stretches_from_all_over_the_clips_whose_bodies_turn_togethe
         assert i == 2 or torch.allclose(height[0], height[1])
 
 
+def test_every_window_of_all_clips_is_drawn_as_often() -> None:
+    long, short = numbered(47), numbered(17)
+    other = (short[0], short[1], short[2] + 1000)  # 10 windows beside 40
+    made, _ = Windows([Clip(long, long), Clip(other, other)], 8).batch(2000, np.random.default_rng(0))
+    assert (made[2][:, 0, 0] < 1000).float().mean() == pytest.approx(0.8, abs=0.03)
+
+
 def test_duets_are_learned_mirrored_in_both_roles_at_every_tempo_and_solos_mirrored() -> None:
     duet, solo = made_duet(120, 1), Solo("alone", made_dancer(90, 2))
     clips = training_clips([duet], [solo], (0.9, 1.0), FRAME, None, 8)
@@ -75,6 +82,21 @@ def test_statistics_are_a_mean_of_each_dimension_and_one_deviation_of_each_strea
     for stream, place in zip(model.each, places, strict=True):
         assert (stream.mean - place).abs().max() < 0.05
         assert float(stream.std) == pytest.approx(0.5, abs=0.02)
+
+
+def test_every_latent_of_the_training_clips_is_normalised_by_its_own_mean_and_deviation() -> None:
+    torch.manual_seed(0)
+    model = Autoencoder(SMALL).eval()
+    streams = tuple(torch.randn(800, width) for width in STREAM_WIDTHS)
+    clip = Clip((streams[0], streams[1], streams[2]), (streams[0], streams[1], streams[2]))
+    set_latent_statistics(model, [clip])
+    with torch.no_grad():
+        latents = model.encode([stream[None] for stream in streams])
+    normal = model.normalise(latents)[0]
+    moves = latents[0].std(0) > 0
+    assert moves.float().mean() > 0.9
+    assert normal.mean(0).abs().max() < 1e-3
+    assert (normal.std(0)[moves] - 1).abs().max() < 1e-3
 
 
 def test_a_latent_that_never_changes_is_normalised_to_a_number() -> None:
