@@ -151,6 +151,17 @@ def test_the_share_of_songs_that_stop_is_that_asked_for(clip: Clip) -> None:
     assert not ((after.diff(dim=1) > 0) & (inside[stops].diff(dim=1) <= 0)).any(), "and do not begin again"
 
 
+def test_the_song_is_any_of_the_clip_or_none_as_often_as_asked(clip: Clip) -> None:
+    two = replace(clip, music=[clip.music[0], clip.music[0] + 1000])
+    whole = {"short": 0.0, "song_ends": 0.0, "ends": 0.0}
+    batch = windows(two, replace(PLAIN, drop_music=0.3)).batch(400, np.random.default_rng(0), **whole)
+    silent = ~batch.music_valid.any(1)
+    assert silent.float().mean() == pytest.approx(0.3, abs=0.07)
+    assert (batch.music.amax((1, 2)) >= 1000).float().mean() == pytest.approx(0.5, abs=0.07)
+    without = windows(replace(clip, music=[]), PLAIN).batch(20, np.random.default_rng(0), **whole)
+    assert not without.music_valid.any()
+
+
 def test_duets_are_danced_at_every_tempo_mirrored_in_both_roles_to_the_music_of_that_tempo(
     hfsq: Autoencoder,
 ) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import cast
+from typing import Literal, cast
 
 import pytest
 import torch
@@ -213,6 +213,11 @@ def test_kl_penalty_by_hand() -> None:
         bottleneck(torch.randn(2, 3, bottleneck.width))
         expected = 0.05 * (mean**2 + variance - 1 - math.log(variance))
         assert float(torch.as_tensor(bottleneck.penalty()).detach()) == pytest.approx(expected, abs=1e-6)
+    v = torch.randn(64, 3, bottleneck.width)
+    assert bottleneck.train()(v).detach().std() == pytest.approx(2, abs=0.1)  # of the last N(1, 4)
+    assert torch.equal(bottleneck.eval()(v), torch.ones(64, 3, 1, bottleneck.width)), (
+        "its mean after training"
+    )
 
 
 @pytest.mark.parametrize("beta", [0.0, 0.5])
@@ -234,6 +239,17 @@ def test_the_latent_loss_pulls_the_encoder_and_with_beta_the_codes(beta: float) 
         assert any(p.grad is not None and p.grad.any() for p in stream.encoder.parameters())
         up = cast(Hfsq, stream.quantiser).up.grad
         assert (up is not None and bool(up.any())) is (beta > 0)
+
+
+@pytest.mark.parametrize("quantiser", ["hfsq", "rvq"])
+def test_what_is_decoded_has_a_gradient_for_the_features(quantiser: Literal["hfsq", "rvq"]) -> None:
+    """Straight through the rounding."""
+    torch.manual_seed(0)
+    made = make_quantiser(HfsqConfig(quantiser=quantiser, groups=2)).train()
+    v = (0.4 * torch.randn(2, 8, made.width)).requires_grad_()
+    made.combine(made(v)).square().sum().backward()
+    assert v.grad is not None
+    assert (v.grad != 0).float().mean() > 0.9
 
 
 def test_the_residual_cascade_is_equation_1() -> None:
