@@ -88,6 +88,12 @@ def test_the_cache_returns_the_same_array_unless_an_input_changes(duet: Duet, tm
     assert len(list(tmp_path.iterdir())) == 1
     build_music_bank(split, None, [PLAIN], seed=1, cache_dir=tmp_path)
     assert len(list(tmp_path.iterdir())) == 2
+    slower = Split((salsa_duet(360, Tempo(150.0, 0.5), name="a"),), (), ())
+    again = build_music_bank(slower, None, [PLAIN], cache_dir=tmp_path)["a"][PLAIN]
+    assert not np.array_equal(again, first), "at another tempo"
+    looser = replace(RECIPE, tightness=50.0)
+    build_music_bank(split, None, [PLAIN], cache_dir=tmp_path, recipe=looser)
+    assert len(list(tmp_path.iterdir())) == 4
 
 
 def test_songs_are_put_on_the_beat_and_some_are_held_out(duet: Duet, tmp_path: Path) -> None:
@@ -101,6 +107,24 @@ def test_songs_are_put_on_the_beat_and_some_are_held_out(duet: Duet, tmp_path: P
     from_song = paired_music(360, tempo, 1.0, library, [0], RECIPE)
     assert from_song.shape == (360 * 512,)
     assert not np.array_equal(from_song, paired_music(360, tempo, 1.0, None, [0], RECIPE))
+
+
+def test_held_out_duets_get_songs_that_no_training_duet_has(tmp_path: Path) -> None:
+    duet = salsa_duet(180, Tempo(165.0, 0.5), name="a")
+    split, variant = (
+        Split((duet,), (replace(duet, name="b"),), (replace(duet, name="c"),)),
+        Variant(1.0, "song", 0),
+    )
+    write_song(tmp_path / "4.wav", 150.0, seconds=8.0)
+    banks = []
+    for slower in (0.0, 8.0):
+        for name in ("1", "2", "3"):
+            write_song(tmp_path / f"{name}.wav", 168.0 - slower, seconds=8.0)
+        banks.append(build_music_bank(split, tmp_path, [variant]))
+    before, after = banks
+    assert not np.array_equal(before["a"][variant], after["a"][variant])
+    for held_out in ("b", "c"):
+        assert np.array_equal(before[held_out][variant], after[held_out][variant])
 
 
 def test_song_of_the_duet_itself_is_used_and_warped(duet: Duet, tmp_path: Path) -> None:
