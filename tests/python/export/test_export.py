@@ -84,6 +84,8 @@ def test_onnxruntime_agrees_with_pytorch() -> None:
     assert list(results) == [1, 2, 9, 75]
     assert len(said) == 4, "each length is told, since the last one takes minutes"
     assert all(value <= tolerance(name) for row in results.values() for name, value in row.items())
+    for row in results.values():
+        assert min(row["int8"], row["rounding"]) > 1e-4 > row["distance"], "what 8 bits change is measured"
 
 
 def test_verification_notices_other_weights() -> None:
