@@ -120,7 +120,7 @@ def write_duets_and_checkpoint(folder: Path, model: Model) -> Path:
     return checkpoint
 
 
-def test_seams_are_looked_for_at_the_ends_of_the_models_own_blocks(tmp_path: Path):
+def test_validation_duets_are_measured_with_seams_at_the_ends_of_the_models_own_blocks(tmp_path: Path):
     tiny = tiny_model()
     config = replace(tiny.denoiser.config, block=30)
     denoiser = Denoiser(tiny.hfsq.latent_width, tiny.hfsq.layers, config)
@@ -128,12 +128,13 @@ def test_seams_are_looked_for_at_the_ends_of_the_models_own_blocks(tmp_path: Pat
     settings = Settings(seeds=(0,), seam_starts=(0,), response_seeds=1, two_sample=False)
     main(
         Options(
-            data=tmp_path / "duets.npz", out=tmp_path / "out", checkpoint=checkpoint, val=("val",),
-            test=("one", "two"), pictures=False, videos=False, music=False, settings=settings,
+            data=tmp_path / "duets.npz", out=tmp_path / "out", checkpoint=checkpoint, val=("val", "two"),
+            test=("one",), measure="val", pictures=False, videos=False, music=False, settings=settings,
         )
     )  # fmt: skip
-    seams = json.loads((tmp_path / "out/metrics.json").read_text())["seams"]["seams"]
-    assert seams == 2 * 2, "frames 120 and 240 of two duets"
+    stored = json.loads((tmp_path / "out/metrics.json").read_text())
+    assert stored["seams"]["seams"] == 2 * 2, "frames 120 and 240 of two duets"
+    assert stored["seen"] == ["two"], "of those that are measured"
 
 
 def test_the_program_measures_an_exported_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
