@@ -33,7 +33,7 @@ from training.diffusion.model import Model
 from training.distill import student_diffusion
 from training.evaluation.metrics.contact import foot_skating
 from training.evaluation.metrics.duet import duet_metrics
-from training.evaluation.metrics.errors import bone_variation
+from training.evaluation.metrics.errors import bone_variation, mpjpe
 from training.evaluation.metrics.penetration import depth as overlap_depth
 from training.evaluation.protocol import Settings
 from training.motion.skeleton import JOINTS
@@ -158,12 +158,21 @@ def test_the_program_measures_an_exported_model(tmp_path: Path, capsys: pytest.C
     assert "**Not held out: two." in report
     assert "Not held out: two." in " ".join(capsys.readouterr().out.split())
     assert stored["rows"]["generated"]["mean"]["mpjpe_mm"] > 0
+    nearest = stored["rows"]["nearest neighbour"]["mean"]["mpjpe_mm"]
+    assert nearest > 50, "of the training duets; among the measured ones it is the truth"
     weights = {"coarse": 0.0, "fine": 0.0, "music": 1.0, "variety": 1.0}
     how = {"steps": 4, "last_time": 0.25, "extrapolation": [0.0, 0.0, 0.0]}
     assert stored["sampling"] == how | weights
     assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
     # Guidance at every step, of the checkpoint: each cell is another dance.
     assert len({cell["mpjpe_mm"] for cell in stored["guidance"]}) == 4
+    guided = next(cell for cell in stored["guidance"] if (cell["coarse"], cell["fine"]) == (1.2, 0.0))
+    generate = reactor_generator(load_model(checkpoint), at_every_step=True)
+    errors = [
+        mpjpe(duet.reactor, generate(duet.leader, None, 0, guidance=(1.2, 0.0)))
+        for duet in read_split(tmp_path / "duets.npz", ("val",), ("one", "two")).test
+    ]
+    assert guided["mpjpe_mm"] == pytest.approx(np.mean(errors), rel=1e-4)
 
 
 def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_measured(

@@ -96,6 +96,17 @@ def test_a_step_goes_down_its_own_gradient_no_longer_than_1_at_the_rate_of_the_s
         assert float(average.weight) != float(run.model.weight.detach())
 
 
+def test_random_numbers_differ_by_seed_rank_and_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise every stretch between two evaluations, or every device, would learn from the same windows."""
+    drawn: list[int] = []
+    for seed, rank, step in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 600)):
+        run = run_of(tmp_path, seed=seed)
+        monkeypatch.setattr(Fabric, "global_rank", rank)
+        run.schedule.step = step
+        drawn += [int(run._seed().integers(2**40)), int(torch.randint(2**40, ()))]
+    assert len(set(drawn)) == 8
+
+
 def test_a_training_goes_on_at_its_step_and_time_with_its_average(tmp_path: Path) -> None:
     run = run_of(tmp_path)
     for _ in range(3):
