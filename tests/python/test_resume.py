@@ -81,6 +81,8 @@ def test_no_step_is_lost_by_an_interruption_or_at_the_end(data: Path, tmp_path: 
         ({"hfsq": replace(HFSQ, levels=(7, 5, 5, 5))}, r"--hfsq\.levels \(it was \(8, 5, 5, 5\)\)"),
         ({"val": ("made_0",)}, r"--val \(it was \('made_1',\)\)"),
         ({"learn_all": True}, r"--learn-all \(it was False\)"),
+        ({"seed": 5}, r"--seed \(it was 0\)"),
+        ({"learning_rate": 1e-5}, r"--learning-rate \(it was 0\.0003\)"),
         ({"solo": Path("solo.npz")}, r"--solo \(it was None\)"),
     ],
 )

@@ -166,10 +166,10 @@ def test_the_program_measures_an_exported_model(tmp_path: Path, capsys: pytest.C
     assert stored["seams"]["seams"] == 2 * 2, "one boundary in 300 frames, two duets, two seeds"
     # Guidance at every step, of the checkpoint: each cell is another dance.
     assert len({cell["mpjpe_mm"] for cell in stored["guidance"]}) == 4
-    guided = next(cell for cell in stored["guidance"] if (cell["coarse"], cell["fine"]) == (1.2, 0.0))
+    guided = next(cell for cell in stored["guidance"] if (cell["coarse"], cell["fine"]) == (0.0, 1.2))
     generate = reactor_generator(load_model(checkpoint), at_every_step=True)
     errors = [
-        mpjpe(duet.reactor, generate(duet.leader, None, 0, guidance=(1.2, 0.0)))
+        mpjpe(duet.reactor, generate(duet.leader, None, 0, guidance=(0.0, 1.2)))
         for duet in read_split(tmp_path / "duets.npz", ("val",), ("one", "two")).test
     ]
     assert guided["mpjpe_mm"] == pytest.approx(np.mean(errors), rel=1e-4)
