@@ -1,6 +1,7 @@
 /** Tables of points and markers over time: FreeMoCap, MediaPipe, COCO, Pose2Sim, OpenSim, Motive. */
 import { describe, expect, test } from 'vitest';
 import { npyBytes } from '../../../../web/export/npy';
+import { withoutGaps } from '../../../../web/motion/import/gaps';
 import { readLeaderFile } from '../../../../web/motion/import/read';
 import type { LeaderFile } from '../../../../web/motion/retarget/leader';
 import type { ImportOptions } from '../../../../web/motion/retarget/options';
@@ -30,6 +31,18 @@ function table(
   const rows = rowsOf(points, unit, up).map((row) => row.flat().join(','));
   return [titles.join(','), ...rows].join('\n');
 }
+
+test("a joint that was never seen is left out, and is nobody's parent", () => {
+  const joints = ['lost', 'hip', 'knee', 'ankle'].map((name, i) => ({ name, parent: i - 1, endSite: false }));
+  const places = Float32Array.from([NaN, NaN, NaN, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
+  const closed = withoutGaps({ joints, places });
+  expect(closed.joints.map(({ name, parent }) => [name, parent])).toEqual([
+    ['hip', -1],
+    ['knee', 0],
+    ['ankle', 1],
+  ]);
+  expect([...closed.places]).toEqual([1, 1, 1, 2, 2, 2, 3, 3, 3]);
+});
 
 describe('points that are seen in pictures', () => {
   test.each(['', 'body_'])('a table of FreeMoCap whose names begin with %j', async (before) => {

@@ -123,6 +123,8 @@ describe('units and axes', () => {
     expect(distance(trunk(lying), [x, z, -y])).toBeLessThan(1e-5);
     // From ahead to the dancer's left, seen from above against the clock.
     expect(distance(trunk(leaderBvh(text, { turn: 90 })), [z, y, -x])).toBeLessThan(1e-5);
+    // A turn is about the vertical that was set.
+    expect(distance(trunk(leaderBvh(text, { up: 'z', turn: 90 })), [-y, z, -x])).toBeLessThan(1e-5);
     const lower = leaderBvh(text, { floor: found.report.floor - 0.5 });
     expect(lower.report.floor).toBe(found.report.floor - 0.5);
     expect(joint(lower, 9, 'head')[1]).toBeCloseTo(joint(found, 9, 'head')[1] + 0.5, 5);
