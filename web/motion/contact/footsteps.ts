@@ -6,20 +6,20 @@ import { CONTACT_SPEED, RELEASE_SPEED, slowestFootSpeed } from './foot-contacts'
 import { footShift } from './least-squares-shift';
 import { shiftFoot } from './shifted-limb';
 
-/** Standard deviation of the Gaussian filter over that speed, seconds. */
+/** Standard deviation of the Gaussian filter over the speed of the slowest joint, seconds. */
 const SPEED_SMOOTHING = 2 / 30;
-/** A step of the left and a step of the right foot together, seconds. */
-const STEP_CYCLE = 16 / 30;
+/** A step of the left and a step of the right foot together, seconds: runners take 180 steps a minute. */
+const STEP_CYCLE = 20 / 30;
 /** How high a foot is lifted in a step, metres. */
-const STEP_HEIGHT = 0.08;
+const STEP_HEIGHT = 0.05;
 /** A shorter shift is left out, metres: it would not be seen. */
 const LEAST_SHIFT = 1e-5;
 /**
- * Weights of a slide while a foot stands and of the shift's second difference, both above the foot lock's: shifts are long
- * here, and a foot that flies to its next place is not to jerk.
+ * Weights of a slide while a foot stands and of the shift's second difference, both above the foot lock's: shifts are
+ * long here, and a foot that flies to its next place is not to jerk.
  */
-const STAND_WEIGHT = 400;
-const SMOOTHNESS_WEIGHT = 60;
+const STAND_WEIGHT = 1000;
+const SMOOTHNESS_WEIGHT = 200;
 
 /**
  * How far a dancer slides on both feet, from each frame to the next; frames - 1 numbers. It is 0 up to the speed at which

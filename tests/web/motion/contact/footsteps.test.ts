@@ -6,10 +6,10 @@ import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
 import { eased, madeStander } from '../../support/made-stander';
 import { at, expectSound, moves, top } from '../../support/moved-joints';
 
-/** Who is carried at so many m/s from frame 60 to 150, and stands before and after. */
+/** Who is carried at so many m/s from frame 60 to 150 of 240, and stands before and after. */
 const carried = (speed: number): SolvedMotion =>
   madeStander({
-    frames: 210,
+    frames: 240,
     path: (frame) => [(speed / 30) * Math.min(90, Math.max(0, frame - 60)), 0],
   });
 const share = (values: ArrayLike<number>, fits: (value: number) => boolean): number =>
@@ -29,7 +29,7 @@ describe('a dancer who slides on both feet', () => {
       Array.from({ length: 78 }, (_, i) => at(stepping, 66 + i, joint)[1] - at(free, 66 + i, joint)[1]);
     const [left, right] = [rise(J.left_foot), rise(J.right_foot)];
     for (const lift of [left, right]) {
-      expect(top(lift)).toBeCloseTo(0.08, 3);
+      expect(top(lift)).toBeCloseTo(0.05, 3);
       expect(Math.min(...lift)).toBeCloseTo(0, 5);
       // As long as the foot stands, it is down: half of the time.
       expect(Math.abs(share(lift, (height) => height < 1e-4) - 0.5)).toBeLessThan(0.1);
@@ -45,16 +45,16 @@ describe('a dancer who slides on both feet', () => {
     const places = stands.map((frame) => at(stepping, frame, J.left_foot)[0]);
     const steps = places.slice(1).map((place, i) => place - places[i]!);
     const long = steps.filter((step) => step > 0.1);
-    // A cycle of 16 frames at 1.2 m/s.
+    // A cycle of 20 frames at 1.2 m/s.
     expect(long.length).toBeGreaterThanOrEqual(4);
-    expect(long.reduce((sum, step) => sum + step, 0) / long.length).toBeCloseTo(0.64, 1);
+    expect(long.reduce((sum, step) => sum + step, 0) / long.length).toBeCloseTo(0.8, 1);
   });
 
   test('is left alone where they stand', () => {
     for (const joint of FEET) {
       const moved = moves(free, stepping, joint);
-      expect(top(moved.slice(0, 20))).toBe(0);
-      expect(top(moved.slice(190))).toBe(0);
+      expect(top(moved.slice(0, 20))).toBeLessThan(0.001);
+      expect(top(moved.slice(212))).toBe(0);
     }
   });
 
@@ -76,7 +76,7 @@ describe('a dancer who slides on both feet', () => {
       for (const joint of FEET)
         for (let frame = 40; frame < 60; frame++)
           at(part, frame, joint).forEach((value, axis) =>
-            expect(value).toBeCloseTo(at(stepping, from + frame, joint)[axis]!, 4),
+            expect(value).toBeCloseTo(at(stepping, from + frame, joint)[axis]!, 3),
           );
     }
   });
