@@ -1,4 +1,4 @@
-import { fileURLToPath } from 'node:url';
+import path from 'node:path';
 import pxToRem from 'postcss-pxtorem';
 import { defineConfig, type Plugin } from 'vite';
 import { contentSecurityPolicy, isolationHeaders, securityHeaders } from './tools/security-headers.mjs';
@@ -6,8 +6,6 @@ import { licences } from './tools/vite/licences.mjs';
 import { manifestEntry } from './tools/vite/manifest-entry.mjs';
 import { precompress } from './tools/vite/precompress.mjs';
 import { serviceWorker, workerChunkName } from './tools/vite/service-worker.mjs';
-
-const dist = fileURLToPath(new URL('dist', import.meta.url));
 
 /** A <meta> element with the Content-Security-Policy. In development Vite's injected <style> elements would break on it. */
 const policyElement: Plugin = {
@@ -62,7 +60,10 @@ const brotli: Plugin = {
   name: 'brotli',
   apply: 'build',
   enforce: 'post',
-  closeBundle: () => precompress(dist),
+  closeBundle() {
+    const { root, build } = this.environment.config;
+    return precompress(path.resolve(root, build.outDir));
+  },
 };
 
 const { page: licencesOfPage, worker: licencesOfWorker } = licences();
@@ -70,15 +71,7 @@ const { page: licencesOfPage, worker: licencesOfWorker } = licences();
 export default defineConfig({
   root: 'web',
   base: './',
-  plugins: [
-    manifestEntry(),
-    policyElement,
-    preloadFont,
-    preloadApp,
-    licencesOfPage,
-    serviceWorker(dist),
-    brotli,
-  ],
+  plugins: [manifestEntry(), policyElement, preloadFont, preloadApp, licencesOfPage, serviceWorker, brotli],
   // onnxruntime-web finds its wasm by import.meta.url, which pre-bundling would move.
   optimizeDeps: { exclude: ['onnxruntime-web'] },
   worker: {
@@ -91,7 +84,7 @@ export default defineConfig({
   server: { headers: isolationHeaders },
   preview: { headers: securityHeaders },
   build: {
-    outDir: dist,
+    outDir: '../dist',
     emptyOutDir: true,
     target: 'es2023',
     // It would warn of the time that brotli takes, each time.

@@ -72,14 +72,18 @@ export async function writeServiceWorker(dist) {
 /**
  * Adds a service worker to the build, so that the page starts without a connection from its second visit on.
  *
- * @param {string} dist folder of the built page
- * @returns {import('vite').Plugin}
+ * @type {import('vite').Plugin}
  */
-export function serviceWorker(dist) {
-  return {
-    name: 'service-worker',
-    apply: 'build',
+export const serviceWorker = {
+  name: 'service-worker',
+  apply: 'build',
+  closeBundle: {
     // Before the .br copies are made: only servers use them.
-    closeBundle: { order: 'pre', sequential: true, handler: () => writeServiceWorker(dist) },
-  };
-}
+    order: 'pre',
+    sequential: true,
+    handler() {
+      const { root, build } = this.environment.config;
+      return writeServiceWorker(path.resolve(root, build.outDir));
+    },
+  },
+};
