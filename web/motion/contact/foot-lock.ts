@@ -1,11 +1,9 @@
 import type { SolvedMotion } from '../skeleton/clip';
-import { LEGS } from '../skeleton/limbs';
-import type { Vec3 } from '../math/vec3';
 import { type ContactInterval, contactIntervals } from './foot-contacts';
 import { withFootsteps } from './footsteps';
 import { contactWeights, footShift } from './least-squares-shift';
 import { separateLegs } from './leg-separation';
-import { shiftFoot } from './shifted-limb';
+import { withShiftedFeet } from './shifted-limb';
 
 /** What is held, and how firmly. */
 interface HoldOptions {
@@ -29,17 +27,8 @@ export function lockFeet(
   motion: SolvedMotion,
   { contacts, weight }: HoldOptions = { contacts: (joint) => contactIntervals(motion, joint) },
 ): SolvedMotion {
-  const rotations = motion.rotations.slice();
-  const positions = motion.positions.slice();
   const weights = (joint: number): Float64Array => contactWeights(motion.frames, contacts(joint), weight);
-  for (const leg of LEGS) {
-    const { x, z } = footShift(motion, leg, { weights });
-    for (let frame = 0; frame < motion.frames; frame++) {
-      const shift: Vec3 = [x[frame]!, 0, z[frame]!];
-      shiftFoot(motion, leg, frame, { ankle: shift, toe: shift }, { rotations, positions });
-    }
-  }
-  return { ...motion, rotations, positions };
+  return withShiftedFeet(motion, (leg) => footShift(motion, leg, { weights }));
 }
 
 /**

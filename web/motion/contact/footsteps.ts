@@ -1,10 +1,8 @@
 import { gaussianFilter } from '../math/statistics';
-import { length, type Vec3 } from '../math/vec3';
 import type { SolvedMotion } from '../skeleton/clip';
-import { LEGS } from '../skeleton/limbs';
 import { CONTACT_SPEED, RELEASE_SPEED, slowestFootSpeed } from './foot-contacts';
 import { footShift } from './least-squares-shift';
-import { shiftFoot } from './shifted-limb';
+import { withShiftedFeet } from './shifted-limb';
 
 /** Standard deviation of the Gaussian filter over the speed of the slowest joint, seconds. */
 const SPEED_SMOOTHING = 2 / 30;
@@ -12,8 +10,6 @@ const SPEED_SMOOTHING = 2 / 30;
 const STEP_CYCLE = 20 / 30;
 /** How high a foot is lifted in a step, metres. */
 const STEP_HEIGHT = 0.05;
-/** A shorter shift is left out, metres: it would not be seen. */
-const LEAST_SHIFT = 1e-5;
 /**
  * Weights of a slide while a foot stands and of the shift's second difference, both above the foot lock's: shifts are
  * long here, and a foot that flies to its next place is not to jerk.
@@ -48,9 +44,7 @@ export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedM
   if (frames < 2) return motion;
   const sliding = slidingOf(motion);
   if (!sliding.some(Boolean)) return motion;
-  const rotations = motion.rotations.slice();
-  const positions = motion.positions.slice();
-  LEGS.forEach((leg, side) => {
+  return withShiftedFeet(motion, (leg, side) => {
     /** How far a foot is through its half of the cycle: negative while it stands, up to 1 while it flies. */
     const flight = (frame: number): number =>
       2 * (((firstFrame + frame) / fps / STEP_CYCLE + side / 2) % 1) - 1;
@@ -59,15 +53,6 @@ export function withFootsteps(motion: SolvedMotion, firstFrame: number): SolvedM
       const lift = Math.sin(Math.PI * Math.max(0, flight(frame))) ** 2;
       return STEP_HEIGHT * lift * sliding[Math.min(frame, frames - 2)]!;
     });
-    const { x, z } = footShift(motion, leg, {
-      weights: () => held,
-      smoothness: SMOOTHNESS_WEIGHT,
-    });
-    for (let frame = 0; frame < frames; frame++) {
-      const shift: Vec3 = [x[frame]!, raised[frame]!, z[frame]!];
-      if (length(shift) < LEAST_SHIFT) continue;
-      shiftFoot(motion, leg, frame, { ankle: shift, toe: shift }, { rotations, positions });
-    }
+    return { ...footShift(motion, leg, { weights: () => held, smoothness: SMOOTHNESS_WEIGHT }), y: raised };
   });
-  return { ...motion, rotations, positions };
 }

@@ -4,7 +4,7 @@ import type { SolvedMotion } from '../skeleton/clip';
 import type { LegJoints } from '../skeleton/limbs';
 import { JOINT_COUNT } from '../skeleton/skeleton';
 import type { ContactInterval } from './foot-contacts';
-import { bonesAt } from './shifted-limb';
+import { bonesAt, type FootShift } from './shifted-limb';
 import { maxLimbLength } from './two-bone-ik';
 
 /** Weights of a slide during contact and of the shift's second difference over time; that of a shift of zero is about 1. */
@@ -75,7 +75,7 @@ export function leastSquaresShift(
 }
 
 /** How a foot is held. */
-export interface FootHold {
+interface FootHold {
   /** Weights of the slides of a joint, its ankle or its toe; see `Track`. */
   readonly weights: (joint: number) => Float64Array;
   /** Weight of the shift's second difference. */
@@ -91,11 +91,12 @@ export function footShift(
   motion: SolvedMotion,
   leg: LegJoints,
   { weights, smoothness }: FootHold,
-): { x: Float64Array; z: Float64Array } {
+): FootShift {
   const { frames, positions } = motion;
+  const feet = [leg.end, leg.toe].map((joint) => ({ joint, weights: weights(joint) }));
   const along = (axis: 0 | 2): Track[] =>
-    [leg.end, leg.toe].map((joint) => ({
-      weights: weights(joint),
+    feet.map(({ joint, weights }) => ({
+      weights,
       positions: Float64Array.from(
         { length: frames },
         (_, t) => positions[(t * JOINT_COUNT + joint) * 3 + axis]!,

@@ -1,9 +1,8 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { segmentDistance } from '../math/segments';
 import { gaussianFilter, runsOf } from '../math/statistics';
-import type { Vec3 } from '../math/vec3';
 import { JOINT_COUNT } from '../skeleton/skeleton';
-import { shiftFoot } from './shifted-limb';
+import { withShiftedFeet } from './shifted-limb';
 import { LEGS, type LegJoints } from '../skeleton/limbs';
 
 /** Least distance between the axes of a dancer's lower legs, and of their feet, metres. */
@@ -93,16 +92,7 @@ export function separateLegs(motion: SolvedMotion): SolvedMotion {
     x.fill(shift.x, Math.max(0, from - hold), to + hold);
     z.fill(shift.z, Math.max(0, from - hold), to + hold);
   }
-  const along = [x, z].map((shift) => gaussianFilter(shift, SMOOTHING * fps));
-  const rotations = motion.rotations.slice();
-  const positions = motion.positions.slice();
-  LEGS.forEach((joints, side) => {
-    const half = side === 0 ? -0.5 : 0.5;
-    for (let frame = 0; frame < frames; frame++) {
-      const shift: Vec3 = [half * along[0]![frame]!, 0, half * along[1]![frame]!];
-      if (shift[0] || shift[2])
-        shiftFoot(motion, joints, frame, { ankle: shift, toe: shift }, { rotations, positions });
-    }
-  });
-  return { ...motion, rotations, positions };
+  const half = (shift: Float64Array, side: number): Float64Array =>
+    gaussianFilter(shift, SMOOTHING * fps).map((metres) => (side === 0 ? -0.5 : 0.5) * metres);
+  return withShiftedFeet(motion, (_, side) => ({ x: half(x, side), z: half(z, side) }));
 }

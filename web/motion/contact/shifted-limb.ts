@@ -1,8 +1,8 @@
 import type { SolvedMotion } from '../skeleton/clip';
 import { between, conjugate, multiply, type Quat, readQuat, rotate, writeQuat } from '../math/quat';
-import type { LegJoints, LimbJoints } from '../skeleton/limbs';
+import { type LegJoints, LEGS, type LimbJoints } from '../skeleton/limbs';
 import { JOINT_COUNT, PARENTS } from '../skeleton/skeleton';
-import { add, direction, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
+import { add, direction, length, readVec, sub, type Vec3, writeVec, X_AXIS } from '../math/vec3';
 import { type Limb, twoBoneIk } from './two-bone-ik';
 
 /** The bones of a limb in a frame of positions (frames x 22 x 3, metres). */
@@ -73,6 +73,38 @@ export function shiftFoot(
   );
   writeQuat(written.rotations, row + leg.end, multiply(conjugate(lower), foot));
   placeJoint(motion, row, leg.toe, end, foot, written);
+}
+
+/** A shorter shift is left out, metres: it would not be seen. */
+const LEAST_SHIFT = 1e-5;
+
+/** How far a foot is shifted along each axis, up by nothing unless it says so: metres, one a frame. */
+export interface FootShift {
+  readonly x: Float64Array;
+  readonly y?: Float64Array;
+  readonly z: Float64Array;
+}
+
+/**
+ * The motion with both feet shifted, ankle and toe alike, so that they keep their rotations; thigh and shin follow by
+ * two-bone inverse kinematics, and nothing else moves. Pure.
+ * @param shiftOf a leg, 0 for the left and 1 for the right
+ */
+export function withShiftedFeet(
+  motion: SolvedMotion,
+  shiftOf: (leg: LegJoints, side: number) => FootShift,
+): SolvedMotion {
+  const rotations = motion.rotations.slice();
+  const positions = motion.positions.slice();
+  LEGS.forEach((leg, side) => {
+    const { x, y, z } = shiftOf(leg, side);
+    for (let frame = 0; frame < motion.frames; frame++) {
+      const shift: Vec3 = [x[frame]!, y?.[frame] ?? 0, z[frame]!];
+      if (length(shift) < LEAST_SHIFT) continue;
+      shiftFoot(motion, leg, frame, { ankle: shift, toe: shift }, { rotations, positions });
+    }
+  });
+  return { ...motion, rotations, positions };
 }
 
 /** Writes where a joint is, from its parent's place and rotation in world axes. @returns it, metres */

@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { slowestFootSpeed } from '../../../../web/motion/contact/foot-contacts';
+import { withFootLock } from '../../../../web/motion/contact/foot-lock';
 import { withFootsteps } from '../../../../web/motion/contact/footsteps';
 import type { SolvedMotion } from '../../../../web/motion/skeleton/clip';
 import { FEET, J, JOINT_COUNT } from '../../../../web/motion/skeleton/skeleton';
@@ -48,6 +49,13 @@ describe('a dancer who slides on both feet', () => {
     // A cycle of 20 frames at 1.2 m/s.
     expect(long.length).toBeGreaterThanOrEqual(4);
     expect(long.reduce((sum, step) => sum + step, 0) / long.length).toBeCloseTo(0.8, 1);
+  });
+
+  test('steps where the foot lock is on', () => {
+    const speeds = (motion: SolvedMotion): Float64Array => slowestFootSpeed(motion).subarray(66, 144);
+    const locked = withFootLock(free);
+    expectSound(free, locked);
+    expect(share(speeds(locked), (speed) => speed < 0.2)).toBeGreaterThan(0.5);
   });
 
   test('is left alone where they stand', () => {
