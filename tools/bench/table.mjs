@@ -24,7 +24,7 @@ const GRAPH_STAGES = /** @type {const} */ (['condition', 'steps', 'decode']);
  * @param {Row['seconds']} seconds
  * @param {readonly (typeof STAGES[number])[]} [stages]
  */
-export function total(seconds, stages = STAGES) {
+function total(seconds, stages = STAGES) {
   return stages.reduce((sum, stage) => sum + (seconds[stage] ?? 0), 0);
 }
 

@@ -19,7 +19,7 @@ export function roleName(role: Role): string {
 }
 
 /** The motion of the generated dancer that is drawn: the preview of the next reaction, else the present reaction. */
-export function drawnMotion(state: Pick<AppState, 'preview' | 'reaction' | 'footLock'>): SolvedMotion | null {
+function drawnMotion(state: Pick<AppState, 'preview' | 'reaction' | 'footLock'>): SolvedMotion | null {
   const { preview, footLock } = state;
   if (preview) return footLock ? preview.locked : preview.motion;
   return reactorMotion(state);

@@ -13,7 +13,7 @@ import {
 } from '../../../../web/motion/math/vec3';
 
 /** Markers of Plug-in Gait on a plain made body, metres, y up: where a person would have glued them on. */
-export function markersOf(motion: MadeMotion, frame: number): Map<string, Vec3> {
+function markersOf(motion: MadeMotion, frame: number): Map<string, Vec3> {
   const index = new Map(motion.joints.map(({ name }, joint) => [name, joint]));
   const at = (name: string): Vec3 => motion.places[frame]![index.get(`mixamorig:${name}`)!]!;
   const root = motion.rotations[frame]![0]!;

@@ -26,7 +26,7 @@ export const seenParts: Seen = { ...seen, names: { ...NAMES, toe: '*_foot' } };
  * A point of the made body that a detector of poses would see: ears, nose, the top of the head and the tips of the toes
  * where they must be for the joints to be where they are; other names are those of joints.
  */
-export function pointOf(name: string, frame: number): Vec3 {
+function pointOf(name: string, frame: number): Vec3 {
   const joint = (wanted: string): Vec3 =>
     seen.places[frame]![seen.joints.findIndex((one) => one.name === wanted)]!;
   const middle = (part: string): Vec3 => lerp(joint(`left_${part}`), joint(`right_${part}`), 0.5);

@@ -15,7 +15,7 @@ interface ReadFrames {
 const MAX_VALUES = 1e7;
 
 /** The error of a file that ends too early, as after an interrupted download. */
-export function truncated(message: string): AppError {
+function truncated(message: string): AppError {
   return new AppError('truncated', message, 'The file is incomplete: download, copy or export it again.');
 }
 
